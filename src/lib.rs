@@ -1,1 +1,4 @@
-//! planwright.
+//! planwright: an interactive shell for programming a simulated kitchen robot in a
+//! Common-Lisp-like plan language.
+
+pub mod spatial;

@@ -1,0 +1,12 @@
+//! Geometry that every layer shares: poses, shapes and trigonometry that is the
+//! same on every platform.
+//!
+//! Lengths are metres, angles radians, quaternions x y z w. Nothing here knows of
+//! robots, worlds or the plan language.
+
+pub mod pose;
+pub mod shape;
+pub mod trig;
+
+pub use pose::Pose;
+pub use shape::{PlacedShape, Shape};

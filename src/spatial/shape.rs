@@ -1,0 +1,41 @@
+//! Convex primitives from which robots, furniture and objects are built.
+
+use super::Pose;
+
+/// A convex solid in its own frame.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A box centred on the origin; full edge lengths (m) along x, y, z.
+    Box {
+        /// Edge lengths (m).
+        size: [f64; 3],
+    },
+    /// A cylinder centred on the origin, its axis along z.
+    Cylinder {
+        /// Radius (m).
+        radius: f64,
+        /// Length along z (m).
+        length: f64,
+    },
+    /// A ball centred on the origin.
+    Sphere {
+        /// Radius (m).
+        radius: f64,
+    },
+    /// The convex hull of the points (m).
+    Hull {
+        /// Points (m).
+        points: Vec<[f64; 3]>,
+    },
+}
+
+/// A shape with its place in the frame of the link or object that it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedShape {
+    /// The solid.
+    pub shape: Shape,
+    /// Pose of the solid's frame in the frame of its owner.
+    pub pose: Pose,
+    /// Linear colour, red green blue alpha in 0..1, when the source gives one.
+    pub color: Option<[f32; 4]>,
+}
