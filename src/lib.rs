@@ -1,4 +1,6 @@
 //! planwright: an interactive shell for programming a simulated kitchen robot in a
 //! Common-Lisp-like plan language.
 
+pub mod lisp;
+pub mod reader;
 pub mod spatial;

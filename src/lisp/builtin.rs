@@ -1,0 +1,94 @@
+//! The table entry of a builtin: everything that is known about it in one place. Calls,
+//! help, completion, the reference manual and the tests of the examples read the same
+//! tables.
+
+use super::function::{ControlFn, PureFn};
+
+/// One builtin function.
+pub struct Builtin {
+    /// The name in upper case; the package is that of its table unless it says
+    /// `PACKAGE:NAME`.
+    pub name: &'static str,
+    /// The lambda list as the manual shows it (`"function list &rest lists"`). The
+    /// number of arguments that a call may have is read from it.
+    pub lambda_list: &'static str,
+    /// One or two sentences.
+    pub doc: &'static str,
+    /// Examples: `"(1+ 2) => 3"`; each is run as a test. The right side is what the
+    /// prompt prints, several values separated by `" ; "`.
+    pub examples: &'static [&'static str],
+    /// The Rust function.
+    pub call: BuiltinCall,
+}
+
+/// The Rust function of a builtin.
+pub enum BuiltinCall {
+    /// Returns at once.
+    Pure(PureFn),
+    /// May call, wait or unwind.
+    Control(ControlFn),
+}
+
+/// A pure builtin.
+pub const fn pure(
+    name: &'static str,
+    lambda_list: &'static str,
+    doc: &'static str,
+    examples: &'static [&'static str],
+    call: PureFn,
+) -> Builtin {
+    Builtin {
+        name,
+        lambda_list,
+        doc,
+        examples,
+        call: BuiltinCall::Pure(call),
+    }
+}
+
+/// A builtin that may call, wait or unwind.
+pub const fn control(
+    name: &'static str,
+    lambda_list: &'static str,
+    doc: &'static str,
+    examples: &'static [&'static str],
+    call: ControlFn,
+) -> Builtin {
+    Builtin {
+        name,
+        lambda_list,
+        doc,
+        examples,
+        call: BuiltinCall::Control(call),
+    }
+}
+
+impl Builtin {
+    /// Fewest and most arguments, from the lambda list.
+    pub fn arity(&self) -> (u16, Option<u16>) {
+        let mut min = 0;
+        let mut optional = 0;
+        let mut in_optional = false;
+        for word in self.lambda_list.split_whitespace() {
+            match word {
+                "&optional" => in_optional = true,
+                "&rest" | "&key" | "&body" => return (min, None),
+                _ if in_optional => optional += 1,
+                _ => min += 1,
+            }
+        }
+        (min, Some(min + optional))
+    }
+}
+
+/// A macro or special operator: what the manual says of it. The compiler holds its meaning.
+pub struct Operator {
+    /// The name in upper case, with its package unless that is `COMMON-LISP`.
+    pub name: &'static str,
+    /// Shape of a form, after the operator.
+    pub lambda_list: &'static str,
+    /// One or two sentences.
+    pub doc: &'static str,
+    /// Examples, as for builtins.
+    pub examples: &'static [&'static str],
+}

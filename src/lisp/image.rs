@@ -1,0 +1,200 @@
+//! One Lisp image: everything that global names mean.
+
+use std::rc::Rc;
+
+use indexmap::IndexMap;
+
+use super::builtin::{Builtin, BuiltinCall};
+use super::class::Class;
+use super::function::{Function, NativeCall};
+use super::known;
+use super::package::{Access, PackageId, PackageTable};
+use super::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
+use super::value::Value;
+use crate::reader::source::Sources;
+
+/// An image.
+pub struct Image {
+    /// All symbols.
+    pub symbols: SymbolTable,
+    /// All packages.
+    pub packages: PackageTable,
+    /// Classes by name, in order of definition.
+    pub classes: IndexMap<Sym, Rc<Class>>,
+    /// Expanders of `deftype`, by name.
+    pub types: IndexMap<Sym, Rc<Function>>,
+    /// Source texts and places.
+    pub sources: Sources,
+    /// Text written to standard output that nobody has taken yet.
+    pub output: Output,
+    /// Seed and state of `random`.
+    pub random: rand_pcg::Pcg64,
+    /// Builtins by the symbol that names them: help and the manual read them.
+    pub builtins: IndexMap<Sym, &'static Builtin>,
+}
+
+/// Standard output: text in order, and the column where the next character goes.
+#[derive(Default)]
+pub struct Output {
+    text: String,
+    column: usize,
+}
+
+impl Output {
+    /// Writes a text.
+    pub fn write(&mut self, text: &str) {
+        match text.rfind('\n') {
+            Some(i) => self.column = text[i + 1..].chars().count(),
+            None => self.column += text.chars().count(),
+        }
+        self.text.push_str(text);
+    }
+
+    /// Starts a new line unless at the start of one.
+    pub fn fresh_line(&mut self) {
+        if self.column > 0 {
+            self.write("\n");
+        }
+    }
+
+    /// Number of characters on the current line.
+    pub fn column(&self) -> usize {
+        self.column
+    }
+
+    /// Takes what was written.
+    pub fn take(&mut self) -> String {
+        std::mem::take(&mut self.text)
+    }
+}
+
+impl Image {
+    /// The data of a symbol.
+    #[inline]
+    pub fn symbol(&self, sym: Sym) -> &SymbolData {
+        self.symbols.get(sym)
+    }
+
+    /// A symbol's name.
+    pub fn name(&self, sym: Sym) -> &str {
+        &self.symbols.get(sym).name
+    }
+
+    /// The value of a special variable as the running fiber sees it.
+    #[inline]
+    pub fn special(&self, sym: Sym) -> &Value {
+        &self.symbols.get(sym).value
+    }
+
+    /// Assigns a special variable.
+    pub fn set_special(&mut self, sym: Sym, value: Value) {
+        self.symbols.get_mut(sym).value = value;
+    }
+
+    /// The symbol `name` of a package, made if need be.
+    pub fn intern(&mut self, package: PackageId, name: &str) -> Sym {
+        self.packages.intern(&mut self.symbols, package, name)
+    }
+
+    /// The keyword of that name.
+    pub fn keyword(&mut self, name: &str) -> Sym {
+        self.intern(PackageTable::KEYWORD, name)
+    }
+
+    /// The symbol of that name in the named package, exported; the package must exist.
+    pub fn export_symbol(&mut self, package: PackageId, name: &str) -> Sym {
+        let sym = self.intern(package, name);
+        self.packages.export(&mut self.symbols, package, sym);
+        sym
+    }
+
+    /// Is the symbol a keyword?
+    pub fn is_keyword(&self, sym: Sym) -> bool {
+        self.symbols.get(sym).package == Some(PackageTable::KEYWORD)
+    }
+
+    /// The value of `*package*`.
+    pub fn current_package(&self) -> PackageId {
+        match self.special(known::V_PACKAGE) {
+            Value::Package(id) => *id,
+            _ => PackageTable::USER,
+        }
+    }
+
+    /// Is the symbol accessible in the current package without a prefix?
+    pub fn is_accessible(&self, sym: Sym) -> bool {
+        let name = &self.symbols.get(sym).name;
+        self.packages
+            .find_symbol(self.current_package(), name)
+            .is_some_and(|(found, _)| found == sym)
+    }
+
+    /// How the symbol stands in its home package.
+    pub fn home_access(&self, sym: Sym) -> Option<Access> {
+        let data = self.symbols.get(sym);
+        self.packages
+            .find_symbol(data.package?, &data.name)
+            .map(|(_, access)| access)
+    }
+
+    /// An uninterned symbol.
+    pub fn make_symbol(&mut self, name: &str) -> Sym {
+        self.symbols.make(name.into())
+    }
+
+    /// An uninterned symbol with a fresh number: `G123`.
+    pub fn gensym(&mut self, prefix: &str) -> Sym {
+        let counter = match self.special(known::V_GENSYM_COUNTER) {
+            Value::Int(n) => *n,
+            _ => 0,
+        };
+        self.set_special(known::V_GENSYM_COUNTER, Value::Int(counter.wrapping_add(1)));
+        self.make_symbol(&format!("{prefix}{counter}"))
+    }
+
+    /// Sets a symbol's global function.
+    pub fn set_function(&mut self, sym: Sym, function: Rc<Function>) {
+        self.symbols.get_mut(sym).function = FunctionCell::Function(function);
+    }
+
+    /// The global function of a symbol.
+    pub fn function(&self, sym: Sym) -> Option<&Rc<Function>> {
+        match &self.symbols.get(sym).function {
+            FunctionCell::Function(f) => Some(f),
+            _ => None,
+        }
+    }
+
+    /// Makes a symbol's bindings dynamic and gives it a value.
+    pub fn define_special(&mut self, sym: Sym, value: Value) {
+        let data = self.symbols.get_mut(sym);
+        data.kind = VariableKind::Special;
+        data.value = value;
+    }
+
+    /// Makes a symbol a constant.
+    pub fn define_constant(&mut self, sym: Sym, value: Value) {
+        let data = self.symbols.get_mut(sym);
+        data.kind = VariableKind::Constant;
+        data.value = value;
+    }
+
+    /// Installs the builtins of a table as exported functions of a package.
+    pub fn install(&mut self, package: PackageId, table: &'static [Builtin]) {
+        for builtin in table {
+            let sym = self.export_symbol(package, builtin.name);
+            let (min, max) = builtin.arity();
+            let call = match builtin.call {
+                BuiltinCall::Pure(f) => NativeCall::Pure(f),
+                BuiltinCall::Control(f) => NativeCall::Control(f),
+            };
+            self.set_function(sym, Rc::new(Function::native(sym, min, max, call)));
+            self.builtins.insert(sym, builtin);
+        }
+    }
+
+    /// The class of that name.
+    pub fn class(&self, name: Sym) -> Option<&Rc<Class>> {
+        self.classes.get(&name)
+    }
+}

@@ -1,0 +1,31 @@
+//! The language without robots: values, symbols, the compiler, the machine and the
+//! builtin functions. Depends on nothing but the reader.
+
+pub mod array;
+pub mod builtin;
+pub mod builtins;
+pub mod class;
+pub mod compile;
+pub mod cons;
+pub mod equality;
+pub mod foreign;
+pub mod function;
+pub mod generic;
+pub mod hash_table;
+pub mod image;
+pub mod known;
+pub mod number;
+pub mod package;
+pub mod print;
+pub mod raise;
+pub mod slot;
+pub mod stream;
+pub mod string;
+pub mod symbol;
+pub mod value;
+pub mod vm;
+
+pub use image::Image;
+pub use raise::Raise;
+pub use symbol::Sym;
+pub use value::Value;

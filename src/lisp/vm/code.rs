@@ -1,0 +1,4 @@
+//! Compiled code.
+
+/// Compiled code of one function.
+pub struct Code {}

@@ -1,0 +1,6 @@
+//! The machine that runs compiled code: explicit frames, no recursion on the Rust stack.
+
+pub mod code;
+pub mod fiber;
+pub mod machine;
+pub mod step;

@@ -1,0 +1,134 @@
+//! Source texts and places in them.
+
+use std::rc::Rc;
+
+/// Handle of a stretch of source text; [`Sources`] resolves it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct Place(pub(crate) u32);
+
+impl Place {
+    /// No source text.
+    pub const NONE: Place = Place(0);
+
+    /// Is there a source text?
+    pub fn is_some(self) -> bool {
+        self != Place::NONE
+    }
+}
+
+/// Handle of a source text.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct SourceId(pub(crate) u32);
+
+/// One text that forms were read from: a file, or an input at the prompt.
+pub struct Source {
+    /// File name, or a name such as `prompt[3]`.
+    pub name: Rc<str>,
+    /// The whole text.
+    pub text: Rc<str>,
+    /// Byte offset of the start of each line.
+    line_starts: Vec<u32>,
+}
+
+/// A place for people: lines and columns count from one, columns in characters.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Location {
+    /// Name of the source.
+    pub name: Rc<str>,
+    /// Line, from one.
+    pub line: usize,
+    /// Column, from one, in characters.
+    pub column: usize,
+    /// The text of that line.
+    pub line_text: String,
+    /// How many characters of the line the place covers (at least one).
+    pub width: usize,
+}
+
+impl std::fmt::Display for Location {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}:{}:{}", self.name, self.line, self.column)
+    }
+}
+
+impl Location {
+    /// The line with the place underlined by carets, as two lines of text.
+    pub fn underlined(&self) -> String {
+        format!(
+            "{}\n{}{}",
+            self.line_text,
+            " ".repeat(self.column.saturating_sub(1)),
+            "^".repeat(self.width.max(1))
+        )
+    }
+}
+
+struct Span {
+    source: SourceId,
+    start: u32,
+    end: u32,
+}
+
+/// All source texts of an image, and the places in them.
+#[derive(Default)]
+pub struct Sources {
+    sources: Vec<Source>,
+    spans: Vec<Span>,
+}
+
+impl Sources {
+    /// Adds a text.
+    pub fn add(&mut self, name: &str, text: &str) -> SourceId {
+        let line_starts = std::iter::once(0)
+            .chain(text.match_indices('\n').map(|(i, _)| offset(i + 1)))
+            .collect();
+        let id = SourceId(offset(self.sources.len()));
+        self.sources.push(Source {
+            name: name.into(),
+            text: text.into(),
+            line_starts,
+        });
+        id
+    }
+
+    /// The source text.
+    pub fn get(&self, id: SourceId) -> Option<&Source> {
+        self.sources.get(id.0 as usize)
+    }
+
+    /// Registers the bytes `start..end` of a source as a place.
+    pub fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
+        self.spans.push(Span {
+            source,
+            start: offset(start),
+            end: offset(end),
+        });
+        Place(offset(self.spans.len()))
+    }
+
+    /// Line and column of a place.
+    pub fn locate(&self, place: Place) -> Option<Location> {
+        let span = self.spans.get((place.0 as usize).checked_sub(1)?)?;
+        let source = self.get(span.source)?;
+        let line = source
+            .line_starts
+            .partition_point(|start| *start <= span.start)
+            .checked_sub(1)?;
+        let line_start = *source.line_starts.get(line)? as usize;
+        let line_text = source.text.get(line_start..)?.lines().next().unwrap_or("");
+        let before = source.text.get(line_start..span.start as usize)?;
+        let covered = source.text.get(span.start as usize..span.end as usize)?;
+        Some(Location {
+            name: source.name.clone(),
+            line: line + 1,
+            column: before.chars().count() + 1,
+            line_text: line_text.to_owned(),
+            width: covered.lines().next().unwrap_or("").chars().count().max(1),
+        })
+    }
+}
+
+/// Texts and tables beyond four gigabytes are not addressed; the place is then at the end.
+fn offset(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}
