@@ -3,6 +3,9 @@
 //! tables.
 
 use super::function::{ControlFn, PureFn};
+use super::image::Image;
+use super::raise::Raise;
+use super::value::Value;
 
 /// One builtin function.
 pub struct Builtin {
@@ -81,9 +84,12 @@ impl Builtin {
     }
 }
 
-/// A macro or special operator: what the manual says of it. The compiler holds its meaning.
+/// Expands a macro call: maps the whole form to the form that takes its place.
+pub type Expander = fn(&mut Image, &Value) -> Result<Value, Box<Raise>>;
+
+/// A macro written in Rust, or a special operator.
 pub struct Operator {
-    /// The name in upper case, with its package unless that is `COMMON-LISP`.
+    /// The name in upper case; the package is that of its table.
     pub name: &'static str,
     /// Shape of a form, after the operator.
     pub lambda_list: &'static str,
@@ -91,4 +97,6 @@ pub struct Operator {
     pub doc: &'static str,
     /// Examples, as for builtins.
     pub examples: &'static [&'static str],
+    /// How it expands; none for a special operator, which the compiler translates itself.
+    pub expand: Option<Expander>,
 }

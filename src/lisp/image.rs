@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use indexmap::IndexMap;
 
-use super::builtin::{Builtin, BuiltinCall};
+use super::builtin::{Builtin, BuiltinCall, Operator};
 use super::class::Class;
 use super::function::{Function, NativeCall};
 use super::known;
@@ -31,6 +31,8 @@ pub struct Image {
     pub random: rand_pcg::Pcg64,
     /// Builtins by the symbol that names them: help and the manual read them.
     pub builtins: IndexMap<Sym, &'static Builtin>,
+    /// Macros written in Rust and special operators, by the symbol that names them.
+    pub operators: IndexMap<Sym, &'static Operator>,
 }
 
 /// Standard output: text in order, and the column where the next character goes.
@@ -190,6 +192,15 @@ impl Image {
             };
             self.set_function(sym, Rc::new(Function::native(sym, min, max, call)));
             self.builtins.insert(sym, builtin);
+        }
+    }
+
+    /// Installs the macros and special operators of a table, exported from a package.
+    pub fn install_operators(&mut self, package: PackageId, table: &'static [Operator]) {
+        for operator in table {
+            let sym = self.export_symbol(package, operator.name);
+            self.symbols.get_mut(sym).function = FunctionCell::Builtin;
+            self.operators.insert(sym, operator);
         }
     }
 
