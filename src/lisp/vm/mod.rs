@@ -3,4 +3,7 @@
 pub mod code;
 pub mod fiber;
 pub mod machine;
+pub mod restart;
+pub mod signal;
 pub mod step;
+mod unwind;
