@@ -200,13 +200,10 @@ pub fn char_name(c: char) -> Option<String> {
 /// The character of a name of more than one character; letters without case.
 pub fn char_named(name: &str) -> Option<char> {
     let is_name = |known: &&str| known.eq_ignore_ascii_case(name);
-    if let Some((code, _)) = NAMES
-        .iter()
-        .find(|(_, names)| names.iter().any(|n| is_name(n)))
-    {
+    if let Some((code, _)) = NAMES.iter().find(|(_, names)| names.iter().any(is_name)) {
         return char::from_u32(*code);
     }
-    if let Some(index) = LATIN_1.iter().position(|n| is_name(n)) {
+    if let Some(index) = LATIN_1.iter().position(is_name) {
         return char::from_u32(LATIN_1_START + u32::try_from(index).ok()?);
     }
     let upper = name.to_ascii_uppercase();
