@@ -480,7 +480,7 @@ fn drop_used_up(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<(), Bo
         StreamKind::Concatenated { inputs } => inputs.clone(),
         _ => return Ok(()),
     };
-    let mut used_up = 0;
+    let mut used_up = 0_usize;
     for input in inputs.iter().take(inputs.len().saturating_sub(1)) {
         if peek_at(image, input, depth + 1)?.is_some() {
             break;
