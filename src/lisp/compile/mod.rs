@@ -6,15 +6,18 @@
 
 mod analyze;
 mod body;
-mod destructure;
+mod control_macros;
+mod define_macros;
+pub mod destructure;
 mod emit;
 mod expand;
+mod form;
 pub mod lambda_list;
 mod node;
 mod operators;
 mod quasiquote;
 mod scope;
-mod setf;
+pub mod setf;
 mod special_forms;
 
 use std::rc::Rc;
@@ -26,7 +29,7 @@ use super::value::Value;
 use super::vm::code::Code;
 
 pub use expand::{macroexpand, macroexpand_1};
-pub use operators::{OPERATORS, SPECIAL_FORMS};
+pub use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
 pub use quasiquote::expand_quasiquote;
 
 /// Compiles a form at top level into the code of a function without parameters.
