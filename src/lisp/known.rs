@@ -114,6 +114,10 @@ known! {
         SLOT_BOUNDP = "SLOT-BOUNDP", SLOT_MAKUNBOUND = "SLOT-MAKUNBOUND", SLOT_EXISTS_P = "SLOT-EXISTS-P", MAKE_CONDITION = "MAKE-CONDITION", FIND_CLASS = "FIND-CLASS",
         CLASS_NAME = "CLASS-NAME", COPY_STRUCTURE = "COPY-STRUCTURE", EXTENDED_CHAR = "EXTENDED-CHAR", MAX = "MAX", MIN = "MIN", NCONC = "NCONC",
         STRING_STREAM = "STRING-STREAM", SYNONYM_STREAM = "SYNONYM-STREAM", BROADCAST_STREAM = "BROADCAST-STREAM",
+        // Operations that arithmetic conditions name
+        FLOOR = "FLOOR", CEILING = "CEILING", TRUNCATE = "TRUNCATE", ROUND = "ROUND", EXPT = "EXPT", SQRT = "SQRT", LOG = "LOG", EXP = "EXP",
+        SIN = "SIN", COS = "COS", TAN = "TAN", ASIN = "ASIN", ACOS = "ACOS", ATAN = "ATAN", SINH = "SINH", COSH = "COSH", TANH = "TANH",
+        ASINH = "ASINH", ACOSH = "ACOSH", ATANH = "ATANH", SCALE_FLOAT = "SCALE-FLOAT",
     }
     KEYWORD {
         K_DATUM = "DATUM", K_EXPECTED_TYPE = "EXPECTED-TYPE", K_NAME = "NAME", K_FORMAT_CONTROL = "FORMAT-CONTROL",
@@ -154,5 +158,25 @@ pub(super) fn intern_all(symbols: &mut SymbolTable, packages: &mut PackageTable)
     for (package, name) in TABLE {
         let sym = packages.intern(symbols, *package, name);
         packages.export(symbols, *package, sym);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_constant_names_its_own_symbol() {
+        let mut symbols = SymbolTable::new();
+        let mut packages = PackageTable::default();
+        for name in ["COMMON-LISP", "KEYWORD", "COMMON-LISP-USER", "SYSTEM"] {
+            packages.make(name, &[]);
+        }
+        intern_all(&mut symbols, &mut packages);
+        // A name listed twice would shift the symbols after it.
+        for ((package, name), (_, data)) in TABLE.iter().zip(symbols.iter()) {
+            assert_eq!((data.package, data.name.as_ref()), (Some(*package), *name));
+        }
+        assert_eq!(symbols.len(), TABLE.len());
     }
 }
