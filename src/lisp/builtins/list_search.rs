@@ -157,7 +157,10 @@ pub static TABLE: &[Builtin] = &[
         "MEMBER",
         "item list &key key test test-not",
         "The list from the first element that matches an item, or `NIL`.",
-        &["(member 2 '(1 2 3)) => (2 3)", "(member \"b\" '(\"a\" \"b\") :test #'equal) => (\"b\")"],
+        &[
+            "(member 2 '(1 2 3)) => (2 3)",
+            "(member \"b\" '(\"a\" \"b\") :test #'equal) => (\"b\")",
+        ],
         member,
     ),
     control(

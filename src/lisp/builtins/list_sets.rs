@@ -74,7 +74,11 @@ impl Members {
             return table.contains(&hash_key(key, *test));
         }
         for member in &self.keys {
-            let (a, b) = if swapped { (member, key) } else { (key, member) };
+            let (a, b) = if swapped {
+                (member, key)
+            } else {
+                (key, member)
+            };
             if test.matches(calls, a, b).await {
                 return true;
             }
@@ -83,7 +87,10 @@ impl Members {
     }
 }
 
-#[expect(clippy::mutable_key_type, reason = "keys that users change are lost, as in any hash table")]
+#[expect(
+    clippy::mutable_key_type,
+    reason = "keys that users change are lost, as in any hash table"
+)]
 fn hash_key(value: &Value, test: HashTest) -> HashKey {
     HashKey {
         value: value.clone(),
@@ -103,7 +110,11 @@ async fn filtered(
     let mut result = Vec::new();
     for item in items {
         let key = comparison.key.of(calls, item.clone()).await;
-        if members.contain(calls, &comparison.test, &key, swapped).await == wanted {
+        if members
+            .contain(calls, &comparison.test, &key, swapped)
+            .await
+            == wanted
+        {
             result.push(item.clone());
         }
     }

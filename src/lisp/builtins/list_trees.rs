@@ -217,11 +217,12 @@ async fn compare_trees(calls: Calls, a: Value, b: Value, test: Test) -> Outcome 
 
 fn tree_equal(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let image = &machine.image;
-    let [test, test_not] =
-        keywords::parse(image, &args[2..], [known::K_TEST, known::K_TEST_NOT])?;
+    let [test, test_not] = keywords::parse(image, &args[2..], [known::K_TEST, known::K_TEST_NOT])?;
     let test = Test::new(image, test, test_not)?;
     let (a, b) = (args[0].clone(), args[1].clone());
-    run(machine, "TREE-EQUAL", |calls| compare_trees(calls, a, b, test))
+    run(machine, "TREE-EQUAL", |calls| {
+        compare_trees(calls, a, b, test)
+    })
 }
 
 /// Trees of pairs.

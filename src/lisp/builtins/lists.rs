@@ -252,7 +252,10 @@ pub static TABLE: &[Builtin] = &[
         "APPEND",
         "&rest lists",
         "The elements of all lists in one list; the last list is shared, not copied.",
-        &["(append '(1) '(2 3) '(4)) => (1 2 3 4)", "(append '(1) 2) => (1 . 2)"],
+        &[
+            "(append '(1) '(2 3) '(4)) => (1 2 3 4)",
+            "(append '(1) 2) => (1 . 2)",
+        ],
         append,
     ),
     pure(
@@ -318,8 +321,32 @@ pub static TABLE: &[Builtin] = &[
         &["(let ((a (list 1 2))) (tailp (cdr a) a)) => T"],
         tailp,
     ),
-    pure("CONSP", "object", "Is the object a pair?", &["(consp nil) => NIL"], is_cons),
-    pure("LISTP", "object", "Is the object a list?", &["(listp nil) => T"], is_list),
-    pure("ATOM", "object", "Is the object anything but a pair?", &["(atom nil) => T"], is_atom),
-    pure("NULL", "object", "Is the object `NIL`?", &["(null '()) => T"], is_null),
+    pure(
+        "CONSP",
+        "object",
+        "Is the object a pair?",
+        &["(consp nil) => NIL"],
+        is_cons,
+    ),
+    pure(
+        "LISTP",
+        "object",
+        "Is the object a list?",
+        &["(listp nil) => T"],
+        is_list,
+    ),
+    pure(
+        "ATOM",
+        "object",
+        "Is the object anything but a pair?",
+        &["(atom nil) => T"],
+        is_atom,
+    ),
+    pure(
+        "NULL",
+        "object",
+        "Is the object `NIL`?",
+        &["(null '()) => T"],
+        is_null,
+    ),
 ];

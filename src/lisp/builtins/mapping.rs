@@ -127,7 +127,10 @@ pub static TABLE: &[Builtin] = &[
         "MAPCAR",
         "function list &rest lists",
         "The results of a function for the elements of one or more lists, up to the end of the shortest.",
-        &["(mapcar #'1+ '(1 2 3)) => (2 3 4)", "(mapcar #'+ '(1 2 3) '(10 20)) => (11 22)"],
+        &[
+            "(mapcar #'1+ '(1 2 3)) => (2 3 4)",
+            "(mapcar #'+ '(1 2 3) '(10 20)) => (11 22)",
+        ],
         mapcar,
     ),
     control(

@@ -145,7 +145,10 @@ pub static TABLE: &[Builtin] = &[
         "GETF",
         "plist indicator &optional default",
         "The value of an indicator in a property list.",
-        &["(getf '(:a 1 :b 2) :b) => 2", "(getf '(:a 1) :z :none) => :NONE"],
+        &[
+            "(getf '(:a 1 :b 2) :b) => 2",
+            "(getf '(:a 1) :z :none) => :NONE",
+        ],
         getf,
     ),
     pure(
