@@ -21,3 +21,4 @@ pub mod sequence_search;
 pub mod sequence_types;
 pub mod shown;
 pub mod sort;
+pub mod types;

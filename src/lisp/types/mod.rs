@@ -4,6 +4,7 @@
 //! needs the value of a call stops with the call ([`Stop::Call`]) and is begun again with
 //! the answer; answers are kept in order, so nothing is called twice.
 
+pub mod asking;
 pub mod coerce;
 pub mod parse;
 pub mod specifier;
@@ -22,8 +23,5 @@ use super::value::Value;
 
 /// Compares two real numbers; none if one is no real number, or not a number at all.
 pub(crate) fn compare(a: &Value, b: &Value) -> Option<Ordering> {
-    match (a, b) {
-        (Value::Int(a), Value::Int(b)) => Some(a.cmp(b)),
-        _ => super::number::to_f64(a)?.partial_cmp(&super::number::to_f64(b)?),
-    }
+    super::number::compare(a, b).ok().flatten()
 }

@@ -1,6 +1,7 @@
 //! Reading type specifiers.
 
 use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
+use crate::lisp::builtins::sequence_types;
 use crate::lisp::class::ClassKind;
 use crate::lisp::image::Image;
 use crate::lisp::known;
@@ -177,7 +178,9 @@ impl Parser<'_> {
         };
         let has_element = matches!(name, known::ARRAY | known::SIMPLE_ARRAY | known::VECTOR);
         let (element, size) = match (has_element, args) {
-            (true, [of, rest @ ..]) if !is_star(of) => (Some(upgraded(of)), rest.first()),
+            (true, [of, rest @ ..]) if !is_star(of) => {
+                (Some(upgraded(self.image, of)), rest.first())
+            }
             (true, [_, rest @ ..]) => (None, rest.first()),
             (true, []) => (None, None),
             (false, rest) => (element, rest.first()),
@@ -226,30 +229,9 @@ fn is_star(value: &Value) -> bool {
     value.as_symbol() == Some(known::TIMES)
 }
 
-/// The element type that an array made for a type really has.
-pub fn upgraded(element: &Value) -> Sym {
-    match element {
-        Value::Symbol(
-            name @ (known::BIT
-            | known::CHARACTER
-            | known::BASE_CHAR
-            | known::SINGLE_FLOAT
-            | known::DOUBLE_FLOAT
-            | known::FIXNUM),
-        ) => *name,
-        Value::Symbol(known::STANDARD_CHAR) => known::BASE_CHAR,
-        Value::Symbol(known::SHORT_FLOAT) => known::SINGLE_FLOAT,
-        Value::Symbol(known::LONG_FLOAT) => known::DOUBLE_FLOAT,
-        Value::Symbol(known::UNSIGNED_BYTE) => known::T,
-        Value::Cons(list) => match list.car().as_symbol() {
-            Some(name @ (known::UNSIGNED_BYTE | known::SIGNED_BYTE)) => name,
-            Some(known::MOD) => known::UNSIGNED_BYTE,
-            Some(known::SINGLE_FLOAT) => known::SINGLE_FLOAT,
-            Some(known::DOUBLE_FLOAT) => known::DOUBLE_FLOAT,
-            _ => known::T,
-        },
-        _ => known::T,
-    }
+/// The element type that an array made for elements of a type really has.
+pub fn upgraded(image: &Image, element: &Value) -> Sym {
+    sequence_types::upgraded(image, element)
 }
 
 fn integers(low: Option<i64>, high: Option<i64>) -> Type {
@@ -294,7 +276,7 @@ fn real_range(image: &Image, kinds: &[RealKind], args: &[Value]) -> Result<Type,
 }
 
 fn bound(image: &Image, arg: Option<&Value>) -> Result<Bound, Stop> {
-    let is_real = |v: &Value| crate::lisp::number::to_f64(v).is_some();
+    let is_real = crate::lisp::number::is_real;
     match arg {
         None => Ok(Bound::None),
         Some(star) if is_star(star) => Ok(Bound::None),
