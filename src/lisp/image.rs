@@ -7,10 +7,10 @@ use std::sync::atomic::AtomicBool;
 
 use indexmap::IndexMap;
 
-use super::builtin::{Builtin, BuiltinCall, Operator};
+use super::builtin::{Builtin, Operator};
 use super::class::Class;
 use super::compile::setf::SetfExpander;
-use super::function::{Function, NativeCall};
+use super::function::Function;
 use super::known;
 use super::object;
 use super::package::{Access, PackageId, PackageTable};
@@ -276,13 +276,18 @@ impl Image {
     pub fn install(&mut self, package: PackageId, table: &'static [Builtin]) {
         for builtin in table {
             let sym = self.export_symbol(package, builtin.name);
-            let (min, max) = builtin.arity();
-            let call = match builtin.call {
-                BuiltinCall::Pure(f) => NativeCall::Pure(f),
-                BuiltinCall::Control(f) => NativeCall::Control(f),
-            };
-            self.set_function(sym, Rc::new(Function::native(sym, min, max, call)));
+            self.set_function(sym, Rc::new(builtin.function(sym)));
             self.builtins.insert(sym, builtin);
+        }
+    }
+
+    /// Installs the functions of a table as what `setf` calls for the places of those
+    /// names; the new value is their first argument.
+    pub fn install_setf(&mut self, package: PackageId, table: &'static [Builtin]) {
+        for setter in table {
+            let sym = self.export_symbol(package, setter.name);
+            let function = Rc::new(Builtin::function(setter, sym));
+            self.symbols.get_mut(sym).setf_function = Some(function);
         }
     }
 

@@ -24,6 +24,7 @@ pub mod slot;
 pub mod stream;
 pub mod string;
 pub mod symbol;
+pub mod types;
 pub mod value;
 pub mod vm;
 
