@@ -11,9 +11,27 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `SYSTEM`.
 pub static SYSTEM_TABLE: &[Builtin] = &[
-    pure("CHECK-ARGUMENTS", "list least most context lambda-list", "The list, if it has as many elements as a lambda list asks for.", &["(system:check-arguments '(1) 1 1 'f '(x)) => (1)"], check_arguments),
-    pure("CHECK-KEYS", "list keys", "An error unless the list is a property list of these keys.", &["(system:check-keys '(:a 1) '(:a)) => NIL"], check_keys),
-    pure("KEY-TAIL", "list key", "The rest of a property list after a key; NIL if it is not there.", &["(system:key-tail '(:a 1 :b 2) :b) => (2)"], key_tail),
+    pure(
+        "CHECK-ARGUMENTS",
+        "list least most context lambda-list",
+        "The list, if it has as many elements as a lambda list asks for.",
+        &["(system:check-arguments '(1) 1 1 'f '(x)) => (1)"],
+        check_arguments,
+    ),
+    pure(
+        "CHECK-KEYS",
+        "list keys",
+        "An error unless the list is a property list of these keys.",
+        &["(system:check-keys '(:a 1) '(:a)) => NIL"],
+        check_keys,
+    ),
+    pure(
+        "KEY-TAIL",
+        "list key",
+        "The rest of a property list after a key; NIL if it is not there.",
+        &["(system:key-tail '(:a 1 :b 2) :b) => (2)"],
+        key_tail,
+    ),
 ];
 
 fn check_arguments(image: &mut Image, args: &[Value]) -> Result<Value> {
@@ -60,9 +78,9 @@ fn check_keys(image: &mut Image, args: &[Value]) -> Result<Value> {
     if !items.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }
-    let allowed = items.chunks_exact(2).any(|pair| {
-        pair[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS) && pair[1].is_true()
-    });
+    let allowed = items
+        .chunks_exact(2)
+        .any(|pair| pair[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS) && pair[1].is_true());
     if allowed {
         return Ok(Value::NIL);
     }

@@ -14,22 +14,86 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `SYSTEM`.
 pub static SYSTEM_TABLE: &[Builtin] = &[
-    pure("DEFINE-FUNCTION", "name function", "Makes a function the global one of its name.", &["(system:define-function 'one (lambda () 1)) => ONE"], define_function),
-    pure("DEFINE-MACRO", "name function lambda-list documentation", "Makes a function the expander of a macro.", &[], define_macro),
-    pure("DEFINE-PARAMETER", "name value documentation", "Makes a variable special and assigns it.", &["(system:define-parameter '*p* 1 nil) => *P*"], define_parameter),
-    pure("DEFINE-VARIABLE", "name", "Makes a variable special.", &["(system:define-variable '*v*) => *V*"], define_variable),
-    pure("DEFINE-CONSTANT", "name value", "Makes a variable constant.", &["(system:define-constant '+c+ 1) => +C+"], define_constant),
-    pure("SET-SYMBOL-MACRO", "name expansion", "Lets a symbol stand for a form.", &[], set_symbol_macro),
-    pure("DEFINE-SETF-UPDATE", "name update", "Short DEFSETF.", &[], define_setf_update),
-    pure("DEFINE-SETF-LONG", "name function stores", "Long DEFSETF.", &[], define_setf_long),
-    pure("SET-SETF-EXPANDER", "name function", "DEFINE-SETF-EXPANDER.", &[], set_setf_expander),
-    pure("MODIFY-PLACE", "place function arguments", "The form that sets a place to a function of it and of forms.", &[], modify_place),
+    pure(
+        "DEFINE-FUNCTION",
+        "name function",
+        "Makes a function the global one of its name.",
+        &["(system:define-function 'one (lambda () 1)) => ONE"],
+        define_function,
+    ),
+    pure(
+        "DEFINE-MACRO",
+        "name function lambda-list documentation",
+        "Makes a function the expander of a macro.",
+        &[],
+        define_macro,
+    ),
+    pure(
+        "DEFINE-PARAMETER",
+        "name value documentation",
+        "Makes a variable special and assigns it.",
+        &["(system:define-parameter '*p* 1 nil) => *P*"],
+        define_parameter,
+    ),
+    pure(
+        "DEFINE-VARIABLE",
+        "name",
+        "Makes a variable special.",
+        &["(system:define-variable '*v*) => *V*"],
+        define_variable,
+    ),
+    pure(
+        "DEFINE-CONSTANT",
+        "name value",
+        "Makes a variable constant.",
+        &["(system:define-constant '+c+ 1) => +C+"],
+        define_constant,
+    ),
+    pure(
+        "SET-SYMBOL-MACRO",
+        "name expansion",
+        "Lets a symbol stand for a form.",
+        &[],
+        set_symbol_macro,
+    ),
+    pure(
+        "DEFINE-SETF-UPDATE",
+        "name update",
+        "Short DEFSETF.",
+        &[],
+        define_setf_update,
+    ),
+    pure(
+        "DEFINE-SETF-LONG",
+        "name function stores",
+        "Long DEFSETF.",
+        &[],
+        define_setf_long,
+    ),
+    pure(
+        "SET-SETF-EXPANDER",
+        "name function",
+        "DEFINE-SETF-EXPANDER.",
+        &[],
+        set_setf_expander,
+    ),
+    pure(
+        "MODIFY-PLACE",
+        "place function arguments",
+        "The form that sets a place to a function of it and of forms.",
+        &[],
+        modify_place,
+    ),
 ];
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
-    pure("PROCLAIM", "specifier", "A global declaration.", &["(proclaim '(special *proclaimed*)) => ; No value"], proclaim),
-];
+pub static TABLE: &[Builtin] = &[pure(
+    "PROCLAIM",
+    "specifier",
+    "A global declaration.",
+    &["(proclaim '(special *proclaimed*)) => ; No value"],
+    proclaim,
+)];
 
 fn symbol(value: &Value) -> Result<Sym> {
     value

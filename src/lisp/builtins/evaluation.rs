@@ -17,26 +17,146 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
 pub static TABLE: &[Builtin] = &[
-    control("EVAL", "form", "Evaluates a form.", &["(eval '(+ 1 2)) => 3"], eval),
-    control("FUNCALL", "function &rest arguments", "Calls a function.", &["(funcall #'+ 1 2) => 3"], funcall),
-    control("APPLY", "function argument &rest arguments", "Calls a function; the last argument is a list of further arguments.", &["(apply #'+ 1 '(2 3)) => 6"], apply),
-    pure("VALUES", "&rest values", "Returns the values.", &["(values 1 2) => 1 ; 2"], values),
-    pure("VALUES-LIST", "list", "Returns the elements of a list as values.", &["(values-list '(1 2)) => 1 ; 2"], values_list),
-    pure("IDENTITY", "object", "The object.", &["(identity 1) => 1"], |_, args| Ok(args[0].clone())),
-    pure("NOT", "object", "T if the object is NIL.", &["(not nil) => T"], |_, args| Ok(args[0].is_nil().into())),
-    pure("EQ", "a b", "Are they the same object?", &["(eq 'a 'a) => T"], |_, args| Ok(args[0].is_eq(&args[1]).into())),
-    pure("EQL", "a b", "Are they the same object, or equal numbers of one type?", &["(eql 1 1.0) => NIL"], |_, args| Ok(args[0].is_eql(&args[1]).into())),
-    pure("EQUAL", "a b", "Have they the same structure and contents?", &["(equal '(1 \"a\") '(1 \"a\")) => T"], |_, args| Ok(crate::lisp::equality::equal(&args[0], &args[1]).into())),
-    pure("EQUALP", "a b", "Like EQUAL; numbers by value, letters without case, arrays by element.", &["(equalp \"A\" \"a\") => T"], |_, args| Ok(crate::lisp::equality::equalp(&args[0], &args[1]).into())),
-    pure("CONSTANTLY", "value", "A function that always returns the value.", &["(funcall (constantly 1) 2 3) => 1"], constantly),
-    pure("COMPLEMENT", "function", "The function that is true when the function is false.", &["(funcall (complement #'oddp) 2) => T"], complement),
-    pure("FUNCTIONP", "object", "Is it a function?", &["(functionp #'car) => T"], |_, args| Ok(matches!(args[0], Value::Function(_)).into())),
-    pure("MACROEXPAND", "form &optional environment", "Expands a macro call until it is none; was it one?", &["(macroexpand '(when a b)) => (IF A (PROGN B)) ; T"], macroexpand),
-    pure("MACROEXPAND-1", "form &optional environment", "Expands a macro call once; was it one?", &["(macroexpand-1 '(when a b)) => (IF A (PROGN B)) ; T"], macroexpand_1),
-    pure("COMPILE", "name &optional definition", "The function: everything is compiled.", &["(funcall (compile nil '(lambda (x) (* x x))) 3) => 9"], compile_function),
-    pure("SPECIAL-OPERATOR-P", "symbol", "Does the symbol name a special operator?", &["(special-operator-p 'if) => T"], special_operator_p),
-    pure("MACRO-FUNCTION", "symbol &optional environment", "The expander of a macro, or NIL.", &["(macro-function 'car) => NIL"], macro_function),
-    pure("FUNCTION-LAMBDA-EXPRESSION", "function", "NIL, T and the function's name.", &["(function-lambda-expression #'car) => NIL ; T ; CAR"], function_lambda_expression),
+    control(
+        "EVAL",
+        "form",
+        "Evaluates a form.",
+        &["(eval '(+ 1 2)) => 3"],
+        eval,
+    ),
+    control(
+        "FUNCALL",
+        "function &rest arguments",
+        "Calls a function.",
+        &["(funcall #'+ 1 2) => 3"],
+        funcall,
+    ),
+    control(
+        "APPLY",
+        "function argument &rest arguments",
+        "Calls a function; the last argument is a list of further arguments.",
+        &["(apply #'+ 1 '(2 3)) => 6"],
+        apply,
+    ),
+    pure(
+        "VALUES",
+        "&rest values",
+        "Returns the values.",
+        &["(values 1 2) => 1 ; 2"],
+        values,
+    ),
+    pure(
+        "VALUES-LIST",
+        "list",
+        "Returns the elements of a list as values.",
+        &["(values-list '(1 2)) => 1 ; 2"],
+        values_list,
+    ),
+    pure(
+        "IDENTITY",
+        "object",
+        "The object.",
+        &["(identity 1) => 1"],
+        |_, args| Ok(args[0].clone()),
+    ),
+    pure(
+        "NOT",
+        "object",
+        "T if the object is NIL.",
+        &["(not nil) => T"],
+        |_, args| Ok(args[0].is_nil().into()),
+    ),
+    pure(
+        "EQ",
+        "a b",
+        "Are they the same object?",
+        &["(eq 'a 'a) => T"],
+        |_, args| Ok(args[0].is_eq(&args[1]).into()),
+    ),
+    pure(
+        "EQL",
+        "a b",
+        "Are they the same object, or equal numbers of one type?",
+        &["(eql 1 1.0) => NIL"],
+        |_, args| Ok(args[0].is_eql(&args[1]).into()),
+    ),
+    pure(
+        "EQUAL",
+        "a b",
+        "Have they the same structure and contents?",
+        &["(equal '(1 \"a\") '(1 \"a\")) => T"],
+        |_, args| Ok(crate::lisp::equality::equal(&args[0], &args[1]).into()),
+    ),
+    pure(
+        "EQUALP",
+        "a b",
+        "Like EQUAL; numbers by value, letters without case, arrays by element.",
+        &["(equalp \"A\" \"a\") => T"],
+        |_, args| Ok(crate::lisp::equality::equalp(&args[0], &args[1]).into()),
+    ),
+    pure(
+        "CONSTANTLY",
+        "value",
+        "A function that always returns the value.",
+        &["(funcall (constantly 1) 2 3) => 1"],
+        constantly,
+    ),
+    pure(
+        "COMPLEMENT",
+        "function",
+        "The function that is true when the function is false.",
+        &["(funcall (complement #'oddp) 2) => T"],
+        complement,
+    ),
+    pure(
+        "FUNCTIONP",
+        "object",
+        "Is it a function?",
+        &["(functionp #'car) => T"],
+        |_, args| Ok(matches!(args[0], Value::Function(_)).into()),
+    ),
+    pure(
+        "MACROEXPAND",
+        "form &optional environment",
+        "Expands a macro call until it is none; was it one?",
+        &["(macroexpand '(when a b)) => (IF A (PROGN B)) ; T"],
+        macroexpand,
+    ),
+    pure(
+        "MACROEXPAND-1",
+        "form &optional environment",
+        "Expands a macro call once; was it one?",
+        &["(macroexpand-1 '(when a b)) => (IF A (PROGN B)) ; T"],
+        macroexpand_1,
+    ),
+    pure(
+        "COMPILE",
+        "name &optional definition",
+        "The function: everything is compiled.",
+        &["(funcall (compile nil '(lambda (x) (* x x))) 3) => 9"],
+        compile_function,
+    ),
+    pure(
+        "SPECIAL-OPERATOR-P",
+        "symbol",
+        "Does the symbol name a special operator?",
+        &["(special-operator-p 'if) => T"],
+        special_operator_p,
+    ),
+    pure(
+        "MACRO-FUNCTION",
+        "symbol &optional environment",
+        "The expander of a macro, or NIL.",
+        &["(macro-function 'car) => NIL"],
+        macro_function,
+    ),
+    pure(
+        "FUNCTION-LAMBDA-EXPRESSION",
+        "function",
+        "NIL, T and the function's name.",
+        &["(function-lambda-expression #'car) => NIL ; T ; CAR"],
+        function_lambda_expression,
+    ),
 ];
 
 /// Evaluates forms one after the other, so that each sees what the ones before defined.
@@ -138,9 +258,11 @@ fn values_list(_: &mut Image, args: &[Value]) -> Result<Value> {
 fn constantly(_: &mut Image, args: &[Value]) -> Result<Value> {
     let value = args[0].clone();
     let name = known::CONSTANTLY;
-    Ok(Value::Function(Function::made(name, (0, None), move |_, _| {
-        Ok(value.clone())
-    })))
+    Ok(Value::Function(Function::made(
+        name,
+        (0, None),
+        move |_, _| Ok(value.clone()),
+    )))
 }
 
 struct Negate;
@@ -214,9 +336,11 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(match &image.symbol(name).function {
         FunctionCell::Macro(f) => Value::Function(f.clone()),
         FunctionCell::Builtin => match image.operators.get(&name).and_then(|o| o.expand) {
-            Some(expand) => Value::Function(Function::made(name, (1, Some(2)), move |image, args| {
-                expand(image, &args[0])
-            })),
+            Some(expand) => {
+                Value::Function(Function::made(name, (1, Some(2)), move |image, args| {
+                    expand(image, &args[0])
+                }))
+            }
             None => Value::NIL,
         },
         _ => Value::NIL,

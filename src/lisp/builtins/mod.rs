@@ -1,8 +1,11 @@
 //! The builtin functions: one table per topic.
 
+pub mod arguments;
 pub mod array_index;
 pub mod calls;
 pub mod criterion;
+pub mod definitions;
+pub mod evaluation;
 pub mod keywords;
 pub mod list_search;
 pub mod list_sets;
@@ -11,6 +14,7 @@ pub mod lists;
 pub mod mapping;
 pub mod pairs;
 pub mod property_lists;
+pub mod registry;
 pub mod sequence;
 pub mod sequence_access;
 pub mod sequence_change;
@@ -20,5 +24,6 @@ pub mod sequence_map;
 pub mod sequence_search;
 pub mod sequence_types;
 pub mod shown;
+pub mod signalling;
 pub mod sort;
 pub mod types;

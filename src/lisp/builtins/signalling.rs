@@ -1,7 +1,6 @@
 //! Signalling conditions, restarts, and throwing.
 
 use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::condition;
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::print;
@@ -18,30 +17,150 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
 pub static TABLE: &[Builtin] = &[
-    control("SIGNAL", "datum &rest arguments", "Signals a condition; NIL if every handler declines.", &["(signal \"nothing happens\") => NIL"], |m, args| signal_with(m, args, known::SIMPLE_CONDITION, Declined::Return)),
-    control("ERROR", "datum &rest arguments", "Signals an error: a condition object, the name of a class with initargs, or a format control with arguments.", &["(handler-case (error \"no ~a\" 1) (error (e) (princ-to-string e))) => \"no 1\""], |m, args| signal_with(m, args, known::SIMPLE_ERROR, Declined::Stop)),
-    control("CERROR", "continue-control datum &rest arguments", "Like ERROR, with a restart CONTINUE that goes on.", &["(handler-bind ((error #'continue)) (cerror \"Go on.\" \"Stop.\")) => NIL"], cerror),
-    control("WARN", "datum &rest arguments", "Signals a warning and prints it unless a handler muffles it.", &["(handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"], warn),
-    control("INVOKE-RESTART", "restart &rest arguments", "Calls the function of a restart.", &["(restart-case (invoke-restart 'r 1) (r (x) x)) => 1"], invoke_restart),
-    control("INVOKE-DEBUGGER", "condition", "Stops with a condition.", &[], |_, args| Ok(Step::Unhandled(args[0].clone()))),
-    control("BREAK", "&optional control &rest arguments", "Stops with a text.", &[], |m, args| signal_break(m, &args)),
-    control("FIND-RESTART", "restart &optional condition", "The innermost restart of a name, or NIL.", &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"], |m, args| Ok(Step::Return(m.find_restart(&args[0]).unwrap_or(Value::NIL)))),
-    control("COMPUTE-RESTARTS", "&optional condition", "All restarts in force, innermost first.", &["(restart-case (restart-name (first (compute-restarts))) (r () 1)) => R"], |m, _| Ok(Step::Return(Value::list(m.restarts())))),
-    pure("RESTART-NAME", "restart", "The name of a restart.", &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"], restart_name),
-    control("ABORT", "&optional condition", "Invokes the restart ABORT.", &["(restart-case (abort) (abort () 1)) => 1"], |m, _| invoke_named(m, known::ABORT, Vec::new(), true)),
-    control("CONTINUE", "&optional condition", "Invokes the restart CONTINUE, if there is one.", &["(continue) => NIL"], |m, _| invoke_named(m, known::CONTINUE, Vec::new(), false)),
-    control("MUFFLE-WARNING", "&optional condition", "Invokes the restart MUFFLE-WARNING.", &["(handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"], |m, _| invoke_named(m, known::MUFFLE_WARNING, Vec::new(), true)),
-    control("USE-VALUE", "value &optional condition", "Invokes the restart USE-VALUE, if there is one.", &["(restart-case (use-value 1) (use-value (v) v)) => 1"], |m, args| invoke_named(m, known::USE_VALUE, args[..1].to_vec(), false)),
-    control("STORE-VALUE", "value &optional condition", "Invokes the restart STORE-VALUE, if there is one.", &["(restart-case (store-value 1) (store-value (v) v)) => 1"], |m, args| invoke_named(m, known::STORE_VALUE, args[..1].to_vec(), false)),
-    control("THROW", "tag value", "Leaves the innermost CATCH of the tag with the value.", &["(catch 'x (throw 'x 1)) => 1"], |m, args| m.throw(&args[0], args[1].clone())),
+    control(
+        "SIGNAL",
+        "datum &rest arguments",
+        "Signals a condition; NIL if every handler declines.",
+        &["(signal \"nothing happens\") => NIL"],
+        |m, args| signal_with(m, args, known::SIMPLE_CONDITION, Declined::Return),
+    ),
+    control(
+        "ERROR",
+        "datum &rest arguments",
+        "Signals an error: a condition object, the name of a class with initargs, or a format control with arguments.",
+        &["(handler-case (error \"no ~a\" 1) (error (e) (princ-to-string e))) => \"no 1\""],
+        |m, args| signal_with(m, args, known::SIMPLE_ERROR, Declined::Stop),
+    ),
+    control(
+        "CERROR",
+        "continue-control datum &rest arguments",
+        "Like ERROR, with a restart CONTINUE that goes on.",
+        &["(handler-bind ((error #'continue)) (cerror \"Go on.\" \"Stop.\")) => NIL"],
+        cerror,
+    ),
+    control(
+        "WARN",
+        "datum &rest arguments",
+        "Signals a warning and prints it unless a handler muffles it.",
+        &["(handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"],
+        warn,
+    ),
+    control(
+        "INVOKE-RESTART",
+        "restart &rest arguments",
+        "Calls the function of a restart.",
+        &["(restart-case (invoke-restart 'r 1) (r (x) x)) => 1"],
+        invoke_restart,
+    ),
+    control(
+        "INVOKE-DEBUGGER",
+        "condition",
+        "Stops with a condition.",
+        &[],
+        |_, args| Ok(Step::Unhandled(args[0].clone())),
+    ),
+    control(
+        "BREAK",
+        "&optional control &rest arguments",
+        "Stops with a text.",
+        &[],
+        |m, args| signal_break(m, &args),
+    ),
+    control(
+        "FIND-RESTART",
+        "restart &optional condition",
+        "The innermost restart of a name, or NIL.",
+        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
+        |m, args| Ok(Step::Return(m.find_restart(&args[0]).unwrap_or(Value::NIL))),
+    ),
+    control(
+        "COMPUTE-RESTARTS",
+        "&optional condition",
+        "All restarts in force, innermost first.",
+        &["(restart-case (restart-name (first (compute-restarts))) (r () 1)) => R"],
+        |m, _| Ok(Step::Return(Value::list(m.restarts()))),
+    ),
+    pure(
+        "RESTART-NAME",
+        "restart",
+        "The name of a restart.",
+        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
+        restart_name,
+    ),
+    control(
+        "ABORT",
+        "&optional condition",
+        "Invokes the restart ABORT.",
+        &["(restart-case (abort) (abort () 1)) => 1"],
+        |m, _| invoke_named(m, known::ABORT, Vec::new(), true),
+    ),
+    control(
+        "CONTINUE",
+        "&optional condition",
+        "Invokes the restart CONTINUE, if there is one.",
+        &["(continue) => NIL"],
+        |m, _| invoke_named(m, known::CONTINUE, Vec::new(), false),
+    ),
+    control(
+        "MUFFLE-WARNING",
+        "&optional condition",
+        "Invokes the restart MUFFLE-WARNING.",
+        &["(handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"],
+        |m, _| invoke_named(m, known::MUFFLE_WARNING, Vec::new(), true),
+    ),
+    control(
+        "USE-VALUE",
+        "value &optional condition",
+        "Invokes the restart USE-VALUE, if there is one.",
+        &["(restart-case (use-value 1) (use-value (v) v)) => 1"],
+        |m, args| invoke_named(m, known::USE_VALUE, args[..1].to_vec(), false),
+    ),
+    control(
+        "STORE-VALUE",
+        "value &optional condition",
+        "Invokes the restart STORE-VALUE, if there is one.",
+        &["(restart-case (store-value 1) (store-value (v) v)) => 1"],
+        |m, args| invoke_named(m, known::STORE_VALUE, args[..1].to_vec(), false),
+    ),
+    control(
+        "THROW",
+        "tag value",
+        "Leaves the innermost CATCH of the tag with the value.",
+        &["(catch 'x (throw 'x 1)) => 1"],
+        |m, args| m.throw(&args[0], args[1].clone()),
+    ),
 ];
 
 /// Builtins of package `SYSTEM`.
 pub static SYSTEM_TABLE: &[Builtin] = &[
-    pure("MAKE-RESTART", "name function report interactive", "A restart object.", &[], make_restart),
-    control("CASE-FAILED", "key operator wanted", "The error of ECASE and its kin.", &[], case_failed),
-    pure("CHECK-TYPE-FAILED", "value place type string", "The error of CHECK-TYPE.", &[], check_type_failed),
-    control("CALL-WITH-TIMING", "function", "Calls a function and says how many calls it made.", &[], call_with_timing),
+    pure(
+        "MAKE-RESTART",
+        "name function report interactive",
+        "A restart object.",
+        &[],
+        make_restart,
+    ),
+    control(
+        "CASE-FAILED",
+        "key operator wanted",
+        "The error of ECASE and its kin.",
+        &[],
+        case_failed,
+    ),
+    pure(
+        "CHECK-TYPE-FAILED",
+        "value place type string",
+        "The error of CHECK-TYPE.",
+        &[],
+        check_type_failed,
+    ),
+    control(
+        "CALL-WITH-TIMING",
+        "function",
+        "Calls a function and says how many calls it made.",
+        &[],
+        call_with_timing,
+    ),
 ];
 
 /// Continues with the condition that a datum and arguments designate.
@@ -346,4 +465,3 @@ fn call_with_timing(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         args: Vec::new(),
     })
 }
-

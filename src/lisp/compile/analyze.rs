@@ -5,7 +5,9 @@ use std::rc::Rc;
 
 use super::emit;
 use super::node::{Binding, LambdaNode, Node, Target};
-use super::scope::{DynamicKind, Entry, FunctionContext, FunctionMeaning, Scope, Var, VariableMeaning};
+use super::scope::{
+    DynamicKind, Entry, FunctionContext, FunctionMeaning, Scope, Var, VariableMeaning,
+};
 use super::special_forms;
 use crate::lisp::function::Function;
 use crate::lisp::image::Image;
@@ -66,7 +68,6 @@ impl<'a> Compiler<'a> {
     pub fn enter_function(&mut self) -> usize {
         let id = self.functions.len();
         self.functions.push(FunctionContext {
-            id,
             outer: (id > 0).then_some(self.current),
             free: RefCell::default(),
             dynamic: RefCell::default(),
@@ -99,7 +100,10 @@ impl<'a> Compiler<'a> {
     /// Must leaving for `depth` run cleanup code?
     pub fn crosses_cleanup(&self, depth: usize) -> bool {
         let dynamic = self.function().dynamic.borrow();
-        dynamic.iter().skip(depth).any(|k| *k == DynamicKind::Unwind)
+        dynamic
+            .iter()
+            .skip(depth)
+            .any(|k| *k == DynamicKind::Unwind)
     }
 
     /// Analyses something inside a dynamic entry.
@@ -297,10 +301,10 @@ impl<'a> Compiler<'a> {
                         let expansion = expand(self.image, form).map_err(|r| r.at(self.place))?;
                         self.analyze(&expansion, scope)
                     }
-                    None => Err(self.program_error(format!(
-                        "{} is not a function.",
-                        self.image.name(name)
-                    ))),
+                    None => {
+                        Err(self
+                            .program_error(format!("{} is not a function.", self.image.name(name))))
+                    }
                 }
             }
             FunctionCell::Function(_) | FunctionCell::Unbound => {
@@ -349,10 +353,7 @@ impl<'a> Compiler<'a> {
             (Binding::Special(name), scope)
         } else {
             let var = self.new_var(name);
-            let scope = scope.with(Entry::Variable(
-                name,
-                VariableMeaning::Lexical(var.clone()),
-            ));
+            let scope = scope.with(Entry::Variable(name, VariableMeaning::Lexical(var.clone())));
             (Binding::Lexical(var), scope)
         }
     }

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::analyze::{Compiled, Compiler};
 use super::lambda_list::{LambdaList, Optional};
-use super::node::{Binding, Default, LambdaNode, Node, Prologue};
+use super::node::{Default, LambdaNode, Node, Prologue};
 use super::scope::{Block, Entry, Scope, Var, VariableMeaning};
 use crate::lisp::known;
 use crate::lisp::symbol::Sym;
@@ -152,8 +152,7 @@ impl Compiler<'_> {
         for (name, form) in &parsed.aux {
             let init = self.analyze(form, &parts.scope)?;
             self.check_bindable(&Value::Symbol(*name))?;
-            let (binding, scope) =
-                self.bind(*name, body.specials.contains(name), &parts.scope);
+            let (binding, scope) = self.bind(*name, body.specials.contains(name), &parts.scope);
             parts.scope = scope;
             parts.bound.push(*name);
             parts.prologue.push(Prologue::Aux(binding, init));
@@ -207,8 +206,7 @@ impl Compiler<'_> {
     ) -> Compiled<()> {
         let init = self.analyze(&parameter.default, &parts.scope)?;
         let supplied = parameter.supplied.map(|name| {
-            let (binding, scope) =
-                self.bind(name, body.specials.contains(&name), &parts.scope);
+            let (binding, scope) = self.bind(name, body.specials.contains(&name), &parts.scope);
             parts.scope = scope;
             parts.bound.push(name);
             binding
@@ -232,14 +230,6 @@ impl Compiler<'_> {
             dynamic: false.into(),
             used: false.into(),
         })
-    }
-
-    /// The binding's variable, if it is lexical.
-    pub fn lexical(binding: &Binding) -> Option<&Rc<Var>> {
-        match binding {
-            Binding::Lexical(var) => Some(var),
-            Binding::Special(_) => None,
-        }
     }
 }
 

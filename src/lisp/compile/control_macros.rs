@@ -235,7 +235,11 @@ pub(super) fn dolist(image: &mut Image, form: &Value) -> Expansion {
     let statements = form![
         known::TAGBODY,
         again.clone(),
-        form![known::IF, form![known::ENDP, list.clone()], form![known::GO, end.clone()]],
+        form![
+            known::IF,
+            form![known::ENDP, list.clone()],
+            form![known::GO, end.clone()]
+        ],
         Value::list(let_form),
         form![known::SETQ, list.clone(), form![known::CDR, list.clone()]],
         form![known::GO, again],
@@ -270,7 +274,11 @@ pub(super) fn dotimes(image: &mut Image, form: &Value) -> Expansion {
             form![known::GO, end.clone()]
         ],
         Value::cons(known::TAGBODY.into(), split.forms),
-        form![known::SETQ, var.clone(), form![known::ONE_PLUS, var.clone()]],
+        form![
+            known::SETQ,
+            var.clone(),
+            form![known::ONE_PLUS, var.clone()]
+        ],
         form![known::GO, again],
         end,
     ];
@@ -382,10 +390,7 @@ pub(super) fn handler_case(image: &mut Image, form: &Value) -> Expansion {
         let body = match variables.car_or_nil() {
             Value::Symbol(known::NIL) => Value::cons(known::LOCALLY.into(), body),
             variable => Value::list_with_tail(
-                [
-                    known::LET.into(),
-                    form![form![variable, condition.clone()]],
-                ],
+                [known::LET.into(), form![form![variable, condition.clone()]]],
                 body,
             ),
         };
@@ -515,7 +520,11 @@ pub(super) fn restart_bind(_: &mut Image, form: &Value) -> Expansion {
         let (function, rest) = first_rest(&binding);
         let (found, _) = options(
             &rest,
-            &[known::K_REPORT_FUNCTION, known::K_INTERACTIVE_FUNCTION, known::K_TEST_FUNCTION],
+            &[
+                known::K_REPORT_FUNCTION,
+                known::K_INTERACTIVE_FUNCTION,
+                known::K_TEST_FUNCTION,
+            ],
         );
         let option = |name: Sym| {
             found
@@ -578,8 +587,17 @@ pub(super) fn assert(_: &mut Image, form: &Value) -> Expansion {
     } else {
         Value::cons(known::ERROR.into(), datum)
     };
-    let failure = form![known::WITH_SIMPLE_RESTART, form![known::CONTINUE, "Go on without it."], failure];
-    Ok(form![known::IF, test, Value::NIL, form![known::PROGN, failure, Value::NIL]])
+    let failure = form![
+        known::WITH_SIMPLE_RESTART,
+        form![known::CONTINUE, "Go on without it."],
+        failure
+    ];
+    Ok(form![
+        known::IF,
+        test,
+        Value::NIL,
+        form![known::PROGN, failure, Value::NIL]
+    ])
 }
 
 pub(super) fn check_type(_: &mut Image, form: &Value) -> Expansion {

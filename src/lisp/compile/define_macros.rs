@@ -135,11 +135,7 @@ pub(super) fn defsetf(image: &mut Image, form: &Value) -> Expansion {
     let count = stores.iter_list().count();
     let list: Value = image.gensym("STORES").into();
     let inner = Value::list_with_tail(
-        [
-            known::DESTRUCTURING_BIND.into(),
-            stores,
-            list.clone(),
-        ],
+        [known::DESTRUCTURING_BIND.into(), stores, list.clone()],
         split.forms,
     );
     let lambda = form![known::LAMBDA, Value::cons(list, how), inner];

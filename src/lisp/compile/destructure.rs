@@ -49,7 +49,9 @@ impl Bindings<'_> {
             }
             other => {
                 let shown = crate::lisp::print::to_string(self.image, other, true);
-                Err(Raise::program(format!("{shown} cannot be bound: a symbol or a list of symbols was expected")))
+                Err(Raise::program(format!(
+                    "{shown} cannot be bound: a symbol or a list of symbols was expected"
+                )))
             }
         }
     }
@@ -115,10 +117,7 @@ impl Bindings<'_> {
             let keys: Vec<Value> = parsed.keys.iter().map(|k| k.keyword.into()).collect();
             if !parsed.allow_other_keys {
                 let ignored = self.gensym("CHECKED");
-                let check = call(
-                    known::CHECK_KEYS,
-                    [rest.clone(), quote(Value::list(keys))],
-                );
+                let check = call(known::CHECK_KEYS, [rest.clone(), quote(Value::list(keys))]);
                 self.bind(ignored, check);
             }
             for key in &parsed.keys {
@@ -126,8 +125,7 @@ impl Bindings<'_> {
                 let found = call(known::KEY_TAIL, [rest.clone(), quote(key.keyword.into())]);
                 self.bind(tail.clone(), found);
                 if let Some(supplied) = key.parameter.supplied {
-                    let test =
-                        Value::list([known::IF.into(), tail.clone(), Value::T, Value::NIL]);
+                    let test = Value::list([known::IF.into(), tail.clone(), Value::T, Value::NIL]);
                     self.bind(supplied, test);
                 }
                 let value = Value::list([

@@ -249,7 +249,11 @@ impl Emitter<'_> {
         let boxed = var.is_boxed();
         let op = if var.owner == self.id {
             let slot = var.slot.get();
-            if boxed { Op::LocalBox(slot) } else { Op::Local(slot) }
+            if boxed {
+                Op::LocalBox(slot)
+            } else {
+                Op::Local(slot)
+            }
         } else {
             // The analysis lists every variable of an outer function that is referred to.
             let i = self.free_index(var).unwrap_or(u32::MAX);
@@ -262,7 +266,11 @@ impl Emitter<'_> {
         let boxed = var.is_boxed();
         let op = if var.owner == self.id {
             let slot = var.slot.get();
-            if boxed { Op::SetLocalBox(slot) } else { Op::SetLocal(slot) }
+            if boxed {
+                Op::SetLocalBox(slot)
+            } else {
+                Op::SetLocal(slot)
+            }
         } else {
             Op::SetFreeBox(self.free_index(var).unwrap_or(u32::MAX))
         };
@@ -471,18 +479,14 @@ impl Emitter<'_> {
         Ok(())
     }
 
-    fn emit_if(
-        &mut self,
-        test: &Node,
-        then: &Node,
-        otherwise: &Node,
-        want: Want,
-    ) -> Compiled<()> {
+    fn emit_if(&mut self, test: &Node, then: &Node, otherwise: &Node, want: Want) -> Compiled<()> {
         let negated = match test {
-            Node::Call(Target::Global(known::NOT | known::NULL), args, _) => match args.as_slice() {
-                [inner] => Some(inner),
-                _ => None,
-            },
+            Node::Call(Target::Global(known::NOT | known::NULL), args, _) => {
+                match args.as_slice() {
+                    [inner] => Some(inner),
+                    _ => None,
+                }
+            }
             _ => None,
         };
         self.emit(negated.unwrap_or(test), Want::One)?;

@@ -21,12 +21,10 @@ pub fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, B
                     let args = vec![form.clone(), Value::NIL];
                     machine::call_nested(image, function, args)?
                 }
-                FunctionCell::Builtin => {
-                    match image.operators.get(&name).and_then(|o| o.expand) {
-                        Some(expand) => expand(image, form)?,
-                        None => return Ok(None),
-                    }
-                }
+                FunctionCell::Builtin => match image.operators.get(&name).and_then(|o| o.expand) {
+                    Some(expand) => expand(image, form)?,
+                    None => return Ok(None),
+                },
                 _ => return Ok(None),
             };
             keep_place(form, &expansion);

@@ -175,22 +175,10 @@ impl Scope {
             _ => None,
         })
     }
-
-    /// Names of the lexical variables in scope, innermost first.
-    pub fn variable_names(&self) -> Vec<Sym> {
-        self.entries()
-            .filter_map(|e| match e {
-                Entry::Variable(n, _) => Some(*n),
-                _ => None,
-            })
-            .collect()
-    }
 }
 
 /// A function that is being compiled.
 pub struct FunctionContext {
-    /// Its number.
-    pub id: usize,
     /// The number of the function around it.
     pub outer: Option<usize>,
     /// Variables of outer functions that it refers to, in order of first use.

@@ -72,7 +72,11 @@ pub fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Rais
             return nested_expansion(image, &args, known::PUTF, known::GETF, 0);
         }
         known::LDB | known::MASK_FIELD => {
-            let setter = if name == known::LDB { known::DPB } else { known::DEPOSIT_FIELD };
+            let setter = if name == known::LDB {
+                known::DPB
+            } else {
+                known::DEPOSIT_FIELD
+            };
             return byte_expansion(image, &args, setter, name);
         }
         _ => {}
@@ -119,11 +123,7 @@ fn not_a_place(image: &Image, place: &Value) -> Box<Raise> {
 }
 
 /// A place that is a macro call, expanded once.
-fn expand_place(
-    image: &mut Image,
-    place: &Value,
-    name: Sym,
-) -> Result<Option<Value>, Box<Raise>> {
+fn expand_place(image: &mut Image, place: &Value, name: Sym) -> Result<Option<Value>, Box<Raise>> {
     match image.symbol(name).function {
         FunctionCell::Macro(_) | FunctionCell::Builtin => super::macroexpand_1(image, place),
         _ => Ok(None),

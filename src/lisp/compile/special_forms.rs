@@ -128,9 +128,9 @@ fn block_name(name: &Value) -> Option<Sym> {
 
 fn if_form(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
     let Some(parts) = rest.list_to_vec().filter(|p| matches!(p.len(), 2 | 3)) else {
-        return Err(c.program_error(
-            "IF takes a test, a form for true and at most one form for false.",
-        ));
+        return Err(
+            c.program_error("IF takes a test, a form for true and at most one form for false.")
+        );
     };
     let mut nodes = parts.iter().map(|p| c.analyze(p, scope));
     let mut next = || nodes.next().unwrap_or(Ok(Node::NIL));
@@ -159,15 +159,12 @@ fn and_form(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node>
     Ok(node)
 }
 
-fn let_form(
-    c: &mut Compiler<'_>,
-    rest: &Value,
-    scope: &Scope,
-    sequential: bool,
-) -> Compiled<Node> {
+fn let_form(c: &mut Compiler<'_>, rest: &Value, scope: &Scope, sequential: bool) -> Compiled<Node> {
     let body = parse_body(&rest.cdr_or_nil(), false);
     let Some(specs) = rest.car_or_nil().list_to_vec() else {
-        return Err(c.program_error("Malformed LET bindings: a list of (variable value) was expected."));
+        return Err(
+            c.program_error("Malformed LET bindings: a list of (variable value) was expected.")
+        );
     };
     let mut bindings = Vec::new();
     let mut bound = Vec::new();
@@ -264,9 +261,7 @@ pub(super) fn assign_variable(
     }
     if c.image.symbol(sym).kind == VariableKind::Constant {
         let shown = print::to_string(c.image, name, true);
-        return Err(c.program_error(format!(
-            "{shown} is a constant and thus can't be set."
-        )));
+        return Err(c.program_error(format!("{shown} is a constant and thus can't be set.")));
     }
     let value = c.analyze(form, scope)?;
     Ok(Node::SetGlobal(sym, Box::new(value)))
@@ -487,7 +482,11 @@ fn macrolet(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node>
         let (_, sym, _, lambda_list, body) = local_function(c, &spec)?;
         let lambda = super::destructure::macro_function(c.image, sym, &lambda_list, &body)?;
         let function = super::compile_lambda(c.image, &lambda).map_err(|r| r.at(c.place))?;
-        inner = inner.with(Entry::Function(sym, false, FunctionMeaning::Macro(function)));
+        inner = inner.with(Entry::Function(
+            sym,
+            false,
+            FunctionMeaning::Macro(function),
+        ));
     }
     let body = parse_body(&rest.cdr_or_nil(), false);
     c.analyze_body(&body, &[], &inner)
@@ -558,7 +557,11 @@ fn handler_bind(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<N
     let body = c.inside(DynamicKind::Plain, 1, |c| {
         c.analyze_progn(&rest.cdr_or_nil(), scope)
     })?;
-    Ok(Node::Handlers(Value::list(types), functions, Box::new(body)))
+    Ok(Node::Handlers(
+        Value::list(types),
+        functions,
+        Box::new(body),
+    ))
 }
 
 /// `(with-restarts restart-list-form body…)`.

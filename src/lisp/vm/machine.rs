@@ -952,9 +952,9 @@ fn check_keywords(image: &Image, code: &Code, more: &[Value]) -> Result<(), Box<
         return Ok(());
     }
     for pair in more.chunks_exact(2) {
-        let is_known = pair[0].as_symbol().is_some_and(|s| {
-            s == known::K_ALLOW_OTHER_KEYS || code.parameters.keys.contains(&s)
-        });
+        let is_known = pair[0]
+            .as_symbol()
+            .is_some_and(|s| s == known::K_ALLOW_OTHER_KEYS || code.parameters.keys.contains(&s));
         if !is_known {
             let shown = crate::lisp::print::to_string(image, &pair[0], true);
             return Err(Raise::program(format!("Unknown &KEY argument: {shown}")));

@@ -6,4 +6,6 @@ pub mod machine;
 pub mod restart;
 pub mod signal;
 pub mod step;
+#[cfg(test)]
+mod tests;
 mod unwind;

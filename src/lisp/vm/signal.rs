@@ -138,10 +138,7 @@ impl Signalling {
 
 impl Resume for Signalling {
     fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
-        if matches!(
-            machine.fiber.dynamic.last(),
-            Some(Dynamic::HandlerMask(_))
-        ) {
+        if matches!(machine.fiber.dynamic.last(), Some(Dynamic::HandlerMask(_))) {
             machine.fiber.dynamic.pop();
         }
         self.search(machine)
