@@ -1,6 +1,8 @@
 //! planwright: an interactive shell for programming a simulated kitchen robot in a
 //! Common-Lisp-like plan language.
 
+pub mod dialogue;
 pub mod lisp;
 pub mod reader;
 pub mod spatial;
+pub mod transcript;
