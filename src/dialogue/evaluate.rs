@@ -27,6 +27,15 @@ pub struct Abort {
     pub place: Option<Location>,
 }
 
+/// A mistake that was found without evaluating.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Finding {
+    /// What is wrong, for people.
+    pub message: String,
+    /// Where it is.
+    pub place: Option<Location>,
+}
+
 /// How the evaluation of an input ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Outcome {
@@ -45,6 +54,12 @@ pub trait Evaluate {
     /// `source_name` is the name that places in the text get.
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome;
 
+    /// Looks for mistakes in a text without running it, in the order of the text.
+    ///
+    /// What the text defines is known afterwards, so that texts that build on one another
+    /// can be checked in order.
+    fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding>;
+
     /// The name that the prompt shows: that of the current package, or a short one.
     fn prompt(&self) -> String;
 
@@ -55,6 +70,10 @@ pub trait Evaluate {
 impl<E: Evaluate + ?Sized> Evaluate for Box<E> {
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
         (**self).evaluate(source_name, text, sink)
+    }
+
+    fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
+        (**self).check(source_name, text)
     }
 
     fn prompt(&self) -> String {

@@ -6,9 +6,11 @@
 //! beyond its tokens, nor where the text is finally written to.
 
 pub mod evaluate;
+mod evaluate_on;
 pub mod prompt_line;
 pub mod scan;
 pub mod screen;
 
-pub use evaluate::{Abort, Evaluate, Event, Outcome};
+pub use evaluate::{Abort, Evaluate, Event, Finding, Outcome};
+pub use evaluate_on::{evaluate_keeping_abort, evaluate_on};
 pub use screen::Screen;

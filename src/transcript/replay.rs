@@ -11,9 +11,6 @@ use super::verdict::Verdict;
 use crate::dialogue::screen::input_name;
 use crate::dialogue::{Evaluate, Outcome, Screen};
 
-/// What a transcript's run came to: the verdicts of the entries, in order.
-pub type Actual<E> = Result<Vec<Verdict>, E>;
-
 /// Runs the inputs of a transcript one after the other.
 ///
 /// When an input leaves the evaluator, the ones after it put out nothing.
@@ -50,11 +47,14 @@ fn evaluate(evaluator: &mut impl Evaluate, name: &str, input: &str) -> (String, 
 
 /// Runs transcripts on up to `jobs` threads, each in an evaluator of its own, and tells
 /// their verdicts in the order of the transcripts, each as soon as it can be told.
+///
+/// `tell` gets the transcript and the verdicts of its entries in order, or why there is no
+/// evaluator; no further transcript is begun once it returns false.
 pub fn replay_all<V, E>(
     transcripts: &[Transcript],
     jobs: NonZeroUsize,
     open: impl Fn() -> Result<V, E> + Sync,
-    mut tell: impl FnMut(&Transcript, Actual<E>),
+    mut tell: impl FnMut(&Transcript, Result<Vec<Verdict>, E>) -> bool,
 ) where
     V: Evaluate,
     E: Send,
@@ -83,8 +83,11 @@ pub fn replay_all<V, E>(
         for (number, actual) in receiver {
             waiting.insert(number, actual);
             while let Some(actual) = waiting.remove(&told) {
-                if let Some(transcript) = transcripts.get(told) {
-                    tell(transcript, actual);
+                let goes_on = transcripts
+                    .get(told)
+                    .is_some_and(|transcript| tell(transcript, actual));
+                if !goes_on {
+                    next.store(transcripts.len(), Ordering::Relaxed);
                 }
                 told += 1;
             }
