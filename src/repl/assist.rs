@@ -1,6 +1,7 @@
 //! What the line editor asks about the text being typed.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -16,7 +17,18 @@ use super::pasted::Inputs;
 
 /// Tells whether an input is whole, and colours it.
 pub(super) struct Assist {
-    pub(super) colored: bool,
+    colored: bool,
+    /// The input is being left as it is: nothing stands out at the cursor any more.
+    is_settled: Cell<bool>,
+}
+
+impl Assist {
+    pub(super) fn new(colored: bool) -> Self {
+        Assist {
+            colored,
+            is_settled: Cell::new(false),
+        }
+    }
 }
 
 impl Helper for Assist {}
@@ -42,7 +54,8 @@ impl Validator for Assist {
 impl Highlighter for Assist {
     fn highlight<'l>(&self, line: &'l str, pos: usize) -> Cow<'l, str> {
         if self.colored {
-            Cow::Owned(highlighted(line, pos))
+            let cursor = (!self.is_settled.get()).then_some(pos);
+            Cow::Owned(highlighted(line, cursor))
         } else {
             Cow::Borrowed(line)
         }
@@ -56,7 +69,8 @@ impl Highlighter for Assist {
         }
     }
 
-    fn highlight_char(&self, _: &str, _: usize, _: CmdKind) -> bool {
+    fn highlight_char(&self, _: &str, _: usize, kind: CmdKind) -> bool {
+        self.is_settled.set(kind == CmdKind::ForcedRefresh);
         self.colored
     }
 }

@@ -33,7 +33,7 @@ impl LineEditor {
             })
             .build();
         let mut editor = Editor::with_config(config)?;
-        editor.set_helper(Some(Assist { colored }));
+        editor.set_helper(Some(Assist::new(colored)));
         let prompt_width = Arc::new(AtomicUsize::new(0));
         let enter = Enter {
             prompt_width: Arc::clone(&prompt_width),

@@ -11,7 +11,7 @@ const UNMATCHED: &str = "\x1b[31m";
 const RESET: &str = "\x1b[0m";
 
 /// The text with escape sequences; the parentheses at the cursor stand out.
-pub(super) fn highlighted(text: &str, cursor: usize) -> String {
+pub(super) fn highlighted(text: &str, cursor: Option<usize>) -> String {
     let pieces: Vec<Piece> = pieces(text).collect();
     let parentheses = Parentheses::of(&pieces, cursor);
     let mut colored = String::with_capacity(text.len() * 2);
@@ -51,7 +51,7 @@ struct Parentheses {
 
 impl Parentheses {
     /// Those at the cursor are the pair one of which the cursor is on, or right behind.
-    fn of(pieces: &[Piece], cursor: usize) -> Self {
+    fn of(pieces: &[Piece], cursor: Option<usize>) -> Self {
         let mut open: Vec<usize> = Vec::new();
         let mut found = Parentheses {
             at_cursor: None,
@@ -62,8 +62,8 @@ impl Parentheses {
                 Kind::Open => open.push(piece.end),
                 Kind::Close => match open.pop() {
                     Some(start) => {
-                        let on = |end: usize| end == cursor + 1;
-                        if on(start) || on(piece.end) || piece.end == cursor {
+                        let on = |end: usize| cursor.is_some_and(|cursor| end == cursor + 1);
+                        if on(start) || on(piece.end) || Some(piece.end) == cursor {
                             // The pair right behind which the cursor is comes first; the
                             // one it is on, later in the text, takes precedence.
                             found.at_cursor = Some((start, piece.end));
@@ -95,7 +95,7 @@ mod tests {
 
     /// With the colours as letters in braces.
     fn shown(text: &str, cursor: usize) -> String {
-        let mut shown = highlighted(text, cursor);
+        let mut shown = highlighted(text, Some(cursor));
         for (code, name) in [
             (STRING, "{s}"),
             (COMMENT, "{c}"),
@@ -124,6 +124,11 @@ mod tests {
         assert_eq!(shown("(a (b))", 6), "{m}({}a (b){m}){}");
         assert_eq!(shown("(a (b)", 6), "(a {m}({}b{m}){}");
         assert_eq!(shown("(\")\")", 5), "{m}({}{s}\")\"{}{m}){}");
+    }
+
+    #[test]
+    fn without_a_cursor_no_pair_stands_out() {
+        assert_eq!(highlighted("(a)", None), "(a)");
     }
 
     #[test]

@@ -63,12 +63,10 @@ pub fn run(mut evaluator: impl Evaluate, colored: bool) -> Result<u8, ReplError>
             Err(error) => return Err(error.into()),
         };
         let inputs = Inputs::of(&text);
-        if inputs.output_lines > 0 {
-            writeln!(
-                io::stdout(),
-                "; pasted output is left out: {} lines",
-                inputs.output_lines
-            )?;
+        match inputs.output_lines {
+            0 => {}
+            1 => writeln!(io::stdout(), "; 1 line of pasted output is left out")?,
+            n => writeln!(io::stdout(), "; {n} lines of pasted output are left out")?,
         }
         // An interrupt ends the rest of what was pasted, too.
         interrupt.store(false, Ordering::Relaxed);
