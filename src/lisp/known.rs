@@ -107,6 +107,10 @@ known! {
         HASH_TABLE = "HASH-TABLE", STREAM = "STREAM", PACKAGE = "PACKAGE", PATHNAME = "PATHNAME", RANDOM_STATE = "RANDOM-STATE", READTABLE = "READTABLE", RESTART = "RESTART",
         COMPILED_FUNCTION = "COMPILED-FUNCTION", ATOM = "ATOM", UNSIGNED_BYTE = "UNSIGNED-BYTE", SIGNED_BYTE = "SIGNED-BYTE", MOD = "MOD", MEMBER = "MEMBER",
         SATISFIES = "SATISFIES",
+        // Operations that arithmetic conditions name
+        FLOOR = "FLOOR", CEILING = "CEILING", TRUNCATE = "TRUNCATE", ROUND = "ROUND", EXPT = "EXPT", SQRT = "SQRT", LOG = "LOG", EXP = "EXP",
+        SIN = "SIN", COS = "COS", TAN = "TAN", ASIN = "ASIN", ACOS = "ACOS", ATAN = "ATAN", SINH = "SINH", COSH = "COSH", TANH = "TANH",
+        ASINH = "ASINH", ACOSH = "ACOSH", ATANH = "ATANH", SCALE_FLOAT = "SCALE-FLOAT",
     }
     KEYWORD {
         K_DATUM = "DATUM", K_EXPECTED_TYPE = "EXPECTED-TYPE", K_NAME = "NAME", K_FORMAT_CONTROL = "FORMAT-CONTROL",
@@ -143,5 +147,25 @@ pub(super) fn intern_all(symbols: &mut SymbolTable, packages: &mut PackageTable)
     for (package, name) in TABLE {
         let sym = packages.intern(symbols, *package, name);
         packages.export(symbols, *package, sym);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_constant_names_its_own_symbol() {
+        let mut symbols = SymbolTable::new();
+        let mut packages = PackageTable::default();
+        for name in ["COMMON-LISP", "KEYWORD", "COMMON-LISP-USER", "SYSTEM"] {
+            packages.make(name, &[]);
+        }
+        intern_all(&mut symbols, &mut packages);
+        // A name listed twice would shift the symbols after it.
+        for ((package, name), (_, data)) in TABLE.iter().zip(symbols.iter()) {
+            assert_eq!((data.package, data.name.as_ref()), (Some(*package), *name));
+        }
+        assert_eq!(symbols.len(), TABLE.len());
     }
 }

@@ -1,1 +1,4 @@
-//! The printer.
+//! To come.
+
+#[cfg(test)]
+pub(crate) mod test_image;
