@@ -5,9 +5,8 @@ use std::io::{self, BufRead};
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
 use super::open::open;
-use crate::dialogue::scan::is_complete;
 use crate::dialogue::screen::input_name;
-use crate::dialogue::{Evaluate, Outcome, Screen, evaluate_on};
+use crate::dialogue::{Evaluate, Outcome, Screen, evaluate_on, is_whole};
 
 /// Takes inputs as the prompt would, each as soon as it is whole, and prints what the
 /// prompt would print. Goes on after a condition that nobody handled.
@@ -28,7 +27,7 @@ fn evaluate_lines(
     let mut number = 0;
     loop {
         let at_end = read_line(&mut lines, &mut text)? == 0;
-        if !at_end && !is_complete(&text) {
+        if !at_end && !is_whole(&text) {
             continue;
         }
         if !text.trim().is_empty() {

@@ -7,10 +7,11 @@
 
 pub mod evaluate;
 mod evaluate_on;
+mod input;
 pub mod prompt_line;
-pub mod scan;
 pub mod screen;
 
 pub use evaluate::{Abort, Evaluate, Event, Finding, Outcome};
 pub use evaluate_on::{evaluate_keeping_abort, evaluate_on};
+pub use input::is_whole;
 pub use screen::Screen;

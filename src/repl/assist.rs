@@ -43,7 +43,7 @@ impl Completer for Assist {
 
 impl Validator for Assist {
     fn validate(&self, context: &mut ValidationContext<'_>) -> Result<ValidationResult> {
-        Ok(if Inputs::of(context.input()).are_complete() {
+        Ok(if Inputs::of(context.input()).are_whole() {
             ValidationResult::Valid(None)
         } else {
             ValidationResult::Incomplete
@@ -90,7 +90,7 @@ impl ConditionalEventHandler for Enter {
         context: &EventContext<'_>,
     ) -> Option<Cmd> {
         let line = context.line();
-        if Inputs::of(line).are_complete() {
+        if Inputs::of(line).are_whole() {
             return None;
         }
         let before = line.get(..context.pos())?;

@@ -1,6 +1,6 @@
 //! Colours an input while it is typed.
 
-use crate::dialogue::scan::{Kind, Piece, pieces};
+use crate::reader::{Lexer, Token, TokenKind};
 
 const STRING: &str = "\x1b[32m";
 const COMMENT: &str = "\x1b[2m";
@@ -12,14 +12,14 @@ const RESET: &str = "\x1b[0m";
 
 /// The text with escape sequences; the parentheses at the cursor stand out.
 pub(super) fn highlighted(text: &str, cursor: Option<usize>) -> String {
-    let pieces: Vec<Piece> = pieces(text).collect();
-    let parentheses = Parentheses::of(&pieces, cursor);
+    let tokens: Vec<Token> = Lexer::new(text).collect();
+    let parentheses = Parentheses::of(&tokens, cursor);
     let mut colored = String::with_capacity(text.len() * 2);
     let mut at = 0;
-    for piece in &pieces {
-        colored.push_str(text.get(at..piece.start).unwrap_or(""));
-        let part = text.get(piece.start..piece.end).unwrap_or("");
-        match parentheses.color(piece).or_else(|| color(piece.kind, part)) {
+    for token in &tokens {
+        colored.push_str(text.get(at..token.start).unwrap_or(""));
+        let part = text.get(token.start..token.end).unwrap_or("");
+        match parentheses.color(token).or_else(|| color(token.kind, part)) {
             Some(color) => {
                 colored.push_str(color);
                 colored.push_str(part);
@@ -27,18 +27,18 @@ pub(super) fn highlighted(text: &str, cursor: Option<usize>) -> String {
             }
             None => colored.push_str(part),
         }
-        at = piece.end;
+        at = token.end;
     }
     colored.push_str(text.get(at..).unwrap_or(""));
     colored
 }
 
-fn color(kind: Kind, text: &str) -> Option<&'static str> {
+fn color(kind: TokenKind, text: &str) -> Option<&'static str> {
     match kind {
-        Kind::String | Kind::Character => Some(STRING),
-        Kind::Comment => Some(COMMENT),
-        Kind::Atom if text.starts_with(':') => Some(KEYWORD),
-        Kind::Atom if text.starts_with('?') => Some(VARIABLE),
+        TokenKind::String | TokenKind::Character => Some(STRING),
+        TokenKind::LineComment | TokenKind::BlockComment => Some(COMMENT),
+        TokenKind::Atom if text.starts_with(':') => Some(KEYWORD),
+        TokenKind::Atom if text.starts_with('?') => Some(VARIABLE),
         _ => None,
     }
 }
@@ -51,25 +51,25 @@ struct Parentheses {
 
 impl Parentheses {
     /// Those at the cursor are the pair one of which the cursor is on, or right behind.
-    fn of(pieces: &[Piece], cursor: Option<usize>) -> Self {
+    fn of(tokens: &[Token], cursor: Option<usize>) -> Self {
         let mut open: Vec<usize> = Vec::new();
         let mut found = Parentheses {
             at_cursor: None,
             unmatched: Vec::new(),
         };
-        for piece in pieces {
-            match piece.kind {
-                Kind::Open => open.push(piece.end),
-                Kind::Close => match open.pop() {
+        for token in tokens {
+            match token.kind {
+                TokenKind::Open | TokenKind::Dispatch { letter: '(', .. } => open.push(token.end),
+                TokenKind::Close => match open.pop() {
                     Some(start) => {
                         let on = |end: usize| cursor.is_some_and(|cursor| end == cursor + 1);
-                        if on(start) || on(piece.end) || Some(piece.end) == cursor {
+                        if on(start) || on(token.end) || Some(token.end) == cursor {
                             // The pair right behind which the cursor is comes first; the
                             // one it is on, later in the text, takes precedence.
-                            found.at_cursor = Some((start, piece.end));
+                            found.at_cursor = Some((start, token.end));
                         }
                     }
-                    None => found.unmatched.push(piece.end),
+                    None => found.unmatched.push(token.end),
                 },
                 _ => {}
             }
@@ -77,15 +77,12 @@ impl Parentheses {
         found
     }
 
-    fn color(&self, piece: &Piece) -> Option<&'static str> {
-        if !matches!(piece.kind, Kind::Open | Kind::Close) {
-            return None;
-        }
-        if self.unmatched.contains(&piece.end) {
+    fn color(&self, token: &Token) -> Option<&'static str> {
+        if self.unmatched.binary_search(&token.end).is_ok() {
             return Some(UNMATCHED);
         }
         let (open, close) = self.at_cursor?;
-        (piece.end == open || piece.end == close).then_some(MATCHING)
+        (token.end == open || token.end == close).then_some(MATCHING)
     }
 }
 

@@ -1,6 +1,6 @@
 //! How far a further line of an input is indented.
 
-use crate::dialogue::scan::{Kind, pieces};
+use crate::reader::{Lexer, TokenKind};
 
 /// Blanks to begin the line with that follows `before`, whose first line stands
 /// `first_column` characters to the right, behind the prompt.
@@ -12,31 +12,46 @@ pub(super) fn indentation(before: &str, first_column: usize) -> usize {
     let mut lists: Vec<List<'_>> = Vec::new();
     let mut prefixed = None;
     let mut cursor = Cursor::new(before, first_column);
-    for piece in pieces(before) {
-        if !piece.closed {
+    for token in Lexer::new(before) {
+        if !token.is_closed {
             return 0;
         }
-        let (line, column) = cursor.advance(piece.start);
+        let (line, column) = cursor.advance(token.start);
         let start = prefixed.unwrap_or((line, column));
-        match piece.kind {
-            Kind::Comment => continue,
-            Kind::Prefix => {
-                prefixed = Some(start);
-                continue;
-            }
-            Kind::Close => {
+        match token.kind {
+            TokenKind::LineComment | TokenKind::BlockComment => continue,
+            TokenKind::Close => {
                 lists.pop();
             }
-            Kind::Open | Kind::String | Kind::Character | Kind::Atom => {
-                let text = before.get(piece.start..piece.end).unwrap_or("");
+            TokenKind::Open
+            | TokenKind::String
+            | TokenKind::Character
+            | TokenKind::Atom
+            | TokenKind::Prefixed { .. } => {
+                let is_name = token.kind == TokenKind::Atom && prefixed.is_none();
+                let name = before.get(token.start..token.end).filter(|_| is_name);
                 if let Some(list) = lists.last_mut() {
-                    let name = (piece.kind == Kind::Atom && prefixed.is_none()).then_some(text);
                     list.element(name, start);
                 }
-                if piece.kind == Kind::Open {
-                    let is_data = prefixed.is_some() || text == "#(";
-                    lists.push(List::new(line, column + text.len() - 1, is_data));
+                if token.kind == TokenKind::Open {
+                    lists.push(List::new(line, column, prefixed.is_some()));
                 }
+            }
+            TokenKind::Dispatch { letter: '(', .. } => {
+                if let Some(list) = lists.last_mut() {
+                    list.element(None, start);
+                }
+                let length = token.end - token.start;
+                lists.push(List::new(line, column + length - 1, true));
+            }
+            TokenKind::Quote
+            | TokenKind::Backquote
+            | TokenKind::Comma
+            | TokenKind::CommaAt
+            | TokenKind::CommaDot
+            | TokenKind::Dispatch { .. } => {
+                prefixed = Some(start);
+                continue;
             }
         }
         prefixed = None;

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
+use crate::dialogue::is_whole;
 use crate::dialogue::prompt_line::prompt_line;
-use crate::dialogue::scan::is_complete;
 use crate::transcript::Transcript;
 
 /// The inputs in a text at the prompt.
@@ -41,8 +41,8 @@ impl<'a> Inputs<'a> {
     }
 
     /// Nothing more has to be typed.
-    pub(super) fn are_complete(&self) -> bool {
-        self.inputs.last().is_none_or(|input| is_complete(input))
+    pub(super) fn are_whole(&self) -> bool {
+        self.inputs.last().is_none_or(|input| is_whole(input))
     }
 }
 
@@ -52,7 +52,7 @@ fn first_prompt(text: &str) -> Option<usize> {
     for line in text.split_inclusive('\n') {
         if prompt_line(line.trim_end_matches(['\r', '\n'])).is_some() {
             let before = text.get(..start)?;
-            return is_complete(before).then_some(start);
+            return is_whole(before).then_some(start);
         }
         start += line.len();
     }
@@ -110,8 +110,8 @@ mod tests {
 
     #[test]
     fn the_last_input_has_to_be_whole() {
-        assert!(Inputs::of("A> (a)\nA> (b)").are_complete());
-        assert!(!Inputs::of("A> (a)\nA> (b").are_complete());
-        assert!(Inputs::of("").are_complete());
+        assert!(Inputs::of("A> (a)\nA> (b)").are_whole());
+        assert!(!Inputs::of("A> (a)\nA> (b").are_whole());
+        assert!(Inputs::of("").are_whole());
     }
 }

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::markdown::session_blocks;
+use crate::dialogue::is_whole;
 use crate::dialogue::prompt_line::{PromptLine, prompt_line};
-use crate::dialogue::scan::is_complete;
 
 /// A file of inputs with the output that is expected for each.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -75,7 +75,7 @@ fn entries(lines: &[String], block: Range<usize>) -> Vec<Entry> {
 fn entry(lines: &[String], number: usize, first: &str, end: usize) -> Entry {
     let mut input = first.to_owned();
     let mut next = number + 1;
-    while !is_complete(&input) {
+    while !is_whole(&input) {
         let Some(line) = lines.get(next).filter(|_| next < end) else {
             break;
         };
