@@ -26,6 +26,8 @@ use arguments::{Arguments, Command};
 use failure::{CommandError, Status};
 use paint::Paint;
 
+pub use open::open_default;
+
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();

@@ -3,13 +3,21 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::arguments::Options;
+use clap::Parser;
+
+use super::arguments::{Arguments, Options};
 use super::failure::CommandError;
 use crate::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
 
 /// A fresh evaluator with a world of its own.
 pub(super) fn open(_options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {
     Ok(Box::new(Echo::default()))
+}
+
+/// A fresh evaluator as a command line without options has it.
+pub fn open_default() -> Result<Box<dyn Evaluate>, String> {
+    let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;
+    open(&arguments.options).map_err(|error| error.to_string())
 }
 
 /// Stands in until the session is there: gives each input back as its value.

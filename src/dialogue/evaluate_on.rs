@@ -59,3 +59,69 @@ fn evaluate_events<W: Write>(
     screen.flush()?;
     Ok(outcome)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Finding;
+    use super::*;
+    use std::sync::Arc;
+    use std::sync::atomic::AtomicBool;
+
+    /// Puts out its input again and again until it is interrupted.
+    #[derive(Default)]
+    struct Endless {
+        interrupt: Arc<AtomicBool>,
+        rounds: usize,
+    }
+
+    impl Evaluate for Endless {
+        fn evaluate(&mut self, _: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
+            while !self.interrupt.load(Ordering::Relaxed) {
+                self.rounds += 1;
+                sink(Event::Output(text.to_owned()));
+            }
+            Outcome::Aborted
+        }
+
+        fn check(&mut self, _: &str, _: &str) -> Vec<Finding> {
+            Vec::new()
+        }
+
+        fn prompt(&self) -> String {
+            String::new()
+        }
+
+        fn interrupt_handle(&self) -> Arc<AtomicBool> {
+            Arc::clone(&self.interrupt)
+        }
+    }
+
+    /// Takes a few bytes, then nobody listens any more.
+    struct Closing {
+        room: usize,
+    }
+
+    impl Write for Closing {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            if self.room < bytes.len() {
+                return Err(io::ErrorKind::BrokenPipe.into());
+            }
+            self.room -= bytes.len();
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn when_nobody_listens_the_evaluation_is_interrupted() {
+        let mut endless = Endless::default();
+        let mut screen = Screen::new(Closing { room: 5 });
+        let ended = evaluate_on(&mut screen, &mut endless, "prompt[1]", "ab");
+        let kind = ended.map_err(|error| error.kind());
+        assert_eq!(kind, Err(io::ErrorKind::BrokenPipe));
+        assert_eq!(endless.rounds, 3);
+    }
+}

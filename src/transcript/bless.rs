@@ -56,6 +56,7 @@ fn new_lines(difference: &Difference) -> Vec<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     /// Blesses a transcript with the given outputs of its entries.
     fn bless(text: &str, outputs: &[&str]) -> String {
@@ -99,5 +100,32 @@ mod tests {
     fn blessing_twice_changes_nothing() {
         let once = bless("A> x\n1\n...\n2\n", &["3\n4\n"]);
         assert_eq!(bless(&once, &["3\n4\n"]), once);
+    }
+
+    proptest! {
+        #[test]
+        fn a_blessed_transcript_passes(
+            entries in proptest::collection::vec(
+                (
+                    proptest::collection::vec("a|b|ab||\\.\\.\\.|a\\[\\.\\.\\]", 0..6),
+                    proptest::collection::vec("a|b|ab||a b ", 0..6),
+                ),
+                1..4,
+            ),
+        ) {
+            let text: String = entries
+                .iter()
+                .map(|(expected, _)| format!("A> x\n{}\n\n", expected.join("\n")))
+                .collect();
+            let outputs: Vec<String> = entries.iter().map(|(_, lines)| lines.join("\n")).collect();
+            let outputs: Vec<&str> = outputs.iter().map(String::as_str).collect();
+            let blessed = bless(&text, &outputs);
+            prop_assert_eq!(bless(&blessed, &outputs), blessed.clone());
+            let transcript = Transcript::parse("a.transcript", &blessed);
+            prop_assert_eq!(transcript.entries.len(), outputs.len());
+            for (entry, output) in transcript.entries.iter().zip(outputs) {
+                prop_assert!(Verdict::of(entry, output).passed());
+            }
+        }
     }
 }
