@@ -6,5 +6,6 @@ pub mod dialogue;
 pub mod lisp;
 pub mod reader;
 pub mod repl;
+pub mod session;
 pub mod spatial;
 pub mod transcript;
