@@ -2,13 +2,16 @@
 
 pub mod array_index;
 pub mod calls;
+pub mod conditions;
 pub mod criterion;
+pub mod generic_functions;
 pub mod keywords;
 pub mod list_search;
 pub mod list_sets;
 pub mod list_trees;
 pub mod lists;
 pub mod mapping;
+pub mod objects;
 pub mod pairs;
 pub mod property_lists;
 pub mod sequence;
