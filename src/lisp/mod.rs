@@ -20,6 +20,7 @@ pub mod object;
 pub mod package;
 pub mod print;
 pub mod raise;
+mod setup;
 pub mod slot;
 pub mod stream;
 pub mod string;

@@ -1,10 +1,13 @@
 //! The builtin functions: one table per topic.
 
+pub mod arguments;
 pub mod array_index;
 pub mod calls;
 pub mod conditions;
 pub mod criterion;
 pub mod generic_functions;
+pub mod definitions;
+pub mod evaluation;
 pub mod keywords;
 pub mod list_search;
 pub mod list_sets;
@@ -14,6 +17,7 @@ pub mod mapping;
 pub mod objects;
 pub mod pairs;
 pub mod property_lists;
+pub mod registry;
 pub mod sequence;
 pub mod sequence_access;
 pub mod sequence_change;
@@ -23,5 +27,6 @@ pub mod sequence_map;
 pub mod sequence_search;
 pub mod sequence_types;
 pub mod shown;
+pub mod signalling;
 pub mod sort;
 pub mod types;

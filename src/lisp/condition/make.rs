@@ -30,6 +30,7 @@ pub fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
             class,
             report,
             initargs,
+            ..
         } => (*class, report, initargs),
     };
     let class = condition_class(image, class)?;

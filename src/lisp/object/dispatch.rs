@@ -279,6 +279,7 @@ fn no_applicable_method(
 /// The error that no method of a generic function applies.
 pub fn no_applicable_method_error(function: Value, args: Vec<Value>) -> Box<Raise> {
     Box::new(Raise::Make {
+        place: crate::reader::source::Place::NONE,
         class: known::NO_APPLICABLE_METHOD_ERROR,
         report: None,
         initargs: vec![
