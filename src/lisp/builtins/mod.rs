@@ -3,7 +3,9 @@
 pub mod arguments;
 pub mod array_index;
 pub mod calls;
+pub mod conditions;
 pub mod criterion;
+pub mod generic_functions;
 pub mod definitions;
 pub mod evaluation;
 pub mod keywords;
@@ -12,6 +14,7 @@ pub mod list_sets;
 pub mod list_trees;
 pub mod lists;
 pub mod mapping;
+pub mod objects;
 pub mod pairs;
 pub mod property_lists;
 pub mod registry;

@@ -7,14 +7,18 @@ pub mod access;
 pub mod builtin_classes;
 pub mod class_of;
 pub mod combine;
+pub mod defclass;
 pub mod define;
+pub mod defmethod;
 pub mod dispatch;
 pub mod effective;
 pub mod fill;
+pub mod form;
 pub mod instance;
 pub mod method;
 pub mod parameters;
 pub mod precedence;
+pub mod slot_options;
 pub mod update;
 
 pub use class_of::class_of;
