@@ -2,6 +2,7 @@
 
 pub mod array_index;
 pub mod calls;
+pub mod characters;
 pub mod criterion;
 pub mod keywords;
 pub mod list_search;
@@ -21,3 +22,5 @@ pub mod sequence_search;
 pub mod sequence_types;
 pub mod shown;
 pub mod sort;
+pub mod string_compare;
+pub mod strings;
