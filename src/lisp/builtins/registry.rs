@@ -8,13 +8,18 @@ use crate::lisp::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
 pub static FUNCTIONS: &[&[Builtin]] = &[
+    characters::COMPARISONS,
+    characters::TABLE,
+    conditions::TABLE,
     definitions::TABLE,
     evaluation::TABLE,
+    generic_functions::TABLE,
     list_search::TABLE,
     list_sets::TABLE,
     list_trees::TABLE,
     lists::TABLE,
     mapping::TABLE,
+    objects::TABLE,
     pairs::TABLE,
     property_lists::TABLE,
     sequence_access::TABLE,
@@ -25,6 +30,8 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     sequence_search::TABLE,
     signalling::TABLE,
     sort::TABLE,
+    string_compare::TABLE,
+    strings::TABLE,
     types::TABLE,
 ];
 
@@ -32,6 +39,8 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
 pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
+    generic_functions::SYSTEM_TABLE,
+    objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
@@ -42,6 +51,7 @@ pub static SETTERS: &[&[Builtin]] = &[
     pairs::SETTERS,
     property_lists::SETTERS,
     sequence_access::SETTERS,
+    strings::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
