@@ -1,0 +1,6 @@
+//! Conditions: the standard classes, making objects of them, and their texts.
+
+pub mod classes;
+pub mod make;
+
+pub use make::{Draft, draft, make, make_condition, report};
