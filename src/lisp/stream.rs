@@ -1,11 +1,30 @@
-//! Streams: string streams, and the session's standard output.
+//! Streams of characters: string streams, files, combinations of streams, and the
+//! session's standard output.
+//!
+//! All text that a program writes goes through [`write`]; nothing else prints. Reading at
+//! the end gives `None`; who reads decides whether that is an error.
 
 use std::cell::RefCell;
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::rc::Rc;
+
+use super::image::Image;
+use super::known;
+use super::raise::Raise;
+use super::string::LispString;
+use super::symbol::Sym;
+use super::value::Value;
+
+/// How deep streams may be made of other streams.
+pub const MAX_NESTING: u32 = 100;
 
 /// A stream.
 pub struct Stream {
     /// What stands behind it.
     pub kind: RefCell<StreamKind>,
+    /// How many levels of other streams it is made of.
+    nesting: u32,
 }
 
 /// What stands behind a stream.
@@ -19,32 +38,555 @@ pub enum StreamKind {
         /// Text written so far.
         text: String,
     },
-    /// Collects what is written in a string with a fill pointer.
+    /// Appends what is written to a string with a fill pointer.
     StringTarget {
         /// The string.
-        string: std::rc::Rc<super::string::LispString>,
+        string: Rc<LispString>,
     },
-    /// Gives characters of a text.
+    /// Gives the characters of a text: a string, or the contents of a file.
     StringInput {
-        /// The text's characters.
-        chars: Vec<char>,
-        /// Position of the next character.
+        /// The text.
+        text: Rc<str>,
+        /// Byte offset of the next character.
+        position: usize,
+    },
+    /// Writes a file.
+    FileOutput {
+        /// The open file.
+        file: BufWriter<File>,
+        /// Number of characters on the current line.
+        column: usize,
+        /// Number of bytes written.
+        position: u64,
+    },
+    /// Reads and writes the bytes of a file.
+    FileBytes {
+        /// All bytes, for input.
+        bytes: Rc<[u8]>,
+        /// Index of the next byte.
         position: usize,
     },
     /// Writes to several streams.
     Broadcast {
         /// The streams.
-        targets: Vec<super::value::Value>,
+        targets: Vec<Rc<Stream>>,
+    },
+    /// Reads several streams one after the other.
+    Concatenated {
+        /// The streams that are not used up, the next one first.
+        inputs: Vec<Rc<Stream>>,
+    },
+    /// Reads one stream and writes another.
+    TwoWay {
+        /// Where characters come from.
+        input: Rc<Stream>,
+        /// Where characters go to.
+        output: Rc<Stream>,
+        /// Is what was read written too?
+        echo: bool,
+        /// A character given back, which is not echoed again.
+        unread: Option<char>,
+    },
+    /// Stands for the stream that is the value of a variable.
+    Synonym {
+        /// The variable.
+        symbol: Sym,
     },
     /// Closed.
     Closed,
 }
 
 impl Stream {
-    /// A stream of a kind.
+    /// A stream of a kind that is not made of other streams.
     pub fn new(kind: StreamKind) -> Stream {
         Stream {
             kind: RefCell::new(kind),
+            nesting: 0,
         }
+    }
+
+    /// A stream that is made of others.
+    pub fn compound(kind: StreamKind, parts: &[Rc<Stream>]) -> Result<Stream, Box<Raise>> {
+        let nesting = parts.iter().map(|p| p.nesting).max().unwrap_or(0) + 1;
+        if nesting > MAX_NESTING {
+            return Err(Raise::new(
+                known::STREAM_ERROR,
+                format!("Streams may be nested at most {MAX_NESTING} deep."),
+            ));
+        }
+        Ok(Stream {
+            kind: RefCell::new(kind),
+            nesting,
+        })
+    }
+
+    /// A stream that gives the characters of a text.
+    pub fn from_text(text: impl Into<Rc<str>>) -> Stream {
+        Stream::new(StreamKind::StringInput {
+            text: text.into(),
+            position: 0,
+        })
+    }
+
+    /// A stream that collects what is written.
+    pub fn to_text() -> Stream {
+        Stream::new(StreamKind::StringOutput {
+            text: String::new(),
+        })
+    }
+
+    /// Takes the text that a string output stream has collected; none of another kind.
+    pub fn take_text(&self) -> Option<String> {
+        match &mut *self.kind.borrow_mut() {
+            StreamKind::StringOutput { text } => Some(std::mem::take(text)),
+            _ => None,
+        }
+    }
+
+    /// Can the stream be read?
+    pub fn is_input(&self) -> bool {
+        matches!(
+            &*self.kind.borrow(),
+            StreamKind::StandardInput
+                | StreamKind::StringInput { .. }
+                | StreamKind::FileBytes { .. }
+                | StreamKind::Concatenated { .. }
+                | StreamKind::TwoWay { .. }
+                | StreamKind::Synonym { .. }
+        )
+    }
+
+    /// Can the stream be written?
+    pub fn is_output(&self) -> bool {
+        matches!(
+            &*self.kind.borrow(),
+            StreamKind::StandardOutput
+                | StreamKind::StringOutput { .. }
+                | StreamKind::StringTarget { .. }
+                | StreamKind::FileOutput { .. }
+                | StreamKind::Broadcast { .. }
+                | StreamKind::TwoWay { .. }
+                | StreamKind::Synonym { .. }
+        )
+    }
+}
+
+/// Defines the standard stream variables.
+pub fn install(image: &mut Image) {
+    let input = Rc::new(Stream::new(StreamKind::StandardInput));
+    let output = Rc::new(Stream::new(StreamKind::StandardOutput));
+    let both = || {
+        Value::Stream(Rc::new(Stream {
+            kind: RefCell::new(StreamKind::TwoWay {
+                input: input.clone(),
+                output: output.clone(),
+                echo: false,
+                unread: None,
+            }),
+            nesting: 1,
+        }))
+    };
+    image.define_special(known::V_STANDARD_INPUT, Value::Stream(input.clone()));
+    for name in [
+        known::V_STANDARD_OUTPUT,
+        known::V_ERROR_OUTPUT,
+        known::V_TRACE_OUTPUT,
+    ] {
+        image.define_special(name, Value::Stream(output.clone()));
+    }
+    for name in [known::V_TERMINAL_IO, known::V_QUERY_IO, known::V_DEBUG_IO] {
+        image.define_special(name, both());
+    }
+}
+
+/// The stream that a designator for an output stream means: `NIL` is
+/// `*standard-output*`, `T` is `*terminal-io*`.
+pub fn output_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
+    designated(image, designator, known::V_STANDARD_OUTPUT)
+}
+
+/// The stream that a designator for an input stream means: `NIL` is `*standard-input*`,
+/// `T` is `*terminal-io*`.
+pub fn input_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
+    designated(image, designator, known::V_STANDARD_INPUT)
+}
+
+fn designated(image: &Image, designator: &Value, default: Sym) -> Result<Rc<Stream>, Box<Raise>> {
+    let mut value = match designator {
+        Value::Symbol(known::NIL) => image.special(default),
+        Value::Symbol(known::T) => image.special(known::V_TERMINAL_IO),
+        other => other,
+    };
+    // A synonym stream stands for a variable's value, which may be another one.
+    for _ in 0..MAX_NESTING {
+        let Value::Stream(stream) = value else {
+            return Err(Raise::type_error(value, known::STREAM));
+        };
+        match &*stream.kind.borrow() {
+            StreamKind::Synonym { symbol } => value = image.special(*symbol),
+            _ => return Ok(stream.clone()),
+        }
+    }
+    Err(endless_synonym(value))
+}
+
+fn endless_synonym(stream: &Value) -> Box<Raise> {
+    Raise::new(
+        known::STREAM_ERROR,
+        "A synonym stream stands for itself; bind its variable to another stream.",
+    )
+    .with(known::K_STREAM, stream.clone())
+}
+
+/// The stream that a stream stands for: the value of a synonym's variable, else itself.
+fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>, Box<Raise>> {
+    designated(image, &Value::Stream(stream.clone()), known::NIL)
+}
+
+/// Writes a text to the stream that a designator means.
+pub fn write(image: &mut Image, designator: &Value, text: &str) -> Result<(), Box<Raise>> {
+    let stream = output_stream(image, designator)?;
+    write_to(image, &stream, text, 0)
+}
+
+fn write_to(
+    image: &mut Image,
+    stream: &Rc<Stream>,
+    text: &str,
+    depth: u32,
+) -> Result<(), Box<Raise>> {
+    if depth > MAX_NESTING {
+        return Err(endless_synonym(&Value::Stream(stream.clone())));
+    }
+    let stream = &followed(image, stream)?;
+    let targets = match &mut *stream.kind.borrow_mut() {
+        StreamKind::StandardOutput => {
+            image.output.write(text);
+            return Ok(());
+        }
+        StreamKind::StringOutput { text: collected } => {
+            collected.push_str(text);
+            return Ok(());
+        }
+        StreamKind::StringTarget { string } => {
+            text.chars().for_each(|c| string.push(c));
+            return Ok(());
+        }
+        StreamKind::FileOutput {
+            file,
+            column,
+            position,
+        } => {
+            *column = column_after(text, *column);
+            *position += text.len() as u64;
+            return file
+                .write_all(text.as_bytes())
+                .map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string()));
+        }
+        StreamKind::Broadcast { targets } => targets.clone(),
+        StreamKind::TwoWay { output, .. } => vec![output.clone()],
+        StreamKind::Closed => return Err(closed(stream)),
+        _ => return Err(not_usable(stream, "OUTPUT-STREAM-P", image)),
+    };
+    for target in targets {
+        write_to(image, &target, text, depth + 1)?;
+    }
+    Ok(())
+}
+
+fn column_after(text: &str, before: usize) -> usize {
+    match text.rsplit_once('\n') {
+        Some((_, last)) => last.chars().count(),
+        None => before + text.chars().count(),
+    }
+}
+
+/// Number of characters on the current line of an output stream, where that is known.
+pub fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Raise>> {
+    let mut stream = output_stream(image, designator)?;
+    for _ in 0..=MAX_NESTING {
+        let next = match &*stream.kind.borrow() {
+            StreamKind::StandardOutput => return Ok(Some(image.output.column())),
+            StreamKind::StringOutput { text } => return Ok(Some(column_after(text, 0))),
+            StreamKind::StringTarget { string } => {
+                return Ok(Some(column_after(&string.borrow(), 0)));
+            }
+            StreamKind::FileOutput { column, .. } => return Ok(Some(*column)),
+            StreamKind::Broadcast { targets } => match targets.last() {
+                Some(last) => last.clone(),
+                None => return Ok(Some(0)),
+            },
+            StreamKind::TwoWay { output, .. } => output.clone(),
+            StreamKind::Closed => return Err(closed(&stream)),
+            _ => return Ok(None),
+        };
+        stream = followed(image, &next)?;
+    }
+    Ok(None)
+}
+
+/// Starts a new line unless the stream is at the start of one; was a newline written?
+pub fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Raise>> {
+    let needed = column(image, designator)?.is_none_or(|column| column > 0);
+    if needed {
+        write(image, designator, "\n")?;
+    }
+    Ok(needed)
+}
+
+/// Reads a character; none at the end.
+pub fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
+    let c = peek_char(image, designator)?;
+    if let Some(c) = c {
+        advance(image, designator, c.len_utf8())?;
+    }
+    Ok(c)
+}
+
+/// Looks at the next character without reading it; none at the end.
+pub fn peek_char(image: &Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
+    let stream = input_stream(image, designator)?;
+    peek_at(image, &stream, 0)
+}
+
+fn peek_at(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<Option<char>, Box<Raise>> {
+    if depth > MAX_NESTING {
+        return Err(endless_synonym(&Value::Stream(stream.clone())));
+    }
+    let stream = &followed(image, stream)?;
+    let inputs = match &*stream.kind.borrow() {
+        StreamKind::StandardInput => return Ok(None),
+        StreamKind::StringInput { text, position } => {
+            return Ok(text.get(*position..).and_then(|rest| rest.chars().next()));
+        }
+        StreamKind::TwoWay {
+            unread: Some(c), ..
+        } => return Ok(Some(*c)),
+        StreamKind::TwoWay { input, .. } => vec![input.clone()],
+        StreamKind::Concatenated { inputs } => inputs.clone(),
+        StreamKind::Closed => return Err(closed(stream)),
+        _ => return Err(not_usable(stream, "INPUT-STREAM-P", image)),
+    };
+    for input in inputs {
+        if let Some(c) = peek_at(image, &input, depth + 1)? {
+            return Ok(Some(c));
+        }
+    }
+    Ok(None)
+}
+
+/// The text that an input stream has still to give, as a text and the byte offset where
+/// the rest begins. [`advance`] tells the stream how much of it was read.
+pub fn rest(image: &Image, designator: &Value) -> Result<(Rc<str>, usize), Box<Raise>> {
+    let stream = input_stream(image, designator)?;
+    if let StreamKind::StringInput { text, position } = &*stream.kind.borrow() {
+        return Ok((text.clone(), *position));
+    }
+    let mut text = String::new();
+    rest_of(image, &stream, &mut text, 0)?;
+    Ok((text.into(), 0))
+}
+
+fn rest_of(
+    image: &Image,
+    stream: &Rc<Stream>,
+    collected: &mut String,
+    depth: u32,
+) -> Result<(), Box<Raise>> {
+    if depth > MAX_NESTING {
+        return Err(endless_synonym(&Value::Stream(stream.clone())));
+    }
+    let stream = &followed(image, stream)?;
+    let inputs = match &*stream.kind.borrow() {
+        StreamKind::StandardInput => return Ok(()),
+        StreamKind::StringInput { text, position } => {
+            collected.push_str(text.get(*position..).unwrap_or(""));
+            return Ok(());
+        }
+        StreamKind::TwoWay { input, unread, .. } => {
+            collected.extend(unread);
+            vec![input.clone()]
+        }
+        StreamKind::Concatenated { inputs } => inputs.clone(),
+        StreamKind::Closed => return Err(closed(stream)),
+        _ => return Err(not_usable(stream, "INPUT-STREAM-P", image)),
+    };
+    inputs
+        .iter()
+        .try_for_each(|input| rest_of(image, input, collected, depth + 1))
+}
+
+/// Counts `bytes` bytes of the text that [`rest`] gave as read.
+pub fn advance(image: &mut Image, designator: &Value, bytes: usize) -> Result<(), Box<Raise>> {
+    let stream = input_stream(image, designator)?;
+    advance_in(image, &stream, bytes, 0).map(drop)
+}
+
+/// Returns the part of `bytes` that the stream could not give.
+fn advance_in(
+    image: &mut Image,
+    stream: &Rc<Stream>,
+    bytes: usize,
+    depth: u32,
+) -> Result<usize, Box<Raise>> {
+    if bytes == 0 {
+        return Ok(0);
+    }
+    if depth > MAX_NESTING {
+        return Err(endless_synonym(&Value::Stream(stream.clone())));
+    }
+    let stream = &followed(image, stream)?;
+    let mut left = bytes;
+    let (input, echo_to) = match &mut *stream.kind.borrow_mut() {
+        StreamKind::StringInput { text, position } => {
+            let available = text.len().saturating_sub(*position);
+            let step = available.min(bytes);
+            *position += step;
+            return Ok(bytes - step);
+        }
+        StreamKind::TwoWay {
+            input,
+            output,
+            echo,
+            unread,
+        } => {
+            if let Some(c) = unread.take() {
+                left = left.saturating_sub(c.len_utf8());
+            }
+            (vec![input.clone()], echo.then(|| output.clone()))
+        }
+        StreamKind::Concatenated { inputs } => (inputs.clone(), None),
+        _ => return Ok(bytes),
+    };
+    if let Some(output) = echo_to {
+        let mut text = String::new();
+        input
+            .iter()
+            .try_for_each(|input| rest_of(image, input, &mut text, depth + 1))?;
+        let shown = text.get(..left.min(text.len())).unwrap_or("");
+        write_to(image, &output, shown, depth + 1)?;
+    }
+    for part in &input {
+        left = advance_in(image, part, left, depth + 1)?;
+    }
+    drop_used_up(image, stream, depth)?;
+    Ok(left)
+}
+
+/// Lets a concatenated stream forget the parts that are at their end, except the last
+/// one, so that the character read last can be given back.
+fn drop_used_up(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<(), Box<Raise>> {
+    let inputs = match &*stream.kind.borrow() {
+        StreamKind::Concatenated { inputs } => inputs.clone(),
+        _ => return Ok(()),
+    };
+    let mut used_up = 0_usize;
+    for input in inputs.iter().take(inputs.len().saturating_sub(1)) {
+        if peek_at(image, input, depth + 1)?.is_some() {
+            break;
+        }
+        used_up += 1;
+    }
+    if let StreamKind::Concatenated { inputs } = &mut *stream.kind.borrow_mut() {
+        // The part before the next one gave the last character.
+        inputs.drain(..used_up.saturating_sub(1).min(inputs.len()));
+    }
+    Ok(())
+}
+
+/// Gives the character back that was read last.
+pub fn unread_char(image: &mut Image, designator: &Value, c: char) -> Result<(), Box<Raise>> {
+    let mut stream = input_stream(image, designator)?;
+    for _ in 0..=MAX_NESTING {
+        let next = match &mut *stream.kind.borrow_mut() {
+            StreamKind::StringInput { text, position } => {
+                let before = position.checked_sub(c.len_utf8());
+                return match before.filter(|p| text.get(*p..).is_some_and(|t| t.starts_with(c))) {
+                    Some(p) => {
+                        *position = p;
+                        Ok(())
+                    }
+                    None => Err(Raise::new(
+                        known::STREAM_ERROR,
+                        format!("{c:?} is not the character that was read last."),
+                    )),
+                };
+            }
+            StreamKind::TwoWay {
+                unread, echo: true, ..
+            } => {
+                *unread = Some(c);
+                return Ok(());
+            }
+            StreamKind::TwoWay { input, .. } => input.clone(),
+            StreamKind::Concatenated { inputs } => {
+                let gave = inputs
+                    .iter()
+                    .rev()
+                    .find(|input| gave_last(input, c))
+                    .or(inputs.first());
+                match gave {
+                    Some(input) => input.clone(),
+                    None => return Ok(()),
+                }
+            }
+            StreamKind::Closed => return Err(closed(&stream)),
+            _ => return Err(not_usable(&stream, "INPUT-STREAM-P", image)),
+        };
+        stream = followed(image, &next)?;
+    }
+    Err(endless_synonym(&Value::Stream(stream)))
+}
+
+/// Did a string stream just give this character?
+fn gave_last(stream: &Rc<Stream>, c: char) -> bool {
+    match &*stream.kind.borrow() {
+        StreamKind::StringInput { text, position } => text
+            .get(..*position)
+            .is_some_and(|before| before.ends_with(c)),
+        _ => false,
+    }
+}
+
+/// Writes out what a file stream holds back.
+pub fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
+    match &mut *stream.kind.borrow_mut() {
+        StreamKind::FileOutput { file, .. } => file
+            .flush()
+            .map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string())),
+        _ => Ok(()),
+    }
+}
+
+/// Closes a stream; was it open?
+pub fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
+    flush(stream)?;
+    let mut kind = stream.kind.borrow_mut();
+    let was_open = !matches!(*kind, StreamKind::Closed);
+    // The streams of the session stay open.
+    if !matches!(
+        *kind,
+        StreamKind::StandardOutput | StreamKind::StandardInput
+    ) {
+        *kind = StreamKind::Closed;
+    }
+    Ok(was_open)
+}
+
+fn closed(stream: &Rc<Stream>) -> Box<Raise> {
+    Raise::new(known::STREAM_ERROR, "The stream is closed.")
+        .with(known::K_STREAM, Value::Stream(stream.clone()))
+}
+
+fn not_usable(stream: &Rc<Stream>, predicate: &str, image: &Image) -> Box<Raise> {
+    let stream = Value::Stream(stream.clone());
+    let predicate = image
+        .packages
+        .find_symbol(super::package::PackageTable::CL, predicate);
+    match predicate {
+        Some((sym, _)) => {
+            Raise::type_error(&stream, Value::list([known::SATISFIES.into(), sym.into()]))
+        }
+        None => Raise::type_error(&stream, known::STREAM),
     }
 }
