@@ -1,5 +1,6 @@
 //! One Lisp image: everything that global names mean.
 
+use std::cell::RefCell;
 use std::rc::Rc;
 
 use indexmap::IndexMap;
@@ -33,6 +34,8 @@ pub struct Image {
     pub builtins: IndexMap<Sym, &'static Builtin>,
     /// Macros written in Rust and special operators, by the symbol that names them.
     pub operators: IndexMap<Sym, &'static Operator>,
+    /// Made-up addresses of objects that were printed.
+    pub identities: RefCell<super::print::identity::Identities>,
 }
 
 /// Standard output: text in order, and the column where the next character goes.

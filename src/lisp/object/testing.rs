@@ -29,6 +29,7 @@ pub fn image() -> Image {
         random: Pcg64::new(1, 1),
         builtins: IndexMap::new(),
         operators: IndexMap::new(),
+        identities: Default::default(),
     };
     image.define_special(known::V_PACKAGE, Value::Package(PackageTable::USER));
     image.define_standard_classes();

@@ -28,6 +28,7 @@ pub(crate) fn image() -> Image {
         random: rand_pcg::Pcg64::new(1, 1),
         builtins: IndexMap::new(),
         operators: IndexMap::new(),
+        identities: Default::default(),
     };
     image.define_constant(known::NIL, Value::NIL);
     image.define_constant(known::T, Value::T);
