@@ -1,6 +1,10 @@
 //! planwright: an interactive shell for programming a simulated kitchen robot in a
 //! Common-Lisp-like plan language.
 
+pub mod command;
+pub mod dialogue;
 pub mod lisp;
 pub mod reader;
+pub mod repl;
 pub mod spatial;
+pub mod transcript;

@@ -2,9 +2,10 @@
 //! help, completion, the reference manual and the tests of the examples read the same
 //! tables.
 
-use super::function::{ControlFn, PureFn};
+use super::function::{ControlFn, Function, NativeCall, PureFn};
 use super::image::Image;
 use super::raise::Raise;
+use super::symbol::Sym;
 use super::value::Value;
 
 /// One builtin function.
@@ -67,6 +68,16 @@ pub const fn control(
 }
 
 impl Builtin {
+    /// The function object, under a name.
+    pub fn function(&self, name: Sym) -> Function {
+        let (min, max) = self.arity();
+        let call = match self.call {
+            BuiltinCall::Pure(f) => NativeCall::Pure(f),
+            BuiltinCall::Control(f) => NativeCall::Control(f),
+        };
+        Function::native(name, min, max, call)
+    }
+
     /// Fewest and most arguments, from the lambda list.
     pub fn arity(&self) -> (u16, Option<u16>) {
         let mut min = 0;

@@ -20,10 +20,12 @@ pub mod object;
 pub mod package;
 pub mod print;
 pub mod raise;
+mod setup;
 pub mod slot;
 pub mod stream;
 pub mod string;
 pub mod symbol;
+pub mod types;
 pub mod value;
 pub mod vm;
 

@@ -1,1 +1,29 @@
-//! To come.
+//! The builtin functions: one table per topic.
+
+pub mod arguments;
+pub mod array_index;
+pub mod calls;
+pub mod criterion;
+pub mod definitions;
+pub mod evaluation;
+pub mod keywords;
+pub mod list_search;
+pub mod list_sets;
+pub mod list_trees;
+pub mod lists;
+pub mod mapping;
+pub mod pairs;
+pub mod property_lists;
+pub mod registry;
+pub mod sequence;
+pub mod sequence_access;
+pub mod sequence_change;
+pub mod sequence_duplicates;
+pub mod sequence_find;
+pub mod sequence_map;
+pub mod sequence_search;
+pub mod sequence_types;
+pub mod shown;
+pub mod signalling;
+pub mod sort;
+pub mod types;

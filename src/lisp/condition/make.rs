@@ -30,6 +30,7 @@ pub fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
             class,
             report,
             initargs,
+            ..
         } => (*class, report, initargs),
     };
     let class = condition_class(image, class)?;
@@ -55,7 +56,7 @@ pub fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
 /// left to the caller.
 pub fn draft(image: &Image, class: Sym, initargs: &[Value]) -> Result<Draft, Box<Raise>> {
     let class = condition_class(image, class)?;
-    if initargs.len() % 2 != 0 {
+    if !initargs.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }
     let pairs: Vec<(Sym, Value)> = initargs

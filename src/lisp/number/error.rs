@@ -34,6 +34,7 @@ pub fn not_a_float(datum: &Value) -> Box<Raise> {
 
 fn arithmetic(class: Sym, operation: Sym, operands: &[&Value]) -> Box<Raise> {
     Box::new(Raise::Make {
+        place: crate::reader::source::Place::NONE,
         class,
         report: None,
         initargs: vec![

@@ -133,6 +133,7 @@ fn unbound(image: &Image, object: &Value, slot: Sym) -> Result<Step, Box<Raise>>
 /// The error that a slot has no value.
 pub fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
     Box::new(Raise::Make {
+        place: crate::reader::source::Place::NONE,
         class: known::UNBOUND_SLOT,
         report: None,
         initargs: vec![

@@ -73,6 +73,7 @@ pub fn run(effective: &Rc<Effective>, stage: Stage, args: Vec<Value>) -> Result<
 /// The error that `call-next-method` has nothing to call.
 pub fn no_next_method(name: &Value) -> Box<Raise> {
     Box::new(Raise::Make {
+        place: crate::reader::source::Place::NONE,
         class: known::NO_NEXT_METHOD_ERROR,
         report: None,
         initargs: vec![(known::K_METHOD, name.clone())],

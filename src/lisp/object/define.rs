@@ -116,6 +116,7 @@ impl Image {
 /// The error that there is no class of a name.
 pub fn no_class(name: Sym) -> Box<Raise> {
     Box::new(Raise::Make {
+        place: crate::reader::source::Place::NONE,
         class: known::CLASS_NOT_FOUND_ERROR,
         report: None,
         initargs: vec![(known::K_NAME, name.into())],

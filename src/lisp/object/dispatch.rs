@@ -228,7 +228,7 @@ fn effective_method(
 
 /// Checks the keyword arguments of a call against those that its methods accept.
 fn check_keys(image: &Image, keys: &[crate::lisp::Sym], args: &[Value]) -> Result<(), Box<Raise>> {
-    if args.len() % 2 != 0 {
+    if !args.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }
     let pairs = || args.chunks_exact(2);
@@ -279,6 +279,7 @@ fn no_applicable_method(
 /// The error that no method of a generic function applies.
 pub fn no_applicable_method_error(function: Value, args: Vec<Value>) -> Box<Raise> {
     Box::new(Raise::Make {
+        place: crate::reader::source::Place::NONE,
         class: known::NO_APPLICABLE_METHOD_ERROR,
         report: None,
         initargs: vec![

@@ -23,7 +23,7 @@ pub fn make_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step
     let class = designated_class(machine.image, &designator)?;
     check_instantiable(machine.image, &class)?;
     let initargs: Vec<Value> = args.collect();
-    if initargs.len() % 2 != 0 {
+    if !initargs.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }
     Box::new(Making::new(class, initargs)).next(machine.image)
@@ -282,7 +282,7 @@ pub fn shared_initialize(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, 
             Value::Symbol(known::STANDARD_OBJECT),
         ));
     };
-    if initargs.len() % 2 != 0 {
+    if !initargs.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }
     let finish = Finish::Return(object.clone());

@@ -143,7 +143,7 @@ pub fn ensure_generic(
 
 fn new_generic(name: &Value, parameters: Parameters) -> Rc<Function> {
     Rc::new(Function {
-        body: Body::Generic(GenericFunction::new(name.clone(), parameters)),
+        body: Body::Generic(Box::new(GenericFunction::new(name.clone(), parameters))),
     })
 }
 
@@ -164,7 +164,7 @@ fn extended(name: &Value, min: u16, max: Option<u16>, plain: Rc<Function>) -> Rc
     let generic = GenericFunction::new(name.clone(), parameters);
     generic.methods.borrow_mut().push(Rc::new(method));
     Rc::new(Function {
-        body: Body::Generic(generic),
+        body: Body::Generic(Box::new(generic)),
     })
 }
 

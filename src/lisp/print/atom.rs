@@ -144,14 +144,20 @@ fn class(image: &Image, class: &Class) -> String {
     } else {
         kind.to_owned()
     };
-    format!("#<{kind} {}>", crate::lisp::object::qualified(image, &class.name.into()))
+    format!(
+        "#<{kind} {}>",
+        crate::lisp::object::qualified(image, &class.name.into())
+    )
 }
 
 fn function(image: &Image, value: &Value, function: &Function, settings: &Settings) -> String {
     let settings = settings.clone().with_escape(true);
     match &function.body {
         Body::Native(native) => {
-            format!("#<FUNCTION {}>", symbol::symbol(image, native.name, &settings))
+            format!(
+                "#<FUNCTION {}>",
+                symbol::symbol(image, native.name, &settings)
+            )
         }
         Body::Generic(generic) => {
             let name = crate::lisp::object::qualified(image, &generic.name);
@@ -173,4 +179,3 @@ fn function(image: &Image, value: &Value, function: &Function, settings: &Settin
         }
     }
 }
-

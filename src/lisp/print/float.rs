@@ -94,7 +94,10 @@ fn special(name: &str, x: f64) -> Option<String> {
 
 /// A single float as it is printed.
 pub(super) fn single(x: f32, settings: &Settings) -> String {
-    let is_default = !matches!(settings.float_format, known::DOUBLE_FLOAT | known::LONG_FLOAT);
+    let is_default = !matches!(
+        settings.float_format,
+        known::DOUBLE_FLOAT | known::LONG_FLOAT
+    );
     let marker = (!is_default).then_some('f');
     special("SINGLE", f64::from(x)).unwrap_or_else(|| {
         float(
@@ -108,7 +111,10 @@ pub(super) fn single(x: f32, settings: &Settings) -> String {
 
 /// A double float as it is printed.
 pub(super) fn double(x: f64, settings: &Settings) -> String {
-    let is_default = matches!(settings.float_format, known::DOUBLE_FLOAT | known::LONG_FLOAT);
+    let is_default = matches!(
+        settings.float_format,
+        known::DOUBLE_FLOAT | known::LONG_FLOAT
+    );
     let marker = (!is_default).then_some('d');
     special("DOUBLE", x)
         .unwrap_or_else(|| float(&of_double(x), x.abs(), x.is_sign_negative(), marker))

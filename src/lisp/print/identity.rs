@@ -98,6 +98,6 @@ impl Identities {
 
 /// The made-up address of an object, in braces: the same one whenever it is printed.
 pub fn identity(image: &Image, value: &Value) -> String {
-    let number = image.identities.borrow_mut().number(value);
+    let number = image.printed.borrow_mut().number(value);
     format!("{{{number:010X}}}")
 }

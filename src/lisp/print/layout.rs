@@ -146,7 +146,10 @@ impl Layout<'_> {
             Newline::Miser => self.is_squeezed(),
             Newline::Fill => {
                 self.is_squeezed()
-                    || self.blocks.last().is_some_and(|b| self.line > b.section_line)
+                    || self
+                        .blocks
+                        .last()
+                        .is_some_and(|b| self.line > b.section_line)
                     || !self.fits(index, op)
             }
         }

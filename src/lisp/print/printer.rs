@@ -290,7 +290,8 @@ impl<'a> Printer<'a> {
                 self.before(&mut rest, tail);
                 self.document.text(". ");
                 self.push_close(rest.inner);
-                self.tasks.push(Task::Value(tail.clone(), Style::Auto, depth + 1));
+                self.tasks
+                    .push(Task::Value(tail.clone(), Style::Auto, depth + 1));
                 return;
             }
         };
@@ -330,14 +331,22 @@ impl<'a> Printer<'a> {
             } else {
                 "SIMPLE-VECTOR"
             };
-            let text = format!("#<({kind} {}) {}>", items.len(), identity(self.image, value));
+            let text = format!(
+                "#<({kind} {}) {}>",
+                items.len(),
+                identity(self.image, value)
+            );
             self.document.text(&text);
             return;
         }
         if vector.element_type == known::BIT {
-            let bits = items
-                .iter()
-                .map(|bit| if matches!(bit, Value::Int(0)) { '0' } else { '1' });
+            let bits = items.iter().map(|bit| {
+                if matches!(bit, Value::Int(0)) {
+                    '0'
+                } else {
+                    '1'
+                }
+            });
             let text: String = "#*".chars().chain(bits).collect();
             self.document.text(&text);
             return;

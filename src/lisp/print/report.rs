@@ -103,7 +103,10 @@ fn standard(image: &Image, class: Sym, get: &dyn Fn(&str) -> Value) -> Option<St
             let operation = get("OPERATION");
             if operation.is_true() {
                 let call = Value::cons(operation, get("OPERANDS"));
-                text.push_str(&format!("\nOperation was {}.", to_string(image, &call, true)));
+                text.push_str(&format!(
+                    "\nOperation was {}.",
+                    to_string(image, &call, true)
+                ));
             }
             text
         }

@@ -198,7 +198,10 @@ static QUALIFIED_DEFMETHOD: Shape = shape(
 static DEFPACKAGE_CLAUSE: Shape = shape(&[step(&[Space, Current, Break(Miser)])], LINEAR_REST);
 static DEFPACKAGE: Shape = shape(
     &[step(&[Space, Block(3), Break(Fill)])],
-    &[list(&[Block(1), Space, Break(Mandatory)], &DEFPACKAGE_CLAUSE)],
+    &[list(
+        &[Block(1), Space, Break(Mandatory)],
+        &DEFPACKAGE_CLAUSE,
+    )],
 );
 static DESTRUCTURING_BIND: Shape = shape(
     &[
@@ -221,7 +224,10 @@ static DO: Shape = shape(
     TAGS,
 );
 static DOLIST_BINDING: Shape = shape(&[step(&[Space, Break(Fill), Current])], LINEAR_REST);
-static DOLIST: Shape = shape(&[list(&[Block(3), Space, Break(Fill)], &DOLIST_BINDING)], TAGS);
+static DOLIST: Shape = shape(
+    &[list(&[Block(3), Space, Break(Fill)], &DOLIST_BINDING)],
+    TAGS,
+);
 static PROG: Shape = shape(&[list(&[Space, Break(Miser)], &FILL)], TAGS);
 static EXTENDED_LOOP: Shape = shape(&[step(&[Space, Current])], &[step(&[Space, LoopBreak])]);
 
@@ -316,10 +322,12 @@ pub(super) fn form(image: &Image, list: &Value) -> Form {
     match &image.symbol(operator).function {
         FunctionCell::Unbound => Form::Shape(&FILL),
         FunctionCell::Function(_) => Form::Shape(&CALL),
-        FunctionCell::Macro(_) | FunctionCell::Builtin => match arguments_before_body(image, operator) {
-            Some(count) => Form::Macro(count),
-            None => Form::Shape(&CALL),
-        },
+        FunctionCell::Macro(_) | FunctionCell::Builtin => {
+            match arguments_before_body(image, operator) {
+                Some(count) => Form::Macro(count),
+                None => Form::Shape(&CALL),
+            }
+        }
     }
 }
 
@@ -425,8 +433,14 @@ fn shape_of(operator: Sym, list: &Value) -> Option<&'static Shape> {
         | known::DOTIMES => &DOLIST,
         known::LOOP => {
             let clauses = list.cdr_or_nil();
-            let is_simple = clauses.as_cons().is_none_or(|c| c.car().as_cons().is_some());
-            if is_simple { &SPREAD_CALL } else { &EXTENDED_LOOP }
+            let is_simple = clauses
+                .as_cons()
+                .is_none_or(|c| c.car().as_cons().is_some());
+            if is_simple {
+                &SPREAD_CALL
+            } else {
+                &EXTENDED_LOOP
+            }
         }
         known::MULTIPLE_VALUE_BIND | known::PROG2 => &PROG2,
         known::PROG | known::PROG_STAR => &PROG,

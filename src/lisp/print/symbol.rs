@@ -98,7 +98,8 @@ fn looks_like_number(name: &str, base: u32) -> bool {
         return false;
     }
     chars.iter().enumerate().all(|(i, c)| {
-        let is_letter = |c: Option<&char>| c.is_some_and(|c| c.is_ascii_alphabetic() && !is_digit(c));
+        let is_letter =
+            |c: Option<&char>| c.is_some_and(|c| c.is_ascii_alphabetic() && !is_digit(c));
         is_digit(c)
             || matches!(c, '+' | '-' | '/' | '.' | '^' | '_')
             || is_letter(Some(c))

@@ -24,14 +24,71 @@ fn printed(image: &mut Image, text: &str, escape: bool) -> String {
 fn the_reader_s_notation_prints_back() {
     let mut image = test_image::image();
     for text in [
-        "NIL", "T", "FOO", ":KEY", "|foo Bar|", "|a\\|b|", "||", "#:G", "1+", "-", "//", "+1+",
-        "|1|", "|1E|", "|1.2.3|", "|1/2/3|", "|.5.|", "...A", "|...|", "|.|", "|a;b|", "|#A|", "A#",
-        "1", "-7", "12345678901234567890", "-3/2", "1.5", "-0.15", "1.0e10", "0.001", "1.0e-4",
-        "1234567.0", "1.2345678e7", "0.33333334", "1.0d0", "-1.447d0", "1.0d10", "1.0d-5", "-0.0",
-        "0.7071067811865475d0", "\"a\\\"b\\\\c\"", "#\\a", "#\\ ", "#\\Newline", "#\\(",
-        "(A B . C)", "((A . 1) (B . 2))", "'X", "#'CAR", "''A", "`(A ,B ,@C)", "`(A . ,B)",
-        "`(A `(B ,,C))", "#(1 #(2) \"x\")", "#()", "#2A((1 2) (3 4))", "#0A7", "#*1011", "(QUOTE)",
-        "(QUOTE A B)", "(NIL . NIL)", "#3A(((1) (2)))", "`(A ,'B)", "`#(1 ,X)",
+        "NIL",
+        "T",
+        "FOO",
+        ":KEY",
+        "|foo Bar|",
+        "|a\\|b|",
+        "||",
+        "#:G",
+        "1+",
+        "-",
+        "//",
+        "+1+",
+        "|1|",
+        "|1E|",
+        "|1.2.3|",
+        "|1/2/3|",
+        "|.5.|",
+        "...A",
+        "|...|",
+        "|.|",
+        "|a;b|",
+        "|#A|",
+        "A#",
+        "1",
+        "-7",
+        "12345678901234567890",
+        "-3/2",
+        "1.5",
+        "-0.15",
+        "1.0e10",
+        "0.001",
+        "1.0e-4",
+        "1234567.0",
+        "1.2345678e7",
+        "0.33333334",
+        "1.0d0",
+        "-1.447d0",
+        "1.0d10",
+        "1.0d-5",
+        "-0.0",
+        "0.7071067811865475d0",
+        "\"a\\\"b\\\\c\"",
+        "#\\a",
+        "#\\ ",
+        "#\\Newline",
+        "#\\(",
+        "(A B . C)",
+        "((A . 1) (B . 2))",
+        "'X",
+        "#'CAR",
+        "''A",
+        "`(A ,B ,@C)",
+        "`(A . ,B)",
+        "`(A `(B ,,C))",
+        "#(1 #(2) \"x\")",
+        "#()",
+        "#2A((1 2) (3 4))",
+        "#0A7",
+        "#*1011",
+        "(QUOTE)",
+        "(QUOTE A B)",
+        "(NIL . NIL)",
+        "#3A(((1) (2)))",
+        "`(A ,'B)",
+        "`#(1 ,X)",
     ] {
         let expected = if text == "(NIL . NIL)" { "(NIL)" } else { text };
         assert_eq!(printed(&mut image, text, true), expected);
@@ -57,7 +114,10 @@ fn symbols_of_other_packages_have_a_prefix() {
         known::V_PACKAGE,
         Value::Package(image.packages.find("MY-PKG").unwrap()),
     );
-    assert_eq!(printed(&mut image, "cl-user::x", true), "COMMON-LISP-USER::X");
+    assert_eq!(
+        printed(&mut image, "cl-user::x", true),
+        "COMMON-LISP-USER::X"
+    );
     assert_eq!(printed(&mut image, "cl:car", true), "COMMON-LISP:CAR");
 }
 
@@ -67,16 +127,46 @@ fn printer_variables_are_honoured() {
     let forms = [
         (known::V_PRINT_BASE, Value::Int(16), "255", "FF"),
         (known::V_PRINT_RADIX, Value::T, "5", "5."),
-        (known::V_PRINT_LENGTH, Value::Int(2), "(1 2 3 4)", "(1 2 ...)"),
+        (
+            known::V_PRINT_LENGTH,
+            Value::Int(2),
+            "(1 2 3 4)",
+            "(1 2 ...)",
+        ),
         (known::V_PRINT_LENGTH, Value::Int(0), "(1 2 3 4)", "(...)"),
-        (known::V_PRINT_LENGTH, Value::Int(4), "(1 2 3 4)", "(1 2 3 4)"),
-        (known::V_PRINT_LEVEL, Value::Int(1), "(1 (2) #(3))", "(1 # #)"),
+        (
+            known::V_PRINT_LENGTH,
+            Value::Int(4),
+            "(1 2 3 4)",
+            "(1 2 3 4)",
+        ),
+        (
+            known::V_PRINT_LEVEL,
+            Value::Int(1),
+            "(1 (2) #(3))",
+            "(1 # #)",
+        ),
         (known::V_PRINT_LEVEL, Value::Int(0), "(1)", "#"),
-        (known::V_PRINT_LEVEL, Value::Int(2), "(1 (2 (3)))", "(1 (2 #))"),
+        (
+            known::V_PRINT_LEVEL,
+            Value::Int(2),
+            "(1 (2 (3)))",
+            "(1 (2 #))",
+        ),
         (known::V_PRINT_PRETTY, Value::NIL, "'a", "(QUOTE A)"),
         (known::V_PRINT_GENSYM, Value::NIL, "#:foo", "FOO"),
-        (known::V_PRINT_CIRCLE, Value::T, "#1=(1 2 . #1#)", "#1=(1 2 . #1#)"),
-        (known::V_PRINT_CIRCLE, Value::T, "(#1=(1) #1#)", "(#1=(1) #1#)"),
+        (
+            known::V_PRINT_CIRCLE,
+            Value::T,
+            "#1=(1 2 . #1#)",
+            "#1=(1 2 . #1#)",
+        ),
+        (
+            known::V_PRINT_CIRCLE,
+            Value::T,
+            "(#1=(1) #1#)",
+            "(#1=(1) #1#)",
+        ),
         (
             known::V_READ_DEFAULT_FLOAT_FORMAT,
             known::DOUBLE_FLOAT.into(),
@@ -91,7 +181,10 @@ fn printer_variables_are_honoured() {
         image.set_special(variable, before);
     }
     image.set_special(known::V_PRINT_CASE, known::K_DOWNCASE.into());
-    assert_eq!(printed(&mut image, "(foo :bar |X y|)", true), "(foo :bar |X y|)");
+    assert_eq!(
+        printed(&mut image, "(foo :bar |X y|)", true),
+        "(foo :bar |X y|)"
+    );
     image.set_special(known::V_PRINT_CASE, known::K_CAPITALIZE.into());
     assert_eq!(printed(&mut image, "foo-bar", true), "Foo-Bar");
 }

@@ -1,0 +1,97 @@
+//! Errors about indices of arrays.
+
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// "Invalid index 5 for (SIMPLE-VECTOR 2), should be a non-negative integer below 2."
+pub fn invalid(array: &Value, index: &Value, bound: usize) -> Box<Raise> {
+    invalid_on_axis(array, index, None, bound)
+}
+
+/// The same for one of several dimensions.
+pub fn invalid_on_axis(
+    array: &Value,
+    index: &Value,
+    axis: Option<usize>,
+    bound: usize,
+) -> Box<Raise> {
+    let shown = match index {
+        Value::Int(n) => n.to_string(),
+        Value::Big(n) => n.to_string(),
+        _ => {
+            return Raise::type_error(
+                index,
+                Value::list([
+                    known::INTEGER.into(),
+                    Value::Int(0),
+                    Value::list([bound.into()]),
+                ]),
+            );
+        }
+    };
+    let axis = axis
+        .map(|axis| format!("axis {axis} of "))
+        .unwrap_or_default();
+    Raise::new(
+        known::INVALID_ARRAY_INDEX_ERROR,
+        format!(
+            "Invalid index {shown} for {axis}{}, should be a non-negative integer below {bound}.",
+            type_name(array)
+        ),
+    )
+    .with(known::K_DATUM, index.clone())
+    .with(
+        known::K_EXPECTED_TYPE,
+        Value::list([
+            known::INTEGER.into(),
+            Value::Int(0),
+            Value::list([bound.into()]),
+        ]),
+    )
+}
+
+/// The type of an array as messages show it.
+fn type_name(array: &Value) -> String {
+    let of_type = |sym: Sym| match sym {
+        known::DOUBLE_FLOAT => "DOUBLE-FLOAT",
+        known::SINGLE_FLOAT => "SINGLE-FLOAT",
+        known::FIXNUM => "FIXNUM",
+        known::BIT => "BIT",
+        _ => "T",
+    };
+    match array {
+        Value::Vector(v) => {
+            let size = v.items.borrow().len();
+            let simple = v.fill_pointer.get().is_none() && !v.adjustable;
+            match (simple, v.element_type) {
+                (true, known::T) => format!("(SIMPLE-VECTOR {size})"),
+                (true, known::BIT) => format!("(SIMPLE-BIT-VECTOR {size})"),
+                (true, other) => format!("(SIMPLE-ARRAY {} ({size}))", of_type(other)),
+                (false, other) => {
+                    format!(
+                        "(AND (VECTOR {} {size}) (NOT SIMPLE-ARRAY))",
+                        of_type(other)
+                    )
+                }
+            }
+        }
+        Value::Str(s) if s.has_fill_pointer.get() => {
+            format!(
+                "(AND (VECTOR CHARACTER {}) (NOT SIMPLE-ARRAY))",
+                s.capacity()
+            )
+        }
+        Value::Str(s) => format!("(SIMPLE-ARRAY CHARACTER ({}))", s.len()),
+        Value::Array(a) => {
+            let dimensions: Vec<String> = a.dimensions.iter().map(ToString::to_string).collect();
+            format!(
+                "(SIMPLE-ARRAY {} ({}))",
+                of_type(a.element_type),
+                dimensions.join(" ")
+            )
+        }
+        _ => "an array".to_owned(),
+    }
+}

@@ -1,0 +1,151 @@
+//! What an element must satisfy to be found, counted, removed or replaced: `:test`,
+//! `:test-not`, `:key`, or a predicate.
+
+use super::calls::{Calls, builtin_name, callable};
+use crate::lisp::equality;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+/// A function that is applied to elements before they are looked at; none is the identity.
+#[derive(Clone)]
+pub struct Key(Option<Value>);
+
+impl Key {
+    /// From the value of a `:key` argument.
+    pub fn new(image: &Image, key: Option<Value>) -> Result<Key, Box<Raise>> {
+        let Some(key) = key.filter(Value::is_true) else {
+            return Ok(Key(None));
+        };
+        let function = callable(image, &key)?;
+        let identity = builtin_name(&function).is_some_and(|name| name == known::IDENTITY);
+        Ok(Key((!identity).then_some(function)))
+    }
+
+    /// Is this the identity?
+    pub fn is_identity(&self) -> bool {
+        self.0.is_none()
+    }
+
+    /// What is looked at for an element.
+    pub async fn of(&self, calls: &Calls, element: Value) -> Value {
+        match &self.0 {
+            None => element,
+            Some(key) => calls.call1(key, element).await,
+        }
+    }
+}
+
+/// How two values are compared.
+#[derive(Clone)]
+pub enum Test {
+    /// By identity.
+    Eq,
+    /// By `eql`.
+    Eql,
+    /// By `equal`.
+    Equal,
+    /// By `equalp`.
+    Equalp,
+    /// By a function.
+    Function(Value),
+    /// They match when the function returns `NIL`.
+    NotFunction(Value),
+}
+
+impl Test {
+    /// From the values of `:test` and `:test-not` arguments.
+    pub fn new(
+        image: &Image,
+        test: Option<Value>,
+        test_not: Option<Value>,
+    ) -> Result<Test, Box<Raise>> {
+        match (test.filter(Value::is_true), test_not.filter(Value::is_true)) {
+            (None, None) => Ok(Test::Eql),
+            (Some(_), Some(_)) => Err(Raise::simple(":TEST and :TEST-NOT were both supplied.")),
+            (None, Some(test_not)) => Ok(Test::NotFunction(callable(image, &test_not)?)),
+            (Some(test), None) => {
+                let function = callable(image, &test)?;
+                Ok(match builtin_name(&function) {
+                    Some(known::EQ) => Test::Eq,
+                    Some(known::EQL) => Test::Eql,
+                    Some(known::EQUAL) => Test::Equal,
+                    Some(known::EQUALP) => Test::Equalp,
+                    _ => Test::Function(function),
+                })
+            }
+        }
+    }
+
+    /// The comparison, where it needs no call.
+    pub fn direct(&self) -> Option<fn(&Value, &Value) -> bool> {
+        match self {
+            Test::Eq => Some(Value::is_eq),
+            Test::Eql => Some(Value::is_eql),
+            Test::Equal => Some(equality::equal),
+            Test::Equalp => Some(equality::equalp),
+            Test::Function(_) | Test::NotFunction(_) => None,
+        }
+    }
+
+    /// Do two values match? The function gets them in this order.
+    pub async fn matches(&self, calls: &Calls, a: &Value, b: &Value) -> bool {
+        match self {
+            Test::Eq => a.is_eq(b),
+            Test::Eql => a.is_eql(b),
+            Test::Equal => equality::equal(a, b),
+            Test::Equalp => equality::equalp(a, b),
+            Test::Function(test) => calls.call2(test, a.clone(), b.clone()).await.is_true(),
+            Test::NotFunction(test) => calls.call2(test, a.clone(), b.clone()).await.is_nil(),
+        }
+    }
+}
+
+/// A condition on elements.
+pub struct Criterion {
+    kind: Kind,
+    key: Key,
+}
+
+enum Kind {
+    Item { item: Value, test: Test },
+    Predicate { function: Value, expected: bool },
+}
+
+impl Criterion {
+    /// Elements that match an item.
+    pub fn item(item: Value, test: Test, key: Key) -> Criterion {
+        Criterion {
+            kind: Kind::Item { item, test },
+            key,
+        }
+    }
+
+    /// Elements for which a predicate returns true, or false if `expected` is false.
+    pub fn predicate(
+        image: &Image,
+        predicate: &Value,
+        expected: bool,
+        key: Key,
+    ) -> Result<Criterion, Box<Raise>> {
+        Ok(Criterion {
+            kind: Kind::Predicate {
+                function: callable(image, predicate)?,
+                expected,
+            },
+            key,
+        })
+    }
+
+    /// Does an element satisfy the condition?
+    pub async fn accepts(&self, calls: &Calls, element: &Value) -> bool {
+        let looked_at = self.key.of(calls, element.clone()).await;
+        match &self.kind {
+            Kind::Item { item, test } => test.matches(calls, item, &looked_at).await,
+            Kind::Predicate { function, expected } => {
+                calls.call1(function, looked_at).await.is_true() == *expected
+            }
+        }
+    }
+}

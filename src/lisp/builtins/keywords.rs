@@ -1,0 +1,55 @@
+//! Keyword arguments of builtins.
+
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// The values of the keyword arguments `names` in `args`, which holds nothing but keyword
+/// arguments; the first of several counts.
+pub fn parse<const N: usize>(
+    image: &Image,
+    args: &[Value],
+    names: [Sym; N],
+) -> Result<[Option<Value>; N], Box<Raise>> {
+    let mut values = [const { None }; N];
+    if args.is_empty() {
+        return Ok(values);
+    }
+    let mut unknown = None;
+    let mut others_allowed = None;
+    for pair in args.chunks(2) {
+        let [name, value] = pair else {
+            return Err(Raise::program("odd number of &KEY arguments"));
+        };
+        let sym = name.as_symbol();
+        let slot = names
+            .iter()
+            .position(|known| sym == Some(*known))
+            .and_then(|i| values.get_mut(i));
+        match slot {
+            Some(slot @ None) => *slot = Some(value.clone()),
+            Some(Some(_)) => {}
+            None if sym == Some(known::K_ALLOW_OTHER_KEYS) => {
+                others_allowed.get_or_insert(value.is_true());
+            }
+            None => {
+                unknown.get_or_insert(name);
+            }
+        }
+    }
+    match unknown {
+        Some(name) if others_allowed != Some(true) => Err(Raise::program(format!(
+            "Unknown &KEY argument: {}",
+            super::shown::shown(image, name)
+        ))),
+        _ => Ok(values),
+    }
+}
+
+/// The optional arguments of a builtin by position: the value, none if it is not given or
+/// `NIL`.
+pub fn optional(args: &[Value], index: usize) -> Option<&Value> {
+    args.get(index).filter(|value| value.is_true())
+}

@@ -1,0 +1,352 @@
+//! Making, copying and joining lists.
+
+use std::rc::Rc;
+
+use super::keywords;
+use super::sequence::{self, ListBuilder, ListWalk};
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::cons::Cons;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// The longest list that `make-list` makes, and the largest array: more does not fit in
+/// memory.
+pub const MAX_LENGTH: usize = 1 << 28;
+
+fn list(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::list(args.iter().cloned()))
+}
+
+fn list_star(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(match args.split_last() {
+        Some((tail, items)) => Value::list_with_tail(items.iter().cloned(), tail.clone()),
+        None => Value::NIL,
+    })
+}
+
+fn make_list(image: &mut Image, args: &[Value]) -> Outcome {
+    let [element] = keywords::parse(image, &args[1..], [known::K_INITIAL_ELEMENT])?;
+    let count = size(&args[0])?;
+    Ok(Value::list(vec![element.unwrap_or(Value::NIL); count]))
+}
+
+/// A number of elements that fits in memory.
+pub fn size(value: &Value) -> Result<usize, Box<Raise>> {
+    let size = sequence::index(value)?;
+    if size > MAX_LENGTH {
+        return Err(Raise::new(
+            known::HEAP_EXHAUSTED_ERROR,
+            format!("{size} elements do not fit in memory."),
+        ));
+    }
+    Ok(size)
+}
+
+fn append(_: &mut Image, args: &[Value]) -> Outcome {
+    let Some((last, lists)) = args.split_last() else {
+        return Ok(Value::NIL);
+    };
+    let mut builder = ListBuilder::new();
+    for list in lists {
+        let mut walk = ListWalk::new(list.clone());
+        while let Some(item) = walk.next()? {
+            builder.push(item);
+        }
+    }
+    Ok(builder.finish_with(last.clone()))
+}
+
+fn nconc(_: &mut Image, args: &[Value]) -> Outcome {
+    nconc_all(args)
+}
+
+/// Joins lists by changing the last pair of each; the last one may be anything.
+pub fn nconc_all(lists: &[Value]) -> Outcome {
+    let mut result = Value::NIL;
+    let mut last: Option<Rc<Cons>> = None;
+    for (i, list) in lists.iter().enumerate() {
+        let is_last = i + 1 == lists.len();
+        match list {
+            Value::Symbol(known::NIL) if !is_last || last.is_none() => continue,
+            Value::Cons(_) => {}
+            _ if is_last => {}
+            _ => return Err(Raise::type_error(list, known::LIST)),
+        }
+        match last.take() {
+            Some(cons) => cons.set_cdr(list.clone()),
+            None => result = list.clone(),
+        }
+        if !is_last {
+            last = last_pair(list);
+        }
+    }
+    Ok(result)
+}
+
+/// The last pair of a list that may be dotted.
+pub fn last_pair(list: &Value) -> Option<Rc<Cons>> {
+    let mut cons = list.as_cons()?.clone();
+    while let Value::Cons(next) = cons.cdr() {
+        cons = next;
+    }
+    Some(cons)
+}
+
+fn revappend(_: &mut Image, args: &[Value]) -> Outcome {
+    let mut result = args[1].clone();
+    let mut walk = ListWalk::new(args[0].clone());
+    while let Some(item) = walk.next()? {
+        result = Value::cons(item, result);
+    }
+    Ok(result)
+}
+
+fn nreconc(_: &mut Image, args: &[Value]) -> Outcome {
+    nreverse_onto(&args[0], args[1].clone())
+}
+
+/// Turns the links of a proper list round, in front of `tail`.
+pub fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
+    let mut conses = sequence::conses(list)?;
+    conses.reverse();
+    Ok(sequence::relink(&conses, tail))
+}
+
+fn list_length(_: &mut Image, args: &[Value]) -> Outcome {
+    let mut slow = args[0].clone();
+    let mut fast = args[0].clone();
+    let mut count = 0_usize;
+    loop {
+        for _ in 0..2 {
+            fast = match &fast {
+                Value::Cons(cons) => cons.cdr(),
+                Value::Symbol(known::NIL) => return Ok(count.into()),
+                other => return Err(Raise::type_error(other, known::LIST)),
+            };
+            count += 1;
+        }
+        slow = slow.cdr_or_nil();
+        if fast.is_eq(&slow) && !fast.is_nil() {
+            return Ok(Value::NIL);
+        }
+    }
+}
+
+fn copy_list(_: &mut Image, args: &[Value]) -> Outcome {
+    if !args[0].is_list() {
+        return Err(Raise::type_error(&args[0], known::LIST));
+    }
+    let mut iter = args[0].iter_list();
+    let mut builder = ListBuilder::new();
+    iter.by_ref().for_each(|item| builder.push(item));
+    Ok(builder.finish_with(iter.rest))
+}
+
+fn copy_alist(_: &mut Image, args: &[Value]) -> Outcome {
+    let mut builder = ListBuilder::new();
+    let mut walk = ListWalk::new(args[0].clone());
+    while let Some(item) = walk.next()? {
+        builder.push(match &item {
+            Value::Cons(pair) => Value::cons(pair.car(), pair.cdr()),
+            _ => item,
+        });
+    }
+    Ok(builder.finish())
+}
+
+fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
+    let copy_of = |value: &Value, pending: &mut Vec<Rc<Cons>>| match value {
+        Value::Cons(cons) => {
+            let copy = Rc::new(Cons::new(cons.car(), cons.cdr()));
+            pending.push(copy.clone());
+            Value::Cons(copy)
+        }
+        other => other.clone(),
+    };
+    // Pairs that are copied while their halves are still the old ones.
+    let mut pending = Vec::new();
+    let result = copy_of(&args[0], &mut pending);
+    while let Some(cons) = pending.pop() {
+        cons.set_car(copy_of(&cons.car(), &mut pending));
+        cons.set_cdr(copy_of(&cons.cdr(), &mut pending));
+    }
+    Ok(result)
+}
+
+fn ldiff(_: &mut Image, args: &[Value]) -> Outcome {
+    let (list, tail) = (&args[0], &args[1]);
+    if !list.is_list() {
+        return Err(Raise::type_error(list, known::LIST));
+    }
+    let mut builder = ListBuilder::new();
+    let mut rest = list.clone();
+    while !rest.is_eql(tail) {
+        let Value::Cons(cons) = &rest else {
+            return Ok(builder.finish_with(rest));
+        };
+        builder.push(cons.car());
+        let next = cons.cdr();
+        rest = next;
+    }
+    Ok(builder.finish())
+}
+
+fn tailp(_: &mut Image, args: &[Value]) -> Outcome {
+    let mut rest = args[1].clone();
+    loop {
+        if rest.is_eql(&args[0]) {
+            return Ok(Value::T);
+        }
+        let Value::Cons(cons) = &rest else {
+            return Ok(Value::NIL);
+        };
+        let next = cons.cdr();
+        rest = next;
+    }
+}
+
+fn is_cons(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(matches!(args[0], Value::Cons(_))))
+}
+
+fn is_list(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(args[0].is_list()))
+}
+
+fn is_atom(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(!matches!(args[0], Value::Cons(_))))
+}
+
+fn is_null(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(args[0].is_nil()))
+}
+
+/// Making, copying and joining lists.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "LIST",
+        "&rest elements",
+        "A fresh list of the arguments.",
+        &["(list 1 2 3) => (1 2 3)", "(list) => NIL"],
+        list,
+    ),
+    pure(
+        "LIST*",
+        "element &rest more",
+        "A fresh list of all arguments but the last, which becomes its tail.",
+        &["(list* 1 2 '(3 4)) => (1 2 3 4)", "(list* 1 2) => (1 . 2)"],
+        list_star,
+    ),
+    pure(
+        "MAKE-LIST",
+        "size &key initial-element",
+        "A fresh list of `size` equal elements.",
+        &["(make-list 2 :initial-element 'x) => (X X)"],
+        make_list,
+    ),
+    pure(
+        "APPEND",
+        "&rest lists",
+        "The elements of all lists in one list; the last list is shared, not copied.",
+        &[
+            "(append '(1) '(2 3) '(4)) => (1 2 3 4)",
+            "(append '(1) 2) => (1 . 2)",
+        ],
+        append,
+    ),
+    pure(
+        "NCONC",
+        "&rest lists",
+        "Joins lists by changing their last pairs.",
+        &["(nconc (list 1) nil (list 2)) => (1 2)"],
+        nconc,
+    ),
+    pure(
+        "REVAPPEND",
+        "list tail",
+        "The elements of a list in reverse order, in front of a tail.",
+        &["(revappend '(1 2) '(3)) => (2 1 3)"],
+        revappend,
+    ),
+    pure(
+        "NRECONC",
+        "list tail",
+        "Like `revappend`, but reuses the pairs of the list.",
+        &["(nreconc (list 1 2) '(3)) => (2 1 3)"],
+        nreconc,
+    ),
+    pure(
+        "LIST-LENGTH",
+        "list",
+        "Number of elements of a list; `NIL` if it is circular.",
+        &["(list-length '(1 2 3)) => 3"],
+        list_length,
+    ),
+    pure(
+        "COPY-LIST",
+        "list",
+        "A copy of a list; the elements are the same.",
+        &["(copy-list '(1 2 . 3)) => (1 2 . 3)"],
+        copy_list,
+    ),
+    pure(
+        "COPY-ALIST",
+        "alist",
+        "A copy of an association list and of its pairs.",
+        &["(copy-alist '((a . 1))) => ((A . 1))"],
+        copy_alist,
+    ),
+    pure(
+        "COPY-TREE",
+        "tree",
+        "A copy of a tree of pairs.",
+        &["(copy-tree '(1 (2 3))) => (1 (2 3))"],
+        copy_tree,
+    ),
+    pure(
+        "LDIFF",
+        "list tail",
+        "A copy of the part of a list before one of its tails.",
+        &["(let* ((a (list 1 2 3)) (b (cddr a))) (ldiff a b)) => (1 2)"],
+        ldiff,
+    ),
+    pure(
+        "TAILP",
+        "tail list",
+        "Is the first argument a tail of the list?",
+        &["(let ((a (list 1 2))) (tailp (cdr a) a)) => T"],
+        tailp,
+    ),
+    pure(
+        "CONSP",
+        "object",
+        "Is the object a pair?",
+        &["(consp nil) => NIL"],
+        is_cons,
+    ),
+    pure(
+        "LISTP",
+        "object",
+        "Is the object a list?",
+        &["(listp nil) => T"],
+        is_list,
+    ),
+    pure(
+        "ATOM",
+        "object",
+        "Is the object anything but a pair?",
+        &["(atom nil) => T"],
+        is_atom,
+    ),
+    pure(
+        "NULL",
+        "object",
+        "Is the object `NIL`?",
+        &["(null '()) => T"],
+        is_null,
+    ),
+];

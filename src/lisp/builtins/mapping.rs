@@ -1,0 +1,171 @@
+//! The functions that map over lists: `mapcar`, `mapc`, `mapcan`, `maplist`, `mapl`,
+//! `mapcon`.
+
+use super::calls::{Args, Calls, callable, run};
+use super::lists::nconc_all;
+use super::sequence::ListBuilder;
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// What a mapping function hands out and what it makes of the results.
+#[derive(Clone, Copy)]
+struct Mode {
+    /// Call with the tails of the lists instead of their elements.
+    tails: bool,
+    collect: Collect,
+}
+
+#[derive(Clone, Copy)]
+enum Collect {
+    /// A list of the results.
+    List,
+    /// The results joined.
+    Joined,
+    /// Nothing; the first list is returned.
+    Nothing,
+}
+
+/// The next arguments, or none when a list is at its end.
+fn next_args(lists: &mut [Value], tails: bool) -> Result<Option<Args>, Box<Raise>> {
+    match lists {
+        [list] => Ok(step(list, tails)?.map(|a| Args::One([a]))),
+        [first, second] => {
+            let (a, b) = (step(first, tails)?, step(second, tails)?);
+            Ok(a.zip(b).map(|(a, b)| Args::Two([a, b])))
+        }
+        _ => {
+            let mut args = Vec::with_capacity(lists.len());
+            for list in lists {
+                match step(list, tails)? {
+                    Some(arg) => args.push(arg),
+                    None => return Ok(None),
+                }
+            }
+            Ok(Some(Args::Many(args)))
+        }
+    }
+}
+
+/// Takes the first element, or the whole, of a list and leaves its rest.
+fn step(list: &mut Value, tails: bool) -> Result<Option<Value>, Box<Raise>> {
+    let (item, rest) = match &*list {
+        Value::Cons(cons) if tails => (list.clone(), cons.cdr()),
+        Value::Cons(cons) => (cons.car(), cons.cdr()),
+        Value::Symbol(known::NIL) => return Ok(None),
+        other => return Err(Raise::type_error(other, known::LIST)),
+    };
+    *list = rest;
+    Ok(Some(item))
+}
+
+async fn map(calls: Calls, function: Value, mut lists: Vec<Value>, mode: Mode) -> Outcome {
+    let first = lists.first().cloned().unwrap_or(Value::NIL);
+    let mut results = ListBuilder::new();
+    let mut parts = Vec::new();
+    while let Some(args) = next_args(&mut lists, mode.tails)? {
+        let result = calls.call(&function, args).await;
+        match mode.collect {
+            Collect::List => results.push(result),
+            Collect::Joined if result.is_nil() => {}
+            Collect::Joined => parts.push(result),
+            Collect::Nothing => {}
+        }
+    }
+    match mode.collect {
+        Collect::List => Ok(results.finish()),
+        Collect::Joined => nconc_all(&parts),
+        Collect::Nothing => Ok(first),
+    }
+}
+
+fn mapping(
+    machine: &mut Machine<'_>,
+    args: &[Value],
+    name: &'static str,
+    tails: bool,
+    collect: Collect,
+) -> Result<Step, Box<Raise>> {
+    let function = callable(machine.image, &args[0])?;
+    let lists = args[1..].to_vec();
+    let mode = Mode { tails, collect };
+    run(machine, name, |calls| map(calls, function, lists, mode))
+}
+
+fn mapcar(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &args, "MAPCAR", false, Collect::List)
+}
+
+fn mapc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &args, "MAPC", false, Collect::Nothing)
+}
+
+fn mapcan(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &args, "MAPCAN", false, Collect::Joined)
+}
+
+fn maplist(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &args, "MAPLIST", true, Collect::List)
+}
+
+fn mapl(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &args, "MAPL", true, Collect::Nothing)
+}
+
+fn mapcon(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    mapping(machine, &args, "MAPCON", true, Collect::Joined)
+}
+
+/// Mapping over lists.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "MAPCAR",
+        "function list &rest lists",
+        "The results of a function for the elements of one or more lists, up to the end of the shortest.",
+        &[
+            "(mapcar #'1+ '(1 2 3)) => (2 3 4)",
+            "(mapcar #'+ '(1 2 3) '(10 20)) => (11 22)",
+        ],
+        mapcar,
+    ),
+    control(
+        "MAPC",
+        "function list &rest lists",
+        "Calls a function for the elements of lists; returns the first list.",
+        &["(mapc #'identity '(1 2)) => (1 2)"],
+        mapc,
+    ),
+    control(
+        "MAPCAN",
+        "function list &rest lists",
+        "Like `mapcar`, but joins the results, which must be fresh lists.",
+        &["(mapcan #'list '(1 2) '(a b)) => (1 A 2 B)"],
+        mapcan,
+    ),
+    control(
+        "MAPLIST",
+        "function list &rest lists",
+        "Like `mapcar`, but hands out the list, its rest, and so on.",
+        &["(maplist #'length '(a b c)) => (3 2 1)"],
+        maplist,
+    ),
+    control(
+        "MAPL",
+        "function list &rest lists",
+        "Calls a function for a list, its rest, and so on; returns the list.",
+        &["(mapl #'identity '(1 2)) => (1 2)"],
+        mapl,
+    ),
+    control(
+        "MAPCON",
+        "function list &rest lists",
+        "Like `maplist`, but joins the results, which must be fresh lists.",
+        &["(mapcon #'list '(1 2)) => ((1 2) (2))"],
+        mapcon,
+    ),
+];

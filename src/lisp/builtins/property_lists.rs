@@ -1,0 +1,218 @@
+//! Property lists, those of symbols included.
+
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+use super::sequence::ListWalk;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// The pair of a property list that holds the value of an indicator.
+fn find(plist: &Value, indicator: &Value) -> Result<Option<Value>, Box<Raise>> {
+    let mut walk = ListWalk::new(plist.clone());
+    while let Some(cons) = walk.next_cons()? {
+        if walk.next_cons()?.is_none() {
+            return Err(malformed(plist));
+        }
+        if cons.car().is_eq(indicator) {
+            return Ok(Some(cons.cdr()));
+        }
+    }
+    Ok(None)
+}
+
+fn malformed(plist: &Value) -> Box<Raise> {
+    Raise::new(
+        known::SIMPLE_TYPE_ERROR,
+        "A property list has an odd number of elements.",
+    )
+    .with(known::K_DATUM, plist.clone())
+    .with(known::K_EXPECTED_TYPE, known::LIST.into())
+}
+
+fn lookup(plist: &Value, indicator: &Value, default: Option<&Value>) -> Outcome {
+    Ok(match find(plist, indicator)? {
+        Some(place) => place.car_or_nil(),
+        None => default.cloned().unwrap_or(Value::NIL),
+    })
+}
+
+/// The property list with a value for an indicator; an existing entry is changed.
+fn put(plist: &Value, indicator: &Value, value: &Value) -> Outcome {
+    if let Some(Value::Cons(place)) = find(plist, indicator)? {
+        place.set_car(value.clone());
+        return Ok(plist.clone());
+    }
+    Ok(Value::list_with_tail(
+        [indicator.clone(), value.clone()],
+        plist.clone(),
+    ))
+}
+
+/// Takes an indicator out of a property list: the list afterwards, and whether it was there.
+fn remove(plist: &Value, indicator: &Value) -> Result<(Value, bool), Box<Raise>> {
+    let mut before: Option<Value> = None;
+    let mut rest = plist.clone();
+    while let Value::Cons(cons) = &rest {
+        let after = match cons.cdr() {
+            Value::Cons(value) => value.cdr(),
+            _ => return Err(malformed(plist)),
+        };
+        if cons.car().is_eq(indicator) {
+            return match before.as_ref().and_then(|b| b.as_cons()) {
+                Some(value) => {
+                    value.set_cdr(after);
+                    Ok((plist.clone(), true))
+                }
+                None => Ok((after, true)),
+            };
+        }
+        before = Some(cons.cdr());
+        rest = after;
+    }
+    Ok((plist.clone(), false))
+}
+
+fn getf(_: &mut Image, args: &[Value]) -> Outcome {
+    lookup(&args[0], &args[1], args.get(2))
+}
+
+fn putf(_: &mut Image, args: &[Value]) -> Outcome {
+    put(&args[0], &args[1], &args[2])
+}
+
+fn removef(_: &mut Image, args: &[Value]) -> Outcome {
+    let (plist, found) = remove(&args[0], &args[1])?;
+    Ok(Value::values(vec![plist, found.into()]))
+}
+
+fn get_properties(_: &mut Image, args: &[Value]) -> Outcome {
+    let mut walk = ListWalk::new(args[0].clone());
+    while let Some(cons) = walk.next_cons()? {
+        let Some(value) = walk.next()? else {
+            return Err(malformed(&args[0]));
+        };
+        if args[1].iter_list().any(|i| i.is_eq(&cons.car())) {
+            return Ok(Value::values(vec![cons.car(), value, Value::Cons(cons)]));
+        }
+    }
+    Ok(Value::values(vec![Value::NIL; 3]))
+}
+
+/// The symbol that a value is.
+pub fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
+    value
+        .as_symbol()
+        .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
+}
+
+fn get(image: &mut Image, args: &[Value]) -> Outcome {
+    let plist = &image.symbol(symbol(&args[0])?).plist;
+    lookup(plist, &args[1], args.get(2))
+}
+
+fn set_get(image: &mut Image, args: &[Value]) -> Outcome {
+    let sym = symbol(&args[1])?;
+    let plist = put(&image.symbol(sym).plist, &args[2], &args[0])?;
+    image.symbols.get_mut(sym).plist = plist;
+    Ok(args[0].clone())
+}
+
+fn remprop(image: &mut Image, args: &[Value]) -> Outcome {
+    let sym = symbol(&args[0])?;
+    let (plist, found) = remove(&image.symbol(sym).plist, &args[1])?;
+    image.symbols.get_mut(sym).plist = plist;
+    Ok(found.into())
+}
+
+fn symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
+    Ok(image.symbol(symbol(&args[0])?).plist.clone())
+}
+
+fn set_symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
+    let sym = symbol(&args[1])?;
+    image.symbols.get_mut(sym).plist = args[0].clone();
+    Ok(args[0].clone())
+}
+
+/// Property lists.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "GETF",
+        "plist indicator &optional default",
+        "The value of an indicator in a property list.",
+        &[
+            "(getf '(:a 1 :b 2) :b) => 2",
+            "(getf '(:a 1) :z :none) => :NONE",
+        ],
+        getf,
+    ),
+    pure(
+        "GET-PROPERTIES",
+        "plist indicators",
+        "The first indicator of a property list that is among the given ones, its value, and the list from there.",
+        &["(get-properties '(:a 1 :b 2) '(:b :c)) => :B ; 2 ; (:B 2)"],
+        get_properties,
+    ),
+    pure(
+        "GET",
+        "symbol indicator &optional default",
+        "The value of an indicator in a symbol's property list.",
+        &["(get 'no-such-thing 'color 'grey) => GREY"],
+        get,
+    ),
+    pure(
+        "REMPROP",
+        "symbol indicator",
+        "Takes an indicator out of a symbol's property list.",
+        &["(remprop 'no-such-thing 'color) => NIL"],
+        remprop,
+    ),
+    pure(
+        "SYMBOL-PLIST",
+        "symbol",
+        "A symbol's property list.",
+        &["(symbol-plist 'no-such-thing) => NIL"],
+        symbol_plist,
+    ),
+];
+
+/// What `setf` and `remf` of `getf` are made of; in `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "%PUTF",
+        "plist indicator value",
+        "The property list with a value for an indicator; an existing entry is changed.",
+        &["(system::%putf '(:a 1) :b 2) => (:B 2 :A 1)"],
+        putf,
+    ),
+    pure(
+        "%REMF",
+        "plist indicator",
+        "The property list without an indicator, and whether it was there.",
+        &["(system::%remf (list :a 1 :b 2) :b) => (:A 1) ; T"],
+        removef,
+    ),
+];
+
+/// Places for `setf`; the new value is the first argument.
+pub static SETTERS: &[Builtin] = &[
+    pure(
+        "GET",
+        "value symbol indicator &optional default",
+        "Sets an indicator in a symbol's property list.",
+        &[],
+        set_get,
+    ),
+    pure(
+        "SYMBOL-PLIST",
+        "value symbol",
+        "Replaces a symbol's property list.",
+        &[],
+        set_symbol_plist,
+    ),
+];

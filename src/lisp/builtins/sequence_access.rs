@@ -1,0 +1,293 @@
+//! Parts of sequences: length, elements, subsequences, copies, filling, joining.
+
+use std::rc::Rc;
+
+use super::array_index;
+use super::keywords;
+use super::lists::{nreverse_onto, size};
+use super::sequence::{self, Bounds, Kind, Sequence, index};
+use super::sequence_types::SequenceType;
+use crate::lisp::array::Vector;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+fn length(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Sequence::of(&args[0])?.len()?.into())
+}
+
+fn elt(_: &mut Image, args: &[Value]) -> Outcome {
+    let sequence = Sequence::of(&args[0])?;
+    let at = index(&args[1])?;
+    match &sequence {
+        Sequence::List(_) => sequence.get(at),
+        _ if at < sequence.len()? => sequence.get(at),
+        _ => Err(array_index::invalid(&args[0], &args[1], sequence.len()?)),
+    }
+}
+
+fn set_elt(_: &mut Image, args: &[Value]) -> Outcome {
+    let sequence = Sequence::of(&args[1])?;
+    let at = index(&args[2])?;
+    if !matches!(sequence, Sequence::List(_)) && at >= sequence.len()? {
+        return Err(array_index::invalid(&args[1], &args[2], sequence.len()?));
+    }
+    sequence.set(at, args[0].clone())?;
+    Ok(args[0].clone())
+}
+
+fn subseq(_: &mut Image, args: &[Value]) -> Outcome {
+    let sequence = Sequence::of(&args[0])?;
+    let bounds = Bounds::new(&sequence, args.get(1), args.get(2))?;
+    if let Sequence::Str(string) = &sequence {
+        return Ok(Value::string(string.slice(bounds.start, bounds.end)));
+    }
+    sequence.kind().make(sequence.items(bounds)?)
+}
+
+/// `(setf (subseq sequence start end) new)`.
+fn set_subseq(_: &mut Image, args: &[Value]) -> Outcome {
+    let target = Sequence::of(&args[1])?;
+    let bounds = Bounds::new(&target, args.get(2), args.get(3))?;
+    let new = Sequence::of(&args[0])?;
+    overwrite(&target, bounds, new.items(Bounds::ALL)?)?;
+    Ok(args[0].clone())
+}
+
+/// Writes items over a part of a sequence, as many as both have.
+fn overwrite(target: &Sequence, bounds: Bounds, items: Vec<Value>) -> Result<(), Box<Raise>> {
+    let end = bounds.end_of(target.len()?);
+    let room = end.saturating_sub(bounds.start).min(items.len());
+    match target {
+        Sequence::List(list) => {
+            let mut rest = list.clone();
+            for _ in 0..bounds.start {
+                rest = rest.cdr_or_nil();
+            }
+            for item in items.into_iter().take(room) {
+                let Value::Cons(cons) = rest else { break };
+                cons.set_car(item);
+                rest = cons.cdr();
+            }
+        }
+        Sequence::Vector(vector) => {
+            for (i, item) in items.into_iter().take(room).enumerate() {
+                let item = sequence::element(vector, item)?;
+                vector.set(bounds.start + i, item);
+            }
+        }
+        Sequence::Str(string) => {
+            let new = sequence::text_of(items.get(..room).unwrap_or(&items))?;
+            string.overwrite(bounds.start, &new);
+        }
+    }
+    Ok(())
+}
+
+fn copy_seq(_: &mut Image, args: &[Value]) -> Outcome {
+    let sequence = Sequence::of(&args[0])?;
+    match &sequence {
+        Sequence::Str(string) => Ok(Value::string(string.text())),
+        _ => sequence.kind().make(sequence.all()?),
+    }
+}
+
+fn reverse(_: &mut Image, args: &[Value]) -> Outcome {
+    let sequence = Sequence::of(&args[0])?;
+    let mut items = sequence.all()?;
+    items.reverse();
+    sequence.kind().make(items)
+}
+
+fn nreverse(_: &mut Image, args: &[Value]) -> Outcome {
+    let sequence = Sequence::of(&args[0])?;
+    if let Sequence::List(list) = &sequence {
+        return nreverse_onto(list, Value::NIL);
+    }
+    let mut items = sequence.all()?;
+    items.reverse();
+    sequence.set_all(&items)?;
+    Ok(args[0].clone())
+}
+
+fn fill(image: &mut Image, args: &[Value]) -> Outcome {
+    let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
+    let sequence = Sequence::of(&args[0])?;
+    let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let count = bounds.end_of(sequence.len()?) - bounds.start;
+    overwrite(&sequence, bounds, vec![args[1].clone(); count])?;
+    Ok(args[0].clone())
+}
+
+fn replace(image: &mut Image, args: &[Value]) -> Outcome {
+    let [start1, end1, start2, end2] = keywords::parse(
+        image,
+        &args[2..],
+        [
+            known::K_START1,
+            known::K_END1,
+            known::K_START2,
+            known::K_END2,
+        ],
+    )?;
+    let target = Sequence::of(&args[0])?;
+    let source = Sequence::of(&args[1])?;
+    let to = Bounds::new(&target, start1.as_ref(), end1.as_ref())?;
+    let from = Bounds::new(&source, start2.as_ref(), end2.as_ref())?;
+    overwrite(&target, to, source.items(from)?)?;
+    Ok(args[0].clone())
+}
+
+fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
+    let result = SequenceType::new(image, &args[0])?;
+    if result.kind == Kind::Str && args[1..].iter().all(|a| matches!(a, Value::Str(_))) {
+        let mut text = String::new();
+        for part in &args[1..] {
+            if let Value::Str(string) = part {
+                text.push_str(&string.borrow());
+            }
+        }
+        result.check_length(text.chars().count())?;
+        return Ok(Value::string(text));
+    }
+    let mut items = Vec::new();
+    for part in &args[1..] {
+        items.extend(Sequence::of(part)?.all()?);
+    }
+    result.make(items)
+}
+
+fn make_sequence(image: &mut Image, args: &[Value]) -> Outcome {
+    let [element] = keywords::parse(image, &args[2..], [known::K_INITIAL_ELEMENT])?;
+    let result = SequenceType::new(image, &args[0])?;
+    let count = size(&args[1])?;
+    let element = element.unwrap_or_else(|| default_element(result.kind));
+    result.make(vec![element; count])
+}
+
+/// What a sequence holds that was made without elements.
+pub fn default_element(kind: Kind) -> Value {
+    match kind {
+        Kind::List => Value::NIL,
+        Kind::Str => Value::Char('\0'),
+        Kind::Vector(known::DOUBLE_FLOAT) => Value::Double(0.0),
+        Kind::Vector(known::SINGLE_FLOAT) => Value::Single(0.0),
+        Kind::Vector(_) => Value::Int(0),
+    }
+}
+
+fn vector(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::Vector(Rc::new(Vector::simple(args.to_vec()))))
+}
+
+/// Parts of sequences.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "LENGTH",
+        "sequence",
+        "The number of elements of a sequence.",
+        &["(length '(1 2 3)) => 3", "(length \"naïve\") => 5"],
+        length,
+    ),
+    pure(
+        "ELT",
+        "sequence index",
+        "The element of a sequence at an index from 0.",
+        &["(elt '(a b c) 1) => B", "(elt \"abc\" 1) => #\\b"],
+        elt,
+    ),
+    pure(
+        "SUBSEQ",
+        "sequence start &optional end",
+        "A copy of a part of a sequence.",
+        &[
+            "(subseq '(1 2 3 4) 1 3) => (2 3)",
+            "(subseq \"hello\" 2) => \"llo\"",
+        ],
+        subseq,
+    ),
+    pure(
+        "COPY-SEQ",
+        "sequence",
+        "A copy of a sequence; the elements are the same.",
+        &["(copy-seq #(1 2)) => #(1 2)"],
+        copy_seq,
+    ),
+    pure(
+        "REVERSE",
+        "sequence",
+        "A sequence of the same elements in reverse order.",
+        &[
+            "(reverse '(1 2 3)) => (3 2 1)",
+            "(reverse \"abc\") => \"cba\"",
+        ],
+        reverse,
+    ),
+    pure(
+        "NREVERSE",
+        "sequence",
+        "Like `reverse`, but reuses the sequence; use the result.",
+        &["(nreverse (list 1 2 3)) => (3 2 1)"],
+        nreverse,
+    ),
+    pure(
+        "FILL",
+        "sequence item &key start end",
+        "Replaces all elements of a sequence by an item.",
+        &["(fill (list 1 2 3) 0 :start 1) => (1 0 0)"],
+        fill,
+    ),
+    pure(
+        "REPLACE",
+        "target source &key start1 end1 start2 end2",
+        "Copies elements of one sequence over those of another.",
+        &["(replace (list 1 2 3 4) '(a b) :start1 1) => (1 A B 4)"],
+        replace,
+    ),
+    pure(
+        "CONCATENATE",
+        "result-type &rest sequences",
+        "A sequence of the elements of all sequences.",
+        &[
+            "(concatenate 'string \"foo\" \"bar\") => \"foobar\"",
+            "(concatenate 'list '(1) #(2)) => (1 2)",
+        ],
+        concatenate,
+    ),
+    pure(
+        "MAKE-SEQUENCE",
+        "result-type size &key initial-element",
+        "A sequence of equal elements.",
+        &["(make-sequence 'list 2 :initial-element 0) => (0 0)"],
+        make_sequence,
+    ),
+    pure(
+        "VECTOR",
+        "&rest elements",
+        "A fresh vector of the arguments.",
+        &["(vector 1 2) => #(1 2)"],
+        vector,
+    ),
+];
+
+/// Places for `setf`; the new value is the first argument.
+pub static SETTERS: &[Builtin] = &[
+    pure(
+        "ELT",
+        "value sequence index",
+        "Replaces an element of a sequence.",
+        &[],
+        set_elt,
+    ),
+    pure(
+        "SUBSEQ",
+        "value sequence start &optional end",
+        "Replaces elements of a sequence.",
+        &[],
+        set_subseq,
+    ),
+];

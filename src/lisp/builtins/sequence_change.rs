@@ -1,0 +1,341 @@
+//! Removing and replacing elements: `remove`, `delete`, `substitute`, `nsubstitute` and
+//! their `-if` forms.
+
+use super::calls::{Calls, run};
+use super::criterion::{Criterion, Key, Test};
+use super::keywords;
+use super::sequence::{Bounds, Sequence, conses, relink, text_of};
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+
+/// What happens to the elements that satisfy a condition.
+enum Change {
+    /// They are taken out; with `true` of the sequence itself.
+    Remove { in_place: bool },
+    /// They are replaced; with `true` in the sequence itself.
+    Replace { new: Value, in_place: bool },
+}
+
+/// How the elements are told that are to change.
+#[derive(Clone, Copy)]
+enum By {
+    Item,
+    Predicate { expected: bool },
+}
+
+struct Changing {
+    sequence: Sequence,
+    bounds: Bounds,
+    from_end: bool,
+    limit: usize,
+    criterion: Criterion,
+    change: Change,
+}
+
+impl Changing {
+    /// From the arguments item or predicate, sequence and keywords.
+    fn new(image: &Image, args: &[Value], by: By, change: Change) -> Result<Changing, Box<Raise>> {
+        let bounding = [
+            known::K_KEY,
+            known::K_START,
+            known::K_END,
+            known::K_FROM_END,
+            known::K_COUNT,
+        ];
+        let ([key, start, end, from_end, count], test) = match by {
+            By::Predicate { .. } => (keywords::parse(image, &args[2..], bounding)?, None),
+            By::Item => {
+                let [key, start, end, from_end, count] = bounding;
+                let names = [
+                    key,
+                    start,
+                    end,
+                    from_end,
+                    count,
+                    known::K_TEST,
+                    known::K_TEST_NOT,
+                ];
+                let [key, start, end, from_end, count, test, test_not] =
+                    keywords::parse(image, &args[2..], names)?;
+                (
+                    [key, start, end, from_end, count],
+                    Some(Test::new(image, test, test_not)?),
+                )
+            }
+        };
+        let sequence = Sequence::of(&args[1])?;
+        let key = Key::new(image, key)?;
+        let criterion = match (by, test) {
+            (By::Predicate { expected }, _) => {
+                Criterion::predicate(image, &args[0], expected, key)?
+            }
+            (By::Item, test) => Criterion::item(args[0].clone(), test.unwrap_or(Test::Eql), key),
+        };
+        Ok(Changing {
+            bounds: Bounds::new(&sequence, start.as_ref(), end.as_ref())?,
+            from_end: from_end.is_some_and(|v| v.is_true()),
+            limit: limit(count.as_ref())?,
+            sequence,
+            criterion,
+            change,
+        })
+    }
+
+    async fn run(self, calls: Calls) -> Result<Value, Box<Raise>> {
+        let mut items = self.sequence.all()?;
+        let end = self.bounds.end_of(items.len());
+        let mut chosen = vec![false; items.len()];
+        let mut left = self.limit;
+        let mut indices = self.bounds.start..end;
+        while left > 0
+            && let Some(i) = if self.from_end {
+                indices.next_back()
+            } else {
+                indices.next()
+            }
+        {
+            // The items are a copy that no callback can shorten.
+            let Some(item) = items.get(i) else { break };
+            if self.criterion.accepts(&calls, item).await
+                && let Some(mark) = chosen.get_mut(i)
+            {
+                *mark = true;
+                left -= 1;
+            }
+        }
+        match self.change {
+            Change::Remove { in_place } => removed(&self.sequence, items, &chosen, in_place),
+            Change::Replace { new, in_place } => {
+                for (item, chosen) in items.iter_mut().zip(&chosen) {
+                    if *chosen {
+                        *item = new.clone();
+                    }
+                }
+                if in_place {
+                    self.sequence.set_all(&items)?;
+                    return Ok(self.sequence.value());
+                }
+                self.sequence.kind().make(items)
+            }
+        }
+    }
+}
+
+/// How many elements may change: the value of a `:count` argument.
+fn limit(count: Option<&Value>) -> Result<usize, Box<Raise>> {
+    match count {
+        None | Some(Value::Symbol(known::NIL)) => Ok(usize::MAX),
+        Some(Value::Int(n)) => Ok(usize::try_from(*n).unwrap_or(0)),
+        Some(Value::Big(n)) => Ok(match n.sign() {
+            num_bigint::Sign::Minus => 0,
+            _ => usize::MAX,
+        }),
+        Some(other) => Err(Raise::type_error(other, known::INTEGER)),
+    }
+}
+
+/// The sequence without the chosen elements.
+pub fn removed(
+    sequence: &Sequence,
+    items: Vec<Value>,
+    chosen: &[bool],
+    in_place: bool,
+) -> Result<Value, Box<Raise>> {
+    if in_place && let Sequence::List(list) = sequence {
+        let mut kept = conses(list)?;
+        let mut marks = chosen.iter();
+        kept.retain(|_| marks.next() != Some(&true));
+        return Ok(relink(&kept, Value::NIL));
+    }
+    let mut marks = chosen.iter();
+    let mut kept = items;
+    kept.retain(|_| marks.next() != Some(&true));
+    match sequence {
+        Sequence::Vector(vector) if in_place && vector.fill_pointer.get().is_some() => {
+            vector.fill_pointer.set(Some(kept.len()));
+            sequence.set_all(&kept)?;
+            Ok(sequence.value())
+        }
+        Sequence::Str(string) if in_place && string.has_fill_pointer.get() => {
+            string.set_text(text_of(&kept)?);
+            Ok(sequence.value())
+        }
+        _ => sequence.kind().make(kept),
+    }
+}
+
+fn remove_by(
+    machine: &mut Machine<'_>,
+    args: &[Value],
+    name: &'static str,
+    by: By,
+    in_place: bool,
+) -> Result<Step, Box<Raise>> {
+    let changing = Changing::new(machine.image, args, by, Change::Remove { in_place })?;
+    run(machine, name, |calls| changing.run(calls))
+}
+
+fn replace_by(
+    machine: &mut Machine<'_>,
+    args: &[Value],
+    name: &'static str,
+    by: By,
+    in_place: bool,
+) -> Result<Step, Box<Raise>> {
+    let new = args[0].clone();
+    let change = Change::Replace { new, in_place };
+    let changing = Changing::new(machine.image, &args[1..], by, change)?;
+    run(machine, name, |calls| changing.run(calls))
+}
+
+const IF: By = By::Predicate { expected: true };
+const IF_NOT: By = By::Predicate { expected: false };
+
+fn remove(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    remove_by(machine, &args, "REMOVE", By::Item, false)
+}
+
+fn remove_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    remove_by(machine, &args, "REMOVE-IF", IF, false)
+}
+
+fn remove_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    remove_by(machine, &args, "REMOVE-IF-NOT", IF_NOT, false)
+}
+
+fn delete(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    remove_by(machine, &args, "DELETE", By::Item, true)
+}
+
+fn delete_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    remove_by(machine, &args, "DELETE-IF", IF, true)
+}
+
+fn delete_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    remove_by(machine, &args, "DELETE-IF-NOT", IF_NOT, true)
+}
+
+fn substitute(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    replace_by(machine, &args, "SUBSTITUTE", By::Item, false)
+}
+
+fn substitute_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    replace_by(machine, &args, "SUBSTITUTE-IF", IF, false)
+}
+
+fn substitute_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    replace_by(machine, &args, "SUBSTITUTE-IF-NOT", IF_NOT, false)
+}
+
+fn nsubstitute(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    replace_by(machine, &args, "NSUBSTITUTE", By::Item, true)
+}
+
+fn nsubstitute_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    replace_by(machine, &args, "NSUBSTITUTE-IF", IF, true)
+}
+
+fn nsubstitute_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    replace_by(machine, &args, "NSUBSTITUTE-IF-NOT", IF_NOT, true)
+}
+
+const REMOVE_ITEM: &str = "item sequence &key key start end from-end count test test-not";
+const REMOVE_IF: &str = "predicate sequence &key key start end from-end count";
+const REPLACE_ITEM: &str = "new old sequence &key key start end from-end count test test-not";
+const REPLACE_IF: &str = "new predicate sequence &key key start end from-end count";
+
+/// Removing and replacing elements.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "REMOVE",
+        REMOVE_ITEM,
+        "A sequence without the elements that match an item.",
+        &[
+            "(remove 2 '(1 2 3 2)) => (1 3)",
+            "(remove #\\a \"banana\") => \"bnn\"",
+        ],
+        remove,
+    ),
+    control(
+        "REMOVE-IF",
+        REMOVE_IF,
+        "A sequence without the elements that satisfy a predicate.",
+        &["(remove-if #'evenp '(1 2 3 4)) => (1 3)"],
+        remove_if,
+    ),
+    control(
+        "REMOVE-IF-NOT",
+        REMOVE_IF,
+        "A sequence of the elements that satisfy a predicate.",
+        &["(remove-if-not #'evenp '(1 2 3 4)) => (2 4)"],
+        remove_if_not,
+    ),
+    control(
+        "DELETE",
+        REMOVE_ITEM,
+        "Like `remove`, but may change the sequence; use the result.",
+        &["(delete 2 (list 1 2 3)) => (1 3)"],
+        delete,
+    ),
+    control(
+        "DELETE-IF",
+        REMOVE_IF,
+        "Like `remove-if`, but may change the sequence; use the result.",
+        &["(delete-if #'evenp (list 1 2 3)) => (1 3)"],
+        delete_if,
+    ),
+    control(
+        "DELETE-IF-NOT",
+        REMOVE_IF,
+        "Like `remove-if-not`, but may change the sequence; use the result.",
+        &["(delete-if-not #'evenp (list 1 2 3)) => (2)"],
+        delete_if_not,
+    ),
+    control(
+        "SUBSTITUTE",
+        REPLACE_ITEM,
+        "A sequence with the elements that match `old` replaced by `new`.",
+        &["(substitute 9 2 '(1 2 3 2) :count 1) => (1 9 3 2)"],
+        substitute,
+    ),
+    control(
+        "SUBSTITUTE-IF",
+        REPLACE_IF,
+        "A sequence with the elements that satisfy a predicate replaced by `new`.",
+        &["(substitute-if 0 #'evenp '(1 2 3 4)) => (1 0 3 0)"],
+        substitute_if,
+    ),
+    control(
+        "SUBSTITUTE-IF-NOT",
+        REPLACE_IF,
+        "A sequence with the elements that do not satisfy a predicate replaced by `new`.",
+        &["(substitute-if-not 0 #'evenp '(1 2 3 4)) => (0 2 0 4)"],
+        substitute_if_not,
+    ),
+    control(
+        "NSUBSTITUTE",
+        REPLACE_ITEM,
+        "Like `substitute`, but changes the sequence.",
+        &["(nsubstitute 9 2 (list 1 2 3)) => (1 9 3)"],
+        nsubstitute,
+    ),
+    control(
+        "NSUBSTITUTE-IF",
+        REPLACE_IF,
+        "Like `substitute-if`, but changes the sequence.",
+        &["(nsubstitute-if 0 #'evenp (list 1 2)) => (1 0)"],
+        nsubstitute_if,
+    ),
+    control(
+        "NSUBSTITUTE-IF-NOT",
+        REPLACE_IF,
+        "Like `substitute-if-not`, but changes the sequence.",
+        &["(nsubstitute-if-not 0 #'evenp (list 1 2)) => (0 2)"],
+        nsubstitute_if_not,
+    ),
+];

@@ -1,0 +1,241 @@
+//! Finding and counting elements of sequences: `find`, `position`, `count` and their
+//! `-if` forms.
+
+use super::calls::{Calls, run};
+use super::criterion::{Criterion, Key, Test};
+use super::keywords;
+use super::sequence::{Bounds, Sequence};
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+
+/// What is wanted of the elements that satisfy a condition.
+#[derive(Clone, Copy)]
+enum Goal {
+    Element,
+    Position,
+    Count,
+}
+
+/// The arguments of a function that looks at a part of a sequence.
+struct Search {
+    sequence: Sequence,
+    bounds: Bounds,
+    from_end: bool,
+    criterion: Criterion,
+}
+
+impl Search {
+    /// From the arguments item, sequence and keywords.
+    fn by_item(image: &Image, args: &[Value]) -> Result<Search, Box<Raise>> {
+        let [key, start, end, from_end, test, test_not] = keywords::parse(
+            image,
+            &args[2..],
+            [
+                known::K_KEY,
+                known::K_START,
+                known::K_END,
+                known::K_FROM_END,
+                known::K_TEST,
+                known::K_TEST_NOT,
+            ],
+        )?;
+        let sequence = Sequence::of(&args[1])?;
+        let test = Test::new(image, test, test_not)?;
+        Ok(Search {
+            bounds: Bounds::new(&sequence, start.as_ref(), end.as_ref())?,
+            from_end: from_end.is_some_and(|v| v.is_true()),
+            criterion: Criterion::item(args[0].clone(), test, Key::new(image, key)?),
+            sequence,
+        })
+    }
+
+    /// From the arguments predicate, sequence and keywords.
+    fn by_predicate(image: &Image, args: &[Value], expected: bool) -> Result<Search, Box<Raise>> {
+        let [key, start, end, from_end] = keywords::parse(
+            image,
+            &args[2..],
+            [
+                known::K_KEY,
+                known::K_START,
+                known::K_END,
+                known::K_FROM_END,
+            ],
+        )?;
+        let sequence = Sequence::of(&args[1])?;
+        let key = Key::new(image, key)?;
+        Ok(Search {
+            bounds: Bounds::new(&sequence, start.as_ref(), end.as_ref())?,
+            from_end: from_end.is_some_and(|v| v.is_true()),
+            criterion: Criterion::predicate(image, &args[0], expected, key)?,
+            sequence,
+        })
+    }
+
+    async fn find(self, calls: Calls, goal: Goal) -> Result<Value, Box<Raise>> {
+        let mut count = 0_usize;
+        if self.from_end {
+            let items = self.sequence.items(self.bounds)?;
+            for (i, item) in items.into_iter().enumerate().rev() {
+                if self.criterion.accepts(&calls, &item).await {
+                    match goal {
+                        Goal::Element => return Ok(item),
+                        Goal::Position => return Ok((self.bounds.start + i).into()),
+                        Goal::Count => count += 1,
+                    }
+                }
+            }
+        } else {
+            let mut walk = self.sequence.walk(self.bounds);
+            let mut index = self.bounds.start;
+            while let Some(item) = walk.next()? {
+                if self.criterion.accepts(&calls, &item).await {
+                    match goal {
+                        Goal::Element => return Ok(item),
+                        Goal::Position => return Ok(index.into()),
+                        Goal::Count => count += 1,
+                    }
+                }
+                index += 1;
+            }
+        }
+        Ok(match goal {
+            Goal::Element | Goal::Position => Value::NIL,
+            Goal::Count => count.into(),
+        })
+    }
+}
+
+fn find(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let search = Search::by_item(machine.image, &args)?;
+    run(machine, "FIND", |calls| search.find(calls, Goal::Element))
+}
+
+fn find_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, &args, true)?;
+    run(machine, "FIND-IF", |calls| {
+        search.find(calls, Goal::Element)
+    })
+}
+
+fn find_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, &args, false)?;
+    run(machine, "FIND-IF-NOT", |calls| {
+        search.find(calls, Goal::Element)
+    })
+}
+
+fn position(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let search = Search::by_item(machine.image, &args)?;
+    run(machine, "POSITION", |calls| {
+        search.find(calls, Goal::Position)
+    })
+}
+
+fn position_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, &args, true)?;
+    run(machine, "POSITION-IF", |calls| {
+        search.find(calls, Goal::Position)
+    })
+}
+
+fn position_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, &args, false)?;
+    run(machine, "POSITION-IF-NOT", |calls| {
+        search.find(calls, Goal::Position)
+    })
+}
+
+fn count(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let search = Search::by_item(machine.image, &args)?;
+    run(machine, "COUNT", |calls| search.find(calls, Goal::Count))
+}
+
+fn count_if(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, &args, true)?;
+    run(machine, "COUNT-IF", |calls| search.find(calls, Goal::Count))
+}
+
+fn count_if_not(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let search = Search::by_predicate(machine.image, &args, false)?;
+    run(machine, "COUNT-IF-NOT", |calls| {
+        search.find(calls, Goal::Count)
+    })
+}
+
+const BY_ITEM: &str = "item sequence &key key start end from-end test test-not";
+const BY_PREDICATE: &str = "predicate sequence &key key start end from-end";
+
+/// Finding and counting elements.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "FIND",
+        BY_ITEM,
+        "The first element that matches an item, or `NIL`.",
+        &["(find 2 '((1 a) (2 b)) :key #'first) => (2 B)"],
+        find,
+    ),
+    control(
+        "FIND-IF",
+        BY_PREDICATE,
+        "The first element that satisfies a predicate, or `NIL`.",
+        &[
+            "(find-if #'evenp '(1 2 3 4)) => 2",
+            "(find-if #'evenp '(1 2 3 4) :from-end t) => 4",
+        ],
+        find_if,
+    ),
+    control(
+        "FIND-IF-NOT",
+        BY_PREDICATE,
+        "The first element that does not satisfy a predicate, or `NIL`.",
+        &["(find-if-not #'evenp '(2 4 5)) => 5"],
+        find_if_not,
+    ),
+    control(
+        "POSITION",
+        BY_ITEM,
+        "The index of the first element that matches an item, or `NIL`.",
+        &["(position #\\l \"hello\") => 2"],
+        position,
+    ),
+    control(
+        "POSITION-IF",
+        BY_PREDICATE,
+        "The index of the first element that satisfies a predicate, or `NIL`.",
+        &["(position-if #'evenp #(1 2 3)) => 1"],
+        position_if,
+    ),
+    control(
+        "POSITION-IF-NOT",
+        BY_PREDICATE,
+        "The index of the first element that does not satisfy a predicate, or `NIL`.",
+        &["(position-if-not #'evenp '(2 4 5)) => 2"],
+        position_if_not,
+    ),
+    control(
+        "COUNT",
+        BY_ITEM,
+        "The number of elements that match an item.",
+        &["(count #\\a \"banana\") => 3"],
+        count,
+    ),
+    control(
+        "COUNT-IF",
+        BY_PREDICATE,
+        "The number of elements that satisfy a predicate.",
+        &["(count-if #'evenp '(1 2 4)) => 2"],
+        count_if,
+    ),
+    control(
+        "COUNT-IF-NOT",
+        BY_PREDICATE,
+        "The number of elements that do not satisfy a predicate.",
+        &["(count-if-not #'evenp '(1 2 4)) => 1"],
+        count_if_not,
+    ),
+];

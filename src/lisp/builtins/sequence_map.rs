@@ -1,0 +1,263 @@
+//! Functions over the elements of sequences: `map`, `map-into`, `every`, `some`, `notany`,
+//! `notevery`, `reduce`.
+
+use super::calls::{Args, Calls, callable, run};
+use super::criterion::Key;
+use super::keywords;
+use super::sequence::{Bounds, Sequence, Walk};
+use super::sequence_types::SequenceType;
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// Several sequences walked side by side.
+struct Side(Vec<Walk>);
+
+impl Side {
+    fn new(sequences: &[Value]) -> Result<Side, Box<Raise>> {
+        let walks: Result<Vec<Walk>, _> = sequences
+            .iter()
+            .map(|s| Ok(Sequence::of(s)?.walk(Bounds::ALL)))
+            .collect();
+        walks.map(Side)
+    }
+
+    /// The next element of each, or none when one is at its end.
+    fn next(&mut self) -> Result<Option<Args>, Box<Raise>> {
+        if let [walk] = self.0.as_mut_slice() {
+            return Ok(walk.next()?.map(|item| Args::One([item])));
+        }
+        let mut args = Vec::with_capacity(self.0.len());
+        for walk in &mut self.0 {
+            match walk.next()? {
+                Some(item) => args.push(item),
+                None => return Ok(None),
+            }
+        }
+        Ok(Some(Args::Many(args)))
+    }
+}
+
+fn map(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let result = match &args[0] {
+        Value::Symbol(known::NIL) => None,
+        specifier => Some(SequenceType::new(machine.image, specifier)?),
+    };
+    let function = callable(machine.image, &args[1])?;
+    let mut side = Side::new(&args[2..])?;
+    run(machine, "MAP", |calls| async move {
+        let mut items = Vec::new();
+        while let Some(args) = side.next()? {
+            let value = calls.call(&function, args).await;
+            if result.is_some() {
+                items.push(value);
+            }
+        }
+        match result {
+            Some(result) => result.make(items),
+            None => Ok(Value::NIL),
+        }
+    })
+}
+
+fn map_into(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let target = Sequence::of(&args[0])?;
+    let function = callable(machine.image, &args[1])?;
+    let mut side = Side::new(&args[2..])?;
+    // A vector with a fill pointer is filled up to its full size.
+    let room = match &target {
+        Sequence::Vector(vector) => vector.items.borrow().len(),
+        other => other.len()?,
+    };
+    run(machine, "MAP-INTO", |calls| async move {
+        let mut items = Vec::new();
+        while items.len() < room
+            && let Some(args) = side.next()?
+        {
+            items.push(calls.call(&function, args).await);
+        }
+        if let Sequence::Vector(vector) = &target
+            && vector.fill_pointer.get().is_some()
+        {
+            vector.fill_pointer.set(Some(items.len()));
+        }
+        let count = items.len();
+        if let Sequence::Str(_) = &target {
+            items.extend(target.items(Bounds {
+                start: count,
+                end: None,
+            })?);
+        }
+        target.set_all(&items)?;
+        Ok(target.value())
+    })
+}
+
+/// When a walk over elements is decided, and what comes out.
+#[derive(Clone, Copy)]
+enum Quantifier {
+    Every,
+    Some,
+    NotAny,
+    NotEvery,
+}
+
+async fn quantified(
+    calls: Calls,
+    function: Value,
+    mut side: Side,
+    quantifier: Quantifier,
+) -> Outcome {
+    while let Some(args) = side.next()? {
+        let value = calls.call(&function, args).await;
+        match quantifier {
+            Quantifier::Every if value.is_nil() => return Ok(Value::NIL),
+            Quantifier::NotEvery if value.is_nil() => return Ok(Value::T),
+            Quantifier::Some if value.is_true() => return Ok(value),
+            Quantifier::NotAny if value.is_true() => return Ok(Value::NIL),
+            _ => {}
+        }
+    }
+    Ok(Value::bool(matches!(
+        quantifier,
+        Quantifier::Every | Quantifier::NotAny
+    )))
+}
+
+fn quantify(
+    machine: &mut Machine<'_>,
+    args: &[Value],
+    name: &'static str,
+    quantifier: Quantifier,
+) -> Result<Step, Box<Raise>> {
+    let function = callable(machine.image, &args[0])?;
+    let side = Side::new(&args[1..])?;
+    run(machine, name, |calls| {
+        quantified(calls, function, side, quantifier)
+    })
+}
+
+fn every(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &args, "EVERY", Quantifier::Every)
+}
+
+fn some(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &args, "SOME", Quantifier::Some)
+}
+
+fn notany(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &args, "NOTANY", Quantifier::NotAny)
+}
+
+fn notevery(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    quantify(machine, &args, "NOTEVERY", Quantifier::NotEvery)
+}
+
+fn reduce(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let image = &machine.image;
+    let [key, start, end, from_end, initial] = keywords::parse(
+        image,
+        &args[2..],
+        [
+            known::K_KEY,
+            known::K_START,
+            known::K_END,
+            known::K_FROM_END,
+            known::K_INITIAL_VALUE,
+        ],
+    )?;
+    let function = callable(image, &args[0])?;
+    let key = Key::new(image, key)?;
+    let sequence = Sequence::of(&args[1])?;
+    let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let from_end = from_end.is_some_and(|v| v.is_true());
+    run(machine, "REDUCE", |calls| async move {
+        let mut result = initial;
+        if from_end {
+            for item in sequence.items(bounds)?.into_iter().rev() {
+                let item = key.of(&calls, item).await;
+                result = Some(match result {
+                    Some(value) => calls.call2(&function, item, value).await,
+                    None => item,
+                });
+            }
+        } else {
+            let mut walk = sequence.walk(bounds);
+            while let Some(item) = walk.next()? {
+                let item = key.of(&calls, item).await;
+                result = Some(match result {
+                    Some(value) => calls.call2(&function, value, item).await,
+                    None => item,
+                });
+            }
+        }
+        match result {
+            Some(value) => Ok(value),
+            None => Ok(calls.call(&function, Args::Many(Vec::new())).await),
+        }
+    })
+}
+
+/// Functions over the elements of sequences.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "MAP",
+        "result-type function sequence &rest sequences",
+        "A sequence of the results of a function for the elements of sequences; `NIL` as type collects nothing.",
+        &[
+            "(map 'vector #'1+ '(1 2 3)) => #(2 3 4)",
+            "(map 'list #'+ #(1 2) '(10 20)) => (11 22)",
+        ],
+        map,
+    ),
+    control(
+        "MAP-INTO",
+        "target function &rest sequences",
+        "Writes the results of a function for the elements of sequences into a sequence.",
+        &["(map-into (list 0 0) #'+ '(1 2) '(10 20)) => (11 22)"],
+        map_into,
+    ),
+    control(
+        "EVERY",
+        "predicate sequence &rest sequences",
+        "Do all elements satisfy a predicate?",
+        &["(every #'evenp '(2 4)) => T"],
+        every,
+    ),
+    control(
+        "SOME",
+        "predicate sequence &rest sequences",
+        "The first true result of a predicate for the elements, or `NIL`.",
+        &["(some #'evenp '(1 2)) => T"],
+        some,
+    ),
+    control(
+        "NOTANY",
+        "predicate sequence &rest sequences",
+        "Does no element satisfy a predicate?",
+        &["(notany #'evenp '(1 3)) => T"],
+        notany,
+    ),
+    control(
+        "NOTEVERY",
+        "predicate sequence &rest sequences",
+        "Is there an element that does not satisfy a predicate?",
+        &["(notevery #'evenp '(2 3)) => T"],
+        notevery,
+    ),
+    control(
+        "REDUCE",
+        "function sequence &key key from-end start end initial-value",
+        "Combines the elements of a sequence two by two.",
+        &[
+            "(reduce #'+ '(1 2 3 4)) => 10",
+            "(reduce #'list '(1 2 3) :from-end t) => (1 (2 3))",
+        ],
+        reduce,
+    ),
+];

@@ -1,0 +1,130 @@
+//! Type specifiers that name kinds of sequences, for results of `map`, `concatenate`,
+//! `merge`, `make-sequence` and `coerce`.
+
+use super::sequence::Kind;
+use super::shown::shown;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// A kind of sequence, and the length if the type says one.
+#[derive(Clone)]
+pub struct SequenceType {
+    /// The kind.
+    pub kind: Kind,
+    /// The length, with the type specifier as the user wrote it.
+    length: Option<usize>,
+    specifier: Value,
+}
+
+impl SequenceType {
+    /// What a type specifier means, if it names a kind of sequence.
+    pub fn of(image: &Image, specifier: &Value) -> Option<SequenceType> {
+        let mut parts = specifier.iter_list();
+        let (name, first, second) = match specifier {
+            Value::Symbol(sym) => (*sym, None, None),
+            _ => (parts.next()?.as_symbol()?, parts.next(), parts.next()),
+        };
+        let size = |value: Option<Value>| match value {
+            Some(Value::Int(n)) => usize::try_from(n).ok(),
+            // The dimensions of an array type.
+            Some(Value::Cons(dimensions)) => match dimensions.car() {
+                Value::Int(n) => usize::try_from(n).ok(),
+                _ => None,
+            },
+            _ => None,
+        };
+        let (kind, length) = match name {
+            known::LIST | known::CONS => (Kind::List, None),
+            known::NULL => (Kind::List, Some(0)),
+            known::VECTOR | known::ARRAY | known::SIMPLE_ARRAY => {
+                let element_type = first.unwrap_or(Value::T);
+                (vector_kind(image, &element_type), size(second))
+            }
+            known::SIMPLE_VECTOR => (Kind::Vector(known::T), size(first)),
+            known::BIT_VECTOR | known::SIMPLE_BIT_VECTOR => (Kind::Vector(known::BIT), size(first)),
+            known::STRING
+            | known::SIMPLE_STRING
+            | known::BASE_STRING
+            | known::SIMPLE_BASE_STRING => (Kind::Str, size(first)),
+            _ => return None,
+        };
+        Some(SequenceType {
+            kind,
+            length,
+            specifier: specifier.clone(),
+        })
+    }
+
+    /// What a type specifier means; an error if it is no kind of sequence.
+    pub fn new(image: &Image, specifier: &Value) -> Result<SequenceType, Box<Raise>> {
+        SequenceType::of(image, specifier).ok_or_else(|| {
+            Raise::new(
+                known::SIMPLE_TYPE_ERROR,
+                format!(
+                    "{} is not a type of sequence; LIST, VECTOR and STRING are.",
+                    shown(image, specifier)
+                ),
+            )
+            .with(known::K_DATUM, specifier.clone())
+            .with(known::K_EXPECTED_TYPE, known::SEQUENCE.into())
+        })
+    }
+
+    /// A fresh sequence of this type.
+    pub fn make(&self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
+        self.check_length(items.len())?;
+        self.kind.make(items)
+    }
+
+    /// Checks that a sequence of this type can have a length.
+    pub fn check_length(&self, length: usize) -> Result<(), Box<Raise>> {
+        match self.length {
+            Some(expected) if expected != length => Err(Raise::new(
+                known::SIMPLE_TYPE_ERROR,
+                format!(
+                    "A sequence of length {expected} is wanted, but this one has length {length}."
+                ),
+            )
+            .with(known::K_DATUM, length.into())
+            .with(known::K_EXPECTED_TYPE, self.specifier.clone())),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The kind of vector that holds elements of a type.
+pub fn vector_kind(image: &Image, element_type: &Value) -> Kind {
+    match upgraded(image, element_type) {
+        known::CHARACTER => Kind::Str,
+        other => Kind::Vector(other),
+    }
+}
+
+/// The element type that an array made for elements of a type really has.
+pub fn upgraded(image: &Image, element_type: &Value) -> Sym {
+    match element_type {
+        Value::Symbol(known::CHARACTER | known::BASE_CHAR | known::STANDARD_CHAR) => {
+            known::CHARACTER
+        }
+        Value::Symbol(sym) if image.name(*sym) == "EXTENDED-CHAR" => known::CHARACTER,
+        Value::Symbol(known::BIT) => known::BIT,
+        Value::Symbol(known::DOUBLE_FLOAT | known::LONG_FLOAT) => known::DOUBLE_FLOAT,
+        Value::Symbol(known::SINGLE_FLOAT | known::SHORT_FLOAT) => known::SINGLE_FLOAT,
+        Value::Symbol(known::FIXNUM) => known::FIXNUM,
+        Value::Cons(cons) => {
+            let arguments: Vec<Value> = cons.cdr().iter_list().collect();
+            match (cons.car(), arguments.as_slice()) {
+                (Value::Symbol(known::UNSIGNED_BYTE), [Value::Int(1)])
+                | (Value::Symbol(known::MOD), [Value::Int(2)])
+                | (Value::Symbol(known::INTEGER), [Value::Int(0), Value::Int(1)]) => known::BIT,
+                (Value::Symbol(known::DOUBLE_FLOAT), _) => known::DOUBLE_FLOAT,
+                (Value::Symbol(known::SINGLE_FLOAT), _) => known::SINGLE_FLOAT,
+                _ => known::T,
+            }
+        }
+        _ => known::T,
+    }
+}
