@@ -1,5 +1,6 @@
 //! One Lisp image: everything that global names mean.
 
+use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -50,6 +51,8 @@ pub struct Image {
     pub builtins: IndexMap<Sym, &'static Builtin>,
     /// Macros written in Rust and special operators, by the symbol that names them.
     pub operators: IndexMap<Sym, &'static Operator>,
+    /// Made-up addresses of objects that were printed.
+    pub printed: RefCell<super::print::identity::Identities>,
 }
 
 /// Standard output: text in order, and the column where the next character goes.
@@ -124,6 +127,7 @@ impl Image {
             nesting: 0,
             condition_places: VecDeque::new(),
             identities: 0,
+            printed: RefCell::default(),
             builtins: IndexMap::new(),
             operators: IndexMap::new(),
         }
