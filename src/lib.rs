@@ -1,5 +1,7 @@
 //! planwright: an interactive shell for programming a simulated kitchen robot in a
 //! Common-Lisp-like plan language.
 
+pub mod closest_name;
 pub mod robot;
+pub mod sexp;
 pub mod spatial;
