@@ -5,3 +5,4 @@ pub mod closest_name;
 pub mod robot;
 pub mod sexp;
 pub mod spatial;
+pub mod world;
