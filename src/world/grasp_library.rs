@@ -420,7 +420,7 @@ mod tests {
     fn a_new_grasp_is_tried_last_and_an_old_one_is_overridden() {
         let mut library = library();
         // The tutorial's diagonal grasp, whose matrix is right to four digits only.
-        let s = 0.7071;
+        let s = 7071.0 / 10_000.0;
         let diagonal = definition([[s, 0.0, -s], [-s, 0.0, -s], [0.0, 1.0, 0.0]]);
         for _ in 0..2 {
             let defined = library.define("bottle", Side::Left, "fl-diagonal", diagonal.clone());
