@@ -37,23 +37,6 @@ impl KinematicTree {
         };
         build(&robot, &source).map_err(place)
     }
-
-    /// Reads two URDFs, each given by its text and file name, at the same time: for a
-    /// quick start, since reading is what takes longest then.
-    pub fn pair_from_urdf(
-        first: (&str, &str),
-        second: (&str, &str),
-    ) -> Result<(Self, Self), UrdfError> {
-        std::thread::scope(|scope| {
-            let other = scope.spawn(|| Self::from_urdf(second.0, second.1));
-            let first = Self::from_urdf(first.0, first.1);
-            let second = match other.join() {
-                Ok(second) => second,
-                Err(panic) => std::panic::resume_unwind(panic),
-            };
-            Ok((first?, second?))
-        })
-    }
 }
 
 /// Where the links and joints of the robot stand; both in the order of the file, as
