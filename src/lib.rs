@@ -9,3 +9,8 @@ pub mod repl;
 pub mod session;
 pub mod spatial;
 pub mod transcript;
+pub mod closest_name;
+pub mod robot;
+pub mod sexp;
+pub mod spatial;
+pub mod world;

@@ -1,0 +1,3 @@
+//! The physical world.
+pub mod grasp_library;
+pub mod object_library;
