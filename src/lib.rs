@@ -2,3 +2,4 @@
 //! Common-Lisp-like plan language.
 
 pub mod spatial;
+pub mod world;

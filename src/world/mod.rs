@@ -1,0 +1,4 @@
+//! The physical world.
+pub mod hash;
+pub mod physics;
+mod solid;
