@@ -1,5 +1,6 @@
 //! planwright: an interactive shell for programming a simulated kitchen robot in a
 //! Common-Lisp-like plan language.
 
+pub mod robot;
 pub mod spatial;
 pub mod world;
