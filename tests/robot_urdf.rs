@@ -261,3 +261,14 @@ fn an_empty_file_is_reported() {
         )
     );
 }
+
+#[test]
+fn a_second_limit_is_reported() {
+    assert_eq!(
+        error(&joint(
+            "name=\"j\" type=\"continuous\"",
+            "<limit velocity=\"1\"/>\n<limit velocity=\"2\"/>"
+        )),
+        "r.urdf:4:1: <joint> has a second <limit>; keep one"
+    );
+}

@@ -15,3 +15,9 @@ mod xml_elements;
 pub use joint_positions::JointPositions;
 pub use tree::{Joint, JointId, JointKind, KinematicTree, Limits, Link, LinkId, Mimic};
 pub use urdf_error::UrdfError;
+
+/// The text of the built-in PR2 description, `world/pr2.urdf`.
+pub const PR2_URDF: &str = include_str!("../../world/pr2.urdf");
+
+/// The text of the built-in kitchen, `world/kitchen.urdf`; its root is the map frame.
+pub const KITCHEN_URDF: &str = include_str!("../../world/kitchen.urdf");

@@ -107,6 +107,14 @@ pub enum UrdfProblem {
         /// What it could look like.
         example: &'static str,
     },
+    /// A child element that may stand only once stands twice.
+    #[error("<{element}> has a second <{child}>; keep one")]
+    RepeatedChild {
+        /// Name of the element.
+        element: String,
+        /// Name of the child.
+        child: String,
+    },
     /// An attribute has a value that is not of the right kind.
     #[error("{attribute}=\"{value}\" in <{element}> is wrong; expected {expected}")]
     BadValue {

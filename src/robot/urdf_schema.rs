@@ -113,6 +113,9 @@ const CHILDREN: &[(&str, &str, &str)] = &[
     ),
 ];
 
+/// Elements whose children may each stand only once.
+const SINGLE_CHILDREN: &[&str] = &["joint", "inertial", "visual", "collision", "geometry"];
+
 /// Finds the first element that breaks the rules: its byte offset and what is wrong.
 ///
 /// Only links, joints and materials are looked at; other elements of a robot, such as
@@ -186,7 +189,9 @@ fn check_attributes(element: &Element<'_>) -> Result<(), (usize, UrdfProblem)> {
 
 fn check_children(elements: &[Element<'_>], i: usize) -> Result<(), (usize, UrdfProblem)> {
     let element = &elements[i];
-    let children = || elements[i + 1..].iter().filter(|e| e.parent == Some(i));
+    // What an element contains follows it directly, in the order of the file.
+    let contents = || elements[i + 1..].iter().take_while(|e| e.parent >= Some(i));
+    let children = || contents().filter(|e| e.parent == Some(i));
     let missing = |child: &'static str, example: &'static str| {
         let problem = UrdfProblem::MissingChild {
             element: element.name.to_owned(),
@@ -198,6 +203,17 @@ fn check_children(elements: &[Element<'_>], i: usize) -> Result<(), (usize, Urdf
     for &(name, child, example) in CHILDREN {
         if name == element.name && !children().any(|e| e.name == child) {
             return missing(child, example);
+        }
+    }
+    if SINGLE_CHILDREN.contains(&element.name) {
+        for (k, child) in children().enumerate() {
+            if children().take(k).any(|e| e.name == child.name) {
+                let problem = UrdfProblem::RepeatedChild {
+                    element: element.name.to_owned(),
+                    child: child.name.to_owned(),
+                };
+                return Err((child.offset, problem));
+            }
         }
     }
     let limited = matches!(
