@@ -28,7 +28,8 @@ impl AllowedPairs {
     /// Also allows each of the bodies to touch `other`.
     #[must_use]
     pub fn and_all(mut self, bodies: impl IntoIterator<Item = BodyName>, other: &BodyName) -> Self {
-        self.pairs.extend(bodies.into_iter().map(|b| (b, other.clone())));
+        self.pairs
+            .extend(bodies.into_iter().map(|b| (b, other.clone())));
         self
     }
 

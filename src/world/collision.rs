@@ -145,7 +145,9 @@ impl<'w> CollisionChecker<'w> {
         allowed: &AllowedPairs,
         margin: f64,
     ) -> Option<CollisionHit> {
-        self.with_poses(robot, |checker, poses| checker.first_hit_at(poses, allowed, margin))
+        self.with_poses(robot, |checker, poses| {
+            checker.first_hit_at(poses, allowed, margin)
+        })
     }
 
     /// As [`Self::first_hit`], for the poses of all links as forward kinematics gives them.
@@ -241,15 +243,28 @@ impl<'w> CollisionChecker<'w> {
         for link in &geometry.solid_links {
             // A pose for every link is the contract of `first_hit_at`; without one the
             // link is taken to be at the origin.
-            let pose = link_poses.get(link.link.index()).map_or(ParryPose::IDENTITY, to_parry);
+            let pose = link_poses
+                .get(link.link.index())
+                .map_or(ParryPose::IDENTITY, to_parry);
             let key = PartKey::Robot(index(link.link));
-            self.movers.push(Mover { key, pose, bounds: link.bounds.transform_by(&pose) });
+            self.movers.push(Mover {
+                key,
+                pose,
+                bounds: link.bounds.transform_by(&pose),
+            });
         }
         for held in &self.held {
-            let link = link_poses.get(held.link.index()).copied().unwrap_or_default();
+            let link = link_poses
+                .get(held.link.index())
+                .copied()
+                .unwrap_or_default();
             let pose = to_parry(&(link * held.at));
             let bounds = held.bounds.transform_by(&pose);
-            self.movers.push(Mover { key: held.key, pose, bounds });
+            self.movers.push(Mover {
+                key: held.key,
+                pose,
+                bounds,
+            });
         }
     }
 
@@ -270,7 +285,12 @@ impl<'w> CollisionChecker<'w> {
         visit: &mut impl FnMut(Near) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let slack = margin.max(0.0);
-        let Some(whole) = self.movers.iter().map(|m| m.bounds).reduce(|a, b| a.merged(&b)) else {
+        let Some(whole) = self
+            .movers
+            .iter()
+            .map(|m| m.bounds)
+            .reduce(|a, b| a.merged(&b))
+        else {
             return ControlFlow::Continue(());
         };
         let whole = whole.loosened(slack);
@@ -292,26 +312,43 @@ impl<'w> CollisionChecker<'w> {
                 }
                 for solid in solids {
                     let pose = mover.pose * solid.pose;
-                    let near =
-                        separation(&pose, solid, &obstacle.pose, &obstacle.solid, margin);
+                    let near = separation(&pose, solid, &obstacle.pose, &obstacle.solid, margin);
                     if let Some(separation) = near {
-                        visit(Near { moving: mover.key, other: obstacle.key, separation })?;
+                        visit(Near {
+                            moving: mover.key,
+                            other: obstacle.key,
+                            separation,
+                        })?;
                     }
                 }
             }
             for object in &self.objects {
-                if !object.bounds.intersects(&bounds) || is_allowed(allowed, mover.key, object.key) {
+                if !object.bounds.intersects(&bounds) || is_allowed(allowed, mover.key, object.key)
+                {
                     continue;
                 }
-                self.search_pair(mover, solids, object.key, &object.pose, object.solids, margin, visit)?;
+                self.search_pair(
+                    mover,
+                    solids,
+                    object.key,
+                    &object.pose,
+                    object.solids,
+                    margin,
+                    visit,
+                )?;
             }
             if mover.bounds.mins.z < margin
                 && !self.models.rolls_on_floor(mover.key)
                 && !is_allowed(allowed, mover.key, PartKey::Floor)
             {
                 for solid in solids {
-                    if let Some(separation) = below_floor(&(mover.pose * solid.pose), solid, margin) {
-                        visit(Near { moving: mover.key, other: PartKey::Floor, separation })?;
+                    if let Some(separation) = below_floor(&(mover.pose * solid.pose), solid, margin)
+                    {
+                        visit(Near {
+                            moving: mover.key,
+                            other: PartKey::Floor,
+                            separation,
+                        })?;
                     }
                 }
             }
@@ -363,7 +400,15 @@ impl<'w> CollisionChecker<'w> {
         {
             return ControlFlow::Continue(());
         }
-        self.search_pair(one, self.solids(a), two.key, &two.pose, self.solids(b), margin, visit)
+        self.search_pair(
+            one,
+            self.solids(a),
+            two.key,
+            &two.pose,
+            self.solids(b),
+            margin,
+            visit,
+        )
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -382,7 +427,11 @@ impl<'w> CollisionChecker<'w> {
             for one in solids {
                 let pose1 = mover.pose * one.pose;
                 if let Some(separation) = separation(&pose1, one, &pose2, two, margin) {
-                    visit(Near { moving: mover.key, other, separation })?;
+                    visit(Near {
+                        moving: mover.key,
+                        other,
+                        separation,
+                    })?;
                 }
             }
         }

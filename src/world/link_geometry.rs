@@ -50,14 +50,21 @@ impl TreeGeometry {
         let zero = tree.zero_positions();
         let names: Vec<_> = tree
             .links()
-            .map(|(id, link)| LinkName { id, name: Arc::from(link.name.as_str()) })
+            .map(|(id, link)| LinkName {
+                id,
+                name: Arc::from(link.name.as_str()),
+            })
             .collect();
         let solid_links: Vec<_> = tree
             .links()
             .filter_map(|(link, l)| {
                 let solids = Solid::all(&l.collisions);
                 let bounds = bounds_of(&solids)?;
-                Some(LinkSolids { link, solids, bounds })
+                Some(LinkSolids {
+                    link,
+                    solids,
+                    bounds,
+                })
             })
             .collect();
 
@@ -79,7 +86,11 @@ impl TreeGeometry {
             let place = groups.iter().position(|g| g.root == root);
             group_of.push(place.unwrap_or_else(|| {
                 let moves = root != tree.root();
-                groups.push(RigidGroup { root, members: Vec::new(), moves });
+                groups.push(RigidGroup {
+                    root,
+                    members: Vec::new(),
+                    moves,
+                });
                 groups.len() - 1
             }));
         }
@@ -90,7 +101,12 @@ impl TreeGeometry {
                 group.members.push((place, pose));
             }
         }
-        Self { names, solid_links, group_of, groups }
+        Self {
+            names,
+            solid_links,
+            group_of,
+            groups,
+        }
     }
 
     /// The name of the link at that place of the tree.

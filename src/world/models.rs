@@ -39,8 +39,14 @@ impl Models {
                 }
             }
         }
-        let hand_of = robot.links().map(|(link, _)| roles.hand_of(&robot, link)).collect();
-        let rolls = robot.links().map(|(link, _)| roles.wheels.contains(&link)).collect();
+        let hand_of = robot
+            .links()
+            .map(|(link, _)| roles.hand_of(&robot, link))
+            .collect();
+        let rolls = robot
+            .links()
+            .map(|(link, _)| roles.wheels.contains(&link))
+            .collect();
         Self {
             robot,
             kitchen,

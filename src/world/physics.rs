@@ -17,14 +17,13 @@
 
 use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{
-    CoefficientCombineRule,
-    CCDSolver, FixedJointBuilder, FrictionModel, ImpulseJointHandle, ImpulseJointSet,
-    IntegrationParameters, IslandManager, MultibodyJointSet, RigidBodyBuilder, RigidBodyHandle,
-    RigidBodySet, SoftBodySet, SpringCoefficients,
+    CCDSolver, CoefficientCombineRule, FixedJointBuilder, FrictionModel, ImpulseJointHandle,
+    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBodyBuilder,
+    RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 use rapier3d_f64::geometry::{
-    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet,
-    ContactPair, Group, InteractionGroups, InteractionTestMode, NarrowPhase, SharedShape,
+    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, ContactPair, Group,
+    InteractionGroups, InteractionTestMode, NarrowPhase, SharedShape,
 };
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::PhysicsPipeline;
@@ -234,7 +233,10 @@ impl Physics {
 
     /// Whether the engine has put the body to sleep.
     pub(crate) fn is_sleeping(&self, body: BodyHandle) -> bool {
-        self.sets.bodies.get(body.0).is_some_and(|b| b.is_sleeping())
+        self.sets
+            .bodies
+            .get(body.0)
+            .is_some_and(|b| b.is_sleeping())
     }
 
     /// Puts the body somewhere else, at rest. An edit of the world, not a motion.
@@ -257,7 +259,9 @@ impl Physics {
 
     /// Wakes the body up.
     pub(crate) fn wake(&mut self, body: BodyHandle) {
-        self.sets.islands.wake_up(&mut self.sets.bodies, body.0, true);
+        self.sets
+            .islands
+            .wake_up(&mut self.sets.bodies, body.0, true);
     }
 
     /// Keeps a body from falling asleep, for measurements.
@@ -270,7 +274,12 @@ impl Physics {
 
     /// Welds `carried` softly to `carrier` so that its origin stays at `at` in the carrier's
     /// frame. The two no longer collide with each other.
-    pub(crate) fn weld(&mut self, carrier: BodyHandle, at: &Pose, carried: BodyHandle) -> WeldHandle {
+    pub(crate) fn weld(
+        &mut self,
+        carrier: BodyHandle,
+        at: &Pose,
+        carried: BodyHandle,
+    ) -> WeldHandle {
         let joint = FixedJointBuilder::new()
             .local_frame1(to_parry(at))
             .contacts_enabled(false)
@@ -316,12 +325,20 @@ impl Physics {
             return None;
         }
         let force = pair.total_impulse_magnitude() / STEP_SECONDS;
-        let other = if pair.collider1 == own { pair.collider2 } else { pair.collider1 };
+        let other = if pair.collider1 == own {
+            pair.collider2
+        } else {
+            pair.collider1
+        };
         let key = |c: ColliderHandle| {
             let data = self.sets.colliders.get(c)?.user_data;
             u64::try_from(data).ok()
         };
-        (force > 0.0).then_some(RawContact { own: key(own)?, other: key(other)?, force })
+        (force > 0.0).then_some(RawContact {
+            own: key(own)?,
+            other: key(other)?,
+            force,
+        })
     }
 
     /// Advances by [`STEP_SECONDS`].
@@ -359,7 +376,9 @@ impl Physics {
         for (_, body) in self.sets.bodies.iter() {
             let (t, q) = (body.translation(), body.rotation());
             let (v, w) = (body.linvel(), body.angvel());
-            for number in [t.x, t.y, t.z, q.x, q.y, q.z, q.w, v.x, v.y, v.z, w.x, w.y, w.z] {
+            for number in [
+                t.x, t.y, t.z, q.x, q.y, q.z, q.w, v.x, v.y, v.z, w.x, w.y, w.z,
+            ] {
                 hasher.number(number);
             }
         }

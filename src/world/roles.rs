@@ -16,7 +16,9 @@ impl HandRoles {
     /// Palm and fingers.
     pub fn links(&self) -> impl Iterator<Item = LinkId> {
         let [one, two] = &self.fingers;
-        std::iter::once(self.palm).chain(one.iter().copied()).chain(two.iter().copied())
+        std::iter::once(self.palm)
+            .chain(one.iter().copied())
+            .chain(two.iter().copied())
     }
 }
 
@@ -38,13 +40,16 @@ impl Roles {
     pub fn may_touch(&self, a: LinkId, b: LinkId) -> bool {
         self.wheels.contains(&a)
             || self.wheels.contains(&b)
-            || self.touching.iter().any(|set| set.contains(&a) && set.contains(&b))
+            || self
+                .touching
+                .iter()
+                .any(|set| set.contains(&a) && set.contains(&b))
     }
 
     /// The hand that the link belongs to, if any: palm, fingers and what they are fixed to.
     pub fn hand_of(&self, tree: &KinematicTree, link: LinkId) -> Option<usize> {
-        self.hands.iter().position(|hand| {
-            hand.links().any(|l| l == link) || tree.carries(hand.palm, link)
-        })
+        self.hands
+            .iter()
+            .position(|hand| hand.links().any(|l| l == link) || tree.carries(hand.palm, link))
     }
 }

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use indexmap::IndexMap;
 
-use super::collision::{CollisionChecker, HeldObject, Obstacle, ObjectAt, index};
+use super::collision::{CollisionChecker, HeldObject, ObjectAt, Obstacle, index};
 use super::error::WorldError;
 use super::hash::Hasher;
 use super::link_geometry::TreeGeometry;
@@ -69,7 +69,11 @@ impl World {
             .iter()
             .enumerate()
             .map(|(i, group)| {
-                let kind = if group.moves { BodyKind::MovingFurniture } else { BodyKind::Static };
+                let kind = if group.moves {
+                    BodyKind::MovingFurniture
+                } else {
+                    BodyKind::Static
+                };
                 let parts = group_parts(&models.kitchen_geometry, i, PartKey::Furniture, &[]);
                 let pose = pose_of(&kitchen_poses, group.root);
                 (!parts.is_empty()).then(|| physics.add_body(kind, &pose, &parts))
@@ -97,7 +101,10 @@ impl World {
             })
             .collect();
 
-        let furniture = Arc::new(furniture_obstacles(&models.kitchen_geometry, &kitchen_poses));
+        let furniture = Arc::new(furniture_obstacles(
+            &models.kitchen_geometry,
+            &kitchen_poses,
+        ));
         Self {
             models,
             physics,
@@ -127,18 +134,33 @@ impl World {
     /// fall, slide and are carried.
     pub fn step(&mut self) {
         if self.state.robot_moves {
-            for (body, group) in self.robot_bodies.iter().zip(&self.models.robot_geometry.groups) {
-                self.physics.move_to(*body, &pose_of(&self.state.robot_poses, group.root));
+            for (body, group) in self
+                .robot_bodies
+                .iter()
+                .zip(&self.models.robot_geometry.groups)
+            {
+                self.physics
+                    .move_to(*body, &pose_of(&self.state.robot_poses, group.root));
             }
-            for object in self.state.objects.values().filter(|o| o.attachment.is_some()) {
+            for object in self
+                .state
+                .objects
+                .values()
+                .filter(|o| o.attachment.is_some())
+            {
                 self.physics.wake(object.body);
             }
             self.state.robot_moves = false;
         }
         if self.state.kitchen_moves {
-            for (body, group) in self.kitchen_bodies.iter().zip(&self.models.kitchen_geometry.groups) {
+            for (body, group) in self
+                .kitchen_bodies
+                .iter()
+                .zip(&self.models.kitchen_geometry.groups)
+            {
                 if let (Some(body), true) = (body, group.moves) {
-                    self.physics.move_to(*body, &pose_of(&self.state.kitchen_poses, group.root));
+                    self.physics
+                        .move_to(*body, &pose_of(&self.state.kitchen_poses, group.root));
                 }
             }
             self.state.kitchen_moves = false;
@@ -201,8 +223,13 @@ impl World {
     pub fn teleport_robot(&mut self, configuration: &RobotConfiguration) {
         self.place_robot_links(configuration);
         self.state.robot_moves = false;
-        for (body, group) in self.robot_bodies.iter().zip(&self.models.robot_geometry.groups) {
-            self.physics.place(*body, &pose_of(&self.state.robot_poses, group.root));
+        for (body, group) in self
+            .robot_bodies
+            .iter()
+            .zip(&self.models.robot_geometry.groups)
+        {
+            self.physics
+                .place(*body, &pose_of(&self.state.robot_poses, group.root));
         }
         for object in self.state.objects.values() {
             if let Some(attachment) = &object.attachment {
@@ -259,9 +286,14 @@ impl World {
     /// The position is brought into the joint's limits and returned.
     pub fn teleport_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
         let position = self.change_kitchen_joint(name, position)?;
-        for (body, group) in self.kitchen_bodies.iter().zip(&self.models.kitchen_geometry.groups) {
+        for (body, group) in self
+            .kitchen_bodies
+            .iter()
+            .zip(&self.models.kitchen_geometry.groups)
+        {
             if let (Some(body), true) = (body, group.moves) {
-                self.physics.place(*body, &pose_of(&self.state.kitchen_poses, group.root));
+                self.physics
+                    .place(*body, &pose_of(&self.state.kitchen_poses, group.root));
             }
         }
         Ok(position)
@@ -299,7 +331,9 @@ impl World {
                 name: name.to_owned(),
                 closest: crate::robot::closest_name::closest_name(
                     name,
-                    tree.joints().filter(|(_, j)| j.is_actuated()).map(|(_, j)| j.name.as_str()),
+                    tree.joints()
+                        .filter(|(_, j)| j.is_actuated())
+                        .map(|(_, j)| j.name.as_str()),
                 )
                 .map(str::to_owned),
             })
@@ -312,14 +346,17 @@ impl World {
 
     /// The object of that name.
     pub fn object(&self, name: &str) -> Result<&Object, WorldError> {
-        self.state.objects.get(name).ok_or_else(|| WorldError::UnknownObject {
-            name: name.to_owned(),
-            closest: crate::robot::closest_name::closest_name(
-                name,
-                self.state.objects.keys().map(String::as_str),
-            )
-            .map(str::to_owned),
-        })
+        self.state
+            .objects
+            .get(name)
+            .ok_or_else(|| WorldError::UnknownObject {
+                name: name.to_owned(),
+                closest: crate::robot::closest_name::closest_name(
+                    name,
+                    self.state.objects.keys().map(String::as_str),
+                )
+                .map(str::to_owned),
+            })
     }
 
     /// Pose of the object in the map frame.
@@ -338,7 +375,9 @@ impl World {
         // Every link has a group, and every group of the robot a body.
         let group = geometry.group_of[link.index()];
         let root = pose_of(&self.state.robot_poses, geometry.groups[group].root);
-        let weld = self.physics.weld(self.robot_bodies[group], &(root.inverse() * pose), body);
+        let weld = self
+            .physics
+            .weld(self.robot_bodies[group], &(root.inverse() * pose), body);
         let at = link_pose.inverse() * pose;
         if let Some(object) = self.state.objects.get_mut(name) {
             object.attachment = Some(Attachment { link, at, weld });
@@ -358,6 +397,12 @@ impl World {
             self.physics.wake(object.body);
         }
         Ok(held.map(|a| a.link))
+    }
+
+    /// The body of the engine that the link is part of.
+    pub(super) fn body_of_link(&self, link: LinkId) -> Option<BodyHandle> {
+        let group = *self.models.robot_geometry.group_of.get(link.index())?;
+        self.robot_bodies.get(group).copied()
     }
 
     /// A judge of robot configurations for the world as it is now.
@@ -446,7 +491,11 @@ fn group_parts(
         for solid in &link.solids {
             let mut solid = solid.clone();
             solid.pose = to_parry(pose) * solid.pose;
-            parts.push((solid, key(index(link.link)).code(), grips.contains(&link.link)));
+            parts.push((
+                solid,
+                key(index(link.link)).code(),
+                grips.contains(&link.link),
+            ));
         }
     }
     parts

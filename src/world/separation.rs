@@ -49,7 +49,10 @@ pub(crate) fn separation(
 /// below `margin` (m).
 pub(crate) fn below_floor(pose: &ParryPose, solid: &Solid, margin: f64) -> Option<Separation> {
     let lowest = lowest_point(pose, solid);
-    (lowest.z < margin).then_some(Separation { distance: lowest.z, point: lowest })
+    (lowest.z < margin).then_some(Separation {
+        distance: lowest.z,
+        point: lowest,
+    })
 }
 
 /// The point of the solid (its own pose in the map frame) with the least z (m).

@@ -72,14 +72,22 @@ impl Solid {
             }
             Shape::Sphere { radius } if positive(&[*radius]) => (SharedShape::ball(*radius), place),
             Shape::Hull { points } if points.iter().flatten().all(|v| v.is_finite()) => {
-                let points: Vec<_> = points.iter().map(|&[x, y, z]| Vector::new(x, y, z)).collect();
+                let points: Vec<_> = points
+                    .iter()
+                    .map(|&[x, y, z]| Vector::new(x, y, z))
+                    .collect();
                 (SharedShape::convex_hull(&points)?, place)
             }
             _ => return None,
         };
         let bounds = shape.compute_aabb(&pose);
         let volume = shape.mass_properties(1.0).mass();
-        (volume > 0.0).then_some(Self { shape, pose, bounds, volume })
+        (volume > 0.0).then_some(Self {
+            shape,
+            pose,
+            bounds,
+            volume,
+        })
     }
 
     /// The solids of all shapes that have a volume.
@@ -90,7 +98,10 @@ impl Solid {
 
 /// Bounds (m) of all solids in their owner's frame, `None` without solids.
 pub(crate) fn bounds_of(solids: &[Solid]) -> Option<Aabb> {
-    let mut points = solids.iter().flat_map(|s| [s.bounds.mins, s.bounds.maxs]).peekable();
+    let mut points = solids
+        .iter()
+        .flat_map(|s| [s.bounds.mins, s.bounds.maxs])
+        .peekable();
     points.peek()?;
     Some(Aabb::from_points(points))
 }
