@@ -1,6 +1,7 @@
 //! planwright: an interactive shell for programming a simulated kitchen robot in a
 //! Common-Lisp-like plan language.
 
+pub mod perception;
 pub mod robot;
 pub mod spatial;
 pub mod world;
