@@ -8,7 +8,7 @@ mod world_support;
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use planwright::perception::{Camera, Sight};
+use planwright::perception::Sight;
 use planwright::world::{AllowedPairs, World};
 use world_support::{at, bottle, carry, cube, models, sausage, set_joint};
 
@@ -152,16 +152,10 @@ fn collisions(c: &mut Criterion) {
 
 fn pictures(c: &mut Criterion) {
     let world = furnished();
-    let frame = world
-        .models()
-        .robot
-        .link_named("narrow_stereo_optical_frame")
-        .unwrap();
-    let camera = Camera::of_head(world.link_pose(frame));
     c.bench_function("picture of 320 x 200", |b| {
-        b.iter(|| black_box(Sight::take(&world, camera)));
+        b.iter(|| black_box(Sight::of_robot(&world)));
     });
-    let sight = Sight::take(&world, camera);
+    let sight = Sight::of_robot(&world);
     c.bench_function("visibility of one object", |b| {
         b.iter(|| black_box(sight.visibility("BOTTLE-0").unwrap()));
     });

@@ -2,12 +2,11 @@
 
 mod world_support;
 
+use planwright::robot::Side;
 use planwright::spatial::Pose;
 use planwright::spatial::pose::{distance_between, from_xy_yaw};
 use planwright::world::{AllowedPairs, BodyName, World};
 use world_support::{at, bottle, carry, cube, models, set_joint, world};
-
-const RIGHT: usize = 1;
 
 /// A robot in free space with a bottle in the open right hand, welded to its palm.
 fn world_with_held_bottle() -> World {
@@ -15,7 +14,7 @@ fn world_with_held_bottle() -> World {
     let mut robot = carry(&models, [0.3, -0.5, 0.0], 0.2);
     set_joint(&models, &mut robot, "r_gripper_l_finger_joint", 0.5);
     let mut world = World::new(models, robot);
-    let palm = world.models().roles.hands[RIGHT].palm;
+    let palm = world.models().description.arm(Side::Right).gripper.palm;
     let grip = world.link_pose(palm) * Pose::translation(0.18, 0.0, 0.0);
     let report = world.spawn("BOTTLE-1", &bottle(), &grip).unwrap();
     assert_eq!(report.blocked_by, None);
@@ -39,7 +38,7 @@ fn a_welded_object_goes_where_the_hand_goes() {
         worst = worst.max(world.weld_error("BOTTLE-1").unwrap().unwrap().distance);
     }
     assert!(worst < 1e-3, "the bottle lagged by {worst} m");
-    let palm = world.models().roles.hands[RIGHT].palm;
+    let palm = world.models().description.arm(Side::Right).gripper.palm;
     let wanted = world.link_pose(palm) * Pose::translation(0.18, 0.0, 0.0);
     let real = world.object_pose("BOTTLE-1").unwrap();
     assert!(distance_between(&wanted, &real) < 1e-3);
@@ -61,7 +60,7 @@ fn closing_fingers_feel_the_object_between_them() {
     let models = world.models().clone();
     let mut robot = world.robot_configuration().clone();
     let pressed = |world: &World| {
-        world.finger_contacts(RIGHT).map(|contacts| {
+        world.finger_contacts(Side::Right).map(|contacts| {
             contacts
                 .iter()
                 .filter(|c| c.body == BodyName::Object("BOTTLE-1".to_owned()))

@@ -9,9 +9,7 @@ fn rest_height(description: &planwright::world::ObjectDescription, x: f64, y: f6
     let mut world = world();
     world.spawn("THING", description, &at(x, y, z)).unwrap();
     assert!(world.settle(10.0), "the object does not come to rest");
-    let pose = world.object_pose("THING").unwrap();
-    println!("{pose}");
-    pose.translation.z
+    world.object_pose("THING").unwrap().translation.z
 }
 
 #[test]
