@@ -10,7 +10,7 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use planwright::perception::Sight;
 use planwright::world::{AllowedPairs, World};
-use world_support::{at, bottle, carry, cube, models, sausage, set_joint};
+use world_support::{at, carry, models, set_joint, spawn};
 
 /// The kitchen with ten objects at rest and the robot in front of the table.
 fn furnished() -> World {
@@ -26,21 +26,15 @@ fn furnished() -> World {
         (-0.8, 2.0, 0.96),
     ];
     for (i, (x, y, z)) in places.into_iter().enumerate() {
-        world
-            .spawn(&format!("BOTTLE-{i}"), &bottle(), &at(x, y, z))
-            .unwrap();
+        spawn(&mut world, &format!("BOTTLE-{i}"), "bottle", &at(x, y, z));
     }
     for (i, (x, y)) in [(1.44, 0.8), (-0.9, 1.5), (-1.2, 1.5)]
         .into_iter()
         .enumerate()
     {
-        world
-            .spawn(&format!("CUBE-{i}"), &cube(), &at(x, y, 0.95))
-            .unwrap();
+        spawn(&mut world, &format!("CUBE-{i}"), "cube", &at(x, y, 0.95));
     }
-    world
-        .spawn("WURST", &sausage(), &at(1.5, 1.0, 0.9))
-        .unwrap();
+    spawn(&mut world, "WURST", "weisswurst", &at(1.5, 1.0, 0.9));
     assert!(world.settle(10.0));
     for _ in 0..480 {
         world.step();

@@ -8,7 +8,7 @@ mod world_support;
 use planwright::robot::Side;
 use planwright::spatial::pose::from_xyz_rpy;
 use planwright::world::{AllowedPairs, BodyName, Models, RobotConfiguration, World};
-use world_support::{at, bottle, carry, models, set_joint, tucked};
+use world_support::{at, carry, models, set_joint, spawn, tucked};
 
 fn empty_world() -> World {
     let models = models();
@@ -208,9 +208,7 @@ fn arms_that_cross_each_other_collide() {
 #[test]
 fn objects_are_met_unless_the_pair_is_allowed() {
     let mut world = empty_world();
-    world
-        .spawn("BOTTLE-1", &bottle(), &at(-1.6, -0.9, 0.82))
-        .unwrap();
+    spawn(&mut world, "BOTTLE-1", "bottle", &at(-1.6, -0.9, 0.82));
     world.settle(2.0);
     let models = world.models().clone();
     let palm = models.description.arm(Side::Right).gripper.palm;
@@ -247,7 +245,7 @@ fn a_held_object_is_judged_where_the_hand_would_be() {
     set_joint(&models, &mut robot, "r_gripper_l_finger_joint", 0.5);
     world.teleport_robot(&robot);
     let grip = world.link_pose(palm) * from_xyz_rpy([0.18, 0.0, 0.0], [0.0; 3]);
-    world.spawn("BOTTLE-1", &bottle(), &grip).unwrap();
+    spawn(&mut world, "BOTTLE-1", "bottle", &grip);
     world.attach("BOTTLE-1", palm).unwrap();
     assert!(is_free(&world, &robot));
     let mut low = robot.clone();

@@ -6,7 +6,7 @@ use planwright::robot::Side;
 use planwright::spatial::Pose;
 use planwright::spatial::pose::{distance_between, from_xy_yaw};
 use planwright::world::{AllowedPairs, BodyName, World};
-use world_support::{at, bottle, carry, cube, models, set_joint, world};
+use world_support::{at, carry, models, set_joint, spawn, world};
 
 /// A robot in free space with a bottle in the open right hand, welded to its palm.
 fn world_with_held_bottle() -> World {
@@ -16,7 +16,7 @@ fn world_with_held_bottle() -> World {
     let mut world = World::new(models, robot);
     let palm = world.models().description.arm(Side::Right).gripper.palm;
     let grip = world.link_pose(palm) * Pose::translation(0.18, 0.0, 0.0);
-    let report = world.spawn("BOTTLE-1", &bottle(), &grip).unwrap();
+    let report = spawn(&mut world, "BOTTLE-1", "bottle", &grip);
     assert_eq!(report.blocked_by, None);
     assert_eq!(report.pose, grip);
     world.attach("BOTTLE-1", palm).unwrap();
@@ -94,9 +94,7 @@ fn a_drawer_takes_along_what_is_in_it() {
     let mut world = world();
     world.teleport_kitchen_joint(DRAWER, 0.4).unwrap();
     let front = 1.25 - 0.4 + 0.15;
-    world
-        .spawn("CUBE-1", &cube(), &at(front, 0.9, 0.78))
-        .unwrap();
+    spawn(&mut world, "CUBE-1", "cube", &at(front, 0.9, 0.78));
     assert!(world.settle(5.0));
     let before = world.object_pose("CUBE-1").unwrap();
     let mut position = 0.4;
@@ -144,14 +142,14 @@ fn world_with_a_pile() -> World {
     let mut world = world();
     for i in 0..6 {
         let name = format!("THING-{i}");
-        let thing = if i % 2 == 0 { bottle() } else { cube() };
-        world
-            .spawn(
-                &name,
-                &thing,
-                &at(0.6 + 0.01 * f64::from(i), 0.02, 1.0 + 0.2 * f64::from(i)),
-            )
-            .unwrap();
+        let thing = if i % 2 == 0 { "bottle" } else { "cube" };
+        let i = f64::from(i);
+        spawn(
+            &mut world,
+            &name,
+            thing,
+            &at(0.6 + 0.01 * i, 0.02, 1.0 + 0.2 * i),
+        );
     }
     world
 }
@@ -170,9 +168,7 @@ fn a_restored_world_goes_on_with_the_same_bits() {
     let hash = world.hash();
     let first = turmoil(&mut world, 300);
     world.remove("THING-3").unwrap();
-    world
-        .spawn("LATER", &bottle(), &at(-1.0, -0.9, 0.9))
-        .unwrap();
+    spawn(&mut world, "LATER", "bottle", &at(-1.0, -0.9, 0.9));
     world.restore(&snapshot);
     assert_eq!(world.hash(), hash);
     assert_eq!(turmoil(&mut world, 300), first);
@@ -205,9 +201,7 @@ fn queries_do_not_change_what_happens() {
 #[test]
 fn a_standing_bottle_is_carried_with_its_weight() {
     let mut world = world();
-    world
-        .spawn("BOTTLE-1", &bottle(), &at(-1.6, -0.9, 0.82))
-        .unwrap();
+    spawn(&mut world, "BOTTLE-1", "bottle", &at(-1.6, -0.9, 0.82));
     world.settle(5.0);
     let force = world.support_force("BOTTLE-1").unwrap();
     assert!((force - 0.2 * 9.81).abs() < 0.05, "{force} N");
@@ -219,9 +213,7 @@ fn a_standing_bottle_is_carried_with_its_weight() {
 #[test]
 fn a_teleported_robot_takes_along_what_it_holds_and_nothing_else() {
     let mut world = world_with_held_bottle();
-    world
-        .spawn("CUBE-1", &cube(), &at(-1.6, -0.9, 0.8))
-        .unwrap();
+    spawn(&mut world, "CUBE-1", "cube", &at(-1.6, -0.9, 0.8));
     world.settle(2.0);
     let cube_before = world.object_pose("CUBE-1").unwrap();
     let mut robot = world.robot_configuration().clone();

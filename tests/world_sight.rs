@@ -5,7 +5,7 @@ mod world_support;
 use planwright::perception::{Border, Sight, Visibility};
 use planwright::robot::JointId;
 use planwright::world::{BodyName, World};
-use world_support::{at, bottle, carry, models};
+use world_support::{at, carry, models, spawn};
 
 /// The robot in front of the table with bottles A, B and C, its neck panned and tilted
 /// (degrees).
@@ -18,7 +18,7 @@ fn looking(pan: f64, tilt: f64) -> World {
     turn(neck.tilt_joint, tilt);
     let mut world = World::new(models, robot);
     for (name, x, y) in [("A", -1.6, -0.9), ("B", -2.0, -0.9), ("C", -1.0, -0.75)] {
-        world.spawn(name, &bottle(), &at(x, y, 0.8208)).unwrap();
+        spawn(&mut world, name, "bottle", &at(x, y, 0.8208));
     }
     world.settle(5.0);
     world
@@ -89,9 +89,7 @@ fn a_bottle_beyond_the_border_says_so() {
 fn a_hidden_bottle_names_what_hides_it() {
     let mut world = looking(-46.5, 35.4);
     // Between the camera and bottle B.
-    world
-        .spawn("D", &bottle(), &at(-1.94, -0.82, 0.82))
-        .unwrap();
+    spawn(&mut world, "D", "bottle", &at(-1.94, -0.82, 0.82));
     world.settle(2.0);
     let hidden = visibility(&world, "B");
     assert!(!hidden.is_seen());

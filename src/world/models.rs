@@ -1,11 +1,17 @@
 //! Everything about a world that never changes: the trees of robot and kitchen and what
-//! the robot's links are for, with the geometry prepared for queries.
+//! the robot's links are for and the kinds of objects, with the geometry prepared for queries.
 
 use super::body_name::BodyName;
 use super::link_geometry::TreeGeometry;
+use super::object_library::{OBJECTS, ObjectLibrary};
 use super::part_key::PartKey;
 use crate::robot::description::Arm;
-use crate::robot::{KinematicTree, LinkId, RobotDescription, Side};
+use crate::robot::{
+    KITCHEN_URDF, KinematicTree, LinkId, PR2_DESCRIPTION, PR2_URDF, RobotDescription, Side,
+    UrdfError,
+};
+use crate::sexp::DataError;
+use thiserror::Error;
 
 /// The models that worlds are built from; shared by a world and its copies.
 pub struct Models {
@@ -15,6 +21,8 @@ pub struct Models {
     pub description: RobotDescription,
     /// The furniture.
     pub kitchen: KinematicTree,
+    /// The kinds of objects that can be spawned.
+    pub objects: ObjectLibrary,
     pub(crate) robot_geometry: TreeGeometry,
     pub(crate) kitchen_geometry: TreeGeometry,
     /// Pairs of places in the robot's solid links that must not touch.
@@ -36,12 +44,33 @@ pub(crate) enum Footing {
     Reaches,
 }
 
+/// A file about the world that cannot be read.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ModelsError {
+    /// It is a tree of links and joints.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// It is data of our own format.
+    #[error(transparent)]
+    Data(#[from] DataError),
+}
+
 impl Models {
+    /// The PR2 in the kitchen, which are built in.
+    pub fn pr2_in_kitchen() -> Result<Self, ModelsError> {
+        let robot = KinematicTree::from_urdf(PR2_URDF, "pr2.urdf")?;
+        let description = RobotDescription::from_sexp(PR2_DESCRIPTION, "pr2.sexp", &robot)?;
+        let kitchen = KinematicTree::from_urdf(KITCHEN_URDF, "kitchen.urdf")?;
+        let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp")?;
+        Ok(Self::new(robot, description, kitchen, objects))
+    }
+
     /// Prepares the models; the description must be one of that robot.
     pub fn new(
         robot: KinematicTree,
         description: RobotDescription,
         kitchen: KinematicTree,
+        objects: ObjectLibrary,
     ) -> Self {
         let idle = &description.idle_joints;
         let robot_geometry = TreeGeometry::new(&robot, |joint| idle.contains(&joint));
@@ -83,6 +112,7 @@ impl Models {
             robot,
             description,
             kitchen,
+            objects,
             robot_geometry,
             kitchen_geometry,
             self_pairs,

@@ -3,16 +3,12 @@
 
 use std::sync::Arc;
 
-use planwright::robot::{KITCHEN_URDF, KinematicTree, PR2_DESCRIPTION, PR2_URDF, RobotDescription};
+use planwright::spatial::Pose;
 use planwright::spatial::pose::{from_xy_yaw, from_xyz_rpy};
-use planwright::spatial::{PlacedShape, Pose, Shape};
-use planwright::world::{Models, ObjectDescription, RobotConfiguration, World};
+use planwright::world::{Models, RobotConfiguration, SpawnReport, World};
 
 pub fn models() -> Arc<Models> {
-    let robot = KinematicTree::from_urdf(PR2_URDF, "pr2.urdf").unwrap();
-    let description = RobotDescription::from_sexp(PR2_DESCRIPTION, "pr2.sexp", &robot).unwrap();
-    let kitchen = KinematicTree::from_urdf(KITCHEN_URDF, "kitchen.urdf").unwrap();
-    Arc::new(Models::new(robot, description, kitchen))
+    Arc::new(Models::pr2_in_kitchen().unwrap())
 }
 
 /// The robot at (x, y, yaw degrees) with parked arms and the torso at the height (m).
@@ -59,59 +55,7 @@ pub fn at(x: f64, y: f64, z: f64) -> Pose {
     from_xyz_rpy([x, y, z], [0.0; 3])
 }
 
-fn placed(shape: Shape, xyz: [f64; 3], rpy: [f64; 3]) -> PlacedShape {
-    PlacedShape {
-        shape,
-        pose: from_xyz_rpy(xyz, rpy),
-        color: None,
-    }
-}
-
-fn described(type_name: &str, shapes: Vec<PlacedShape>) -> ObjectDescription {
-    ObjectDescription {
-        type_name: type_name.to_owned(),
-        shapes,
-        color: [1.0, 0.0, 0.0, 1.0],
-        mass: 0.2,
-    }
-}
-
-pub fn bottle() -> ObjectDescription {
-    let part = |radius, length, z| {
-        placed(
-            Shape::Cylinder { radius, length },
-            [0.0005, -0.0007, z],
-            [0.0; 3],
-        )
-    };
-    described(
-        "bottle",
-        vec![
-            part(0.0357, 0.151, -0.0253),
-            part(0.031, 0.011, 0.0557),
-            part(0.0178, 0.0195, 0.0709),
-        ],
-    )
-}
-
-pub fn cube() -> ObjectDescription {
-    described(
-        "cube",
-        vec![placed(Shape::Box { size: [0.07; 3] }, [0.0; 3], [0.0; 3])],
-    )
-}
-
-pub fn sausage() -> ObjectDescription {
-    let lying = [0.0, std::f64::consts::FRAC_PI_2, 0.0];
-    described(
-        "weisswurst",
-        vec![placed(
-            Shape::Cylinder {
-                radius: 0.0158,
-                length: 0.11,
-            },
-            [0.0; 3],
-            lying,
-        )],
-    )
+/// Puts an object of the library into the world.
+pub fn spawn(world: &mut World, name: &str, type_name: &str, pose: &Pose) -> SpawnReport {
+    world.spawn(name, type_name, pose, None, None).unwrap()
 }
