@@ -2,7 +2,7 @@
 
 use super::error::WorldError;
 use super::object::Attachment;
-use super::scene::{World, pose_of};
+use super::scene::World;
 use crate::robot::LinkId;
 
 impl World {
@@ -10,17 +10,15 @@ impl World {
     /// attached elsewhere is let go there.
     pub fn attach(&mut self, name: &str, link: LinkId) -> Result<(), WorldError> {
         self.detach(name)?;
-        let object = self.object(name)?;
-        let (body, pose) = (object.body, self.physics.pose(object.body));
-        let link_pose = self.link_pose(link);
-        let geometry = &self.models.robot_geometry;
-        // Every link has a group, and every group of the robot a body.
-        let group = geometry.group_of[link.index()];
-        let root = pose_of(&self.state.robot_poses, geometry.groups[group].root);
-        let weld = self
-            .physics
-            .weld(self.robot_bodies[group], &(root.inverse() * pose), body);
-        let at = link_pose.inverse() * pose;
+        let body = self.object(name)?.body;
+        let Some((carrier, root)) = self.body_of_link(link) else {
+            // A link of another tree has no body here, hence nothing to hold with.
+            return Ok(());
+        };
+        // The engine's poses, since the robot may be set to move on in the next step.
+        let grip = self.physics.pose(carrier).inverse() * self.physics.pose(body);
+        let weld = self.physics.weld(carrier, &grip, body);
+        let at = self.link_pose(link).inverse() * self.link_pose(root) * grip;
         if let Some(object) = self.state.objects.get_mut(name) {
             object.attachment = Some(Attachment { link, at, weld });
         }

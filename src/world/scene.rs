@@ -233,10 +233,14 @@ impl World {
         }
     }
 
-    /// The body of the engine that the link is part of.
-    pub(super) fn body_of_link(&self, link: LinkId) -> Option<BodyHandle> {
-        let group = *self.models.robot_geometry.group_of.get(link.index())?;
-        self.robot_bodies.get(group).copied()
+    /// The body of the engine that the link is part of, and the link whose frame it has.
+    pub(super) fn body_of_link(&self, link: LinkId) -> Option<(BodyHandle, LinkId)> {
+        let geometry = &self.models.robot_geometry;
+        let group = *geometry.group_of.get(link.index())?;
+        Some((
+            *self.robot_bodies.get(group)?,
+            geometry.groups.get(group)?.root,
+        ))
     }
 
     /// A judge of robot configurations for the world as it is now.
