@@ -10,6 +10,7 @@ pub mod session;
 pub mod spatial;
 pub mod transcript;
 pub mod closest_name;
+pub mod perception;
 pub mod robot;
 pub mod sexp;
 pub mod spatial;
