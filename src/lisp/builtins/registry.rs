@@ -8,13 +8,16 @@ use crate::lisp::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
 pub static FUNCTIONS: &[&[Builtin]] = &[
+    conditions::TABLE,
     definitions::TABLE,
     evaluation::TABLE,
+    generic_functions::TABLE,
     list_search::TABLE,
     list_sets::TABLE,
     list_trees::TABLE,
     lists::TABLE,
     mapping::TABLE,
+    objects::TABLE,
     pairs::TABLE,
     property_lists::TABLE,
     sequence_access::TABLE,
@@ -32,6 +35,8 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
 pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
+    generic_functions::SYSTEM_TABLE,
+    objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
@@ -39,14 +44,20 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
 
 /// What `setf` calls for places of package `COMMON-LISP`.
 pub static SETTERS: &[&[Builtin]] = &[
+    objects::SETTERS,
     pairs::SETTERS,
     property_lists::SETTERS,
     sequence_access::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
-pub static OPERATORS: &[&[Operator]] =
-    &[compile::SPECIAL_FORMS, compile::OPERATORS, types::OPERATORS];
+pub static OPERATORS: &[&[Operator]] = &[
+    compile::SPECIAL_FORMS,
+    compile::OPERATORS,
+    generic_functions::OPERATORS,
+    objects::OPERATORS,
+    types::OPERATORS,
+];
 
 /// Special operators and macros of package `SYSTEM`.
 pub static SYSTEM_OPERATORS: &[&[Operator]] = &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];
