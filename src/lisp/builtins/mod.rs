@@ -29,4 +29,5 @@ pub mod sequence_types;
 pub mod shown;
 pub mod signalling;
 pub mod sort;
+pub mod structures;
 pub mod types;

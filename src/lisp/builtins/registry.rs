@@ -28,6 +28,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     sequence_search::TABLE,
     signalling::TABLE,
     sort::TABLE,
+    structures::TABLE,
     types::TABLE,
 ];
 
@@ -39,6 +40,7 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
+    structures::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
 ];
 
@@ -56,6 +58,7 @@ pub static OPERATORS: &[&[Operator]] = &[
     compile::OPERATORS,
     generic_functions::OPERATORS,
     objects::OPERATORS,
+    structures::OPERATORS,
     types::OPERATORS,
 ];
 

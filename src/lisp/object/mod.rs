@@ -64,3 +64,5 @@ pub(crate) fn qualified(image: &Image, name: &Value) -> String {
 
 #[cfg(test)]
 pub(crate) mod testing;
+#[cfg(test)]
+mod tests;
