@@ -3,6 +3,7 @@
 pub mod arguments;
 pub mod array_index;
 pub mod calls;
+pub mod characters;
 pub mod conditions;
 pub mod criterion;
 pub mod definitions;
@@ -29,5 +30,7 @@ pub mod sequence_types;
 pub mod shown;
 pub mod signalling;
 pub mod sort;
+pub mod string_compare;
+pub mod strings;
 pub mod structures;
 pub mod types;

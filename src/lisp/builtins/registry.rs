@@ -8,6 +8,8 @@ use crate::lisp::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
 pub static FUNCTIONS: &[&[Builtin]] = &[
+    characters::COMPARISONS,
+    characters::TABLE,
     conditions::TABLE,
     definitions::TABLE,
     evaluation::TABLE,
@@ -29,6 +31,8 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     signalling::TABLE,
     sort::TABLE,
     structures::TABLE,
+    string_compare::TABLE,
+    strings::TABLE,
     types::TABLE,
 ];
 
@@ -50,6 +54,7 @@ pub static SETTERS: &[&[Builtin]] = &[
     pairs::SETTERS,
     property_lists::SETTERS,
     sequence_access::SETTERS,
+    strings::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
