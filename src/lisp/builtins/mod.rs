@@ -32,4 +32,5 @@ pub mod signalling;
 pub mod sort;
 pub mod string_compare;
 pub mod strings;
+pub mod structures;
 pub mod types;

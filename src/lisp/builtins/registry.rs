@@ -30,6 +30,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     sequence_search::TABLE,
     signalling::TABLE,
     sort::TABLE,
+    structures::TABLE,
     string_compare::TABLE,
     strings::TABLE,
     types::TABLE,
@@ -43,11 +44,13 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
+    structures::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
 pub static SETTERS: &[&[Builtin]] = &[
+    objects::SETTERS,
     pairs::SETTERS,
     property_lists::SETTERS,
     sequence_access::SETTERS,
@@ -55,8 +58,14 @@ pub static SETTERS: &[&[Builtin]] = &[
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
-pub static OPERATORS: &[&[Operator]] =
-    &[compile::SPECIAL_FORMS, compile::OPERATORS, types::OPERATORS];
+pub static OPERATORS: &[&[Operator]] = &[
+    compile::SPECIAL_FORMS,
+    compile::OPERATORS,
+    generic_functions::OPERATORS,
+    objects::OPERATORS,
+    structures::OPERATORS,
+    types::OPERATORS,
+];
 
 /// Special operators and macros of package `SYSTEM`.
 pub static SYSTEM_OPERATORS: &[&[Operator]] = &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];
