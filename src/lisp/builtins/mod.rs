@@ -1,15 +1,22 @@
 //! The builtin functions: one table per topic.
 
 pub mod array_index;
+pub mod array_make;
+pub mod arrays;
+pub mod bits;
 pub mod calls;
 pub mod characters;
 pub mod criterion;
+pub mod fill_pointers;
+pub mod hash_tables;
 pub mod keywords;
 pub mod list_search;
 pub mod list_sets;
 pub mod list_trees;
 pub mod lists;
 pub mod mapping;
+pub mod package_macros;
+pub mod packages;
 pub mod pairs;
 pub mod property_lists;
 pub mod sequence;
@@ -24,3 +31,4 @@ pub mod shown;
 pub mod sort;
 pub mod string_compare;
 pub mod strings;
+pub mod symbols;
