@@ -1,1 +1,7 @@
-fn main() {}
+//! The program `planwright`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    planwright::command::main()
+}

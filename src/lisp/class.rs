@@ -21,6 +21,15 @@ pub enum ClassKind {
     Condition,
 }
 
+/// Where the initial value of a slot comes from.
+#[derive(Clone)]
+pub enum Initform {
+    /// A constant.
+    Value(Value),
+    /// A function of no arguments that computes it.
+    Function(Rc<Function>),
+}
+
 /// A slot as a class defines it.
 #[derive(Clone)]
 pub struct SlotDefinition {
@@ -28,14 +37,52 @@ pub struct SlotDefinition {
     pub name: Sym,
     /// Keywords that initialise it.
     pub initargs: Vec<Sym>,
-    /// A function of no arguments that computes the initial value.
-    pub initform: Option<Rc<Function>>,
+    /// Its initial value, if any.
+    pub initform: Option<Initform>,
     /// The shared place, for a slot with `:allocation :class`.
     pub shared: Option<Rc<Slot>>,
     /// The declared type, `T` if none.
     pub slot_type: Value,
     /// The documentation.
     pub doc: Option<Rc<str>>,
+}
+
+impl SlotDefinition {
+    /// A slot with nothing but a name.
+    pub fn new(name: Sym) -> SlotDefinition {
+        SlotDefinition {
+            name,
+            initargs: Vec::new(),
+            initform: None,
+            shared: None,
+            slot_type: Value::T,
+            doc: None,
+        }
+    }
+}
+
+/// A slot of a structure as `defstruct` defines it, kept for structures that include it.
+#[derive(Clone)]
+pub struct StructureSlot {
+    /// The slot's name.
+    pub name: Sym,
+    /// The form of its initial value.
+    pub initform: Value,
+    /// The declared type, `T` if none.
+    pub slot_type: Value,
+    /// May the slot not be assigned?
+    pub read_only: bool,
+}
+
+/// What `defstruct` knows about a structure beyond its class.
+#[derive(Clone, Default)]
+pub struct StructureLayout {
+    /// All slots, included ones first.
+    pub slots: Vec<StructureSlot>,
+    /// Name of the constructor with keyword arguments, if there is one.
+    pub constructor: Option<Sym>,
+    /// The prefix of the accessors.
+    pub conc_name: Rc<str>,
 }
 
 /// A class.
@@ -48,22 +95,29 @@ pub struct Class {
     pub direct_superclasses: RefCell<Vec<Rc<Class>>>,
     /// Direct subclasses, in order of definition.
     pub direct_subclasses: RefCell<Vec<Rc<Class>>>,
-    /// This class and all its superclasses, most specific first.
+    /// This class and all its superclasses, most specific first; empty while a superclass
+    /// is not defined yet.
     pub precedence: RefCell<Vec<Rc<Class>>>,
     /// Slots defined by this class itself.
     pub direct_slots: RefCell<Vec<SlotDefinition>>,
     /// All slots, inherited ones first; the order is that of an instance's slot values.
     pub slots: RefCell<Vec<SlotDefinition>>,
-    /// `:default-initargs` with the functions that compute them, most specific first.
-    pub default_initargs: RefCell<Vec<(Sym, Rc<Function>)>>,
+    /// `:default-initargs` of this class itself.
+    pub direct_default_initargs: RefCell<Vec<(Sym, Initform)>>,
+    /// `:default-initargs` of this class and its superclasses, most specific first.
+    pub default_initargs: RefCell<Vec<(Sym, Initform)>>,
     /// The report of a condition class: a function of condition and stream.
     pub report: RefCell<Option<Rc<Function>>>,
-    /// How a structure prints: its name for `#S(…)`, or a function.
-    pub printer: RefCell<Option<Rc<Function>>>,
+    /// What `defstruct` remembers of a structure.
+    pub structure: RefCell<Option<Rc<StructureLayout>>>,
     /// The documentation.
     pub doc: RefCell<Option<Rc<str>>>,
     /// Counts redefinitions, so that instances know when to update.
     pub generation: Cell<u32>,
+    /// Names of all slots in each generation before the current one.
+    pub old_layouts: RefCell<Vec<Vec<Sym>>>,
+    /// False while the class is only named as a superclass.
+    pub is_defined: Cell<bool>,
 }
 
 impl Class {
@@ -77,11 +131,14 @@ impl Class {
             precedence: RefCell::default(),
             direct_slots: RefCell::default(),
             slots: RefCell::default(),
+            direct_default_initargs: RefCell::default(),
             default_initargs: RefCell::default(),
             report: RefCell::default(),
-            printer: RefCell::default(),
+            structure: RefCell::default(),
             doc: RefCell::default(),
             generation: Cell::new(0),
+            old_layouts: RefCell::default(),
+            is_defined: Cell::new(false),
         }
     }
 
@@ -91,6 +148,7 @@ impl Class {
     }
 
     /// Position of a slot in an instance.
+    #[inline]
     pub fn slot_index(&self, name: Sym) -> Option<usize> {
         self.slots.borrow().iter().position(|s| s.name == name)
     }
@@ -117,6 +175,15 @@ impl Instance {
         }
     }
 
+    /// An instance with the given slot values, in the order of the class's slots.
+    pub fn with_slots(class: Rc<Class>, slots: Vec<Value>) -> Instance {
+        Instance {
+            generation: Cell::new(class.generation.get()),
+            slots: RefCell::new(slots),
+            class: RefCell::new(class),
+        }
+    }
+
     /// The instance's class.
     pub fn class(&self) -> Rc<Class> {
         self.class.borrow().clone()
@@ -125,6 +192,11 @@ impl Instance {
     /// Is the instance of the named class or a subclass?
     pub fn is_a(&self, name: Sym) -> bool {
         self.class.borrow().is_subclass_of(name)
+    }
+
+    /// Was the class redefined since the slots were laid out?
+    pub fn is_obsolete(&self) -> bool {
+        self.generation.get() != self.class.borrow().generation.get()
     }
 
     /// The value of a slot; `None` if there is no such slot, `Unbound` if it has no value.

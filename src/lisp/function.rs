@@ -29,7 +29,7 @@ pub enum Body {
     /// A function written in Rust.
     Native(Native),
     /// A generic function.
-    Generic(GenericFunction),
+    Generic(Box<GenericFunction>),
 }
 
 /// A builtin that returns at once and calls no Lisp function.

@@ -1,10 +1,13 @@
 //! Generic functions and their methods.
 
-use std::cell::RefCell;
-use std::rc::Rc;
+use std::cell::{Cell, RefCell};
+use std::rc::{Rc, Weak};
 
 use super::class::Class;
+use super::foreign::ForeignBox;
 use super::function::Function;
+use super::object::dispatch::Dispatch;
+use super::object::parameters::Parameters;
 use super::symbol::Sym;
 use super::value::Value;
 
@@ -17,44 +20,86 @@ pub enum Specializer {
     Eql(Value),
 }
 
-/// Where a method stands in the standard method combination.
+impl Specializer {
+    /// Do both accept the same values?
+    pub fn is_same(&self, other: &Specializer) -> bool {
+        match (self, other) {
+            (Specializer::Class(a), Specializer::Class(b)) => Rc::ptr_eq(a, b),
+            (Specializer::Eql(a), Specializer::Eql(b)) => a.is_eql(b),
+            _ => false,
+        }
+    }
+}
+
+/// A method that only reads or writes a slot of its instance.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Qualifier {
-    /// No qualifier.
-    Primary,
-    /// `:before`.
-    Before,
-    /// `:after`.
-    After,
-    /// `:around`.
-    Around,
+pub enum Accessor {
+    /// Returns the value of the slot of the first argument.
+    Reader(Sym),
+    /// Stores the first argument in the slot of the second.
+    Writer(Sym),
 }
 
 /// A method.
 pub struct Method {
+    /// The name of its generic function: a symbol, or the list `(setf name)`.
+    pub name: Value,
+    /// Qualifiers as written: none, `:before`, `+`, …
+    pub qualifiers: Vec<Sym>,
     /// One per required argument.
     pub specializers: Vec<Specializer>,
-    /// Its place in the combination.
-    pub qualifier: Qualifier,
-    /// The method function: it takes a next-method function (or `NIL`) followed by the
-    /// arguments of the call.
+    /// The parameters, required ones included.
+    pub parameters: Parameters,
+    /// The method function. It takes the arguments of the call, after a function that
+    /// calls the next method (or `NIL`) if `takes_next`.
     pub function: Rc<Function>,
+    /// Does the function take the next method?
+    pub takes_next: bool,
+    /// Set if the method is a slot's reader or writer: such a call needs no function.
+    pub accessor: Option<Accessor>,
+    /// Was the method made by the implementation?
+    pub is_builtin: bool,
     /// Documentation.
     pub doc: Option<Rc<str>>,
+    /// The value that stands for the method, while somebody holds it.
+    pub object: RefCell<Weak<ForeignBox>>,
 }
 
 /// A generic function.
 pub struct GenericFunction {
     /// Its name: a symbol, or the list `(setf name)`.
     pub name: Value,
-    /// Number of required arguments.
-    pub required: RefCell<usize>,
-    /// May a call have more arguments than the required ones?
-    pub has_more: RefCell<bool>,
+    /// The parameters that every method must agree with.
+    pub parameters: RefCell<Parameters>,
+    /// Did a `defgeneric` fix the parameters?
+    pub is_declared: Cell<bool>,
     /// The methods in order of definition.
     pub methods: RefCell<Vec<Rc<Method>>>,
+    /// Methods that the `defgeneric` itself made; evaluating it again replaces them.
+    pub own_methods: RefCell<Vec<Rc<Method>>>,
     /// Documentation.
     pub doc: RefCell<Option<Rc<str>>>,
-    /// `STANDARD`, or the name of another combination (`+`, `AND`, `LIST`, …).
-    pub combination: RefCell<Option<Sym>>,
+    /// `STANDARD`, or the operator of another combination (`+`, `AND`, `LIST`, …).
+    pub combination: Cell<Sym>,
+    /// Does the combination run the most specific method last?
+    pub most_specific_last: Cell<bool>,
+    /// Which arguments decide, and what they decided so far.
+    pub dispatch: RefCell<Dispatch>,
+}
+
+impl GenericFunction {
+    /// A generic function without methods, with the standard combination.
+    pub fn new(name: Value, parameters: Parameters) -> GenericFunction {
+        GenericFunction {
+            name,
+            parameters: RefCell::new(parameters),
+            is_declared: Cell::new(false),
+            methods: RefCell::default(),
+            own_methods: RefCell::default(),
+            doc: RefCell::default(),
+            combination: Cell::new(super::known::STANDARD),
+            most_specific_last: Cell::new(false),
+            dispatch: RefCell::default(),
+        }
+    }
 }

@@ -1,17 +1,24 @@
 //! One Lisp image: everything that global names mean.
 
+use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use indexmap::IndexMap;
 
 use super::builtin::{Builtin, Operator};
 use super::class::Class;
+use super::compile::setf::SetfExpander;
 use super::function::Function;
 use super::known;
+use super::object;
 use super::package::{Access, PackageId, PackageTable};
+use super::raise::Raise;
 use super::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
 use super::value::Value;
-use crate::reader::source::Sources;
+use crate::reader::source::{Place, Sources};
 
 /// An image.
 pub struct Image {
@@ -29,10 +36,23 @@ pub struct Image {
     pub output: Output,
     /// Seed and state of `random`.
     pub random: rand_pcg::Pcg64,
+    /// How `setf` treats operators that have an expander instead of a setf function.
+    pub setf_expanders: IndexMap<Sym, SetfExpander>,
+    /// Set from outside to interrupt the machine.
+    pub interrupt: Arc<AtomicBool>,
+    /// Bytes of the Rust stack that the compiler may use for nested forms.
+    pub stack_budget: usize,
+    /// Runs of macro functions inside each other.
+    pub nesting: usize,
+    /// Where the conditions signalled last were signalled, newest last.
+    condition_places: VecDeque<(Value, Place)>,
+    identities: i64,
     /// Builtins by the symbol that names them: help and the manual read them.
     pub builtins: IndexMap<Sym, &'static Builtin>,
     /// Macros written in Rust and special operators, by the symbol that names them.
     pub operators: IndexMap<Sym, &'static Operator>,
+    /// Made-up addresses of objects that were printed.
+    pub printed: RefCell<super::print::identity::Identities>,
 }
 
 /// Standard output: text in order, and the column where the next character goes.
@@ -59,6 +79,11 @@ impl Output {
         }
     }
 
+    /// Notes that what is written next stands at the start of a line.
+    pub fn begin_line(&mut self) {
+        self.column = 0;
+    }
+
     /// Number of characters on the current line.
     pub fn column(&self) -> usize {
         self.column
@@ -70,7 +95,82 @@ impl Output {
     }
 }
 
+/// Conditions whose places are remembered.
+const REMEMBERED_PLACES: usize = 64;
+/// Bytes of the Rust stack that the compiler may use unless told otherwise: a test's
+/// thread has two megabytes.
+const STACK_BUDGET: usize = 1 << 20;
+
 impl Image {
+    /// An image with the known symbols and standard packages, and nothing else.
+    pub(super) fn bare() -> Image {
+        let mut symbols = SymbolTable::new();
+        let mut packages = PackageTable::default();
+        packages.make("COMMON-LISP", &["CL"]);
+        packages.make("KEYWORD", &[]);
+        packages.make("COMMON-LISP-USER", &["CL-USER"]);
+        packages.make("SYSTEM", &["SYS"]);
+        known::intern_all(&mut symbols, &mut packages);
+        packages.use_package(PackageTable::USER, PackageTable::CL);
+        packages.use_package(PackageTable::SYSTEM, PackageTable::CL);
+        Image {
+            symbols,
+            packages,
+            classes: IndexMap::new(),
+            types: IndexMap::new(),
+            sources: Sources::default(),
+            output: Output::default(),
+            random: rand_pcg::Pcg64::new(0xcafe_f00d_d15e_a5e5, 0xa02b_dbf7_bb3c_0a7a),
+            setf_expanders: IndexMap::new(),
+            interrupt: Arc::default(),
+            stack_budget: STACK_BUDGET,
+            nesting: 0,
+            condition_places: VecDeque::new(),
+            identities: 0,
+            printed: RefCell::default(),
+            builtins: IndexMap::new(),
+            operators: IndexMap::new(),
+        }
+    }
+
+    /// A number that no block or tagbody had before.
+    pub fn fresh_identity(&mut self) -> i64 {
+        self.identities += 1;
+        self.identities
+    }
+
+    /// Where a condition was signalled, if that is known.
+    pub fn condition_place(&self, condition: &Value) -> Option<Place> {
+        self.condition_places
+            .iter()
+            .rev()
+            .find(|(other, _)| other.is_eq(condition))
+            .map(|(_, place)| *place)
+    }
+
+    /// Remembers where a condition was signalled.
+    pub fn set_condition_place(&mut self, condition: &Value, place: Place) {
+        if self.condition_places.len() == REMEMBERED_PLACES {
+            self.condition_places.pop_front();
+        }
+        self.condition_places.push_back((condition.clone(), place));
+    }
+
+    /// The function that a function or a symbol designates.
+    pub fn coerce_to_function(&self, designator: &Value) -> Result<Rc<Function>, Box<Raise>> {
+        match designator {
+            Value::Function(f) => Ok(f.clone()),
+            Value::Symbol(sym) => match &self.symbols.get(*sym).function {
+                FunctionCell::Function(f) => Ok(f.clone()),
+                _ => Err(Raise::undefined_function(designator.clone())),
+            },
+            other => match object::method::named_function(self, other) {
+                Some(f) => Ok(f),
+                None => Err(Raise::type_error(other, known::FUNCTION)),
+            },
+        }
+    }
+
     /// The data of a symbol.
     #[inline]
     pub fn symbol(&self, sym: Sym) -> &SymbolData {

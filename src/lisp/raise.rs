@@ -3,6 +3,7 @@
 
 use super::symbol::{Sym, known};
 use super::value::Value;
+use crate::reader::source::Place;
 
 /// A condition that is to be signalled as by `error`.
 #[derive(Clone)]
@@ -17,6 +18,8 @@ pub enum Raise {
         report: Option<String>,
         /// Values of its slots, by slot initarg keyword.
         initargs: Vec<(Sym, Value)>,
+        /// Where the error is in the source, if a form and not a call is wrong.
+        place: Place,
     },
 }
 
@@ -27,6 +30,7 @@ impl Raise {
             class,
             report: Some(report.into()),
             initargs: Vec::new(),
+            place: Place::NONE,
         })
     }
 
@@ -36,6 +40,24 @@ impl Raise {
             initargs.push((initarg, value));
         }
         self
+    }
+
+    /// The error with the place of the form it is about, unless it has one.
+    pub fn at(mut self: Box<Self>, here: Place) -> Box<Raise> {
+        if let Raise::Make { place, .. } = self.as_mut()
+            && !place.is_some()
+        {
+            *place = here;
+        }
+        self
+    }
+
+    /// The place of the form that the error is about, if it is about a form.
+    pub fn place(&self) -> Place {
+        match self {
+            Raise::Make { place, .. } => *place,
+            Raise::Condition(_) => Place::NONE,
+        }
     }
 
     /// A `SIMPLE-ERROR` with a text.
@@ -57,6 +79,7 @@ impl Raise {
                 (known::K_DATUM, datum.clone()),
                 (known::K_EXPECTED_TYPE, expected.into()),
             ],
+            place: Place::NONE,
         })
     }
 
@@ -66,6 +89,7 @@ impl Raise {
             class: known::UNBOUND_VARIABLE,
             report: None,
             initargs: vec![(known::K_NAME, name.into())],
+            place: Place::NONE,
         })
     }
 
@@ -75,6 +99,7 @@ impl Raise {
             class: known::UNDEFINED_FUNCTION,
             report: None,
             initargs: vec![(known::K_NAME, name)],
+            place: Place::NONE,
         })
     }
 

@@ -1,1 +1,48 @@
-//! To come.
+//! From forms to code: macro expansion, special forms, resolution of names, emission.
+//!
+//! Compilation happens in two passes. The first turns a form into [`node::Node`]s: every
+//! name is resolved, every macro expanded, and it is known which variables are captured by
+//! inner functions and which are assigned. The second emits code.
+
+mod analyze;
+mod body;
+mod control_macros;
+mod define_macros;
+pub mod destructure;
+mod emit;
+mod expand;
+mod form;
+pub mod lambda_list;
+mod node;
+mod operators;
+mod quasiquote;
+mod scope;
+pub mod setf;
+mod special_forms;
+
+use std::rc::Rc;
+
+use super::function::Function;
+use super::image::Image;
+use super::raise::Raise;
+use super::value::Value;
+use super::vm::code::Code;
+
+pub use expand::{macroexpand, macroexpand_1};
+pub use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
+pub use quasiquote::expand_quasiquote;
+
+/// Compiles a form at top level into the code of a function without parameters.
+pub fn compile_form(image: &mut Image, form: &Value) -> Result<Rc<Code>, Box<Raise>> {
+    analyze::Compiler::new(image).compile_toplevel(form)
+}
+
+/// Compiles a `lambda` expression into a function without free variables.
+pub fn compile_lambda(image: &mut Image, form: &Value) -> Result<Rc<Function>, Box<Raise>> {
+    let code = compile_form(image, form)?;
+    // The code of `(lambda …)` at top level makes exactly that one closure.
+    match code.inner.first() {
+        Some((inner, _)) => Ok(Rc::new(Function::closure(inner.clone(), Vec::new()))),
+        None => Err(Raise::program("a lambda expression was expected")),
+    }
+}

@@ -1,23 +1,52 @@
 //! Numbers: integers of any size, ratios, single and double floats.
+//!
+//! Integers are immediate while they fit 64 bits, and every result is brought back to its
+//! simplest form. Mixed operands follow Lisp's contagion: a double makes the result
+//! double, else a single makes it single (computed in single precision), else it is exact.
+//! Comparisons between exact numbers and floats are exact. Results that no float can hold
+//! are errors, never infinities.
 
+mod arithmetic;
+mod bits;
+mod compare;
+mod convert;
+mod division;
+pub mod error;
+mod float_parts;
+mod power;
+mod random;
 mod ratio;
+mod transcendental;
 
+pub use arithmetic::{abs, add, decrement, div, increment, mul, negate, signum, sub};
+pub use bits::{
+    ByteSpecifier, and, ash, bit_count, bit_length, deposit, extract, is_bit_set, not, or, xor,
+};
+pub use compare::{
+    compare, equal_by_value, greater, greater_equal, is_even, is_minus, is_plus, is_zero, less,
+    less_equal, maximum, minimum, number_equal,
+};
+pub use convert::{
+    denominator, from_big, from_usize, is_fixnum, is_integer, is_number, is_rational, is_real,
+    numerator, ratio, rational, rationalize, to_big, to_double, to_f32, to_f64, to_float_like,
+    to_single,
+};
+pub use division::{
+    Rounding, ceiling, divide, divide_to_float, floor, modulo, quotient, remainder, round, truncate,
+};
+pub use float_parts::{decode, digits, integer_decode, precision, scale, sign_of};
+pub use power::{expt, gcd, isqrt, lcm, sqrt};
+pub use random::random;
 pub use ratio::Ratio;
+pub use transcendental::{
+    acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, exp, log, log_base, sin, sinh, tan,
+    tanh,
+};
 
-use super::value::Value;
+/// The largest fixnum: `most-positive-fixnum`.
+pub const MOST_POSITIVE_FIXNUM: i64 = (1 << 62) - 1;
+/// The smallest fixnum: `most-negative-fixnum`.
+pub const MOST_NEGATIVE_FIXNUM: i64 = -(1 << 62);
 
-/// Are two numbers of whatever types equal in value? False unless both are numbers.
-pub fn equal_by_value(a: &Value, b: &Value) -> bool {
-    let _ = (a, b);
-    false
-}
-
-/// The number as a double float; `None` if it is no real number.
-pub fn to_f64(value: &Value) -> Option<f64> {
-    match value {
-        Value::Int(n) => Some(*n as f64),
-        Value::Double(x) => Some(*x),
-        Value::Single(x) => Some(f64::from(*x)),
-        _ => None,
-    }
-}
+#[cfg(test)]
+mod tests;

@@ -1,4 +1,222 @@
-//! Compiled code.
+//! Compiled code: a list of operations for a stack machine.
+//!
+//! The locals of a function live on the value stack above its frame's base: first the
+//! parameters, then the variables of `let` forms in the order in which they are bound.
+//! Slots are counted from the base.
+
+use std::rc::Rc;
+
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::reader::source::Place;
+
+/// One operation. "Push" and "pop" speak of the value stack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Op {
+    /// Push a constant.
+    Const(u32),
+    /// Push `NIL`.
+    Nil,
+    /// Push a small integer.
+    Int(i32),
+    /// Push a local.
+    Local(u32),
+    /// Push what a local's box holds.
+    LocalBox(u32),
+    /// Pop into a local.
+    SetLocal(u32),
+    /// Pop into a local's box.
+    SetLocalBox(u32),
+    /// Put a local into a fresh box.
+    MakeBox(u32),
+    /// Push a free variable.
+    Free(u32),
+    /// Push what a free variable's box holds.
+    FreeBox(u32),
+    /// Pop into a free variable's box.
+    SetFreeBox(u32),
+    /// Push the value of a global or special variable.
+    Global(Sym),
+    /// Pop into a global or special variable.
+    SetGlobal(Sym),
+    /// Push a symbol's global function.
+    Function(Sym),
+    /// Push the function of `(setf symbol)`.
+    SetfFunction(Sym),
+    /// Push a closure of the inner code.
+    Closure(u32),
+    /// Drop the top.
+    Pop,
+    /// Drop so many from the top.
+    Drop(u32),
+    /// Drop so many below the top.
+    Slide(u32),
+    /// Push the top again.
+    Dup,
+    /// Go on elsewhere.
+    Jump(u32),
+    /// Pop; go on elsewhere if it was `NIL`.
+    JumpIfNil(u32),
+    /// Pop; go on elsewhere unless it was `NIL`.
+    JumpIfTrue(u32),
+    /// Go on elsewhere if the top is true, else pop it.
+    JumpIfTrueOrPop(u32),
+    /// Go on elsewhere if a parameter was supplied.
+    JumpIfSupplied(u32, u32),
+    /// Push whether a parameter was supplied.
+    Supplied(u32),
+    /// Call a symbol's function with so many arguments for one value.
+    Call(Sym, u16),
+    /// Call a symbol's function with so many arguments for all values.
+    CallMulti(Sym, u16),
+    /// Call the function below so many arguments for one value.
+    CallValue(u16),
+    /// Call the function below so many arguments for all values.
+    CallValueMulti(u16),
+    /// Call the function below so many results with all their values.
+    MultipleValueCall(u16, bool),
+    /// Return the top.
+    Return,
+    /// Make the top a single value.
+    Primary,
+    /// Pop the values of a call and push exactly so many of them.
+    Spread(u32),
+    /// Car of the top.
+    Car,
+    /// Cdr of the top.
+    Cdr,
+    /// A pair of the two topmost.
+    Cons,
+    /// Are the two topmost `eq`?
+    Eq,
+    /// Is the top `NIL`?
+    Not,
+    /// Sum of the two topmost.
+    Add,
+    /// Difference of the two topmost.
+    Sub,
+    /// Product of the two topmost.
+    Mul,
+    /// Top plus a small integer.
+    AddInt(i32),
+    /// Are the two topmost in ascending order?
+    Less,
+    /// Are the two topmost in descending order?
+    Greater,
+    /// Not descending?
+    LessEqual,
+    /// Not ascending?
+    GreaterEqual,
+    /// Equal numbers?
+    NumEqual,
+    /// Is the top a pair?
+    Consp,
+    /// Pop a value and bind a special variable to it.
+    BindSpecial(Sym),
+    /// Pop a list of values and one of symbols and bind those; pushes nothing.
+    Progv,
+    /// Undo so many dynamic entries.
+    PopDynamic(u32),
+    /// Undo the dynamic entries beyond the innermost `progv` mark, and the mark.
+    EndProgv,
+    /// Enter a block that closures may leave: push its identity as a local.
+    EnterBlock {
+        /// Where a return goes on.
+        target: u32,
+        /// Does the block want all values?
+        multi: bool,
+    },
+    /// Pop value and identity and leave that block with the value.
+    ReturnFrom,
+    /// Enter a tagbody that closures may jump into: push its identity as a local. The
+    /// operand is the number of its table of tags.
+    EnterTagbody(u32),
+    /// Pop an identity and go to a tag of that tagbody.
+    Go(u32),
+    /// Pop a tag and establish a catch.
+    EnterCatch {
+        /// Where a throw goes on.
+        target: u32,
+        /// Does the catch want all values?
+        multi: bool,
+    },
+    /// Protect what follows: on any exit run the code at the target.
+    EnterUnwind(u32),
+    /// Leave the protected part normally: its value is on top.
+    LeaveUnwind,
+    /// End of cleanup code: go on with the exit that ran it, or with the value.
+    EndCleanup,
+    /// Pop so many handler functions and establish them with the types in a constant.
+    EnterHandlers(u32, u16),
+    /// Pop a list of restarts and establish them.
+    EnterRestarts,
+}
+
+/// How a closure gets the value of a free variable of its code.
+#[derive(Clone, Copy, Debug)]
+pub enum Capture {
+    /// From a local slot of the function that makes the closure.
+    Local(u32),
+    /// From a free variable of that function.
+    Free(u32),
+}
+
+/// The parameters of a function, in slot order: required, optional, rest, keys.
+#[derive(Clone, Debug, Default)]
+pub struct Parameters {
+    /// Number of required parameters.
+    pub required: u16,
+    /// Number of optional parameters.
+    pub optional: u16,
+    /// Is there a rest parameter?
+    pub rest: bool,
+    /// Keywords of the key parameters.
+    pub keys: Vec<Sym>,
+    /// Does the lambda list have `&key`?
+    pub has_keys: bool,
+    /// Are other keywords allowed?
+    pub allow_other_keys: bool,
+}
+
+impl Parameters {
+    /// Is every parameter required?
+    pub fn is_simple(&self) -> bool {
+        self.optional == 0 && !self.rest && !self.has_keys
+    }
+}
 
 /// Compiled code of one function.
-pub struct Code {}
+pub struct Code {
+    /// Name: a symbol, `(setf name)`, `(lambda …)` or `NIL`.
+    pub name: Value,
+    /// The parameters.
+    pub parameters: Parameters,
+    /// The operations.
+    pub ops: Vec<Op>,
+    /// Constants.
+    pub constants: Vec<Value>,
+    /// Code of the closures made here, with their captures.
+    pub inner: Vec<(Rc<Code>, Vec<Capture>)>,
+    /// For each tagbody that closures jump into: where its tags are.
+    pub tags: Vec<Vec<u32>>,
+    /// Places of calls: (first operation, place), in ascending order.
+    pub places: Vec<(u32, Place)>,
+    /// Names of locals by slot for the debugger: (slot, name), as bound.
+    pub locals: Vec<(u32, Sym)>,
+    /// The lambda list as written.
+    pub lambda_list: Value,
+    /// The documentation string.
+    pub doc: Option<Rc<str>>,
+}
+
+impl Code {
+    /// The place of the call that the operation belongs to.
+    pub fn place_at(&self, pc: usize) -> Place {
+        let pc = u32::try_from(pc).unwrap_or(u32::MAX);
+        let after = self.places.partition_point(|(first, _)| *first <= pc);
+        after
+            .checked_sub(1)
+            .and_then(|i| self.places.get(i))
+            .map_or(Place::NONE, |(_, place)| *place)
+    }
+}

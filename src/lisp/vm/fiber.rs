@@ -1,5 +1,180 @@
-//! One line of execution: its value stack, frames and dynamic entries.
+//! One line of execution: its value stack, its frames and its dynamic entries.
+
+use std::rc::Rc;
+
+use super::step::Resume;
+use crate::lisp::function::Function;
+use crate::lisp::image::Image;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// A call that has not returned.
+pub struct Frame {
+    /// What is to go on when a callee returns.
+    pub kind: FrameKind,
+    /// Where the frame's values start on the stack.
+    pub base: usize,
+    /// Length to which its return cuts the stack.
+    pub cut: usize,
+    /// Number of dynamic entries when it was entered.
+    pub dynamic: usize,
+    /// Does the caller want all values?
+    pub multi: bool,
+}
+
+/// What runs in a frame.
+pub enum FrameKind {
+    /// Compiled code.
+    Code {
+        /// The closure that was called.
+        function: Rc<Function>,
+        /// The next operation.
+        pc: usize,
+    },
+    /// A builtin that waits for a value.
+    Native {
+        /// The rest of the builtin.
+        then: Box<dyn Resume>,
+        /// Does it want all values?
+        all: bool,
+    },
+}
+
+/// A handler: a type of conditions and a function.
+pub struct Handler {
+    /// The type specifier.
+    pub condition_type: Value,
+    /// The function of one argument.
+    pub function: Value,
+}
+
+/// Something with dynamic extent.
+pub enum Dynamic {
+    /// A binding of a special variable, with the value outside it.
+    Bind(Sym, Value),
+    /// The start of the bindings of a `progv`.
+    ProgvMark,
+    /// A block that closures may leave.
+    Block {
+        /// Its identity.
+        id: i64,
+        /// Its frame's index.
+        frame: usize,
+        /// Height of the stack outside it.
+        height: usize,
+        /// Where the code goes on.
+        target: u32,
+        /// Does its context want all values?
+        multi: bool,
+    },
+    /// A tagbody that closures may jump into.
+    Tagbody {
+        /// Its identity.
+        id: i64,
+        /// Its frame's index.
+        frame: usize,
+        /// Height of the stack inside it.
+        height: usize,
+        /// The number of its tag table in the code.
+        table: u32,
+    },
+    /// A catch.
+    Catch {
+        /// The tag.
+        tag: Value,
+        /// Its frame's index.
+        frame: usize,
+        /// Height of the stack outside it.
+        height: usize,
+        /// Where the code goes on.
+        target: u32,
+        /// Does its context want all values?
+        multi: bool,
+    },
+    /// Code that is protected by cleanup code.
+    Unwind {
+        /// Its frame's index.
+        frame: usize,
+        /// Height of the stack outside it.
+        height: usize,
+        /// Where the cleanup code starts.
+        target: u32,
+    },
+    /// Handlers.
+    Handlers(Rc<[Handler]>),
+    /// While a handler runs: only entries below this index are searched for handlers.
+    HandlerMask(usize),
+    /// Restarts: a list of restart objects.
+    Restarts(Value),
+}
+
+/// Where an unwinding goes.
+#[derive(Clone, Copy, Debug)]
+pub enum Target {
+    /// Out of the block or catch at this dynamic index.
+    Exit(usize),
+    /// To a tag of the tagbody at this dynamic index.
+    Tag(usize, u32),
+    /// Out of everything.
+    Everything,
+}
+
+/// An unwinding that waits for cleanup code.
+pub struct Pending {
+    /// Where it goes.
+    pub target: Target,
+    /// The value it carries.
+    pub value: Value,
+    /// Number of dynamic entries while the cleanup code runs.
+    pub dynamic: usize,
+}
 
 /// A line of execution.
 #[derive(Default)]
-pub struct Fiber {}
+pub struct Fiber {
+    /// The value stack.
+    pub stack: Vec<Value>,
+    /// The frames, innermost last.
+    pub frames: Vec<Frame>,
+    /// The dynamic entries, innermost last.
+    pub dynamic: Vec<Dynamic>,
+    /// Unwindings that wait for cleanup code, innermost last.
+    pub pending: Vec<Pending>,
+    /// Are the fiber's bindings of special variables in force?
+    in_force: bool,
+}
+
+impl Fiber {
+    /// Puts the fiber's special bindings in force: it is about to run.
+    pub fn enter(&mut self, image: &mut Image) {
+        if self.in_force {
+            return;
+        }
+        self.in_force = true;
+        for entry in &mut self.dynamic {
+            swap_binding(image, entry);
+        }
+    }
+
+    /// Takes the fiber's special bindings out of force: another fiber may run.
+    pub fn leave(&mut self, image: &mut Image) {
+        if !self.in_force {
+            return;
+        }
+        self.in_force = false;
+        for entry in self.dynamic.iter_mut().rev() {
+            swap_binding(image, entry);
+        }
+    }
+
+    /// Binds a special variable for the rest of the fiber's life; before it first runs.
+    pub fn bind(&mut self, sym: Sym, value: Value) {
+        self.dynamic.push(Dynamic::Bind(sym, value));
+    }
+}
+
+fn swap_binding(image: &mut Image, entry: &mut Dynamic) {
+    if let Dynamic::Bind(sym, other) = entry {
+        std::mem::swap(&mut image.symbols.get_mut(*sym).value, other);
+    }
+}

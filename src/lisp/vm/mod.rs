@@ -3,4 +3,9 @@
 pub mod code;
 pub mod fiber;
 pub mod machine;
+pub mod restart;
+pub mod signal;
 pub mod step;
+#[cfg(test)]
+mod tests;
+mod unwind;

@@ -2,6 +2,7 @@
 
 use std::any::Any;
 
+use super::fiber::Target;
 use super::machine::Machine;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
@@ -40,6 +41,10 @@ pub enum Step {
     Request(Box<dyn Any>),
     /// Like `Request`; the answer goes to `then`.
     RequestThen(Box<dyn Any>, Box<dyn Resume>),
+    /// Leave everything inside a target, with a value.
+    Unwind(Target, Value),
+    /// Stop: a condition has found no handler.
+    Unhandled(Value),
 }
 
 /// The rest of a control builtin that waits for the value of a call.

@@ -1,0 +1,71 @@
+//! How a command ends.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::repl::ReplError;
+
+/// The end of a command that could do its work.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Status {
+    /// All is well.
+    Good,
+    /// A condition was not handled, a transcript differs, a check found something.
+    Bad,
+    /// The work could not be done.
+    Unusable,
+    /// The program left with a status of its own.
+    Left(u8),
+}
+
+impl Status {
+    pub(super) fn code(self) -> u8 {
+        match self {
+            Status::Good => 0,
+            Status::Bad => 1,
+            Status::Unusable => 2,
+            Status::Left(code) => code,
+        }
+    }
+}
+
+/// Why a command could not do its work.
+#[derive(Debug, Error)]
+pub(super) enum CommandError {
+    /// Standard output takes no more.
+    #[error("cannot write: {0}")]
+    Write(#[from] io::Error),
+    /// A file that the command line names.
+    #[error("cannot read {}: {error}", path.display())]
+    Read { path: PathBuf, error: io::Error },
+    /// A blessed transcript.
+    #[error("cannot write {}: {error}", path.display())]
+    Rewrite { path: PathBuf, error: io::Error },
+    /// The robot and its world cannot be set up.
+    #[error("{0}")]
+    Open(String),
+    /// The prompt does not work.
+    #[error("{0}")]
+    Prompt(#[from] ReplError),
+}
+
+impl CommandError {
+    /// Who reads our output wants no more of it.
+    pub(super) fn is_broken_pipe(&self) -> bool {
+        matches!(
+            self,
+            CommandError::Write(error) | CommandError::Prompt(ReplError::Write(error))
+                if error.kind() == io::ErrorKind::BrokenPipe
+        )
+    }
+}
+
+/// Reads a file that the command line names.
+pub(super) fn read(path: &PathBuf) -> Result<String, CommandError> {
+    std::fs::read_to_string(path).map_err(|error| CommandError::Read {
+        path: path.clone(),
+        error,
+    })
+}

@@ -1,0 +1,68 @@
+//! The command line: what `planwright` and its subcommands do.
+//!
+//! Exit statuses: 0 all is well; 1 a condition was not handled, a transcript differs, a
+//! check found something; 2 the command line is wrong, a file cannot be read, or the
+//! robot and its world cannot be set up. A reader that closes our output early is no
+//! error. `(quit n)` leaves with its own status.
+//!
+//! Only this folder and `repl` write to the terminal.
+
+mod arguments;
+mod check;
+mod failure;
+mod open;
+mod paint;
+mod pipe;
+mod replay;
+mod run;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use crate::repl;
+use arguments::{Arguments, Command};
+use failure::{CommandError, Status};
+use paint::Paint;
+
+pub use open::open_default;
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let errors = Paint::new(arguments.options.color, &io::stderr());
+    match dispatch(arguments) {
+        Ok(status) => ExitCode::from(status.code()),
+        Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
+        Err(error) => {
+            // Without standard error there is nobody to tell.
+            let _ = writeln!(io::stderr(), "{} {error}", errors.bad("error:"));
+            ExitCode::from(Status::Unusable.code())
+        }
+    }
+}
+
+fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
+    let options = &arguments.options;
+    match arguments.command {
+        None if io::IsTerminal::is_terminal(&io::stdin()) => {
+            let session = open::open(options)?;
+            let paint = Paint::new(options.color, &io::stdout());
+            let status = repl::run(session, paint.is_on())?;
+            Ok(Status::Left(status))
+        }
+        None => pipe::evaluate_standard_input(options),
+        Some(Command::Run { files, eval }) => run::run(options, &files, &eval),
+        Some(Command::Replay { files, bless, jobs }) => {
+            replay::replay(options, &files, bless, jobs)
+        }
+        Some(Command::Check { files }) => check::check(options, &files),
+        Some(Command::Completions { shell }) => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "planwright", &mut script);
+            io::stdout().write_all(&script)?;
+            Ok(Status::Good)
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! The evaluator as the front sees it.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use crate::reader::source::Location;
+
+/// Something that happened while an input was evaluated.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Event {
+    /// Text that the program printed, or log lines; not necessarily whole lines.
+    Output(String),
+    /// A form has been evaluated: its values as printed text. Empty for no value.
+    Values(Vec<String>),
+    /// A condition reached the top and nobody handled it: the input ends here.
+    Aborted(Box<Abort>),
+}
+
+/// What is known about a condition that nobody handled.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Abort {
+    /// The report of the condition, for people; may span lines.
+    pub report: String,
+    /// The condition as it prints, `#<TYPE-ERROR …>`.
+    pub condition: String,
+    /// The innermost form with a known place.
+    pub place: Option<Location>,
+}
+
+/// A mistake that was found without evaluating.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Finding {
+    /// What is wrong, for people.
+    pub message: String,
+    /// Where it is.
+    pub place: Option<Location>,
+}
+
+/// How the evaluation of an input ended.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Outcome {
+    /// Every form was evaluated.
+    Finished,
+    /// A condition was not handled; the forms after it were not evaluated.
+    Aborted,
+    /// The program asked to leave, with this exit status.
+    Quit(u8),
+}
+
+/// An evaluator: takes the text of inputs and tells what happens.
+pub trait Evaluate {
+    /// Evaluates all forms of `text` in order, telling each event to `sink` as it happens.
+    ///
+    /// `source_name` is the name that places in the text get.
+    fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome;
+
+    /// Looks for mistakes in a text without running it, in the order of the text.
+    ///
+    /// What the text defines is known afterwards, so that texts that build on one another
+    /// can be checked in order.
+    fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding>;
+
+    /// The name that the prompt shows: that of the current package, or a short one.
+    fn prompt(&self) -> String;
+
+    /// While this holds true, a running evaluation ends as soon as it can.
+    fn interrupt_handle(&self) -> Arc<AtomicBool>;
+}
+
+impl<E: Evaluate + ?Sized> Evaluate for Box<E> {
+    fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
+        (**self).evaluate(source_name, text, sink)
+    }
+
+    fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
+        (**self).check(source_name, text)
+    }
+
+    fn prompt(&self) -> String {
+        (**self).prompt()
+    }
+
+    fn interrupt_handle(&self) -> Arc<AtomicBool> {
+        (**self).interrupt_handle()
+    }
+}

@@ -1,0 +1,17 @@
+//! What a person and an evaluator say to each other: inputs go in, events come out, and
+//! a screen shows the events as text.
+//!
+//! The prompt, the runner and the replayer of transcripts all speak through this folder,
+//! so that they show the same bytes for the same events. Nothing in here knows Lisp
+//! beyond its tokens, nor where the text is finally written to.
+
+pub mod evaluate;
+mod evaluate_on;
+mod input;
+pub mod prompt_line;
+pub mod screen;
+
+pub use evaluate::{Abort, Evaluate, Event, Finding, Outcome};
+pub use evaluate_on::{evaluate_keeping_abort, evaluate_on};
+pub use input::is_whole;
+pub use screen::Screen;

@@ -1,0 +1,108 @@
+//! What destructuring lambda lists expand into: checks of a list of arguments.
+
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "CHECK-ARGUMENTS",
+        "list least most context lambda-list",
+        "The list, if it has as many elements as a lambda list asks for.",
+        &["(system:check-arguments '(1) 1 1 'f '(x)) => (1)"],
+        check_arguments,
+    ),
+    pure(
+        "CHECK-KEYS",
+        "list keys",
+        "An error unless the list is a property list of these keys.",
+        &["(system:check-keys '(:a 1) '(:a)) => NIL"],
+        check_keys,
+    ),
+    pure(
+        "KEY-TAIL",
+        "list key",
+        "The rest of a property list after a key; NIL if it is not there.",
+        &["(system:key-tail '(:a 1 :b 2) :b) => (2)"],
+        key_tail,
+    ),
+];
+
+fn check_arguments(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let list = &args[0];
+    let Some(items) = list.list_to_vec().map(|v| v.len()).or_else(|| {
+        // A dotted list destructures if the lambda list ends in a rest parameter.
+        (args[2].is_nil() && list.as_cons().is_some()).then(|| list.iter_list().count())
+    }) else {
+        return Err(Raise::type_error(list, known::LIST));
+    };
+    let count = i64::try_from(items).unwrap_or(i64::MAX);
+    let bound = |v: &Value| match v {
+        Value::Int(n) => Some(*n),
+        _ => None,
+    };
+    let least = bound(&args[1]).unwrap_or(0);
+    let most = bound(&args[2]);
+    if count >= least && most.is_none_or(|most| count <= most) {
+        return Ok(list.clone());
+    }
+    let show = |v: &Value| print::to_string(image, v, true);
+    let context = match args[3].as_symbol() {
+        Some(known::DESTRUCTURING_BIND) => "DESTRUCTURING-BIND".to_owned(),
+        _ => format!("DEFMACRO {}", show(&args[3])),
+    };
+    let few = if count < least { "few" } else { "many" };
+    let expected = match most {
+        Some(most) if most == least => format!("exactly {least}"),
+        Some(most) => format!("between {least} and {most}"),
+        None => format!("at least {least}"),
+    };
+    Err(Raise::new(
+        known::ARG_COUNT_ERROR,
+        format!(
+            "Error while parsing arguments to {context}:\n  too {few} elements in\n    {}\n  to satisfy lambda list\n    {}:\n  {expected} expected, but got {count}",
+            show(list),
+            show(&args[4]),
+        ),
+    ))
+}
+
+fn check_keys(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let items: Vec<Value> = args[0].iter_list().collect();
+    if !items.len().is_multiple_of(2) {
+        return Err(Raise::program("odd number of &KEY arguments"));
+    }
+    let allowed = items
+        .chunks_exact(2)
+        .any(|pair| pair[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS) && pair[1].is_true());
+    if allowed {
+        return Ok(Value::NIL);
+    }
+    for pair in items.chunks_exact(2) {
+        let is_known = pair[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS)
+            || args[1].iter_list().any(|key| key.is_eq(&pair[0]));
+        if !is_known {
+            let shown = print::to_string(image, &pair[0], true);
+            return Err(Raise::program(format!("Unknown &KEY argument: {shown}")));
+        }
+    }
+    Ok(Value::NIL)
+}
+
+fn key_tail(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let mut rest = args[0].clone();
+    while let Value::Cons(cons) = &rest {
+        if cons.car().is_eq(&args[1]) {
+            return Ok(cons.cdr());
+        }
+        let next = cons.cdr().cdr_or_nil();
+        rest = next;
+    }
+    Ok(Value::NIL)
+}

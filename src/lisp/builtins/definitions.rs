@@ -1,0 +1,211 @@
+//! What the defining macros expand into.
+
+use std::rc::Rc;
+
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::compile::setf::{self, SetfExpander};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
+use crate::lisp::value::Value;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "DEFINE-FUNCTION",
+        "name function",
+        "Makes a function the global one of its name.",
+        &["(system:define-function 'one (lambda () 1)) => ONE"],
+        define_function,
+    ),
+    pure(
+        "DEFINE-MACRO",
+        "name function lambda-list documentation",
+        "Makes a function the expander of a macro.",
+        &[],
+        define_macro,
+    ),
+    pure(
+        "DEFINE-PARAMETER",
+        "name value documentation",
+        "Makes a variable special and assigns it.",
+        &["(system:define-parameter '*p* 1 nil) => *P*"],
+        define_parameter,
+    ),
+    pure(
+        "DEFINE-VARIABLE",
+        "name",
+        "Makes a variable special.",
+        &["(system:define-variable '*v*) => *V*"],
+        define_variable,
+    ),
+    pure(
+        "DEFINE-CONSTANT",
+        "name value",
+        "Makes a variable constant.",
+        &["(system:define-constant '+c+ 1) => +C+"],
+        define_constant,
+    ),
+    pure(
+        "SET-SYMBOL-MACRO",
+        "name expansion",
+        "Lets a symbol stand for a form.",
+        &[],
+        set_symbol_macro,
+    ),
+    pure(
+        "DEFINE-SETF-UPDATE",
+        "name update",
+        "Short DEFSETF.",
+        &[],
+        define_setf_update,
+    ),
+    pure(
+        "DEFINE-SETF-LONG",
+        "name function stores",
+        "Long DEFSETF.",
+        &[],
+        define_setf_long,
+    ),
+    pure(
+        "SET-SETF-EXPANDER",
+        "name function",
+        "DEFINE-SETF-EXPANDER.",
+        &[],
+        set_setf_expander,
+    ),
+    pure(
+        "MODIFY-PLACE",
+        "place function arguments",
+        "The form that sets a place to a function of it and of forms.",
+        &[],
+        modify_place,
+    ),
+];
+
+/// Builtins of package `COMMON-LISP`.
+pub static TABLE: &[Builtin] = &[pure(
+    "PROCLAIM",
+    "specifier",
+    "A global declaration.",
+    &["(proclaim '(special *proclaimed*)) => ; No value"],
+    proclaim,
+)];
+
+fn symbol(value: &Value) -> Result<Sym> {
+    value
+        .as_symbol()
+        .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
+}
+
+fn function(value: &Value) -> Result<Rc<crate::lisp::function::Function>> {
+    match value {
+        Value::Function(f) => Ok(f.clone()),
+        other => Err(Raise::type_error(other, known::FUNCTION)),
+    }
+}
+
+fn define_function(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let new = function(&args[1])?;
+    match args[0].as_symbol() {
+        Some(name) => {
+            if matches!(image.symbol(name).function, FunctionCell::Builtin) {
+                return Err(Raise::program(format!(
+                    "{} is a special operator or macro of the language and cannot be redefined.",
+                    image.name(name)
+                )));
+            }
+            image.set_function(name, new);
+        }
+        None => {
+            let name = symbol(&args[0].cdr_or_nil().car_or_nil())?;
+            image.symbols.get_mut(name).setf_function = Some(new);
+        }
+    }
+    Ok(args[0].clone())
+}
+
+fn define_macro(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let name = symbol(&args[0])?;
+    let expander = function(&args[1])?;
+    image.symbols.get_mut(name).function = FunctionCell::Macro(expander);
+    Ok(args[0].clone())
+}
+
+fn define_parameter(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let name = symbol(&args[0])?;
+    check_not_constant(image, name)?;
+    image.define_special(name, args[1].clone());
+    image.symbols.get_mut(name).variable_doc = args[2].as_text().map(Into::into);
+    Ok(args[0].clone())
+}
+
+fn check_not_constant(image: &Image, name: Sym) -> Result<()> {
+    if image.symbol(name).kind == VariableKind::Constant {
+        return Err(Raise::program(format!(
+            "{} is a constant and cannot be made a variable.",
+            image.name(name)
+        )));
+    }
+    Ok(())
+}
+
+fn define_variable(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let name = symbol(&args[0])?;
+    check_not_constant(image, name)?;
+    image.symbols.get_mut(name).kind = VariableKind::Special;
+    Ok(args[0].clone())
+}
+
+fn define_constant(image: &mut Image, args: &[Value]) -> Result<Value> {
+    image.define_constant(symbol(&args[0])?, args[1].clone());
+    Ok(args[0].clone())
+}
+
+fn set_symbol_macro(image: &mut Image, args: &[Value]) -> Result<Value> {
+    image.symbols.get_mut(symbol(&args[0])?).symbol_macro = Some(args[1].clone());
+    Ok(args[0].clone())
+}
+
+fn define_setf_update(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let expander = SetfExpander::Update(symbol(&args[1])?);
+    image.setf_expanders.insert(symbol(&args[0])?, expander);
+    Ok(args[0].clone())
+}
+
+fn define_setf_long(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let count = match args[2] {
+        Value::Int(n) => usize::try_from(n).unwrap_or(0),
+        _ => 0,
+    };
+    let expander = SetfExpander::Long(args[1].clone(), count);
+    image.setf_expanders.insert(symbol(&args[0])?, expander);
+    Ok(args[0].clone())
+}
+
+fn set_setf_expander(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let expander = SetfExpander::Expander(args[1].clone());
+    image.setf_expanders.insert(symbol(&args[0])?, expander);
+    Ok(args[0].clone())
+}
+
+fn modify_place(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let (function, arguments) = (args[1].clone(), args[2].clone());
+    setf::modify(image, &args[0], Vec::new(), |_, getter| {
+        Value::cons(function, Value::cons(getter, arguments))
+    })
+}
+
+fn proclaim(image: &mut Image, args: &[Value]) -> Result<Value> {
+    if args[0].car_or_nil().as_symbol() == Some(known::SPECIAL) {
+        for name in args[0].cdr_or_nil().iter_list() {
+            let name = symbol(&name)?;
+            check_not_constant(image, name)?;
+            image.symbols.get_mut(name).kind = VariableKind::Special;
+        }
+    }
+    Ok(Value::values(Vec::new()))
+}

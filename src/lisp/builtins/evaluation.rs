@@ -1,0 +1,360 @@
+//! Evaluation and calls: `eval`, `funcall`, `apply`, `values`, macro expansion.
+
+use std::rc::Rc;
+
+use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::compile;
+use crate::lisp::function::{Body, Function};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::FunctionCell;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `COMMON-LISP`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "EVAL",
+        "form",
+        "Evaluates a form.",
+        &["(eval '(+ 1 2)) => 3"],
+        eval,
+    ),
+    control(
+        "FUNCALL",
+        "function &rest arguments",
+        "Calls a function.",
+        &["(funcall #'+ 1 2) => 3"],
+        funcall,
+    ),
+    control(
+        "APPLY",
+        "function argument &rest arguments",
+        "Calls a function; the last argument is a list of further arguments.",
+        &["(apply #'+ 1 '(2 3)) => 6"],
+        apply,
+    ),
+    pure(
+        "VALUES",
+        "&rest values",
+        "Returns the values.",
+        &["(values 1 2) => 1 ; 2"],
+        values,
+    ),
+    pure(
+        "VALUES-LIST",
+        "list",
+        "Returns the elements of a list as values.",
+        &["(values-list '(1 2)) => 1 ; 2"],
+        values_list,
+    ),
+    pure(
+        "IDENTITY",
+        "object",
+        "The object.",
+        &["(identity 1) => 1"],
+        |_, args| Ok(args[0].clone()),
+    ),
+    pure(
+        "NOT",
+        "object",
+        "T if the object is NIL.",
+        &["(not nil) => T"],
+        |_, args| Ok(args[0].is_nil().into()),
+    ),
+    pure(
+        "EQ",
+        "a b",
+        "Are they the same object?",
+        &["(eq 'a 'a) => T"],
+        |_, args| Ok(args[0].is_eq(&args[1]).into()),
+    ),
+    pure(
+        "EQL",
+        "a b",
+        "Are they the same object, or equal numbers of one type?",
+        &["(eql 1 1.0) => NIL"],
+        |_, args| Ok(args[0].is_eql(&args[1]).into()),
+    ),
+    pure(
+        "EQUAL",
+        "a b",
+        "Have they the same structure and contents?",
+        &["(equal '(1 \"a\") '(1 \"a\")) => T"],
+        |_, args| Ok(crate::lisp::equality::equal(&args[0], &args[1]).into()),
+    ),
+    pure(
+        "EQUALP",
+        "a b",
+        "Like EQUAL; numbers by value, letters without case, arrays by element.",
+        &["(equalp \"A\" \"a\") => T"],
+        |_, args| Ok(crate::lisp::equality::equalp(&args[0], &args[1]).into()),
+    ),
+    pure(
+        "CONSTANTLY",
+        "value",
+        "A function that always returns the value.",
+        &["(funcall (constantly 1) 2 3) => 1"],
+        constantly,
+    ),
+    pure(
+        "COMPLEMENT",
+        "function",
+        "The function that is true when the function is false.",
+        &["(funcall (complement #'oddp) 2) => T"],
+        complement,
+    ),
+    pure(
+        "FUNCTIONP",
+        "object",
+        "Is it a function?",
+        &["(functionp #'car) => T"],
+        |_, args| Ok(matches!(args[0], Value::Function(_)).into()),
+    ),
+    pure(
+        "MACROEXPAND",
+        "form &optional environment",
+        "Expands a macro call until it is none; was it one?",
+        &["(macroexpand '(when a b)) => (IF A (PROGN B)) ; T"],
+        macroexpand,
+    ),
+    pure(
+        "MACROEXPAND-1",
+        "form &optional environment",
+        "Expands a macro call once; was it one?",
+        &["(macroexpand-1 '(when a b)) => (IF A (PROGN B)) ; T"],
+        macroexpand_1,
+    ),
+    pure(
+        "COMPILE",
+        "name &optional definition",
+        "The function: everything is compiled.",
+        &["(funcall (compile nil '(lambda (x) (* x x))) 3) => 9"],
+        compile_function,
+    ),
+    pure(
+        "SPECIAL-OPERATOR-P",
+        "symbol",
+        "Does the symbol name a special operator?",
+        &["(special-operator-p 'if) => T"],
+        special_operator_p,
+    ),
+    pure(
+        "MACRO-FUNCTION",
+        "symbol &optional environment",
+        "The expander of a macro, or NIL.",
+        &["(macro-function 'car) => NIL"],
+        macro_function,
+    ),
+    pure(
+        "FUNCTION-LAMBDA-EXPRESSION",
+        "function",
+        "NIL, T and the function's name.",
+        &["(function-lambda-expression #'car) => NIL ; T ; CAR"],
+        function_lambda_expression,
+    ),
+];
+
+/// Evaluates forms one after the other, so that each sees what the ones before defined.
+struct Sequence {
+    rest: Value,
+}
+
+impl Resume for Sequence {
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step> {
+        evaluate_sequence(machine, self.rest)
+    }
+
+    fn name(&self) -> &'static str {
+        "EVAL"
+    }
+}
+
+fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
+    let Value::Cons(cons) = &forms else {
+        return Ok(Step::Return(Value::NIL));
+    };
+    let rest = cons.cdr();
+    if rest.is_nil() {
+        return evaluate(machine, &cons.car());
+    }
+    let function = Value::Symbol(known::EVAL);
+    Ok(Step::Call {
+        function,
+        args: vec![cons.car()],
+        then: Box::new(Sequence { rest }),
+    })
+}
+
+/// Evaluates a form at top level.
+pub fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
+    let (form, _) = compile::macroexpand(machine.image, form)?;
+    if let Value::Cons(cons) = &form {
+        match cons.car().as_symbol() {
+            Some(known::PROGN) => return evaluate_sequence(machine, cons.cdr()),
+            Some(known::EVAL_WHEN) => {
+                let inner = Value::cons(known::PROGN.into(), cons.cdr().cdr_or_nil());
+                let compiled = cons.cdr().car_or_nil().iter_list().any(|s| {
+                    matches!(
+                        s.as_symbol(),
+                        Some(known::K_EXECUTE | known::K_LOAD_TOPLEVEL | known::EVAL | known::LOAD)
+                    )
+                });
+                if compiled {
+                    return evaluate(machine, &inner);
+                }
+            }
+            _ => {}
+        }
+    }
+    let code = compile::compile_form(machine.image, &form)?;
+    let function = Value::Function(Rc::new(Function::closure(code, Vec::new())));
+    Ok(Step::TailCall {
+        function,
+        args: Vec::new(),
+    })
+}
+
+fn eval(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    evaluate(machine, &args[0])
+}
+
+fn funcall(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let mut args = args.into_iter();
+    let function = args.next().unwrap_or(Value::NIL);
+    Ok(Step::TailCall {
+        function,
+        args: args.collect(),
+    })
+}
+
+fn apply(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let mut args = args.into_iter();
+    let function = args.next().unwrap_or(Value::NIL);
+    let mut args: Vec<Value> = args.collect();
+    let list = args.pop().unwrap_or(Value::NIL);
+    match list.list_to_vec() {
+        Some(more) => args.extend(more),
+        None => return Err(Raise::type_error(&list, known::LIST)),
+    }
+    Ok(Step::TailCall { function, args })
+}
+
+fn values(_: &mut Image, args: &[Value]) -> Result<Value> {
+    Ok(Value::values(args.to_vec()))
+}
+
+fn values_list(_: &mut Image, args: &[Value]) -> Result<Value> {
+    match args[0].list_to_vec() {
+        Some(items) => Ok(Value::values(items)),
+        None => Err(Raise::type_error(&args[0], known::LIST)),
+    }
+}
+
+fn constantly(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let value = args[0].clone();
+    let name = known::CONSTANTLY;
+    Ok(Value::Function(Function::made(
+        name,
+        (0, None),
+        move |_, _| Ok(value.clone()),
+    )))
+}
+
+struct Negate;
+
+impl Resume for Negate {
+    fn resume(self: Box<Self>, _: &mut Machine<'_>, value: Value) -> Result<Step> {
+        Ok(Step::Return(value.is_nil().into()))
+    }
+
+    fn name(&self) -> &'static str {
+        "COMPLEMENT"
+    }
+}
+
+fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let function = args[0].clone();
+    let name = known::COMPLEMENT;
+    Ok(Value::Function(Function::made_control(
+        name,
+        (0, None),
+        move |_, args| {
+            Ok(Step::Call {
+                function: function.clone(),
+                args,
+                then: Box::new(Negate),
+            })
+        },
+    )))
+}
+
+fn macroexpand(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let (form, expanded) = compile::macroexpand(image, &args[0])?;
+    Ok(Value::values(vec![form, expanded.into()]))
+}
+
+fn macroexpand_1(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let expansion = compile::macroexpand_1(image, &args[0])?;
+    let expanded = expansion.is_some();
+    let form = expansion.unwrap_or_else(|| args[0].clone());
+    Ok(Value::values(vec![form, expanded.into()]))
+}
+
+fn compile_function(image: &mut Image, args: &[Value]) -> Result<Value> {
+    match args.get(1) {
+        Some(definition @ Value::Cons(_)) => {
+            let function = Value::Function(compile::compile_lambda(image, definition)?);
+            if let Some(name) = args[0].as_symbol().filter(|_| args[0].is_true())
+                && let Value::Function(f) = &function
+            {
+                image.set_function(name, f.clone());
+                return Ok(Value::values(vec![args[0].clone(), Value::NIL, Value::NIL]));
+            }
+            Ok(Value::values(vec![function, Value::NIL, Value::NIL]))
+        }
+        _ => Ok(Value::values(vec![args[0].clone(), Value::NIL, Value::NIL])),
+    }
+}
+
+fn special_operator_p(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let is_special = args[0]
+        .as_symbol()
+        .and_then(|s| image.operators.get(&s))
+        .is_some_and(|o| o.expand.is_none());
+    Ok(is_special.into())
+}
+
+fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let Some(name) = args[0].as_symbol() else {
+        return Err(Raise::type_error(&args[0], known::SYMBOL));
+    };
+    Ok(match &image.symbol(name).function {
+        FunctionCell::Macro(f) => Value::Function(f.clone()),
+        FunctionCell::Builtin => match image.operators.get(&name).and_then(|o| o.expand) {
+            Some(expand) => {
+                Value::Function(Function::made(name, (1, Some(2)), move |image, args| {
+                    expand(image, &args[0])
+                }))
+            }
+            None => Value::NIL,
+        },
+        _ => Value::NIL,
+    })
+}
+
+fn function_lambda_expression(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let Value::Function(function) = &args[0] else {
+        return Err(Raise::type_error(&args[0], known::FUNCTION));
+    };
+    let name = match &function.body {
+        Body::Closure { code, .. } => code.name.clone(),
+        Body::Native(native) => native.name.into(),
+        Body::Generic(generic) => generic.name.clone(),
+    };
+    Ok(Value::values(vec![Value::NIL, Value::T, name]))
+}

@@ -1,0 +1,81 @@
+//! All tables of builtins and operators, by package.
+
+use super::*;
+use crate::lisp::builtin::{Builtin, Operator};
+use crate::lisp::compile;
+use crate::lisp::image::Image;
+use crate::lisp::package::PackageTable;
+
+/// Functions of package `COMMON-LISP`.
+pub static FUNCTIONS: &[&[Builtin]] = &[
+    characters::COMPARISONS,
+    characters::TABLE,
+    conditions::TABLE,
+    definitions::TABLE,
+    evaluation::TABLE,
+    generic_functions::TABLE,
+    list_search::TABLE,
+    list_sets::TABLE,
+    list_trees::TABLE,
+    lists::TABLE,
+    mapping::TABLE,
+    objects::TABLE,
+    pairs::TABLE,
+    property_lists::TABLE,
+    sequence_access::TABLE,
+    sequence_change::TABLE,
+    sequence_duplicates::TABLE,
+    sequence_find::TABLE,
+    sequence_map::TABLE,
+    sequence_search::TABLE,
+    signalling::TABLE,
+    sort::TABLE,
+    string_compare::TABLE,
+    strings::TABLE,
+    types::TABLE,
+];
+
+/// Functions of package `SYSTEM`: what macros expand into.
+pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
+    arguments::SYSTEM_TABLE,
+    definitions::SYSTEM_TABLE,
+    generic_functions::SYSTEM_TABLE,
+    objects::SYSTEM_TABLE,
+    property_lists::SYSTEM_TABLE,
+    signalling::SYSTEM_TABLE,
+    types::SYSTEM_TABLE,
+];
+
+/// What `setf` calls for places of package `COMMON-LISP`.
+pub static SETTERS: &[&[Builtin]] = &[
+    pairs::SETTERS,
+    property_lists::SETTERS,
+    sequence_access::SETTERS,
+    strings::SETTERS,
+];
+
+/// Special operators and macros of package `COMMON-LISP`.
+pub static OPERATORS: &[&[Operator]] =
+    &[compile::SPECIAL_FORMS, compile::OPERATORS, types::OPERATORS];
+
+/// Special operators and macros of package `SYSTEM`.
+pub static SYSTEM_OPERATORS: &[&[Operator]] = &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];
+
+/// Installs everything in an image.
+pub fn install(image: &mut Image) {
+    for table in FUNCTIONS {
+        image.install(PackageTable::CL, table);
+    }
+    for table in SYSTEM_FUNCTIONS {
+        image.install(PackageTable::SYSTEM, table);
+    }
+    for table in SETTERS {
+        image.install_setf(PackageTable::CL, table);
+    }
+    for table in OPERATORS {
+        image.install_operators(PackageTable::CL, table);
+    }
+    for table in SYSTEM_OPERATORS {
+        image.install_operators(PackageTable::SYSTEM, table);
+    }
+}

@@ -1,0 +1,467 @@
+//! Signalling conditions, restarts, and throwing.
+
+use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::stream;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::restart::Restart;
+use crate::lisp::vm::signal::Declined;
+use crate::lisp::vm::step::{Resume, Step};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `COMMON-LISP`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "SIGNAL",
+        "datum &rest arguments",
+        "Signals a condition; NIL if every handler declines.",
+        &["(signal \"nothing happens\") => NIL"],
+        |m, args| signal_with(m, args, known::SIMPLE_CONDITION, Declined::Return),
+    ),
+    control(
+        "ERROR",
+        "datum &rest arguments",
+        "Signals an error: a condition object, the name of a class with initargs, or a format control with arguments.",
+        &["(handler-case (error \"no ~a\" 1) (error (e) (princ-to-string e))) => \"no 1\""],
+        |m, args| signal_with(m, args, known::SIMPLE_ERROR, Declined::Stop),
+    ),
+    control(
+        "CERROR",
+        "continue-control datum &rest arguments",
+        "Like ERROR, with a restart CONTINUE that goes on.",
+        &["(handler-bind ((error #'continue)) (cerror \"Go on.\" \"Stop.\")) => NIL"],
+        cerror,
+    ),
+    control(
+        "WARN",
+        "datum &rest arguments",
+        "Signals a warning and prints it unless a handler muffles it.",
+        &["(handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"],
+        warn,
+    ),
+    control(
+        "INVOKE-RESTART",
+        "restart &rest arguments",
+        "Calls the function of a restart.",
+        &["(restart-case (invoke-restart 'r 1) (r (x) x)) => 1"],
+        invoke_restart,
+    ),
+    control(
+        "INVOKE-DEBUGGER",
+        "condition",
+        "Stops with a condition.",
+        &[],
+        |_, args| Ok(Step::Unhandled(args[0].clone())),
+    ),
+    control(
+        "BREAK",
+        "&optional control &rest arguments",
+        "Stops with a text.",
+        &[],
+        |m, args| signal_break(m, &args),
+    ),
+    control(
+        "FIND-RESTART",
+        "restart &optional condition",
+        "The innermost restart of a name, or NIL.",
+        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
+        |m, args| Ok(Step::Return(m.find_restart(&args[0]).unwrap_or(Value::NIL))),
+    ),
+    control(
+        "COMPUTE-RESTARTS",
+        "&optional condition",
+        "All restarts in force, innermost first.",
+        &["(restart-case (restart-name (first (compute-restarts))) (r () 1)) => R"],
+        |m, _| Ok(Step::Return(Value::list(m.restarts()))),
+    ),
+    pure(
+        "RESTART-NAME",
+        "restart",
+        "The name of a restart.",
+        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
+        restart_name,
+    ),
+    control(
+        "ABORT",
+        "&optional condition",
+        "Invokes the restart ABORT.",
+        &["(restart-case (abort) (abort () 1)) => 1"],
+        |m, _| invoke_named(m, known::ABORT, Vec::new(), true),
+    ),
+    control(
+        "CONTINUE",
+        "&optional condition",
+        "Invokes the restart CONTINUE, if there is one.",
+        &["(continue) => NIL"],
+        |m, _| invoke_named(m, known::CONTINUE, Vec::new(), false),
+    ),
+    control(
+        "MUFFLE-WARNING",
+        "&optional condition",
+        "Invokes the restart MUFFLE-WARNING.",
+        &["(handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"],
+        |m, _| invoke_named(m, known::MUFFLE_WARNING, Vec::new(), true),
+    ),
+    control(
+        "USE-VALUE",
+        "value &optional condition",
+        "Invokes the restart USE-VALUE, if there is one.",
+        &["(restart-case (use-value 1) (use-value (v) v)) => 1"],
+        |m, args| invoke_named(m, known::USE_VALUE, args[..1].to_vec(), false),
+    ),
+    control(
+        "STORE-VALUE",
+        "value &optional condition",
+        "Invokes the restart STORE-VALUE, if there is one.",
+        &["(restart-case (store-value 1) (store-value (v) v)) => 1"],
+        |m, args| invoke_named(m, known::STORE_VALUE, args[..1].to_vec(), false),
+    ),
+    control(
+        "THROW",
+        "tag value",
+        "Leaves the innermost CATCH of the tag with the value.",
+        &["(catch 'x (throw 'x 1)) => 1"],
+        |m, args| m.throw(&args[0], args[1].clone()),
+    ),
+];
+
+/// Builtins of package `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "MAKE-RESTART",
+        "name function report interactive",
+        "A restart object.",
+        &[],
+        make_restart,
+    ),
+    control(
+        "CASE-FAILED",
+        "key operator wanted",
+        "The error of ECASE and its kin.",
+        &[],
+        case_failed,
+    ),
+    pure(
+        "CHECK-TYPE-FAILED",
+        "value place type string",
+        "The error of CHECK-TYPE.",
+        &[],
+        check_type_failed,
+    ),
+    control(
+        "CALL-WITH-TIMING",
+        "function",
+        "Calls a function and says how many calls it made.",
+        &[],
+        call_with_timing,
+    ),
+];
+
+/// Continues with the condition that a datum and arguments designate.
+fn with_condition(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+    default: Sym,
+    then: Box<dyn Resume>,
+) -> Result<Step> {
+    let mut args = args.into_iter();
+    let datum = args.next().unwrap_or(Value::NIL);
+    let rest: Vec<Value> = args.collect();
+    let (function, args) = match &datum {
+        Value::Str(_) | Value::Function(_) => {
+            let initargs = vec![
+                Value::Symbol(default),
+                known::K_FORMAT_CONTROL.into(),
+                datum.clone(),
+                known::K_FORMAT_ARGUMENTS.into(),
+                Value::list(rest),
+            ];
+            (known::MAKE_CONDITION, initargs)
+        }
+        Value::Symbol(_) | Value::Class(_) => {
+            let mut initargs = vec![datum.clone()];
+            initargs.extend(rest);
+            (known::MAKE_CONDITION, initargs)
+        }
+        Value::Instance(i) if i.is_a(known::CONDITION) => {
+            return then.resume(machine, datum.clone());
+        }
+        other => return Err(Raise::type_error(other, known::CONDITION)),
+    };
+    Ok(Step::Call {
+        function: function.into(),
+        args,
+        then,
+    })
+}
+
+struct SignalNext {
+    declined: Declined,
+}
+
+impl Resume for SignalNext {
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, condition: Value) -> Result<Step> {
+        let place = machine.place();
+        machine.note_place(&condition, place);
+        machine.signal(condition, self.declined)
+    }
+
+    fn name(&self) -> &'static str {
+        "SIGNAL"
+    }
+}
+
+/// Makes the condition that arguments designate and signals it.
+pub fn signal_with(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+    default: Sym,
+    declined: Declined,
+) -> Result<Step> {
+    with_condition(machine, args, default, Box::new(SignalNext { declined }))
+}
+
+fn signal_break(machine: &mut Machine<'_>, args: &[Value]) -> Result<Step> {
+    let mut args = args.to_vec();
+    if args.is_empty() {
+        args.push("break".into());
+    }
+    struct Stop;
+    impl Resume for Stop {
+        fn resume(self: Box<Self>, _: &mut Machine<'_>, condition: Value) -> Result<Step> {
+            Ok(Step::Unhandled(condition))
+        }
+
+        fn name(&self) -> &'static str {
+            "BREAK"
+        }
+    }
+    with_condition(machine, args, known::SIMPLE_CONDITION, Box::new(Stop))
+}
+
+/// Wraps a call in one restart that takes no argument and makes the call return `NIL`.
+fn with_restart(
+    machine: &mut Machine<'_>,
+    name: Sym,
+    report: Value,
+    function: Value,
+    args: Vec<Value>,
+) -> Step {
+    // (restart-case (apply function args) (name () :report report nil)), as the compiler
+    // would translate it.
+    let quoted = |v: Value| Value::list([known::QUOTE.into(), v]);
+    let call = Value::list([
+        known::APPLY.into(),
+        quoted(function),
+        quoted(Value::list(args)),
+    ]);
+    let clause = Value::list([
+        name.into(),
+        Value::NIL,
+        known::K_REPORT.into(),
+        report,
+        Value::NIL,
+    ]);
+    let form = Value::list([known::RESTART_CASE.into(), call, clause]);
+    let _ = machine;
+    Step::TailCall {
+        function: known::EVAL.into(),
+        args: vec![form],
+    }
+}
+
+fn cerror(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let report = args[0].clone();
+    let rest = args[1..].to_vec();
+    Ok(with_restart(
+        machine,
+        known::CONTINUE,
+        report,
+        known::ERROR.into(),
+        rest,
+    ))
+}
+
+struct WarnNext;
+
+impl Resume for WarnNext {
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, condition: Value) -> Result<Step> {
+        if !matches!(&condition, Value::Instance(i) if i.is_a(known::WARNING)) {
+            return Err(Raise::type_error(&condition, known::WARNING));
+        }
+        let function = crate::lisp::function::Function::made_control(
+            known::WARN,
+            (1, Some(1)),
+            |machine, args| {
+                let condition = args[0].clone();
+                let then = Box::new(PrintWarning {
+                    condition: condition.clone(),
+                });
+                let signalling = crate::lisp::function::Function::made_control(
+                    known::SIGNAL,
+                    (1, Some(1)),
+                    |machine, args| machine.signal(args[0].clone(), Declined::Return),
+                );
+                let _ = machine;
+                Ok(Step::Call {
+                    function: Value::Function(signalling),
+                    args: vec![condition],
+                    then,
+                })
+            },
+        );
+        Ok(with_restart(
+            machine,
+            known::MUFFLE_WARNING,
+            "Skip warning.".into(),
+            Value::Function(function),
+            vec![condition],
+        ))
+    }
+
+    fn name(&self) -> &'static str {
+        "WARN"
+    }
+}
+
+struct PrintWarning {
+    condition: Value,
+}
+
+impl Resume for PrintWarning {
+    fn resume(self: Box<Self>, _: &mut Machine<'_>, _: Value) -> Result<Step> {
+        Ok(Step::Call {
+            function: known::PRINC_TO_STRING.into(),
+            args: vec![self.condition.clone()],
+            then: Box::new(WriteWarning {
+                condition: self.condition,
+            }),
+        })
+    }
+
+    fn name(&self) -> &'static str {
+        "WARN"
+    }
+}
+
+struct WriteWarning {
+    condition: Value,
+}
+
+impl Resume for WriteWarning {
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, text: Value) -> Result<Step> {
+        let kind = match &self.condition {
+            Value::Instance(i) if i.is_a(known::STYLE_WARNING) => "STYLE-WARNING",
+            _ => "WARNING",
+        };
+        let text = text.as_text().unwrap_or_default();
+        let output = machine.image.special(known::V_STANDARD_OUTPUT).clone();
+        stream::fresh_line(machine.image, &output)?;
+        stream::write(machine.image, &output, &format!("{kind}: {text}\n"))?;
+        Ok(Step::Return(Value::NIL))
+    }
+
+    fn name(&self) -> &'static str {
+        "WARN"
+    }
+}
+
+fn warn(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    with_condition(machine, args, known::SIMPLE_WARNING, Box::new(WarnNext))
+}
+
+fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    match machine.find_restart(&args[0]) {
+        Some(restart) => Ok(call_restart(&restart, args[1..].to_vec())),
+        None => {
+            let shown = print::to_string(machine.image, &args[0], true);
+            Err(Raise::control(format!("No restart {shown} is active.")))
+        }
+    }
+}
+
+fn call_restart(restart: &Value, args: Vec<Value>) -> Step {
+    let function = restart
+        .as_foreign::<Restart>()
+        .map_or(Value::NIL, |r| r.function.clone());
+    Step::TailCall { function, args }
+}
+
+fn invoke_named(
+    machine: &mut Machine<'_>,
+    name: Sym,
+    args: Vec<Value>,
+    required: bool,
+) -> Result<Step> {
+    match machine.find_restart(&name.into()) {
+        Some(restart) => Ok(call_restart(&restart, args)),
+        None if required => Err(Raise::control(format!(
+            "No restart {} is active.",
+            machine.image.name(name)
+        ))),
+        None => Ok(Step::Return(Value::NIL)),
+    }
+}
+
+fn restart_name(_: &mut Image, args: &[Value]) -> Result<Value> {
+    match args[0].as_foreign::<Restart>() {
+        Some(restart) => Ok(restart.name.into()),
+        None => Err(Raise::type_error(&args[0], known::RESTART)),
+    }
+}
+
+fn make_restart(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let Some(name) = args[0].as_symbol() else {
+        return Err(Raise::type_error(&args[0], known::SYMBOL));
+    };
+    Ok(Value::foreign(Restart {
+        name,
+        function: args[1].clone(),
+        report: args[2].clone(),
+        interactive: args[3].clone(),
+    }))
+}
+
+fn case_failed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let image = &mut *machine.image;
+    let show = |v: &Value| print::to_string(image, v, true);
+    let report = format!(
+        "{} fell through {} expression.\nWanted one of {}.",
+        show(&args[0]),
+        show(&args[1]),
+        show(&args[2])
+    );
+    let expected = Value::cons(known::MEMBER.into(), args[2].clone());
+    Err(Raise::new(known::CASE_FAILURE, report)
+        .with(known::K_DATUM, args[0].clone())
+        .with(known::K_EXPECTED_TYPE, expected))
+}
+
+fn check_type_failed(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let show = |v: &Value| print::to_string(image, v, true);
+    let wanted = match args[3].as_text() {
+        Some(text) => text,
+        None => format!("of type {}", show(&args[2])),
+    };
+    let report = format!(
+        "The value of {} is {}, which is not {wanted}.",
+        show(&args[1]),
+        show(&args[0])
+    );
+    Err(Raise::new(known::SIMPLE_TYPE_ERROR, report)
+        .with(known::K_DATUM, args[0].clone())
+        .with(known::K_EXPECTED_TYPE, args[2].clone()))
+}
+
+fn call_with_timing(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    Ok(Step::TailCall {
+        function: args[0].clone(),
+        args: Vec::new(),
+    })
+}

@@ -1,0 +1,369 @@
+//! First pass: forms to nodes.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use super::emit;
+use super::node::{Binding, LambdaNode, Node, Target};
+use super::scope::{
+    DynamicKind, Entry, FunctionContext, FunctionMeaning, Scope, Var, VariableMeaning,
+};
+use super::special_forms;
+use crate::lisp::function::Function;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
+use crate::lisp::value::Value;
+use crate::lisp::vm::code::{Code, Parameters};
+use crate::lisp::vm::machine;
+use crate::reader::source::Place;
+
+/// Result of compiling.
+pub(super) type Compiled<T> = Result<T, Box<Raise>>;
+
+/// The compiler at work on one top-level form.
+pub(super) struct Compiler<'a> {
+    /// The image that the form belongs to.
+    pub image: &'a mut Image,
+    functions: Vec<FunctionContext>,
+    current: usize,
+    stack_base: usize,
+    /// The place of the innermost form with one.
+    pub place: Place,
+}
+
+impl<'a> Compiler<'a> {
+    pub fn new(image: &'a mut Image) -> Compiler<'a> {
+        let marker = 0u8;
+        Compiler {
+            stack_base: std::ptr::from_ref(&marker).addr(),
+            image,
+            functions: Vec::new(),
+            current: 0,
+            place: Place::NONE,
+        }
+    }
+
+    /// Compiles a form as the body of a function without parameters.
+    pub fn compile_toplevel(mut self, form: &Value) -> Compiled<Rc<Code>> {
+        let id = self.enter_function();
+        let body = self.analyze(form, &Scope::default())?;
+        let free = self.leave_function(id);
+        let lambda = LambdaNode {
+            name: Value::NIL,
+            parameters: Parameters::default(),
+            slots: Vec::new(),
+            prologue: Vec::new(),
+            body,
+            free,
+            id,
+            lambda_list: Value::NIL,
+            doc: None,
+        };
+        emit::emit_function(&lambda)
+    }
+
+    /// Starts a function; returns its number.
+    pub fn enter_function(&mut self) -> usize {
+        let id = self.functions.len();
+        self.functions.push(FunctionContext {
+            outer: (id > 0).then_some(self.current),
+            free: RefCell::default(),
+            dynamic: RefCell::default(),
+        });
+        self.current = id;
+        id
+    }
+
+    /// Ends the function and returns its free variables.
+    pub fn leave_function(&mut self, id: usize) -> Vec<Rc<Var>> {
+        let context = &self.functions[id];
+        self.current = context.outer.unwrap_or(0);
+        context.free.take()
+    }
+
+    fn function(&self) -> &FunctionContext {
+        &self.functions[self.current]
+    }
+
+    /// Number of the function that is being compiled.
+    pub fn function_id(&self) -> usize {
+        self.current
+    }
+
+    /// Number of open dynamic entries in the current function.
+    pub fn dynamic_depth(&self) -> usize {
+        self.function().dynamic.borrow().len()
+    }
+
+    /// Must leaving for `depth` run cleanup code?
+    pub fn crosses_cleanup(&self, depth: usize) -> bool {
+        let dynamic = self.function().dynamic.borrow();
+        dynamic
+            .iter()
+            .skip(depth)
+            .any(|k| *k == DynamicKind::Unwind)
+    }
+
+    /// Analyses something inside a dynamic entry.
+    pub fn inside<R>(
+        &mut self,
+        kind: DynamicKind,
+        count: usize,
+        analyze: impl FnOnce(&mut Self) -> Compiled<R>,
+    ) -> Compiled<R> {
+        let depth = self.dynamic_depth();
+        self.function()
+            .dynamic
+            .borrow_mut()
+            .extend(std::iter::repeat_n(kind, count));
+        let result = analyze(self);
+        self.function().dynamic.borrow_mut().truncate(depth);
+        result
+    }
+
+    /// Notes that a dynamic entry is open from here on.
+    pub fn open_dynamic(&self, kind: DynamicKind) {
+        self.function().dynamic.borrow_mut().push(kind);
+    }
+
+    /// Notes that only the outermost `depth` dynamic entries are still open.
+    pub fn close_dynamic(&self, depth: usize) {
+        self.function().dynamic.borrow_mut().truncate(depth);
+    }
+
+    /// A new variable of the current function.
+    pub fn new_var(&self, name: Sym) -> Rc<Var> {
+        Rc::new(Var {
+            name,
+            owner: self.current,
+            captured: Cell::new(false),
+            assigned: Cell::new(false),
+            slot: Cell::new(0),
+            used: Cell::new(false),
+        })
+    }
+
+    /// Notes a reference to a variable from the current function.
+    pub fn refer(&self, var: &Rc<Var>) {
+        var.used.set(true);
+        if var.owner == self.current {
+            return;
+        }
+        var.captured.set(true);
+        let mut id = self.current;
+        while id != var.owner {
+            let context = &self.functions[id];
+            let mut free = context.free.borrow_mut();
+            if !free.iter().any(|v| Rc::ptr_eq(v, var)) {
+                free.push(var.clone());
+            }
+            match context.outer {
+                Some(outer) => id = outer,
+                None => break,
+            }
+        }
+    }
+
+    /// Is the name bound dynamically wherever it is bound?
+    pub fn is_special(&self, name: Sym) -> bool {
+        self.image.symbol(name).kind == VariableKind::Special
+    }
+
+    /// Checks that a name can be bound as a variable.
+    pub fn check_bindable(&self, name: &Value) -> Compiled<Sym> {
+        let Some(sym) = name.as_symbol() else {
+            let shown = crate::lisp::print::to_string(self.image, name, true);
+            return Err(self.program_error(format!(
+                "{shown} is not a symbol and cannot be used as a local variable."
+            )));
+        };
+        if self.image.symbol(sym).kind == VariableKind::Constant {
+            let shown = crate::lisp::print::to_string(self.image, name, true);
+            let what = if self.image.is_keyword(sym) {
+                "a keyword"
+            } else {
+                "a constant"
+            };
+            return Err(self.program_error(format!(
+                "{shown} is {what} and cannot be used as a local variable."
+            )));
+        }
+        Ok(sym)
+    }
+
+    /// A program error at the current place.
+    pub fn program_error(&self, text: impl Into<String>) -> Box<Raise> {
+        Raise::program(text).at(self.place)
+    }
+
+    /// Analyses a form.
+    pub fn analyze(&mut self, form: &Value, scope: &Scope) -> Compiled<Node> {
+        let marker = 0u8;
+        let used = self.stack_base.abs_diff(std::ptr::from_ref(&marker).addr());
+        if used > self.image.stack_budget {
+            return Err(Raise::new(
+                known::CONTROL_STACK_EXHAUSTED,
+                "The form is nested too deeply to be compiled.",
+            )
+            .at(self.place));
+        }
+        match form {
+            Value::Symbol(name) => self.analyze_variable(*name, scope),
+            Value::Cons(cons) => {
+                let outer = self.place;
+                if cons.place().is_some() {
+                    self.place = cons.place();
+                }
+                let node = self.analyze_compound(form, &cons.car(), &cons.cdr(), scope);
+                self.place = outer;
+                node
+            }
+            constant => Ok(Node::Const(constant.clone())),
+        }
+    }
+
+    fn analyze_variable(&mut self, name: Sym, scope: &Scope) -> Compiled<Node> {
+        match scope.variable(name) {
+            Some(VariableMeaning::Lexical(var)) => {
+                self.refer(var);
+                return Ok(Node::Local(var.clone()));
+            }
+            Some(VariableMeaning::SymbolMacro(expansion)) => {
+                let expansion = expansion.clone();
+                return self.analyze(&expansion, scope);
+            }
+            Some(VariableMeaning::Special) => return Ok(Node::Global(name, self.place)),
+            None => {}
+        }
+        let data = self.image.symbol(name);
+        if let Some(expansion) = data.symbol_macro.clone() {
+            return self.analyze(&expansion, scope);
+        }
+        if data.kind == VariableKind::Constant {
+            return Ok(Node::Const(data.value.clone()));
+        }
+        Ok(Node::Global(name, self.place))
+    }
+
+    fn analyze_compound(
+        &mut self,
+        form: &Value,
+        head: &Value,
+        rest: &Value,
+        scope: &Scope,
+    ) -> Compiled<Node> {
+        let name = match head {
+            Value::Symbol(name) => *name,
+            Value::Cons(c) if c.car().as_symbol() == Some(known::LAMBDA) => {
+                let function = self.analyze(head, scope)?;
+                let args = self.analyze_list(rest, scope)?;
+                return Ok(Node::Call(
+                    Target::Computed(Box::new(function)),
+                    args,
+                    self.place,
+                ));
+            }
+            _ => return Err(self.program_error("illegal function call")),
+        };
+        match scope.function(name, false) {
+            Some(FunctionMeaning::Local(var)) => {
+                self.refer(var);
+                let function = Node::Local(var.clone());
+                let args = self.analyze_list(rest, scope)?;
+                return Ok(Node::Call(
+                    Target::Computed(Box::new(function)),
+                    args,
+                    self.place,
+                ));
+            }
+            Some(FunctionMeaning::Macro(function)) => {
+                let function = function.clone();
+                let expansion = self.expand_with(&function, form, scope)?;
+                return self.analyze(&expansion, scope);
+            }
+            None => {}
+        }
+        match &self.image.symbol(name).function {
+            FunctionCell::Macro(function) => {
+                let function = function.clone();
+                let expansion = self.expand_with(&function, form, scope)?;
+                self.analyze(&expansion, scope)
+            }
+            FunctionCell::Builtin => {
+                if let Some(special) = special_forms::lookup(name) {
+                    return special(self, rest, scope);
+                }
+                let expander = self.image.operators.get(&name).and_then(|o| o.expand);
+                match expander {
+                    Some(expand) => {
+                        let expansion = expand(self.image, form).map_err(|r| r.at(self.place))?;
+                        self.analyze(&expansion, scope)
+                    }
+                    None => {
+                        Err(self
+                            .program_error(format!("{} is not a function.", self.image.name(name))))
+                    }
+                }
+            }
+            FunctionCell::Function(_) | FunctionCell::Unbound => {
+                let args = self.analyze_list(rest, scope)?;
+                Ok(Node::Call(Target::Global(name), args, self.place))
+            }
+        }
+    }
+
+    /// Runs a macro function on a form.
+    pub fn expand_with(
+        &mut self,
+        function: &Rc<Function>,
+        form: &Value,
+        _scope: &Scope,
+    ) -> Compiled<Value> {
+        let args = vec![form.clone(), Value::NIL];
+        let expansion = machine::call_nested(self.image, Value::Function(function.clone()), args)
+            .map_err(|r| r.at(self.place))?;
+        keep_place(form, &expansion);
+        Ok(expansion)
+    }
+
+    /// Analyses the elements of a list.
+    pub fn analyze_list(&mut self, forms: &Value, scope: &Scope) -> Compiled<Vec<Node>> {
+        let Some(forms) = forms.list_to_vec() else {
+            return Err(self.program_error("a call's arguments must be a proper list"));
+        };
+        forms.iter().map(|f| self.analyze(f, scope)).collect()
+    }
+
+    /// Analyses forms as a `progn`.
+    pub fn analyze_progn(&mut self, forms: &Value, scope: &Scope) -> Compiled<Node> {
+        let mut nodes = self.analyze_list(forms, scope)?;
+        Ok(match nodes.len() {
+            0 => Node::NIL,
+            1 => nodes.pop().unwrap_or(Node::NIL),
+            _ => Node::Progn(nodes),
+        })
+    }
+
+    /// Binds a name: the binding, and the scope in which it is visible.
+    pub fn bind(&mut self, name: Sym, declared_special: bool, scope: &Scope) -> (Binding, Scope) {
+        if declared_special || self.is_special(name) {
+            let scope = scope.with(Entry::Variable(name, VariableMeaning::Special));
+            (Binding::Special(name), scope)
+        } else {
+            let var = self.new_var(name);
+            let scope = scope.with(Entry::Variable(name, VariableMeaning::Lexical(var.clone())));
+            (Binding::Lexical(var), scope)
+        }
+    }
+}
+
+/// Gives an expansion the place of the form that it comes from, unless it has one.
+pub(super) fn keep_place(form: &Value, expansion: &Value) {
+    if let (Value::Cons(from), Value::Cons(to)) = (form, expansion)
+        && !to.place().is_some()
+    {
+        to.set_place(from.place());
+    }
+}

@@ -1,0 +1,183 @@
+//! Macros that define: functions, macros, variables, setf methods.
+
+use super::body::split_declarations;
+use super::form::form;
+use super::lambda_list::LambdaList;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+type Expansion = Result<Value, Box<Raise>>;
+
+fn quote(value: impl Into<Value>) -> Value {
+    form![known::QUOTE, value.into()]
+}
+
+fn argument(form: &Value, n: usize) -> Value {
+    form.iter_list().nth(n).unwrap_or(Value::NIL)
+}
+
+fn name_argument(image: &Image, form: &Value, what: &str) -> Result<Sym, Box<Raise>> {
+    let name = argument(form, 1);
+    match name.as_symbol() {
+        Some(sym) if !name.is_nil() => Ok(sym),
+        _ => {
+            let shown = print::to_string(image, &name, true);
+            Err(Raise::program(format!(
+                "{shown} is not a symbol: the name of {what} was expected."
+            )))
+        }
+    }
+}
+
+pub(super) fn defun(image: &mut Image, form: &Value) -> Expansion {
+    let name = argument(form, 1);
+    let is_setf = name.car_or_nil().as_symbol() == Some(known::SETF);
+    if !is_setf {
+        name_argument(image, form, "a function")?;
+    }
+    let rest = form.cdr_or_nil().cdr_or_nil();
+    if !rest.car_or_nil().is_list() || rest.is_nil() {
+        return Err(Raise::program(
+            "DEFUN takes a name, a list of parameters and a body.",
+        ));
+    }
+    let lambda = Value::list_with_tail([known::NAMED_LAMBDA.into(), name.clone()], rest);
+    Ok(form![known::DEFINE_FUNCTION, quote(name), lambda])
+}
+
+pub(super) fn defmacro(image: &mut Image, form: &Value) -> Expansion {
+    let name = name_argument(image, form, "a macro")?;
+    let rest = form.cdr_or_nil().cdr_or_nil();
+    let lambda_list = rest.car_or_nil();
+    let body = rest.cdr_or_nil();
+    let doc = split_declarations(&body).doc.unwrap_or(Value::NIL);
+    let lambda = super::destructure::macro_function(image, name, &lambda_list, &body)?;
+    Ok(form![
+        known::DEFINE_MACRO,
+        quote(name),
+        lambda,
+        quote(lambda_list),
+        doc
+    ])
+}
+
+pub(super) fn defparameter(image: &mut Image, form: &Value) -> Expansion {
+    let name = name_argument(image, form, "a variable")?;
+    Ok(form![
+        known::DEFINE_PARAMETER,
+        quote(name),
+        argument(form, 2),
+        argument(form, 3)
+    ])
+}
+
+pub(super) fn defvar(image: &mut Image, form: &Value) -> Expansion {
+    let name = name_argument(image, form, "a variable")?;
+    let rest = form.cdr_or_nil().cdr_or_nil();
+    if rest.is_nil() {
+        return Ok(form![known::DEFINE_VARIABLE, quote(name)]);
+    }
+    // The value is computed only if the variable has none.
+    Ok(form![
+        known::PROGN,
+        form![known::DEFINE_VARIABLE, quote(name)],
+        form![
+            known::UNLESS,
+            form![known::BOUNDP, quote(name)],
+            form![known::SETQ, name, rest.car_or_nil()]
+        ],
+        quote(name)
+    ])
+}
+
+pub(super) fn defconstant(image: &mut Image, form: &Value) -> Expansion {
+    let name = name_argument(image, form, "a constant")?;
+    Ok(form![
+        known::DEFINE_CONSTANT,
+        quote(name),
+        argument(form, 2)
+    ])
+}
+
+pub(super) fn define_symbol_macro(image: &mut Image, form: &Value) -> Expansion {
+    let name = name_argument(image, form, "a symbol macro")?;
+    Ok(form![
+        known::SET_SYMBOL_MACRO,
+        quote(name),
+        quote(argument(form, 2))
+    ])
+}
+
+pub(super) fn declaim(_: &mut Image, form: &Value) -> Expansion {
+    let calls: Vec<Value> = form
+        .cdr_or_nil()
+        .iter_list()
+        .map(|specifier| form![known::PROCLAIM, quote(specifier)])
+        .collect();
+    Ok(Value::cons(known::PROGN.into(), Value::list(calls)))
+}
+
+pub(super) fn defsetf(image: &mut Image, form: &Value) -> Expansion {
+    let name = name_argument(image, form, "an accessor")?;
+    let how = argument(form, 2);
+    if let Some(update) = how.as_symbol()
+        && !how.is_nil()
+    {
+        return Ok(form![known::DEFINE_SETF_UPDATE, quote(name), quote(update)]);
+    }
+    let stores = argument(form, 3);
+    let body = form.iter_list().skip(4).collect::<Vec<_>>();
+    let split = split_declarations(&Value::list(body));
+    let count = stores.iter_list().count();
+    let list: Value = image.gensym("STORES").into();
+    let inner = Value::list_with_tail(
+        [known::DESTRUCTURING_BIND.into(), stores, list.clone()],
+        split.forms,
+    );
+    let lambda = form![known::LAMBDA, Value::cons(list, how), inner];
+    Ok(form![
+        known::DEFINE_SETF_LONG,
+        quote(name),
+        lambda,
+        Value::from(count)
+    ])
+}
+
+pub(super) fn define_setf_expander(image: &mut Image, form: &Value) -> Expansion {
+    let name = name_argument(image, form, "an accessor")?;
+    let rest = form.cdr_or_nil().cdr_or_nil();
+    let lambda =
+        super::destructure::macro_function(image, name, &rest.car_or_nil(), &rest.cdr_or_nil())?;
+    Ok(form![known::SET_SETF_EXPANDER, quote(name), lambda])
+}
+
+/// The defined macro calls `modify-place` with the place and a form of the rest.
+pub(super) fn define_modify_macro(image: &mut Image, form: &Value) -> Expansion {
+    let name = name_argument(image, form, "a macro")?;
+    let lambda_list = argument(form, 2);
+    let function = argument(form, 3);
+    let parsed = LambdaList::parse(image, &lambda_list, false)?;
+    let place: Value = image.gensym("PLACE").into();
+    let mut arguments: Vec<Value> = parsed.required.clone();
+    arguments.extend(parsed.optional.iter().map(|o| o.pattern.clone()));
+    let rest = parsed.rest.clone().unwrap_or(Value::NIL);
+    let mut list = vec![known::LIST_STAR.into()];
+    list.extend(arguments);
+    list.push(rest);
+    let body = form![
+        known::MODIFY_PLACE,
+        place.clone(),
+        quote(function),
+        Value::list(list)
+    ];
+    Ok(form![
+        known::DEFMACRO,
+        name,
+        Value::cons(place, lambda_list),
+        body
+    ])
+}

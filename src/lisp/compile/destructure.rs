@@ -1,0 +1,213 @@
+//! Destructuring lambda lists: `destructuring-bind` and the arguments of macros.
+
+use super::lambda_list::LambdaList;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// Bindings for `let*` that take a list apart.
+struct Bindings<'a> {
+    image: &'a mut Image,
+    list: Vec<Value>,
+    /// What is being destructured, for messages: a name, or the operator.
+    context: Value,
+    /// The whole lambda list, for messages.
+    lambda_list: Value,
+}
+
+impl Bindings<'_> {
+    fn bind(&mut self, var: impl Into<Value>, form: Value) {
+        self.list.push(Value::list([var.into(), form]));
+    }
+
+    fn gensym(&mut self, prefix: &str) -> Value {
+        self.image.gensym(prefix).into()
+    }
+
+    /// Binds a name or, through a variable, the names of a pattern.
+    fn bind_pattern(&mut self, pattern: &Value, form: Value) -> Result<(), Box<Raise>> {
+        match pattern {
+            Value::Symbol(known::NIL) => {
+                let var = self.gensym("IGNORED");
+                self.bind(var, form);
+                Ok(())
+            }
+            Value::Symbol(name) => {
+                self.bind(*name, form);
+                Ok(())
+            }
+            Value::Cons(_) => {
+                let var = self.gensym("PART");
+                self.bind(var.clone(), form);
+                let parsed = LambdaList::parse(self.image, pattern, true)?;
+                let outer = std::mem::replace(&mut self.lambda_list, pattern.clone());
+                self.take_apart(&parsed, &var, 0)?;
+                self.lambda_list = outer;
+                Ok(())
+            }
+            other => {
+                let shown = crate::lisp::print::to_string(self.image, other, true);
+                Err(Raise::program(format!(
+                    "{shown} cannot be bound: a symbol or a list of symbols was expected"
+                )))
+            }
+        }
+    }
+
+    fn take_apart(
+        &mut self,
+        parsed: &LambdaList,
+        whole: &Value,
+        skip: usize,
+    ) -> Result<(), Box<Raise>> {
+        if let Some(name) = &parsed.whole {
+            self.bind_pattern(name, whole.clone())?;
+        }
+        if let Some(name) = parsed.environment {
+            self.bind(name, Value::NIL);
+        }
+        let rest = self.gensym("REST");
+        let mut start = whole.clone();
+        for _ in 0..skip {
+            start = call(known::CDR, [start]);
+        }
+        let least = Value::Int(i64::try_from(parsed.required.len()).unwrap_or(i64::MAX));
+        let unbounded = parsed.rest.is_some() || parsed.has_keys;
+        let most = if unbounded {
+            Value::NIL
+        } else {
+            let n = parsed.required.len() + parsed.optional.len();
+            Value::Int(i64::try_from(n).unwrap_or(i64::MAX))
+        };
+        let check = call(
+            known::CHECK_ARGUMENTS,
+            [
+                start,
+                least,
+                most,
+                quote(self.context.clone()),
+                quote(self.lambda_list.clone()),
+            ],
+        );
+        self.bind(rest.clone(), check);
+        for pattern in &parsed.required {
+            self.bind_pattern(pattern, call(known::CAR, [rest.clone()]))?;
+            self.bind(rest.clone(), call(known::CDR, [rest.clone()]));
+        }
+        for parameter in &parsed.optional {
+            if let Some(supplied) = parameter.supplied {
+                let test = Value::list([known::IF.into(), rest.clone(), Value::T, Value::NIL]);
+                self.bind(supplied, test);
+            }
+            let value = Value::list([
+                known::IF.into(),
+                rest.clone(),
+                call(known::CAR, [rest.clone()]),
+                parameter.default.clone(),
+            ]);
+            self.bind_pattern(&parameter.pattern, value)?;
+            self.bind(rest.clone(), call(known::CDR, [rest.clone()]));
+        }
+        if let Some(pattern) = &parsed.rest {
+            self.bind_pattern(pattern, rest.clone())?;
+        }
+        if parsed.has_keys {
+            let keys: Vec<Value> = parsed.keys.iter().map(|k| k.keyword.into()).collect();
+            if !parsed.allow_other_keys {
+                let ignored = self.gensym("CHECKED");
+                let check = call(known::CHECK_KEYS, [rest.clone(), quote(Value::list(keys))]);
+                self.bind(ignored, check);
+            }
+            for key in &parsed.keys {
+                let tail = self.gensym("TAIL");
+                let found = call(known::KEY_TAIL, [rest.clone(), quote(key.keyword.into())]);
+                self.bind(tail.clone(), found);
+                if let Some(supplied) = key.parameter.supplied {
+                    let test = Value::list([known::IF.into(), tail.clone(), Value::T, Value::NIL]);
+                    self.bind(supplied, test);
+                }
+                let value = Value::list([
+                    known::IF.into(),
+                    tail.clone(),
+                    call(known::CAR, [tail]),
+                    key.parameter.default.clone(),
+                ]);
+                self.bind_pattern(&key.parameter.pattern, value)?;
+            }
+        }
+        for (name, form) in &parsed.aux {
+            self.bind(*name, form.clone());
+        }
+        Ok(())
+    }
+}
+
+fn call<I>(name: Sym, args: I) -> Value
+where
+    I: IntoIterator<Item = Value>,
+    I::IntoIter: DoubleEndedIterator,
+{
+    Value::cons(name.into(), Value::list(args))
+}
+
+fn quote(value: Value) -> Value {
+    Value::list([known::QUOTE.into(), value])
+}
+
+/// `(destructuring-bind lambda-list form body…)` as `let*`.
+pub(super) fn expand_destructuring_bind(
+    image: &mut Image,
+    form: &Value,
+) -> Result<Value, Box<Raise>> {
+    let args = form.cdr_or_nil();
+    let lambda_list = args.car_or_nil();
+    let rest = args.cdr_or_nil();
+    let whole: Value = image.gensym("WHOLE").into();
+    let parsed = LambdaList::parse(image, &lambda_list, true)?;
+    let mut bindings = Bindings {
+        image,
+        list: vec![Value::list([whole.clone(), rest.car_or_nil()])],
+        context: known::DESTRUCTURING_BIND.into(),
+        lambda_list,
+    };
+    bindings.take_apart(&parsed, &whole, 0)?;
+    Ok(Value::list_with_tail(
+        [known::LET_STAR.into(), Value::list(bindings.list)],
+        rest.cdr_or_nil(),
+    ))
+}
+
+/// The `lambda` expression of a macro function: it takes the whole form and an environment.
+pub fn macro_function(
+    image: &mut Image,
+    name: Sym,
+    lambda_list: &Value,
+    body: &Value,
+) -> Result<Value, Box<Raise>> {
+    let whole: Value = image.gensym("FORM").into();
+    let environment: Value = image.gensym("ENVIRONMENT").into();
+    let parsed = LambdaList::parse(image, lambda_list, true)?;
+    let mut bindings = Bindings {
+        image,
+        list: Vec::new(),
+        context: name.into(),
+        lambda_list: lambda_list.clone(),
+    };
+    bindings.take_apart(&parsed, &whole, 1)?;
+    let parts = super::body::split_declarations(body);
+    let block = Value::list_with_tail([known::BLOCK.into(), name.into()], parts.forms);
+    let mut let_form = vec![known::LET_STAR.into(), Value::list(bindings.list)];
+    let_form.extend(parts.declarations);
+    let_form.push(block);
+    Ok(Value::list([
+        known::LAMBDA.into(),
+        Value::list([whole, environment.clone()]),
+        Value::list([
+            known::DECLARE.into(),
+            Value::list([known::IGNORE.into(), environment]),
+        ]),
+        Value::list(let_form),
+    ]))
+}

@@ -1,0 +1,46 @@
+//! Macro expansion as a service: `macroexpand` and `macroexpand-1`.
+
+use super::analyze::keep_place;
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::FunctionCell;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine;
+
+/// Expands a form once with global macros; `None` if it is no macro call.
+pub fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, Box<Raise>> {
+    match form {
+        Value::Symbol(name) => Ok(image.symbol(*name).symbol_macro.clone()),
+        Value::Cons(cons) => {
+            let Some(name) = cons.car().as_symbol() else {
+                return Ok(None);
+            };
+            let expansion = match &image.symbol(name).function {
+                FunctionCell::Macro(function) => {
+                    let function = Value::Function(function.clone());
+                    let args = vec![form.clone(), Value::NIL];
+                    machine::call_nested(image, function, args)?
+                }
+                FunctionCell::Builtin => match image.operators.get(&name).and_then(|o| o.expand) {
+                    Some(expand) => expand(image, form)?,
+                    None => return Ok(None),
+                },
+                _ => return Ok(None),
+            };
+            keep_place(form, &expansion);
+            Ok(Some(expansion))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// Expands a form until it is no macro call; was it one?
+pub fn macroexpand(image: &mut Image, form: &Value) -> Result<(Value, bool), Box<Raise>> {
+    let mut form = form.clone();
+    let mut expanded = false;
+    while let Some(expansion) = macroexpand_1(image, &form)? {
+        form = expansion;
+        expanded = true;
+    }
+    Ok((form, expanded))
+}

@@ -1,0 +1,214 @@
+//! Lambda lists, ordinary and destructuring.
+
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// An optional parameter.
+#[derive(Clone)]
+pub struct Optional {
+    /// Its name, or a pattern in a destructuring lambda list.
+    pub pattern: Value,
+    /// The form of its default.
+    pub default: Value,
+    /// The variable that tells whether it was supplied.
+    pub supplied: Option<Sym>,
+}
+
+/// A keyword parameter.
+#[derive(Clone)]
+pub struct Key {
+    /// The keyword (or other symbol) that names it in a call.
+    pub keyword: Sym,
+    /// The parameter.
+    pub parameter: Optional,
+}
+
+/// A lambda list.
+#[derive(Clone, Default)]
+pub struct LambdaList {
+    /// `&whole`.
+    pub whole: Option<Value>,
+    /// `&environment`.
+    pub environment: Option<Sym>,
+    /// Required parameters: names, or patterns.
+    pub required: Vec<Value>,
+    /// Optional parameters.
+    pub optional: Vec<Optional>,
+    /// `&rest` or `&body`, or a dotted tail.
+    pub rest: Option<Value>,
+    /// Is there a `&key`?
+    pub has_keys: bool,
+    /// Keyword parameters.
+    pub keys: Vec<Key>,
+    /// `&allow-other-keys`.
+    pub allow_other_keys: bool,
+    /// `&aux` variables and their forms.
+    pub aux: Vec<(Sym, Value)>,
+}
+
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Section {
+    Required,
+    Optional,
+    Rest,
+    AfterRest,
+    Key,
+    AfterKey,
+    Aux,
+}
+
+impl LambdaList {
+    /// Parses a lambda list. `destructuring` allows patterns, `&whole`, `&environment` and
+    /// a dotted tail.
+    pub fn parse(
+        image: &mut Image,
+        list: &Value,
+        destructuring: bool,
+    ) -> Result<LambdaList, Box<Raise>> {
+        let mut parsed = LambdaList::default();
+        let mut section = Section::Required;
+        let mut iter = list.iter_list();
+        while let Some(item) = iter.next() {
+            if let Value::Symbol(name) = item {
+                match name {
+                    known::L_WHOLE if destructuring => {
+                        parsed.whole = iter.next();
+                        continue;
+                    }
+                    known::L_ENVIRONMENT if destructuring => {
+                        parsed.environment = iter.next().and_then(|v| v.as_symbol());
+                        continue;
+                    }
+                    known::L_OPTIONAL if section < Section::Optional => {
+                        section = Section::Optional;
+                        continue;
+                    }
+                    known::L_REST | known::L_BODY if section < Section::Rest => {
+                        section = Section::Rest;
+                        continue;
+                    }
+                    known::L_KEY if section < Section::Key && section != Section::Rest => {
+                        section = Section::Key;
+                        parsed.has_keys = true;
+                        continue;
+                    }
+                    known::L_ALLOW_OTHER_KEYS if section == Section::Key => {
+                        section = Section::AfterKey;
+                        parsed.allow_other_keys = true;
+                        continue;
+                    }
+                    known::L_AUX if section != Section::Rest => {
+                        section = Section::Aux;
+                        continue;
+                    }
+                    _ if image.name(name).starts_with('&') && is_lambda_keyword(name) => {
+                        let text = format!("misplaced {} in lambda list", image.name(name));
+                        return Err(malformed(image, &text, list));
+                    }
+                    _ => {}
+                }
+            }
+            match section {
+                Section::Required => parsed.required.push(item),
+                Section::Optional => parsed.optional.push(optional(&item)),
+                Section::Rest => {
+                    parsed.rest = Some(item);
+                    section = Section::AfterRest;
+                }
+                Section::Key => {
+                    let key = key(image, &item)?;
+                    parsed.keys.push(key);
+                }
+                Section::Aux => {
+                    let (name, form) = match &item {
+                        Value::Cons(c) => (c.car(), c.cdr().car_or_nil()),
+                        other => (other.clone(), Value::NIL),
+                    };
+                    let Some(name) = name.as_symbol() else {
+                        return Err(malformed(image, "an &AUX variable must be a symbol", list));
+                    };
+                    parsed.aux.push((name, form));
+                }
+                Section::AfterRest | Section::AfterKey => {
+                    return Err(malformed(image, "a misplaced parameter", list));
+                }
+            }
+        }
+        if !iter.rest.is_nil() {
+            if !destructuring || parsed.rest.is_some() {
+                return Err(malformed(image, "a dotted tail", list));
+            }
+            parsed.rest = Some(iter.rest);
+        }
+        if section == Section::Rest {
+            return Err(malformed(image, "&REST without a variable", list));
+        }
+        Ok(parsed)
+    }
+}
+
+fn is_lambda_keyword(name: Sym) -> bool {
+    matches!(
+        name,
+        known::L_OPTIONAL
+            | known::L_REST
+            | known::L_BODY
+            | known::L_KEY
+            | known::L_ALLOW_OTHER_KEYS
+            | known::L_AUX
+            | known::L_WHOLE
+            | known::L_ENVIRONMENT
+    )
+}
+
+fn malformed(image: &Image, what: &str, list: &Value) -> Box<Raise> {
+    let shown = print::to_string(image, list, true);
+    Raise::program(format!("{what}: {shown} is not a valid lambda list"))
+}
+
+fn optional(item: &Value) -> Optional {
+    match item {
+        Value::Cons(c) => {
+            let rest = c.cdr();
+            Optional {
+                pattern: c.car(),
+                default: rest.car_or_nil(),
+                supplied: match rest.cdr_or_nil() {
+                    Value::Cons(s) => s.car().as_symbol(),
+                    _ => None,
+                },
+            }
+        }
+        name => Optional {
+            pattern: name.clone(),
+            default: Value::NIL,
+            supplied: None,
+        },
+    }
+}
+
+fn key(image: &mut Image, item: &Value) -> Result<Key, Box<Raise>> {
+    let mut parameter = optional(item);
+    let keyword = match &parameter.pattern {
+        // ((:keyword pattern) default supplied)
+        Value::Cons(c) => {
+            let keyword = c.car().as_symbol();
+            let pattern = c.cdr().car_or_nil();
+            parameter.pattern = pattern;
+            keyword
+        }
+        Value::Symbol(name) => {
+            let name = image.name(*name).to_owned();
+            Some(image.keyword(&name))
+        }
+        _ => None,
+    };
+    match keyword {
+        Some(keyword) => Ok(Key { keyword, parameter }),
+        None => Err(malformed(image, "a malformed &KEY parameter", item)),
+    }
+}

@@ -1,0 +1,146 @@
+//! The program between reading and code: names resolved, macros expanded.
+
+use std::rc::Rc;
+
+use super::scope::{Block, Tagbody, Var};
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::code::Parameters;
+use crate::reader::source::Place;
+
+/// What a call calls.
+pub enum Target {
+    /// A global function.
+    Global(Sym),
+    /// A function that an expression computes.
+    Computed(Box<Node>),
+}
+
+/// One variable that a form binds.
+pub enum Binding {
+    /// A lexical variable.
+    Lexical(Rc<Var>),
+    /// A dynamic binding.
+    Special(Sym),
+}
+
+/// An optional or key parameter.
+pub struct Default {
+    /// The parameter's own variable: the slot that the machine fills.
+    pub var: Rc<Var>,
+    /// The value if it is not supplied.
+    pub init: Node,
+    /// The variable that tells whether it was supplied.
+    pub supplied: Option<Binding>,
+}
+
+/// What happens at the start of a function, in order.
+pub enum Prologue {
+    /// An optional or key parameter gets its default.
+    Default(Default),
+    /// A parameter that is declared special is bound to its slot's value.
+    BindSpecial(Sym, Rc<Var>),
+    /// An `&aux` variable.
+    Aux(Binding, Node),
+}
+
+/// A function expression.
+pub struct LambdaNode {
+    /// Name for backtraces and printing.
+    pub name: Value,
+    /// The parameters as the machine fills them.
+    pub parameters: Parameters,
+    /// Variables of the parameter slots.
+    pub slots: Vec<Rc<Var>>,
+    /// Defaults and auxiliary variables.
+    pub prologue: Vec<Prologue>,
+    /// The body.
+    pub body: Node,
+    /// Free variables, in the order of the closure's captures.
+    pub free: Vec<Rc<Var>>,
+    /// The number of the function.
+    pub id: usize,
+    /// The lambda list as written.
+    pub lambda_list: Value,
+    /// The documentation string.
+    pub doc: Option<Rc<str>>,
+}
+
+/// A piece of program.
+pub enum Node {
+    /// A constant.
+    Const(Value),
+    /// The value of a lexical variable.
+    Local(Rc<Var>),
+    /// Assignment to a lexical variable; the value is the new value.
+    SetLocal(Rc<Var>, Box<Node>),
+    /// The value of a global or dynamic variable.
+    Global(Sym, Place),
+    /// Assignment to a global or dynamic variable.
+    SetGlobal(Sym, Box<Node>),
+    /// A global function as a value.
+    Function(Sym, Place),
+    /// The function `(setf name)` as a value.
+    SetfFunction(Sym, Place),
+    /// `if`.
+    If(Box<Node>, Box<Node>, Box<Node>),
+    /// `or` of two.
+    Or(Box<Node>, Box<Node>),
+    /// `progn`.
+    Progn(Vec<Node>),
+    /// Bindings made in order after all (or, sequentially, each) initial value is known.
+    Let {
+        /// Variables with initial values.
+        bindings: Vec<(Binding, Node)>,
+        /// Is each binding visible to the following initial values?
+        sequential: bool,
+        /// The body.
+        body: Box<Node>,
+    },
+    /// Variables bound to the values of a form.
+    MultipleValueBind {
+        /// The variables.
+        bindings: Vec<Binding>,
+        /// The form.
+        values: Box<Node>,
+        /// The body.
+        body: Box<Node>,
+    },
+    /// Local functions, which may call each other.
+    Labels(Vec<(Rc<Var>, Node)>, Box<Node>),
+    /// A call.
+    Call(Target, Vec<Node>, Place),
+    /// A function expression.
+    Lambda(Rc<LambdaNode>),
+    /// A block.
+    Block(Rc<Block>, Box<Node>),
+    /// An exit from a block in the same function.
+    LocalReturn(Rc<Block>, Box<Node>),
+    /// An exit from a block by unwinding.
+    DynamicReturn(Rc<Block>, Box<Node>),
+    /// A tagbody: statements, with the positions of the tags among them.
+    Tagbody(Rc<Tagbody>, Vec<Node>, Vec<usize>),
+    /// A jump to a tag in the same function.
+    LocalGo(Rc<Tagbody>, usize),
+    /// A jump by unwinding.
+    DynamicGo(Rc<Tagbody>, usize),
+    /// `catch`.
+    Catch(Box<Node>, Box<Node>),
+    /// `unwind-protect`.
+    UnwindProtect(Box<Node>, Box<Node>),
+    /// `multiple-value-call`.
+    MultipleValueCall(Box<Node>, Vec<Node>, Place),
+    /// `multiple-value-prog1`; the flag tells it from `prog1`, which gives one value.
+    Prog1(Box<Node>, Vec<Node>, bool),
+    /// `progv`.
+    Progv(Box<Node>, Box<Node>, Box<Node>),
+    /// Handlers: a list of type specifiers and the functions, around a body.
+    Handlers(Value, Vec<Node>, Box<Node>),
+    /// Restarts: an expression for the list of them, around a body.
+    Restarts(Box<Node>, Box<Node>),
+}
+
+impl Node {
+    /// The constant `NIL`.
+    pub const NIL: Node = Node::Const(Value::NIL);
+}

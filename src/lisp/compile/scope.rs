@@ -1,0 +1,188 @@
+//! What names mean at a point of a program: lexical variables, functions, macros, blocks
+//! and tags.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use crate::lisp::function::Function;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// A lexical variable (or local function, or identity of a block).
+pub struct Var {
+    /// Its name.
+    pub name: Sym,
+    /// The function that binds it.
+    pub owner: usize,
+    /// Does an inner function refer to it?
+    pub captured: Cell<bool>,
+    /// Is it ever assigned after its binding?
+    pub assigned: Cell<bool>,
+    /// Its slot in the owner's frame, once code is emitted.
+    pub slot: Cell<u32>,
+    /// Has the program read it?
+    pub used: Cell<bool>,
+}
+
+impl Var {
+    /// Must the variable live in a box?
+    pub fn is_boxed(&self) -> bool {
+        self.captured.get() && self.assigned.get()
+    }
+}
+
+/// What a name in variable position means.
+#[derive(Clone)]
+pub enum VariableMeaning {
+    /// A lexical variable.
+    Lexical(Rc<Var>),
+    /// A dynamic variable, declared so in this scope.
+    Special,
+    /// A symbol macro.
+    SymbolMacro(Value),
+}
+
+/// What a name in function position means.
+#[derive(Clone)]
+pub enum FunctionMeaning {
+    /// A local function: a variable that holds it.
+    Local(Rc<Var>),
+    /// A local macro.
+    Macro(Rc<Function>),
+}
+
+/// Kinds of dynamic entries that are open while code of one function runs.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum DynamicKind {
+    /// A binding, handlers, restarts or catch: undone by dropping it.
+    Plain,
+    /// Cleanup code that must run.
+    Unwind,
+}
+
+/// A block.
+pub struct Block {
+    /// Its name.
+    pub name: Sym,
+    /// The function it is in.
+    pub owner: usize,
+    /// Open dynamic entries outside it, in that function.
+    pub depth: usize,
+    /// The variable that holds its identity.
+    pub identity: Rc<Var>,
+    /// Must it be left by unwinding?
+    pub dynamic: Cell<bool>,
+    /// Is it ever left by `return-from`?
+    pub used: Cell<bool>,
+}
+
+/// A tagbody.
+pub struct Tagbody {
+    /// The tags: symbols or integers.
+    pub tags: Vec<Value>,
+    /// The function it is in.
+    pub owner: usize,
+    /// Open dynamic entries outside it, in that function.
+    pub depth: usize,
+    /// The variable that holds its identity.
+    pub identity: Rc<Var>,
+    /// Must its tags be reached by unwinding?
+    pub dynamic: Cell<bool>,
+}
+
+/// One link of the chain of scopes, innermost first.
+pub enum Entry {
+    /// A name in variable position.
+    Variable(Sym, VariableMeaning),
+    /// A name in function position; the flag tells `(setf name)` from `name`.
+    Function(Sym, bool, FunctionMeaning),
+    /// A block.
+    Block(Rc<Block>),
+    /// A tagbody.
+    Tagbody(Rc<Tagbody>),
+}
+
+/// An immutable chain of scopes.
+#[derive(Clone, Default)]
+pub struct Scope(Option<Rc<Link>>);
+
+struct Link {
+    entry: Entry,
+    outer: Scope,
+}
+
+impl Drop for Link {
+    fn drop(&mut self) {
+        let mut outer = self.outer.0.take();
+        while let Some(link) = outer {
+            match Rc::try_unwrap(link) {
+                Ok(mut inner) => outer = inner.outer.0.take(),
+                Err(_) => break,
+            }
+        }
+    }
+}
+
+impl Scope {
+    /// The scope with one more entry.
+    pub fn with(&self, entry: Entry) -> Scope {
+        Scope(Some(Rc::new(Link {
+            entry,
+            outer: self.clone(),
+        })))
+    }
+
+    fn entries(&self) -> impl Iterator<Item = &Entry> {
+        let mut scope = self;
+        std::iter::from_fn(move || {
+            let link = scope.0.as_ref()?;
+            scope = &link.outer;
+            Some(&link.entry)
+        })
+    }
+
+    /// The meaning of a variable name, if it is not global.
+    pub fn variable(&self, name: Sym) -> Option<&VariableMeaning> {
+        self.entries().find_map(|e| match e {
+            Entry::Variable(n, meaning) if *n == name => Some(meaning),
+            _ => None,
+        })
+    }
+
+    /// The meaning of a function name, if it is not global.
+    pub fn function(&self, name: Sym, is_setf: bool) -> Option<&FunctionMeaning> {
+        self.entries().find_map(|e| match e {
+            Entry::Function(n, s, meaning) if *n == name && *s == is_setf => Some(meaning),
+            _ => None,
+        })
+    }
+
+    /// The innermost block of that name.
+    pub fn block(&self, name: Sym) -> Option<&Rc<Block>> {
+        self.entries().find_map(|e| match e {
+            Entry::Block(b) if b.name == name => Some(b),
+            _ => None,
+        })
+    }
+
+    /// The innermost tagbody with that tag, and the tag's number.
+    pub fn tag(&self, tag: &Value) -> Option<(&Rc<Tagbody>, usize)> {
+        self.entries().find_map(|e| match e {
+            Entry::Tagbody(t) => {
+                let index = t.tags.iter().position(|other| other.is_eql(tag))?;
+                Some((t, index))
+            }
+            _ => None,
+        })
+    }
+}
+
+/// A function that is being compiled.
+pub struct FunctionContext {
+    /// The number of the function around it.
+    pub outer: Option<usize>,
+    /// Variables of outer functions that it refers to, in order of first use.
+    pub free: RefCell<Vec<Rc<Var>>>,
+    /// Dynamic entries that are open at this point.
+    pub dynamic: RefCell<Vec<DynamicKind>>,
+}

@@ -1,0 +1,580 @@
+//! Generalised places: `setf` and the macros that modify a place.
+
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::{FunctionCell, Sym};
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine;
+
+/// How `setf` of a form with a certain operator is carried out, where no function
+/// `(setf name)` does it.
+#[derive(Clone)]
+pub enum SetfExpander {
+    /// `(defsetf access update)`: the update function takes the arguments, then the value.
+    Update(Sym),
+    /// `(defsetf access lambda-list (store…) body…)`: a function of the store variables
+    /// (as a list) and the argument variables that returns the storing form.
+    Long(Value, usize),
+    /// `define-setf-expander`: a function of the whole place form that returns the five
+    /// values of a setf expansion.
+    Expander(Value),
+}
+
+/// A place taken apart: evaluate `values` into `temps` in order, bind `stores` to the new
+/// values, evaluate `setter`; `getter` reads the place.
+pub struct Expansion {
+    /// Variables for the place's subforms.
+    pub temps: Vec<Value>,
+    /// The subforms.
+    pub values: Vec<Value>,
+    /// Variables for the new values.
+    pub stores: Vec<Value>,
+    /// The form that stores.
+    pub setter: Value,
+    /// The form that reads.
+    pub getter: Value,
+}
+
+/// Takes a place apart.
+pub fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
+    let cons = match place {
+        Value::Symbol(_) => {
+            let store = gensym(image, "NEW");
+            return Ok(Expansion {
+                temps: Vec::new(),
+                values: Vec::new(),
+                setter: Value::list([known::SETQ.into(), place.clone(), store.clone()]),
+                stores: vec![store],
+                getter: place.clone(),
+            });
+        }
+        Value::Cons(cons) => cons,
+        other => return Err(not_a_place(image, other)),
+    };
+    let Some(name) = cons.car().as_symbol() else {
+        return Err(not_a_place(image, place));
+    };
+    let Some(args) = cons.cdr().list_to_vec() else {
+        return Err(not_a_place(image, place));
+    };
+    if let Some(expander) = image.setf_expanders.get(&name).cloned() {
+        return user_expansion(image, place, args, expander);
+    }
+    match name {
+        known::THE => {
+            let inner = args.get(1).cloned().unwrap_or(Value::NIL);
+            return expansion(image, &inner);
+        }
+        known::VALUES => return values_expansion(image, &args),
+        known::GETF => {
+            return nested_expansion(image, &args, known::PUTF, known::GETF, 0);
+        }
+        known::LDB | known::MASK_FIELD => {
+            let setter = if name == known::LDB {
+                known::DPB
+            } else {
+                known::DEPOSIT_FIELD
+            };
+            return byte_expansion(image, &args, setter, name);
+        }
+        _ => {}
+    }
+    if image.symbol(name).setf_function.is_none()
+        && let Some(inner) = expand_place(image, place, name)?
+    {
+        return expansion(image, &inner);
+    }
+    let temps: Vec<Value> = args.iter().map(|_| gensym(image, "ARG")).collect();
+    let store = gensym(image, "NEW");
+    let getter = Value::cons(name.into(), Value::list(temps.clone()));
+    let setter = if name == known::APPLY {
+        apply_setter(image, &args, &temps, &store)?
+    } else {
+        let function = Value::list([
+            known::FUNCTION.into(),
+            Value::list([known::SETF.into(), name.into()]),
+        ]);
+        Value::list_with_tail(
+            [known::FUNCALL.into(), function, store.clone()],
+            Value::list(temps.clone()),
+        )
+    };
+    if let (Value::Cons(from), Value::Cons(to)) = (place, &setter) {
+        to.set_place(from.place());
+    }
+    Ok(Expansion {
+        temps,
+        values: args,
+        stores: vec![store],
+        setter,
+        getter,
+    })
+}
+
+fn gensym(image: &mut Image, prefix: &str) -> Value {
+    image.gensym(prefix).into()
+}
+
+fn not_a_place(image: &Image, place: &Value) -> Box<Raise> {
+    let shown = print::to_string(image, place, true);
+    Raise::program(format!("{shown} is not a place that can be set."))
+}
+
+/// A place that is a macro call, expanded once.
+fn expand_place(image: &mut Image, place: &Value, name: Sym) -> Result<Option<Value>, Box<Raise>> {
+    match image.symbol(name).function {
+        FunctionCell::Macro(_) | FunctionCell::Builtin => super::macroexpand_1(image, place),
+        _ => Ok(None),
+    }
+}
+
+fn apply_setter(
+    image: &mut Image,
+    args: &[Value],
+    temps: &[Value],
+    store: &Value,
+) -> Result<Value, Box<Raise>> {
+    // (apply #'name args…) → (apply #'(setf name) new args…)
+    let name = args
+        .first()
+        .filter(|f| {
+            matches!(
+                f.car_or_nil().as_symbol(),
+                Some(known::FUNCTION | known::QUOTE)
+            )
+        })
+        .map(|f| f.cdr_or_nil().car_or_nil());
+    let Some(name) = name else {
+        let shown = Value::cons(known::APPLY.into(), Value::list(args.to_vec()));
+        return Err(not_a_place(image, &shown));
+    };
+    let function = Value::list([
+        known::FUNCTION.into(),
+        Value::list([known::SETF.into(), name]),
+    ]);
+    let rest: Vec<Value> = temps.iter().skip(1).cloned().collect();
+    Ok(Value::list_with_tail(
+        [known::APPLY.into(), function, store.clone()],
+        Value::list(rest),
+    ))
+}
+
+fn values_expansion(image: &mut Image, places: &[Value]) -> Result<Expansion, Box<Raise>> {
+    let mut all = Expansion {
+        temps: Vec::new(),
+        values: Vec::new(),
+        stores: Vec::new(),
+        setter: Value::NIL,
+        getter: Value::NIL,
+    };
+    let (mut setters, mut getters) = (Vec::new(), Vec::new());
+    for place in places {
+        let one = expansion(image, place)?;
+        all.temps.extend(one.temps);
+        all.values.extend(one.values);
+        all.stores.extend(one.stores);
+        setters.push(one.setter);
+        getters.push(one.getter);
+    }
+    all.setter = Value::cons(known::VALUES.into(), Value::list(setters));
+    all.getter = Value::cons(known::VALUES.into(), Value::list(getters));
+    Ok(all)
+}
+
+/// `(getf place indicator [default])`: stores a new property list in the inner place.
+fn nested_expansion(
+    image: &mut Image,
+    args: &[Value],
+    update: Sym,
+    reader: Sym,
+    inner_index: usize,
+) -> Result<Expansion, Box<Raise>> {
+    let place = args.get(inner_index).cloned().unwrap_or(Value::NIL);
+    let mut inner = expansion(image, &place)?;
+    let store = gensym(image, "NEW");
+    let mut extra = Vec::new();
+    for (i, arg) in args.iter().enumerate() {
+        if i != inner_index {
+            let temp = gensym(image, "ARG");
+            inner.temps.push(temp.clone());
+            inner.values.push(arg.clone());
+            extra.push(temp);
+        }
+    }
+    let key = extra.first().cloned().unwrap_or(Value::NIL);
+    let updated = Value::list([update.into(), inner.getter.clone(), key, store.clone()]);
+    let bindings: Vec<Value> = inner
+        .stores
+        .iter()
+        .map(|s| Value::list([s.clone(), updated.clone()]))
+        .collect();
+    let setter = Value::list([
+        known::LET.into(),
+        Value::list(bindings),
+        inner.setter,
+        store.clone(),
+    ]);
+    let getter = Value::list_with_tail([reader.into(), inner.getter], Value::list(extra));
+    Ok(Expansion {
+        temps: inner.temps,
+        values: inner.values,
+        stores: vec![store],
+        setter,
+        getter,
+    })
+}
+
+/// `(ldb bytespec place)`.
+fn byte_expansion(
+    image: &mut Image,
+    args: &[Value],
+    update: Sym,
+    reader: Sym,
+) -> Result<Expansion, Box<Raise>> {
+    let spec = args.first().cloned().unwrap_or(Value::NIL);
+    let place = args.get(1).cloned().unwrap_or(Value::NIL);
+    let inner = expansion(image, &place)?;
+    let store = gensym(image, "NEW");
+    let temp = gensym(image, "ARG");
+    let updated = Value::list([
+        update.into(),
+        store.clone(),
+        temp.clone(),
+        inner.getter.clone(),
+    ]);
+    let bindings: Vec<Value> = inner
+        .stores
+        .iter()
+        .map(|s| Value::list([s.clone(), updated.clone()]))
+        .collect();
+    let setter = Value::list([
+        known::LET.into(),
+        Value::list(bindings),
+        inner.setter,
+        store.clone(),
+    ]);
+    let mut temps = vec![temp.clone()];
+    temps.extend(inner.temps);
+    let mut values = vec![spec];
+    values.extend(inner.values);
+    Ok(Expansion {
+        temps,
+        values,
+        stores: vec![store],
+        setter,
+        getter: Value::list([reader.into(), temp, inner.getter]),
+    })
+}
+
+fn user_expansion(
+    image: &mut Image,
+    place: &Value,
+    args: Vec<Value>,
+    expander: SetfExpander,
+) -> Result<Expansion, Box<Raise>> {
+    let name = place.car_or_nil();
+    match expander {
+        SetfExpander::Update(update) => {
+            let temps: Vec<Value> = args.iter().map(|_| gensym(image, "ARG")).collect();
+            let store = gensym(image, "NEW");
+            let mut call = vec![update.into()];
+            call.extend(temps.iter().cloned());
+            call.push(store.clone());
+            Ok(Expansion {
+                getter: Value::cons(name, Value::list(temps.clone())),
+                temps,
+                values: args,
+                stores: vec![store],
+                setter: Value::list(call),
+            })
+        }
+        SetfExpander::Long(function, store_count) => {
+            let temps: Vec<Value> = args.iter().map(|_| gensym(image, "ARG")).collect();
+            let stores: Vec<Value> = (0..store_count).map(|_| gensym(image, "NEW")).collect();
+            let mut call_args = vec![Value::list(stores.clone())];
+            call_args.extend(temps.iter().cloned());
+            let setter = machine::call_nested(image, function, call_args)?;
+            Ok(Expansion {
+                getter: Value::cons(name, Value::list(temps.clone())),
+                temps,
+                values: args,
+                stores,
+                setter,
+            })
+        }
+        SetfExpander::Expander(function) => {
+            let result =
+                machine::call_nested_values(image, function, vec![place.clone(), Value::NIL])?;
+            let mut parts = result.into_iter();
+            let mut next = || parts.next().unwrap_or(Value::NIL);
+            let (temps, values, stores) = (next(), next(), next());
+            let (setter, getter) = (next(), next());
+            Ok(Expansion {
+                temps: temps.iter_list().collect(),
+                values: values.iter_list().collect(),
+                stores: stores.iter_list().collect(),
+                setter,
+                getter,
+            })
+        }
+    }
+}
+
+/// The form that sets one place to the value of a form.
+fn setf_one(image: &mut Image, place: &Value, value: &Value) -> Result<Value, Box<Raise>> {
+    if let Value::Symbol(_) = place {
+        return Ok(Value::list([
+            known::SETQ.into(),
+            place.clone(),
+            value.clone(),
+        ]));
+    }
+    let parts = expansion(image, place)?;
+    let mut bindings: Vec<Value> = parts
+        .temps
+        .iter()
+        .zip(&parts.values)
+        .map(|(t, v)| Value::list([t.clone(), v.clone()]))
+        .collect();
+    if let [store] = parts.stores.as_slice() {
+        bindings.push(Value::list([store.clone(), value.clone()]));
+        return Ok(Value::list([
+            known::LET_STAR.into(),
+            Value::list(bindings),
+            parts.setter,
+        ]));
+    }
+    let body = Value::list([
+        known::MULTIPLE_VALUE_BIND.into(),
+        Value::list(parts.stores),
+        value.clone(),
+        parts.setter,
+    ]);
+    Ok(Value::list([
+        known::LET_STAR.into(),
+        Value::list(bindings),
+        body,
+    ]))
+}
+
+/// `(setf {place value}*)`.
+pub(super) fn expand_setf(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    let parts: Vec<Value> = form.cdr_or_nil().iter_list().collect();
+    if !parts.len().is_multiple_of(2) {
+        return Err(Raise::program("odd number of args to SETF"));
+    }
+    let mut forms = Vec::new();
+    for pair in parts.chunks_exact(2) {
+        forms.push(setf_one(image, &pair[0], &pair[1])?);
+    }
+    Ok(match forms.len() {
+        1 => forms.remove(0),
+        _ => Value::cons(known::PROGN.into(), Value::list(forms)),
+    })
+}
+
+/// `(psetf {place value}*)`: all values are computed before any place is set.
+pub(super) fn expand_psetf(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    let parts: Vec<Value> = form.cdr_or_nil().iter_list().collect();
+    if !parts.len().is_multiple_of(2) {
+        return Err(Raise::program("odd number of args to PSETF"));
+    }
+    let mut bindings = Vec::new();
+    let mut setters = Vec::new();
+    for pair in parts.chunks_exact(2) {
+        let expanded = expansion(image, &pair[0])?;
+        bindings.extend(pairs(&expanded));
+        if let [store] = expanded.stores.as_slice() {
+            bindings.push(Value::list([store.clone(), pair[1].clone()]));
+        }
+        setters.push(expanded.setter);
+    }
+    setters.push(Value::NIL);
+    Ok(Value::list_with_tail(
+        [known::LET_STAR.into(), Value::list(bindings)],
+        Value::list(setters),
+    ))
+}
+
+fn pairs(expanded: &Expansion) -> impl Iterator<Item = Value> + '_ {
+    expanded
+        .temps
+        .iter()
+        .zip(&expanded.values)
+        .map(|(t, v)| Value::list([t.clone(), v.clone()]))
+}
+
+/// A form that replaces a place's value by a function of it: `new_value` gets the form that
+/// reads the place and returns the form of the new value. `before` are evaluated first,
+/// with their variables bound.
+pub fn modify(
+    image: &mut Image,
+    place: &Value,
+    before: Vec<(Value, Value)>,
+    new_value: impl FnOnce(&mut Image, Value) -> Value,
+) -> Result<Value, Box<Raise>> {
+    if let (Value::Symbol(_), true) = (place, before.is_empty()) {
+        let new = new_value(image, place.clone());
+        return Ok(Value::list([known::SETQ.into(), place.clone(), new]));
+    }
+    let expanded = expansion(image, place)?;
+    let mut bindings: Vec<Value> = before
+        .into_iter()
+        .map(|(var, form)| Value::list([var, form]))
+        .collect();
+    bindings.extend(pairs(&expanded));
+    let new = new_value(image, expanded.getter.clone());
+    let store = expanded.stores.first().cloned().unwrap_or(Value::NIL);
+    bindings.push(Value::list([store, new]));
+    Ok(Value::list([
+        known::LET_STAR.into(),
+        Value::list(bindings),
+        expanded.setter,
+    ]))
+}
+
+fn incremented(image: &mut Image, form: &Value, operator: Sym) -> Result<Value, Box<Raise>> {
+    let args = form.cdr_or_nil();
+    let place = args.car_or_nil();
+    let delta = match args.cdr_or_nil() {
+        Value::Cons(c) => c.car(),
+        _ => Value::Int(1),
+    };
+    let is_constant = !matches!(delta, Value::Cons(_) | Value::Symbol(_));
+    let (before, delta) = if is_constant || matches!(place, Value::Symbol(_)) {
+        (Vec::new(), delta)
+    } else {
+        let var = gensym(image, "DELTA");
+        (vec![(var.clone(), delta)], var)
+    };
+    // `(incf place delta)` evaluates the place's subforms before the delta; with the delta
+    // in a variable of its own the difference shows only if those have effects on it.
+    modify(image, &place, before, |_, getter| {
+        Value::list([operator.into(), getter, delta])
+    })
+}
+
+pub(super) fn expand_incf(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    incremented(image, form, known::PLUS)
+}
+
+pub(super) fn expand_decf(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    incremented(image, form, known::MINUS)
+}
+
+/// `(push item place)`.
+pub(super) fn expand_push(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    let args = form.cdr_or_nil();
+    let item = args.car_or_nil();
+    let place = args.cdr_or_nil().car_or_nil();
+    if matches!(place, Value::Symbol(_)) {
+        let new = Value::list([known::CONS.into(), item, place.clone()]);
+        return Ok(Value::list([known::SETQ.into(), place, new]));
+    }
+    let var = gensym(image, "ITEM");
+    modify(image, &place, vec![(var.clone(), item)], |_, getter| {
+        Value::list([known::CONS.into(), var, getter])
+    })
+}
+
+/// `(pushnew item place &key …)`.
+pub(super) fn expand_pushnew(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    let args = form.cdr_or_nil();
+    let item = args.car_or_nil();
+    let place = args.cdr_or_nil().car_or_nil();
+    let keys = args.cdr_or_nil().cdr_or_nil();
+    let var = gensym(image, "ITEM");
+    modify(image, &place, vec![(var.clone(), item)], |_, getter| {
+        Value::list_with_tail([known::ADJOIN.into(), var, getter], keys)
+    })
+}
+
+/// `(pop place)`.
+pub(super) fn expand_pop(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    let place = form.cdr_or_nil().car_or_nil();
+    let expanded = expansion(image, &place)?;
+    let list = gensym(image, "LIST");
+    let mut bindings: Vec<Value> = pairs(&expanded).collect();
+    bindings.push(Value::list([list.clone(), expanded.getter.clone()]));
+    let store = expanded.stores.first().cloned().unwrap_or(Value::NIL);
+    bindings.push(Value::list([
+        store,
+        Value::list([known::CDR.into(), list.clone()]),
+    ]));
+    Ok(Value::list([
+        known::LET_STAR.into(),
+        Value::list(bindings),
+        expanded.setter,
+        Value::list([known::CAR.into(), list]),
+    ]))
+}
+
+/// `(remf place indicator)`.
+pub(super) fn expand_remf(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    let args = form.cdr_or_nil();
+    let place = args.car_or_nil();
+    let indicator = args.cdr_or_nil().car_or_nil();
+    let expanded = expansion(image, &place)?;
+    let key = gensym(image, "KEY");
+    let found = gensym(image, "FOUND");
+    let store = expanded.stores.first().cloned().unwrap_or(Value::NIL);
+    let mut bindings: Vec<Value> = pairs(&expanded).collect();
+    bindings.push(Value::list([key.clone(), indicator]));
+    let values = Value::list([known::REMOVE_PROPERTY.into(), expanded.getter, key]);
+    let body = Value::list([
+        known::MULTIPLE_VALUE_BIND.into(),
+        Value::list([store, found.clone()]),
+        values,
+        expanded.setter,
+        found,
+    ]);
+    Ok(Value::list([
+        known::LET_STAR.into(),
+        Value::list(bindings),
+        body,
+    ]))
+}
+
+/// `(rotatef place…)`.
+pub(super) fn expand_rotatef(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    shift(image, form, true)
+}
+
+/// `(shiftf place… value)`.
+pub(super) fn expand_shiftf(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    shift(image, form, false)
+}
+
+fn shift(image: &mut Image, form: &Value, rotate: bool) -> Result<Value, Box<Raise>> {
+    let mut places: Vec<Value> = form.cdr_or_nil().iter_list().collect();
+    let last = if rotate { None } else { places.pop() };
+    let mut bindings = Vec::new();
+    let mut stores = Vec::new();
+    let mut setters = Vec::new();
+    let mut olds = Vec::new();
+    for place in &places {
+        let expanded = expansion(image, place)?;
+        bindings.extend(pairs(&expanded));
+        let old = gensym(image, "OLD");
+        bindings.push(Value::list([old.clone(), expanded.getter.clone()]));
+        olds.push(old);
+        stores.push(expanded.stores.first().cloned().unwrap_or(Value::NIL));
+        setters.push(expanded.setter);
+    }
+    let first = olds.first().cloned().unwrap_or(Value::NIL);
+    let incoming = last.unwrap_or_else(|| first.clone());
+    let sources = olds.iter().skip(1).cloned().chain([incoming]);
+    bindings.extend(
+        stores
+            .iter()
+            .zip(sources)
+            .map(|(store, source)| Value::list([store.clone(), source])),
+    );
+    setters.push(if rotate { Value::NIL } else { first });
+    Ok(Value::list_with_tail(
+        [known::LET_STAR.into(), Value::list(bindings)],
+        Value::list(setters),
+    ))
+}

@@ -1,0 +1,31 @@
+//! Does a condition fit a handler's type?
+
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::lisp::types::specifier::{Answers, Stop};
+use crate::lisp::types::typep_with;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine;
+
+/// Is the condition of the type?
+pub fn is_of_type(
+    image: &mut Image,
+    condition: &Value,
+    specifier: &Value,
+) -> Result<bool, Box<Raise>> {
+    if let (Value::Instance(instance), Value::Symbol(name)) = (condition, specifier)
+        && instance.is_a(*name)
+    {
+        return Ok(true);
+    }
+    let mut answers = Answers::default();
+    loop {
+        match typep_with(image, condition, specifier, &mut answers) {
+            Ok(answer) => return Ok(answer),
+            Err(Stop::Raise(raise)) => return Err(raise),
+            Err(Stop::Call { function, args }) => {
+                answers.add(machine::call_nested(image, function, args)?);
+            }
+        }
+    }
+}

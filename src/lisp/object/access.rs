@@ -1,0 +1,200 @@
+//! `slot-value` and its relatives.
+
+use super::method::extended_function;
+use super::update;
+use crate::lisp::class::Instance;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+
+/// What is done with a slot.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Access {
+    /// Its value is read.
+    Read,
+    /// A value is stored.
+    Write,
+    /// It is asked whether there is a value.
+    IsBound,
+    /// The value is taken away.
+    MakeUnbound,
+}
+
+impl Access {
+    /// The operation as `slot-missing` gets it.
+    fn symbol(self) -> Sym {
+        match self {
+            Access::Read => known::SLOT_VALUE,
+            Access::Write => known::SETF,
+            Access::IsBound => known::SLOT_BOUNDP,
+            Access::MakeUnbound => known::SLOT_MAKUNBOUND,
+        }
+    }
+}
+
+/// The value of a slot.
+pub fn slot_value(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    name: &Value,
+) -> Result<Step, Box<Raise>> {
+    let slot = slot_name(name)?;
+    match object {
+        Value::Instance(instance) if instance.is_obsolete() => {
+            let args = vec![object.clone(), name.clone()];
+            update::then_call(machine, object.clone(), known::SLOT_VALUE.into(), args)
+        }
+        Value::Instance(instance) => match instance.slot(slot) {
+            Some(value) if !value.is_unbound() => Ok(Step::Return(value)),
+            Some(_) => unbound(machine.image, object, slot),
+            None => missing(machine.image, object, slot, Access::Read, None),
+        },
+        other => missing(machine.image, other, slot, Access::Read, None),
+    }
+}
+
+/// Stores a value in a slot and returns it. `again` is the function that does the same,
+/// called once more after an update of the instance.
+pub fn set_slot_value(
+    machine: &mut Machine<'_>,
+    value: Value,
+    object: &Value,
+    name: &Value,
+) -> Result<Step, Box<Raise>> {
+    let slot = slot_name(name)?;
+    match object {
+        Value::Instance(instance) if instance.is_obsolete() => {
+            let args = vec![value, object.clone(), name.clone()];
+            let again = known::SET_SLOT_VALUE.into();
+            update::then_call(machine, object.clone(), again, args)
+        }
+        Value::Instance(instance) if instance.set_slot(slot, value.clone()) => {
+            Ok(Step::Return(value))
+        }
+        other => missing(machine.image, other, slot, Access::Write, Some(value)),
+    }
+}
+
+/// Has the slot a value?
+pub fn slot_boundp(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    name: &Value,
+) -> Result<Step, Box<Raise>> {
+    let slot = slot_name(name)?;
+    match object {
+        Value::Instance(instance) if instance.is_obsolete() => {
+            let args = vec![object.clone(), name.clone()];
+            update::then_call(machine, object.clone(), known::SLOT_BOUNDP.into(), args)
+        }
+        Value::Instance(instance) => match instance.slot(slot) {
+            Some(value) => Ok(Step::Return(Value::bool(!value.is_unbound()))),
+            None => missing(machine.image, object, slot, Access::IsBound, None),
+        },
+        other => missing(machine.image, other, slot, Access::IsBound, None),
+    }
+}
+
+/// Takes a slot's value away; returns the instance.
+pub fn slot_makunbound(
+    machine: &mut Machine<'_>,
+    object: &Value,
+    name: &Value,
+) -> Result<Step, Box<Raise>> {
+    let slot = slot_name(name)?;
+    match object {
+        Value::Instance(instance) if instance.is_obsolete() => {
+            let args = vec![object.clone(), name.clone()];
+            update::then_call(machine, object.clone(), known::SLOT_MAKUNBOUND.into(), args)
+        }
+        Value::Instance(instance) if instance.set_slot(slot, Value::Unbound) => {
+            Ok(Step::Return(object.clone()))
+        }
+        other => missing(machine.image, other, slot, Access::MakeUnbound, None),
+    }
+}
+
+/// The slot's value as a call of `slot-unbound` gives it.
+fn unbound(image: &Image, object: &Value, slot: Sym) -> Result<Step, Box<Raise>> {
+    let class = Value::Class(super::class_of(image, object));
+    match extended_function(image, known::SLOT_UNBOUND) {
+        Some(function) => Ok(Step::TailCall {
+            function,
+            args: vec![class, object.clone(), slot.into()],
+        }),
+        None => Err(unbound_slot(object, slot)),
+    }
+}
+
+/// The error that a slot has no value.
+pub fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
+    Box::new(Raise::Make {
+        place: crate::reader::source::Place::NONE,
+        class: known::UNBOUND_SLOT,
+        report: None,
+        initargs: vec![
+            (known::K_NAME, slot.into()),
+            (known::K_INSTANCE, object.clone()),
+        ],
+    })
+}
+
+fn missing(
+    image: &Image,
+    object: &Value,
+    slot: Sym,
+    access: Access,
+    value: Option<Value>,
+) -> Result<Step, Box<Raise>> {
+    if let Some(function) = extended_function(image, known::SLOT_MISSING) {
+        let class = Value::Class(super::class_of(image, object));
+        let operation = Value::Symbol(access.symbol());
+        let mut args = vec![class, object.clone(), slot.into(), operation];
+        args.extend(value);
+        return Ok(Step::TailCall { function, args });
+    }
+    Err(missing_slot(image, object, slot, access, value.as_ref()))
+}
+
+/// The error that there is no such slot.
+pub fn missing_slot(
+    image: &Image,
+    object: &Value,
+    slot: Sym,
+    access: Access,
+    value: Option<&Value>,
+) -> Box<Raise> {
+    let attempt = match access {
+        Access::Read => "read the slot's value (slot-value)".to_owned(),
+        Access::Write => format!(
+            "set the slot's value to {} (setf of slot-value)",
+            super::text(image, value.unwrap_or(&Value::NIL))
+        ),
+        Access::IsBound => "test to see whether slot is bound (slot-boundp)".to_owned(),
+        Access::MakeUnbound => "make the slot unbound (slot-makunbound)".to_owned(),
+    };
+    Raise::simple(format!(
+        "When attempting to {attempt}, the slot {} is missing from the object {}.",
+        super::text(image, &slot.into()),
+        super::text(image, object)
+    ))
+}
+
+/// Does the object have a slot of this name?
+pub fn slot_exists(object: &Value, slot: Sym) -> bool {
+    matches!(object, Value::Instance(i) if has_slot(i, slot))
+}
+
+fn has_slot(instance: &Instance, slot: Sym) -> bool {
+    instance.class.borrow().slot_index(slot).is_some()
+}
+
+/// A slot name, which is a symbol.
+pub fn slot_name(name: &Value) -> Result<Sym, Box<Raise>> {
+    name.as_symbol()
+        .ok_or_else(|| Raise::type_error(name, Value::Symbol(known::SYMBOL)))
+}

@@ -1,0 +1,290 @@
+//! Calls of generic functions.
+//!
+//! The classes of the arguments that some method is specialized on (and, for `eql`
+//! specializers, which of their values an argument is) form a key; the effective method of
+//! each key is computed once. A key holds the generation of a class, so a redefined class
+//! is a new key.
+
+use std::rc::Rc;
+
+use super::class_of::{builtin_class_name, class_of};
+use super::combine;
+use super::effective::{Effective, Shape, SlotPlace};
+use super::update;
+use crate::lisp::class::Class;
+use crate::lisp::function::Function;
+use crate::lisp::generic::{GenericFunction, Method, Specializer};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+
+/// Calls whose key has more parts than this are not remembered.
+const MAX_PARTS: usize = 4;
+/// A generic function that has met more keys than this forgets them all.
+const MAX_ENTRIES: usize = 256;
+
+/// What one argument contributes to a key: a class by its address and generation, or a
+/// small number with one of the two tags.
+type Part = (usize, u32);
+const BUILTIN_TAG: u32 = u32::MAX;
+const EQL_TAG: u32 = u32::MAX - 1;
+
+type Key = [Part; MAX_PARTS];
+const NO_PART: Part = (0, 0);
+
+/// An argument that decides which methods apply.
+struct Position {
+    index: usize,
+    eql_values: Vec<Value>,
+}
+
+/// Which arguments decide, and what they decided so far.
+#[derive(Default)]
+pub struct Dispatch {
+    positions: Vec<Position>,
+    entries: Vec<(Key, Rc<Effective>)>,
+    /// The classes whose addresses occur in keys; held so that none is reused.
+    classes: Vec<Rc<Class>>,
+}
+
+impl Dispatch {
+    /// The state for a changed set of methods.
+    pub fn for_methods(methods: &[Rc<Method>]) -> Dispatch {
+        let mut positions: Vec<Position> = Vec::new();
+        for method in methods {
+            for (index, specializer) in method.specializers.iter().enumerate() {
+                let eql = match specializer {
+                    Specializer::Class(class) if class.name == known::T => continue,
+                    Specializer::Class(_) => None,
+                    Specializer::Eql(value) => Some(value.clone()),
+                };
+                let at = match positions.iter().position(|p| p.index == index) {
+                    Some(at) => at,
+                    None => {
+                        positions.push(Position {
+                            index,
+                            eql_values: Vec::new(),
+                        });
+                        positions.len() - 1
+                    }
+                };
+                if let Some(value) = eql
+                    && !positions[at].eql_values.iter().any(|v| v.is_eql(&value))
+                {
+                    positions[at].eql_values.push(value);
+                }
+            }
+        }
+        Dispatch {
+            positions,
+            ..Dispatch::default()
+        }
+    }
+
+    /// The key of a call; none if it has too many parts.
+    #[inline]
+    fn key(&self, image: &Image, args: &[Value]) -> Option<Key> {
+        if self.positions.len() > MAX_PARTS {
+            return None;
+        }
+        let mut key = [NO_PART; MAX_PARTS];
+        for (part, position) in key.iter_mut().zip(&self.positions) {
+            *part = position.part(image, args.get(position.index)?);
+        }
+        Some(key)
+    }
+
+    /// The remembered effective method; it moves towards the front.
+    #[inline]
+    fn find(&mut self, key: &Key) -> Option<Rc<Effective>> {
+        let found = self.entries.iter().position(|(k, _)| k == key)?;
+        if found > 0 {
+            self.entries.swap(found, found - 1);
+            return Some(self.entries[found - 1].1.clone());
+        }
+        Some(self.entries[0].1.clone())
+    }
+
+    fn remember(&mut self, image: &Image, args: &[Value], key: Key, effective: Rc<Effective>) {
+        if self.entries.len() >= MAX_ENTRIES {
+            self.entries.clear();
+            self.classes.clear();
+        }
+        for position in &self.positions {
+            if let Some(arg @ Value::Instance(_)) = args.get(position.index) {
+                self.classes.push(class_of(image, arg));
+            }
+        }
+        self.entries.push((key, effective));
+    }
+}
+
+impl Position {
+    #[inline]
+    fn part(&self, image: &Image, arg: &Value) -> Part {
+        if let Some(i) = self.eql_values.iter().position(|v| v.is_eql(arg)) {
+            return (i, EQL_TAG);
+        }
+        match arg {
+            Value::Instance(instance) => {
+                let class = instance.class.borrow();
+                (Rc::as_ptr(&class) as usize, class.generation.get())
+            }
+            other => (builtin_class_name(image, other).0 as usize, BUILTIN_TAG),
+        }
+    }
+}
+
+/// Calls a generic function.
+pub fn call_generic(
+    machine: &mut Machine<'_>,
+    function: &Rc<Function>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    let Some(generic) = function.as_generic() else {
+        return Ok(Step::TailCall {
+            function: Value::Function(function.clone()),
+            args,
+        });
+    };
+    if !generic.parameters.borrow().accepts(args.len()) {
+        return Err(Raise::program(format!(
+            "invalid number of arguments: {}",
+            args.len()
+        )));
+    }
+    if let Some(obsolete) = args.iter().find(|a| is_obsolete(a)) {
+        let obsolete = obsolete.clone();
+        return update::then_call(machine, obsolete, Value::Function(function.clone()), args);
+    }
+    let effective = effective_method(machine.image, generic, &args)?;
+    if let Some(keys) = &effective.keys
+        && args.len() > effective.keys_from
+    {
+        check_keys(machine.image, keys, &args[effective.keys_from..])?;
+    }
+    match &effective.shape {
+        Shape::Read(SlotPlace::Local(index), _) => {
+            if let Some(Value::Instance(instance)) = args.first()
+                && let Some(value) = instance.slots.borrow().get(*index)
+                && !value.is_unbound()
+            {
+                return Ok(Step::Return(value.clone()));
+            }
+        }
+        Shape::Read(SlotPlace::Shared(slot), _) => {
+            let value = slot.get();
+            if !value.is_unbound() {
+                return Ok(Step::Return(value));
+            }
+        }
+        Shape::Write(SlotPlace::Local(index), _) => {
+            if let [value, Value::Instance(instance)] = args.as_slice()
+                && let Some(slot) = instance.slots.borrow_mut().get_mut(*index)
+            {
+                *slot = value.clone();
+                return Ok(Step::Return(value.clone()));
+            }
+        }
+        Shape::Write(SlotPlace::Shared(slot), _) => {
+            if let [value, _] = args.as_slice() {
+                slot.set(value.clone());
+                return Ok(Step::Return(value.clone()));
+            }
+        }
+        Shape::Single(_) | Shape::Combined { .. } => {}
+        Shape::NotApplicable => return no_applicable_method(machine.image, function, args),
+    }
+    combine::run(&effective, combine::START, args)
+}
+
+#[inline]
+fn is_obsolete(arg: &Value) -> bool {
+    matches!(arg, Value::Instance(instance) if instance.is_obsolete())
+}
+
+/// The effective method of a call, remembered or computed.
+fn effective_method(
+    image: &Image,
+    generic: &GenericFunction,
+    args: &[Value],
+) -> Result<Rc<Effective>, Box<Raise>> {
+    let mut dispatch = generic.dispatch.borrow_mut();
+    let key = dispatch.key(image, args);
+    if let Some(key) = &key
+        && let Some(effective) = dispatch.find(key)
+    {
+        return Ok(effective);
+    }
+    let effective = Rc::new(Effective::compute(image, generic, args)?);
+    if let Some(key) = key {
+        dispatch.remember(image, args, key, effective.clone());
+    }
+    Ok(effective)
+}
+
+/// Checks the keyword arguments of a call against those that its methods accept.
+fn check_keys(image: &Image, keys: &[crate::lisp::Sym], args: &[Value]) -> Result<(), Box<Raise>> {
+    if !args.len().is_multiple_of(2) {
+        return Err(Raise::program("odd number of &KEY arguments"));
+    }
+    let pairs = || args.chunks_exact(2);
+    let allowed = pairs()
+        .find(|p| p[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS))
+        .is_some_and(|p| p[1].is_true());
+    if allowed {
+        return Ok(());
+    }
+    for pair in pairs() {
+        match pair[0].as_symbol() {
+            Some(known::K_ALLOW_OTHER_KEYS) => {}
+            Some(key) if keys.contains(&key) => {}
+            _ => {
+                return Err(Raise::program(format!(
+                    "Unknown &KEY argument: {}",
+                    super::text(image, &pair[0])
+                )));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Asks the user's `no-applicable-method`, or says that there is no method.
+fn no_applicable_method(
+    image: &Image,
+    function: &Rc<Function>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    let extended = image
+        .function(known::NO_APPLICABLE_METHOD)
+        .filter(|f| f.as_generic().is_some() && !Rc::ptr_eq(f, function));
+    if let Some(handler) = extended {
+        let mut all = vec![Value::Function(function.clone())];
+        all.extend(args);
+        return Ok(Step::TailCall {
+            function: Value::Function(handler.clone()),
+            args: all,
+        });
+    }
+    Err(no_applicable_method_error(
+        Value::Function(function.clone()),
+        args,
+    ))
+}
+
+/// The error that no method of a generic function applies.
+pub fn no_applicable_method_error(function: Value, args: Vec<Value>) -> Box<Raise> {
+    Box::new(Raise::Make {
+        place: crate::reader::source::Place::NONE,
+        class: known::NO_APPLICABLE_METHOD_ERROR,
+        report: None,
+        initargs: vec![
+            (known::K_GENERIC_FUNCTION, function),
+            (known::K_ARGUMENTS, Value::list(args)),
+        ],
+    })
+}

@@ -1,0 +1,239 @@
+//! Effective methods: what a call of a generic function does for arguments of given classes.
+
+use std::cmp::Ordering;
+use std::rc::Rc;
+
+use super::class_of::class_of;
+use crate::lisp::class::Class;
+use crate::lisp::generic::{Accessor, GenericFunction, Method, Specializer};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::slot::Slot;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// The methods of a call in the order in which they run.
+pub struct Effective {
+    /// The generic function's name, for messages.
+    pub name: Value,
+    /// The shape of the call.
+    pub shape: Shape,
+    /// Keywords that some applicable method accepts; none if they need no check.
+    pub keys: Option<Vec<Sym>>,
+    /// Number of arguments before the keywords.
+    pub keys_from: usize,
+}
+
+/// The shape of a call.
+pub enum Shape {
+    /// No method applies.
+    NotApplicable,
+    /// Only a slot is read.
+    Read(SlotPlace, Rc<Method>),
+    /// Only a slot is written.
+    Write(SlotPlace, Rc<Method>),
+    /// One method that does not ask for the next one.
+    Single(Rc<Method>),
+    /// The standard combination, or one by an operator.
+    Combined {
+        /// `:around` methods.
+        around: Vec<Rc<Method>>,
+        /// `:before` methods.
+        before: Vec<Rc<Method>>,
+        /// Primary methods, or those that the operator combines.
+        primary: Vec<Rc<Method>>,
+        /// `:after` methods in the order in which they run: most specific last.
+        after: Vec<Rc<Method>>,
+        /// `STANDARD`, or the operator.
+        operator: Sym,
+    },
+}
+
+/// Where the slot of an accessor lies in instances of the class at hand.
+pub enum SlotPlace {
+    /// At this position of the instance.
+    Local(usize),
+    /// In the class.
+    Shared(Rc<Slot>),
+}
+
+impl Effective {
+    /// The effective method for a call with these arguments (all required ones are there).
+    pub fn compute(
+        image: &Image,
+        generic: &GenericFunction,
+        args: &[Value],
+    ) -> Result<Effective, Box<Raise>> {
+        let methods = applicable_methods(image, generic, args);
+        let (keys, keys_from) = accepted_keys(generic, &methods);
+        Ok(Effective {
+            name: generic.name.clone(),
+            shape: shape(image, generic, methods, args)?,
+            keys,
+            keys_from,
+        })
+    }
+}
+
+/// The applicable methods, most specific first.
+pub fn applicable_methods(
+    image: &Image,
+    generic: &GenericFunction,
+    args: &[Value],
+) -> Vec<Rc<Method>> {
+    let classes: Vec<Rc<Class>> = args
+        .iter()
+        .take(generic.parameters.borrow().required)
+        .map(|arg| class_of(image, arg))
+        .collect();
+    let mut methods: Vec<Rc<Method>> = generic
+        .methods
+        .borrow()
+        .iter()
+        .filter(|m| applies(m, args, &classes))
+        .cloned()
+        .collect();
+    methods.sort_by(|a, b| compare(a, b, &classes));
+    methods
+}
+
+fn applies(method: &Method, args: &[Value], classes: &[Rc<Class>]) -> bool {
+    method
+        .specializers
+        .iter()
+        .zip(args.iter().zip(classes))
+        .all(|(specializer, (arg, class))| match specializer {
+            Specializer::Eql(value) => value.is_eql(arg),
+            Specializer::Class(wanted) => {
+                wanted.name == known::T
+                    || class
+                        .precedence
+                        .borrow()
+                        .iter()
+                        .any(|c| Rc::ptr_eq(c, wanted))
+            }
+        })
+}
+
+/// Which of two applicable methods is more specific, the leftmost argument deciding first.
+fn compare(a: &Method, b: &Method, classes: &[Rc<Class>]) -> Ordering {
+    a.specializers
+        .iter()
+        .zip(&b.specializers)
+        .zip(classes)
+        .map(|((a, b), class)| rank(a, class).cmp(&rank(b, class)))
+        .find(|order| order.is_ne())
+        .unwrap_or(Ordering::Equal)
+}
+
+fn rank(specializer: &Specializer, class: &Rc<Class>) -> usize {
+    match specializer {
+        Specializer::Eql(_) => 0,
+        Specializer::Class(wanted) => class
+            .precedence
+            .borrow()
+            .iter()
+            .position(|c| Rc::ptr_eq(c, wanted))
+            .map_or(usize::MAX, |i| i + 1),
+    }
+}
+
+/// The keywords that the call accepts (none: anything), and where they begin.
+fn accepted_keys(generic: &GenericFunction, methods: &[Rc<Method>]) -> (Option<Vec<Sym>>, usize) {
+    let declared = generic.parameters.borrow();
+    let from = declared.required + declared.optional;
+    if declared.keys.is_none() && methods.iter().all(|m| m.parameters.keys.is_none()) {
+        return (None, from);
+    }
+    let mut keys = Vec::new();
+    let all = std::iter::once(&*declared).chain(methods.iter().map(|m| &m.parameters));
+    for parameters in all {
+        match &parameters.keys {
+            _ if parameters.allows_other_keys => return (None, from),
+            Some(names) => keys.extend(names),
+            // `&rest` without `&key` takes whatever comes.
+            None if parameters.has_rest => return (None, from),
+            None => {}
+        }
+    }
+    (Some(keys), from)
+}
+
+fn shape(
+    image: &Image,
+    generic: &GenericFunction,
+    methods: Vec<Rc<Method>>,
+    args: &[Value],
+) -> Result<Shape, Box<Raise>> {
+    let operator = generic.combination.get();
+    let mut around = Vec::new();
+    let mut before = Vec::new();
+    let mut primary = Vec::new();
+    let mut after = Vec::new();
+    for method in methods {
+        match method.qualifiers.as_slice() {
+            [known::K_AROUND] => around.push(method),
+            [] if operator == known::STANDARD => primary.push(method),
+            [known::K_BEFORE] if operator == known::STANDARD => before.push(method),
+            [known::K_AFTER] if operator == known::STANDARD => after.push(method),
+            [qualifier] if *qualifier == operator && operator != known::STANDARD => {
+                primary.push(method);
+            }
+            _ => return Err(bad_qualifiers(image, generic, &method)),
+        }
+    }
+    after.reverse();
+    if generic.most_specific_last.get() {
+        primary.reverse();
+    }
+    if primary.is_empty() {
+        return Ok(Shape::NotApplicable);
+    }
+    if operator == known::STANDARD && around.is_empty() && before.is_empty() && after.is_empty() {
+        let first = primary[0].clone();
+        if let Some(place) = accessor_place(&first, args) {
+            return Ok(place);
+        }
+        if !first.takes_next {
+            return Ok(Shape::Single(first));
+        }
+    }
+    Ok(Shape::Combined {
+        around,
+        before,
+        primary,
+        after,
+        operator,
+    })
+}
+
+/// The direct access that an accessor method stands for.
+fn accessor_place(method: &Rc<Method>, args: &[Value]) -> Option<Shape> {
+    let (slot, object) = match method.accessor? {
+        Accessor::Reader(slot) => (slot, args.first()?),
+        Accessor::Writer(slot) => (slot, args.get(1)?),
+    };
+    let Value::Instance(instance) = object else {
+        return None;
+    };
+    let class = instance.class();
+    let index = class.slot_index(slot)?;
+    let place = match &class.slots.borrow().get(index)?.shared {
+        Some(shared) => SlotPlace::Shared(shared.clone()),
+        None => SlotPlace::Local(index),
+    };
+    Some(match method.accessor? {
+        Accessor::Reader(_) => Shape::Read(place, method.clone()),
+        Accessor::Writer(_) => Shape::Write(place, method.clone()),
+    })
+}
+
+fn bad_qualifiers(image: &Image, generic: &GenericFunction, method: &Method) -> Box<Raise> {
+    let qualifiers: Vec<&str> = method.qualifiers.iter().map(|q| image.name(*q)).collect();
+    let combination = image.name(generic.combination.get());
+    Raise::program(format!(
+        "A method with qualifiers ({}) cannot be used with the method combination type {combination}.",
+        qualifiers.join(" "),
+    ))
+}

@@ -1,0 +1,151 @@
+//! Giving slots their values: initargs first, then initforms.
+
+use std::rc::Rc;
+
+use crate::lisp::class::{Initform, Instance};
+use crate::lisp::function::Function;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+
+/// Which slots may get the value of their initform.
+pub enum Which {
+    /// All.
+    All,
+    /// The named ones.
+    Only(Vec<Sym>),
+}
+
+impl Which {
+    /// From the slot names argument of `shared-initialize`: `T` or a list.
+    pub fn from_value(value: &Value) -> Which {
+        match value {
+            Value::Symbol(crate::lisp::known::T) => Which::All,
+            list => Which::Only(list.iter_list().filter_map(|n| n.as_symbol()).collect()),
+        }
+    }
+
+    fn includes(&self, name: Sym) -> bool {
+        match self {
+            Which::All => true,
+            Which::Only(names) => names.contains(&name),
+        }
+    }
+}
+
+/// What happens when all slots have their values.
+pub enum Finish {
+    /// The value is returned.
+    Return(Value),
+    /// The function is called.
+    Call(Value, Vec<Value>),
+}
+
+impl Finish {
+    fn step(self) -> Step {
+        match self {
+            Finish::Return(value) => Step::Return(value),
+            Finish::Call(function, args) => Step::TailCall { function, args },
+        }
+    }
+}
+
+/// Sets the slots that initargs (keywords and values in turn) name; slots among `which`
+/// that are still unbound get their initial values.
+pub fn fill(instance: &Rc<Instance>, which: &Which, initargs: &[Value], finish: Finish) -> Step {
+    let mut pending = Vec::new();
+    let class = instance.class();
+    for (index, slot) in class.slots.borrow().iter().enumerate() {
+        let given = initargs.chunks_exact(2).find(|pair| {
+            pair[0]
+                .as_symbol()
+                .is_some_and(|k| slot.initargs.contains(&k))
+        });
+        if let Some(pair) = given {
+            store(instance, index, slot.shared.as_deref(), pair[1].clone());
+            continue;
+        }
+        if !which.includes(slot.name) || !is_unbound(instance, index, slot.shared.as_deref()) {
+            continue;
+        }
+        match &slot.initform {
+            None => {}
+            Some(Initform::Value(value)) => {
+                store(instance, index, slot.shared.as_deref(), value.clone());
+            }
+            Some(Initform::Function(function)) => pending.push((slot.name, function.clone())),
+        }
+    }
+    if pending.is_empty() {
+        return finish.step();
+    }
+    pending.reverse();
+    Box::new(Pending {
+        instance: instance.clone(),
+        pending,
+        finish,
+    })
+    .next()
+}
+
+fn store(
+    instance: &Instance,
+    index: usize,
+    shared: Option<&crate::lisp::slot::Slot>,
+    value: Value,
+) {
+    match shared {
+        Some(shared) => shared.set(value),
+        None => {
+            if let Some(slot) = instance.slots.borrow_mut().get_mut(index) {
+                *slot = value;
+            }
+        }
+    }
+}
+
+fn is_unbound(instance: &Instance, index: usize, shared: Option<&crate::lisp::slot::Slot>) -> bool {
+    match shared {
+        Some(shared) => shared.with(Value::is_unbound),
+        None => instance
+            .slots
+            .borrow()
+            .get(index)
+            .is_some_and(Value::is_unbound),
+    }
+}
+
+/// Slots whose initial values are being computed, the next one last.
+struct Pending {
+    instance: Rc<Instance>,
+    pending: Vec<(Sym, Rc<Function>)>,
+    finish: Finish,
+}
+
+impl Pending {
+    fn next(self: Box<Self>) -> Step {
+        match self.pending.last() {
+            Some((_, function)) => Step::Call {
+                function: Value::Function(function.clone()),
+                args: Vec::new(),
+                then: self,
+            },
+            None => self.finish.step(),
+        }
+    }
+}
+
+impl Resume for Pending {
+    fn resume(mut self: Box<Self>, _: &mut Machine<'_>, value: Value) -> Result<Step, Box<Raise>> {
+        if let Some((name, _)) = self.pending.pop() {
+            self.instance.set_slot(name, value);
+        }
+        Ok(self.next())
+    }
+
+    fn name(&self) -> &'static str {
+        "SHARED-INITIALIZE"
+    }
+}

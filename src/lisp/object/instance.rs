@@ -1,0 +1,298 @@
+//! `make-instance` and the initialization protocol.
+
+use std::rc::Rc;
+
+use super::define::no_class;
+use super::effective::applicable_methods;
+use super::fill::{Finish, Which, fill};
+use super::method::extended_function;
+use crate::lisp::class::{Class, ClassKind, Initform, Instance};
+use crate::lisp::function::Function;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+
+/// `(make-instance class initargs…)`.
+pub fn make_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let mut args = args.into_iter();
+    let designator = args.next().unwrap_or(Value::NIL);
+    let class = designated_class(machine.image, &designator)?;
+    check_instantiable(machine.image, &class)?;
+    let initargs: Vec<Value> = args.collect();
+    if !initargs.len().is_multiple_of(2) {
+        return Err(Raise::program("odd number of &KEY arguments"));
+    }
+    Box::new(Making::new(class, initargs)).next(machine.image)
+}
+
+/// The class that a class or a class name designates.
+pub fn designated_class(image: &Image, designator: &Value) -> Result<Rc<Class>, Box<Raise>> {
+    match designator {
+        Value::Class(class) => Ok(class.clone()),
+        Value::Symbol(name) => image
+            .class(*name)
+            .filter(|class| class.is_defined.get())
+            .cloned()
+            .ok_or_else(|| no_class(*name)),
+        other => Err(Raise::type_error(other, Value::Symbol(known::CLASS))),
+    }
+}
+
+fn check_instantiable(image: &Image, class: &Class) -> Result<(), Box<Raise>> {
+    let name = super::text(image, &Value::Symbol(class.name));
+    if class.kind == ClassKind::Builtin {
+        return Err(Raise::simple(format!(
+            "Cannot allocate an instance of #<BUILT-IN-CLASS {name}>."
+        )));
+    }
+    if class.precedence.borrow().is_empty() {
+        let missing = class
+            .direct_superclasses
+            .borrow()
+            .iter()
+            .find(|s| s.precedence.borrow().is_empty())
+            .map_or_else(String::new, |s| super::text(image, &s.name.into()));
+        return Err(Raise::simple(format!(
+            "The class {name} cannot be instantiated: its superclass {missing} is not defined."
+        )));
+    }
+    Ok(())
+}
+
+/// An instance in the making: default initargs are being computed.
+struct Making {
+    class: Rc<Class>,
+    initargs: Vec<Value>,
+    /// Default initargs still to be computed, the next one last.
+    pending: Vec<(Sym, Rc<Function>)>,
+}
+
+impl Making {
+    fn new(class: Rc<Class>, mut initargs: Vec<Value>) -> Making {
+        let mut pending = Vec::new();
+        let given = initargs.len();
+        for (key, form) in class.default_initargs.borrow().iter() {
+            if has_key(&initargs[..given], *key) {
+                continue;
+            }
+            match form {
+                Initform::Value(value) => initargs.extend([Value::Symbol(*key), value.clone()]),
+                Initform::Function(function) => pending.push((*key, function.clone())),
+            }
+        }
+        pending.reverse();
+        Making {
+            class,
+            initargs,
+            pending,
+        }
+    }
+
+    fn next(self: Box<Self>, image: &Image) -> Result<Step, Box<Raise>> {
+        if let Some((_, function)) = self.pending.last() {
+            return Ok(Step::Call {
+                function: Value::Function(function.clone()),
+                args: Vec::new(),
+                then: self,
+            });
+        }
+        let instance = Rc::new(Instance::new(self.class.clone()));
+        let object = Value::Instance(instance.clone());
+        if self.class.kind != ClassKind::Condition {
+            let protocol = [
+                known::MAKE_INSTANCE,
+                known::INITIALIZE_INSTANCE,
+                known::SHARED_INITIALIZE,
+            ];
+            check_initargs(image, &object, &protocol, &self.initargs)?;
+        }
+        let initialize = extended_function(image, known::INITIALIZE_INSTANCE);
+        let shared = extended_function(image, known::SHARED_INITIALIZE);
+        if initialize.is_none() && shared.is_none() {
+            let finish = Finish::Return(object);
+            return Ok(fill(&instance, &Which::All, &self.initargs, finish));
+        }
+        let mut args = vec![object.clone()];
+        args.extend(self.initargs);
+        Ok(Step::Call {
+            function: initialize.unwrap_or(Value::Symbol(known::INITIALIZE_INSTANCE)),
+            args,
+            then: Box::new(ReturnInstance(object)),
+        })
+    }
+}
+
+impl Resume for Making {
+    fn resume(
+        mut self: Box<Self>,
+        machine: &mut Machine<'_>,
+        value: Value,
+    ) -> Result<Step, Box<Raise>> {
+        if let Some((key, _)) = self.pending.pop() {
+            self.initargs.extend([Value::Symbol(key), value]);
+        }
+        self.next(machine.image)
+    }
+
+    fn name(&self) -> &'static str {
+        "MAKE-INSTANCE"
+    }
+}
+
+struct ReturnInstance(Value);
+
+impl Resume for ReturnInstance {
+    fn resume(self: Box<Self>, _: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
+        Ok(Step::Return(self.0))
+    }
+
+    fn name(&self) -> &'static str {
+        "MAKE-INSTANCE"
+    }
+}
+
+fn has_key(initargs: &[Value], key: Sym) -> bool {
+    initargs
+        .chunks_exact(2)
+        .any(|pair| pair[0].as_symbol() == Some(key))
+}
+
+/// Checks that each initarg names a slot or is a keyword of an applicable method of one of
+/// the `protocol` functions.
+fn check_initargs(
+    image: &Image,
+    object: &Value,
+    protocol: &[Sym],
+    initargs: &[Value],
+) -> Result<(), Box<Raise>> {
+    let class = super::class_of(image, object);
+    let slots = class.slots.borrow();
+    let is_known = |key: &Value| match key.as_symbol() {
+        Some(known::K_ALLOW_OTHER_KEYS) => true,
+        Some(key) => slots.iter().any(|s| s.initargs.contains(&key)),
+        None => false,
+    };
+    let unknown = initargs
+        .chunks_exact(2)
+        .map(|pair| &pair[0])
+        .filter(|key| !is_known(key));
+    let unknown: Vec<&Value> = unknown.collect();
+    if unknown.is_empty() || allows_other_keys(initargs) {
+        return Ok(());
+    }
+    let Some(keys) = method_keys(image, object, protocol) else {
+        return Ok(());
+    };
+    let bad: Vec<String> = unknown
+        .into_iter()
+        .filter(|key| !key.as_symbol().is_some_and(|k| keys.contains(&k)))
+        .map(|key| super::text(image, key))
+        .collect();
+    if bad.is_empty() {
+        return Ok(());
+    }
+    let plural = if bad.len() == 1 { "" } else { "s" };
+    Err(Raise::program(format!(
+        "Invalid initialization argument{plural}:\n  {}\nin call for class {}.",
+        bad.join(", "),
+        super::text(image, &Value::Class(class.clone()))
+    )))
+}
+
+fn allows_other_keys(initargs: &[Value]) -> bool {
+    initargs
+        .chunks_exact(2)
+        .find(|pair| pair[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS))
+        .is_some_and(|pair| pair[1].is_true())
+}
+
+/// The keywords that the program's methods of the functions accept; none if any will do.
+fn method_keys(image: &Image, object: &Value, functions: &[Sym]) -> Option<Vec<Sym>> {
+    let mut keys = Vec::new();
+    for function in functions {
+        let Some(generic) = image.function(*function).and_then(|f| f.as_generic()) else {
+            continue;
+        };
+        let args = [object.clone(), Value::T];
+        for method in applicable_methods(image, generic, &args) {
+            if method.is_builtin {
+                continue;
+            }
+            if method.parameters.allows_other_keys {
+                return None;
+            }
+            match &method.parameters.keys {
+                Some(names) => keys.extend(names),
+                None if method.parameters.has_rest => return None,
+                None => {}
+            }
+        }
+    }
+    Some(keys)
+}
+
+/// The default `initialize-instance`.
+pub fn initialize_instance(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    share(machine, args, Value::T)
+}
+
+/// The default `reinitialize-instance`: no initforms.
+pub fn reinitialize_instance(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    if let Some((object, initargs)) = args.split_first() {
+        let protocol = [known::REINITIALIZE_INSTANCE, known::SHARED_INITIALIZE];
+        check_initargs(machine.image, object, &protocol, initargs)?;
+    }
+    share(machine, args, Value::NIL)
+}
+
+fn share(machine: &mut Machine<'_>, args: Vec<Value>, names: Value) -> Result<Step, Box<Raise>> {
+    let mut all = args;
+    all.insert(1.min(all.len()), names);
+    match extended_function(machine.image, known::SHARED_INITIALIZE) {
+        Some(function) => {
+            let object = all.first().cloned().unwrap_or(Value::NIL);
+            Ok(Step::Call {
+                function,
+                args: all,
+                then: Box::new(ReturnInstance(object)),
+            })
+        }
+        None => shared_initialize(machine, all),
+    }
+}
+
+/// The default `shared-initialize`: `(instance slot-names initargs…)`.
+pub fn shared_initialize(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let [object, names, initargs @ ..] = args.as_slice() else {
+        return Err(Raise::program("invalid number of arguments: 1"));
+    };
+    let Value::Instance(instance) = object else {
+        return Err(Raise::type_error(
+            object,
+            Value::Symbol(known::STANDARD_OBJECT),
+        ));
+    };
+    if !initargs.len().is_multiple_of(2) {
+        return Err(Raise::program("odd number of &KEY arguments"));
+    }
+    let finish = Finish::Return(object.clone());
+    Ok(fill(instance, &Which::from_value(names), initargs, finish))
+}
+
+/// `(allocate-instance class …)`: an instance whose slots are unbound.
+pub fn allocate_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let designator = args.first().cloned().unwrap_or(Value::NIL);
+    let class = designated_class(machine.image, &designator)?;
+    check_instantiable(machine.image, &class)?;
+    Ok(Step::Return(Value::Instance(Rc::new(Instance::new(class)))))
+}

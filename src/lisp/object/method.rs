@@ -1,0 +1,369 @@
+//! Methods as values, and adding them to generic functions.
+
+use std::cell::RefCell;
+use std::rc::{Rc, Weak};
+
+use super::dispatch::Dispatch;
+use super::effective;
+use super::parameters::Parameters;
+use super::qualified;
+use crate::lisp::class::Class;
+use crate::lisp::foreign::{Foreign, ForeignBox};
+use crate::lisp::function::{Body, Function};
+use crate::lisp::generic::{Accessor, GenericFunction, Method, Specializer};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::{FunctionCell, Sym};
+use crate::lisp::value::Value;
+
+/// Functions of the standard that a program may add methods to. They are plain functions
+/// until it does: then the plain function becomes the method for everything.
+const EXTENSIBLE: &[Sym] = &[
+    known::INITIALIZE_INSTANCE,
+    known::SHARED_INITIALIZE,
+    known::REINITIALIZE_INSTANCE,
+    known::MAKE_INSTANCE,
+    known::ALLOCATE_INSTANCE,
+    known::PRINT_OBJECT,
+    known::DESCRIBE_OBJECT,
+    known::NO_APPLICABLE_METHOD,
+    known::NO_NEXT_METHOD,
+    known::SLOT_UNBOUND,
+    known::SLOT_MISSING,
+    known::CHANGE_CLASS,
+    known::UPDATE_INSTANCE_FOR_REDEFINED_CLASS,
+    known::UPDATE_INSTANCE_FOR_DIFFERENT_CLASS,
+    known::MAKE_LOAD_FORM,
+    known::DOCUMENTATION,
+];
+
+/// A method as a value.
+pub struct MethodObject(pub Rc<Method>);
+
+impl Foreign for MethodObject {
+    fn type_symbol(&self) -> Sym {
+        known::STANDARD_METHOD
+    }
+
+    fn print(&self, image: &Image, _escape: bool) -> String {
+        let method = &self.0;
+        let mut text = format!("#<STANDARD-METHOD {}", qualified(image, &method.name));
+        for qualifier in &method.qualifiers {
+            text.push(' ');
+            text.push_str(&super::text(image, &Value::Symbol(*qualifier)));
+        }
+        let specializers: Vec<String> = method
+            .specializers
+            .iter()
+            .map(|s| match s {
+                Specializer::Class(class) => super::text(image, &Value::Symbol(class.name)),
+                Specializer::Eql(value) => format!("(EQL {})", super::text(image, value)),
+            })
+            .collect();
+        format!("{text} ({})>", specializers.join(" "))
+    }
+}
+
+/// The value that stands for a method: always the same one while somebody holds it.
+pub fn method_value(method: &Rc<Method>) -> Value {
+    if let Some(object) = method.object.borrow().upgrade() {
+        return Value::Foreign(object);
+    }
+    let object = Rc::new(ForeignBox::new(MethodObject(method.clone())));
+    *method.object.borrow_mut() = Rc::downgrade(&object);
+    Value::Foreign(object)
+}
+
+/// The function of a name: a symbol, or the list `(setf symbol)`.
+pub fn named_function(image: &Image, name: &Value) -> Option<Rc<Function>> {
+    match name {
+        Value::Symbol(sym) => image.function(*sym).cloned(),
+        other => image.symbol(setf_name(other)?).setf_function.clone(),
+    }
+}
+
+/// The symbol of `(setf symbol)`.
+pub fn setf_name(name: &Value) -> Option<Sym> {
+    match name.list_to_vec()?.as_slice() {
+        [Value::Symbol(known::SETF), Value::Symbol(sym)] => Some(*sym),
+        _ => None,
+    }
+}
+
+fn set_named_function(image: &mut Image, name: &Value, function: Rc<Function>) {
+    match name {
+        Value::Symbol(sym) => image.set_function(*sym, function),
+        other => {
+            if let Some(sym) = setf_name(other) {
+                image.symbols.get_mut(sym).setf_function = Some(function);
+            }
+        }
+    }
+}
+
+/// The generic function of a name, made with these parameters if there is none.
+pub fn ensure_generic(
+    image: &mut Image,
+    name: &Value,
+    parameters: &Parameters,
+) -> Result<Rc<Function>, Box<Raise>> {
+    if name.as_symbol().is_none() && setf_name(name).is_none() {
+        return Err(Raise::program(format!(
+            "{} is not a function name.",
+            super::text(image, name)
+        )));
+    }
+    if let Some(sym) = name.as_symbol()
+        && matches!(
+            image.symbol(sym).function,
+            FunctionCell::Macro(_) | FunctionCell::Builtin
+        )
+    {
+        return Err(names_ordinary_function(image, name));
+    }
+    let function = match named_function(image, name) {
+        Some(function) if function.as_generic().is_some() => return Ok(function),
+        Some(function) => match (&function.body, name.as_symbol()) {
+            (Body::Native(native), Some(sym)) if EXTENSIBLE.contains(&sym) => {
+                extended(name, native.min, native.max, function.clone())
+            }
+            _ => return Err(names_ordinary_function(image, name)),
+        },
+        None => {
+            let mut parameters = parameters.clone();
+            // The first method's own keywords do not bind the methods to come.
+            parameters.keys = parameters.keys.map(|_| Vec::new());
+            new_generic(name, parameters)
+        }
+    };
+    set_named_function(image, name, function.clone());
+    Ok(function)
+}
+
+fn new_generic(name: &Value, parameters: Parameters) -> Rc<Function> {
+    Rc::new(Function {
+        body: Body::Generic(Box::new(GenericFunction::new(name.clone(), parameters))),
+    })
+}
+
+/// A generic function whose method for everything is a plain function.
+fn extended(name: &Value, min: u16, max: Option<u16>, plain: Rc<Function>) -> Rc<Function> {
+    let required = usize::from(min);
+    let parameters = match max {
+        Some(max) => Parameters {
+            optional: usize::from(max) - required,
+            ..Parameters::required(required)
+        },
+        None => Parameters::required_and_rest(required),
+    };
+    let method = Method {
+        is_builtin: true,
+        ..plain_method(name, parameters.clone(), plain)
+    };
+    let generic = GenericFunction::new(name.clone(), parameters);
+    generic.methods.borrow_mut().push(Rc::new(method));
+    Rc::new(Function {
+        body: Body::Generic(Box::new(generic)),
+    })
+}
+
+/// A method for everything.
+fn plain_method(name: &Value, parameters: Parameters, function: Rc<Function>) -> Method {
+    Method {
+        name: name.clone(),
+        qualifiers: Vec::new(),
+        specializers: Vec::new(),
+        parameters,
+        function,
+        takes_next: false,
+        accessor: None,
+        is_builtin: false,
+        doc: None,
+        object: RefCell::new(Weak::new()),
+    }
+}
+
+fn names_ordinary_function(image: &Image, name: &Value) -> Box<Raise> {
+    Raise::program(format!(
+        "{} already names an ordinary function or a macro.",
+        qualified(image, name)
+    ))
+}
+
+/// What a method definition says.
+pub struct MethodDefinition {
+    /// The name of the generic function.
+    pub name: Value,
+    /// Qualifiers.
+    pub qualifiers: Vec<Sym>,
+    /// One per required parameter.
+    pub specializers: Vec<Specializer>,
+    /// The parameters.
+    pub parameters: Parameters,
+    /// The method function.
+    pub function: Rc<Function>,
+    /// Does the function take the next method?
+    pub takes_next: bool,
+    /// Set for slot accessors.
+    pub accessor: Option<Accessor>,
+    /// Documentation.
+    pub doc: Option<Rc<str>>,
+}
+
+/// Adds a method to the generic function of its name, made if there is none.
+pub fn define_method(
+    image: &mut Image,
+    definition: MethodDefinition,
+) -> Result<Rc<Method>, Box<Raise>> {
+    let function = ensure_generic(image, &definition.name, &definition.parameters)?;
+    let method = Rc::new(Method {
+        qualifiers: definition.qualifiers,
+        specializers: definition.specializers,
+        takes_next: definition.takes_next,
+        accessor: definition.accessor,
+        doc: definition.doc,
+        ..plain_method(&definition.name, definition.parameters, definition.function)
+    });
+    add_method(image, &function, method.clone())?;
+    Ok(method)
+}
+
+/// Adds a method; one with the same qualifiers and specializers is replaced.
+pub fn add_method(
+    image: &Image,
+    function: &Rc<Function>,
+    method: Rc<Method>,
+) -> Result<(), Box<Raise>> {
+    let Some(generic) = function.as_generic() else {
+        return Err(Raise::type_error(
+            &Value::Function(function.clone()),
+            Value::Symbol(known::GENERIC_FUNCTION),
+        ));
+    };
+    check_congruent(image, function, generic, &method)?;
+    {
+        let mut methods = generic.methods.borrow_mut();
+        methods.retain(|m| !is_same(m, &method));
+        methods.push(method);
+    }
+    changed(generic);
+    Ok(())
+}
+
+/// Removes a method.
+pub fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
+    generic
+        .methods
+        .borrow_mut()
+        .retain(|m| !Rc::ptr_eq(m, method));
+    changed(generic);
+}
+
+/// Forgets what calls have decided so far.
+pub fn changed(generic: &GenericFunction) {
+    let dispatch = Dispatch::for_methods(&generic.methods.borrow());
+    *generic.dispatch.borrow_mut() = dispatch;
+}
+
+fn is_same(a: &Method, b: &Method) -> bool {
+    a.qualifiers == b.qualifiers
+        && a.specializers.len() == b.specializers.len()
+        && a.specializers
+            .iter()
+            .zip(&b.specializers)
+            .all(|(a, b)| a.is_same(b))
+}
+
+/// Must a method and its generic function agree on what they are called with?
+fn check_congruent(
+    image: &Image,
+    function: &Rc<Function>,
+    generic: &GenericFunction,
+    method: &Rc<Method>,
+) -> Result<(), Box<Raise>> {
+    let wanted = generic.parameters.borrow();
+    let given = &method.parameters;
+    let more_or_fewer = |a: usize, b: usize| if a > b { "more" } else { "fewer" };
+    let problem = if given.required != wanted.required {
+        let word = more_or_fewer(given.required, wanted.required);
+        format!("the method has {word} required arguments than the generic function.")
+    } else if given.optional != wanted.optional {
+        let word = more_or_fewer(given.optional, wanted.optional);
+        format!("the method has {word} optional arguments than the generic function.")
+    } else if given.has_more() != wanted.has_more() {
+        "the method and generic function differ in whether they accept\n&REST or &KEY arguments."
+            .to_owned()
+    } else {
+        return accepts_keys(image, generic, method, &wanted);
+    };
+    Err(Raise::program(format!(
+        "attempt to add the method\n  {}\nto the generic function\n  {};\nbut {problem}",
+        super::text(image, &method_value(method)),
+        super::text(image, &Value::Function(function.clone())),
+    )))
+}
+
+/// Does the method accept every keyword that its generic function lists?
+fn accepts_keys(
+    image: &Image,
+    generic: &GenericFunction,
+    method: &Method,
+    wanted: &Parameters,
+) -> Result<(), Box<Raise>> {
+    let (Some(listed), Some(accepted)) = (&wanted.keys, &method.parameters.keys) else {
+        return Ok(());
+    };
+    let missing = listed.iter().find(|k| !accepted.contains(k));
+    match missing {
+        Some(key) if generic.is_declared.get() && !method.parameters.allows_other_keys => {
+            Err(Raise::program(format!(
+                "the method does not accept the keyword argument {} of the generic function {}.",
+                super::text(image, &Value::Symbol(*key)),
+                qualified(image, &generic.name)
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Does a program have a method of its own, on the named function, for the value?
+pub fn user_method_applies(image: &Image, function: Sym, args: &[Value]) -> bool {
+    image
+        .function(function)
+        .and_then(|f| f.as_generic())
+        .is_some_and(|generic| {
+            effective::applicable_methods(image, generic, args)
+                .iter()
+                .any(|m| !m.is_builtin)
+        })
+}
+
+/// The generic version of a standard function, if a program has added methods to it.
+pub fn extended_function(image: &Image, name: Sym) -> Option<Value> {
+    let function = image.function(name)?;
+    function.as_generic()?;
+    Some(Value::Function(function.clone()))
+}
+
+/// A specializer from its value: a class, the name of one, or `(eql value)`.
+pub fn specializer(image: &Image, value: &Value) -> Result<Specializer, Box<Raise>> {
+    match value {
+        Value::Class(class) => Ok(Specializer::Class(class.clone())),
+        Value::Symbol(name) => class_named(image, *name).map(Specializer::Class),
+        other => match other.list_to_vec().as_deref() {
+            Some([Value::Symbol(known::EQL), object]) => Ok(Specializer::Eql(object.clone())),
+            _ => Err(Raise::program(format!(
+                "{} is not a legal specializer: it must be a class name or (EQL object).",
+                super::text(image, other)
+            ))),
+        },
+    }
+}
+
+fn class_named(image: &Image, name: Sym) -> Result<Rc<Class>, Box<Raise>> {
+    image
+        .class(name)
+        .cloned()
+        .ok_or_else(|| super::define::no_class(name))
+}

@@ -1,0 +1,66 @@
+//! The object system: classes, instances, generic functions and their methods.
+//!
+//! Holds true: a class keeps its identity over redefinitions; an instance is brought up to
+//! date before anything reads it; a call of a generic function never calls Lisp from Rust.
+
+pub mod access;
+pub mod builtin_classes;
+pub mod class_of;
+pub mod combine;
+pub mod defclass;
+pub mod define;
+pub mod defmethod;
+pub mod dispatch;
+pub mod effective;
+pub mod fill;
+pub mod form;
+pub mod instance;
+pub mod method;
+pub mod parameters;
+pub mod precedence;
+pub mod slot_options;
+pub mod update;
+
+pub use class_of::class_of;
+
+use super::image::Image;
+use super::value::Value;
+
+/// A value as `prin1` prints it, for messages.
+pub(crate) fn text(image: &Image, value: &Value) -> String {
+    match value {
+        Value::Symbol(sym) if image.is_keyword(*sym) => format!(":{}", image.name(*sym)),
+        Value::Symbol(sym) => image.name(*sym).to_owned(),
+        _ => String::from("?"),
+    }
+}
+
+/// A function name with the package of its symbol, as the printer shows generic functions.
+pub(crate) fn qualified(image: &Image, name: &Value) -> String {
+    match name {
+        Value::Symbol(sym) => match image.symbol(*sym).package {
+            Some(package) => {
+                let colons = match image.home_access(*sym) {
+                    Some(super::package::Access::External) => ":",
+                    _ => "::",
+                };
+                let home = &image.packages.get(package).name;
+                format!("{home}{colons}{}", image.name(*sym))
+            }
+            None => format!("#:{}", image.name(*sym)),
+        },
+        list => {
+            let parts: Vec<String> = list
+                .iter_list()
+                .map(|part| match part {
+                    Value::Symbol(super::known::SETF) => "SETF".to_owned(),
+                    other => qualified(image, &other),
+                })
+                .collect();
+            format!("({})", parts.join(" "))
+        }
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod testing;

@@ -1,0 +1,175 @@
+//! Bringing instances up to date after their class was redefined or changed.
+
+use std::rc::Rc;
+
+use super::fill::{Finish, Which, fill};
+use super::method::extended_function;
+use crate::lisp::class::{Class, Instance};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+
+/// What a change of layout did.
+struct Change {
+    added: Vec<Sym>,
+    /// Slots that are gone, with their values.
+    discarded: Vec<(Sym, Value)>,
+}
+
+/// Updates an instance of a redefined class, then calls a function.
+pub fn then_call(
+    machine: &mut Machine<'_>,
+    object: Value,
+    function: Value,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    let Value::Instance(instance) = &object else {
+        return Ok(Step::TailCall { function, args });
+    };
+    let change = migrate(instance);
+    let finish = Finish::Call(function, args);
+    let Some(update) = extended_function(machine.image, known::UPDATE_INSTANCE_FOR_REDEFINED_CLASS)
+    else {
+        return Ok(fill(instance, &Which::Only(change.added), &[], finish));
+    };
+    let names = |names: &[Sym]| Value::list(names.iter().map(|n| Value::Symbol(*n)));
+    let gone: Vec<Sym> = change.discarded.iter().map(|(n, _)| *n).collect();
+    let plist = change
+        .discarded
+        .into_iter()
+        .flat_map(|(n, v)| [Value::Symbol(n), v])
+        .collect::<Vec<_>>();
+    let update_args = vec![
+        object.clone(),
+        names(&change.added),
+        names(&gone),
+        Value::list(plist),
+    ];
+    Ok(Step::Call {
+        function: update,
+        args: update_args,
+        then: Box::new(Then(finish)),
+    })
+}
+
+/// Calls a function when the update is done.
+struct Then(Finish);
+
+impl Resume for Then {
+    fn resume(self: Box<Self>, _: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
+        Ok(match self.0 {
+            Finish::Return(value) => Step::Return(value),
+            Finish::Call(function, args) => Step::TailCall { function, args },
+        })
+    }
+
+    fn name(&self) -> &'static str {
+        "UPDATE-INSTANCE-FOR-REDEFINED-CLASS"
+    }
+}
+
+/// Lays out the slots of an instance as its class has them now.
+fn migrate(instance: &Instance) -> Change {
+    let class = instance.class();
+    let old_names = old_layout(&class, instance.generation.get());
+    let change = lay_out(instance, &old_names, &class);
+    instance.generation.set(class.generation.get());
+    change
+}
+
+/// The slot names of a class in one of its generations.
+fn old_layout(class: &Class, generation: u32) -> Vec<Sym> {
+    let layouts = class.old_layouts.borrow();
+    usize::try_from(generation)
+        .ok()
+        .and_then(|i| layouts.get(i).cloned())
+        .unwrap_or_else(|| class.slots.borrow().iter().map(|s| s.name).collect())
+}
+
+fn lay_out(instance: &Instance, old_names: &[Sym], class: &Class) -> Change {
+    let mut old: Vec<(Sym, Value)> = old_names
+        .iter()
+        .copied()
+        .zip(instance.slots.take())
+        .collect();
+    let mut change = Change {
+        added: Vec::new(),
+        discarded: Vec::new(),
+    };
+    let mut slots = Vec::new();
+    for slot in class.slots.borrow().iter() {
+        match old.iter().position(|(name, _)| *name == slot.name) {
+            Some(i) => slots.push(old.swap_remove(i).1),
+            None => {
+                slots.push(Value::Unbound);
+                change.added.push(slot.name);
+            }
+        }
+    }
+    old.retain(|(_, value)| !value.is_unbound());
+    old.sort_by_key(|(name, _)| old_names.iter().position(|n| n == name));
+    change.discarded = old;
+    *instance.slots.borrow_mut() = slots;
+    change
+}
+
+/// `change-class`: makes the instance one of another class. Slots of the same name keep
+/// their values, others are initialised.
+pub fn change_class(
+    image: &Image,
+    instance: &Rc<Instance>,
+    class: &Rc<Class>,
+    initargs: Vec<Value>,
+) -> Step {
+    let object = Value::Instance(instance.clone());
+    let old_class = instance.class();
+    let previous = Rc::new(Instance {
+        class: old_class.clone().into(),
+        slots: instance.slots.clone(),
+        generation: instance.generation.clone(),
+    });
+    let old_names = old_layout(&old_class, instance.generation.get());
+    let change = lay_out(instance, &old_names, class);
+    *instance.class.borrow_mut() = class.clone();
+    instance.generation.set(class.generation.get());
+    let update = extended_function(image, known::UPDATE_INSTANCE_FOR_DIFFERENT_CLASS);
+    match update {
+        None => {
+            let finish = Finish::Return(object);
+            fill(instance, &Which::Only(change.added), &initargs, finish)
+        }
+        Some(function) => {
+            let mut args = vec![Value::Instance(previous), object.clone()];
+            args.extend(initargs);
+            Step::Call {
+                function,
+                args,
+                then: Box::new(Then(Finish::Return(object))),
+            }
+        }
+    }
+}
+
+/// The default `update-instance-for-different-class`: slots that the previous instance did
+/// not have are initialised.
+pub fn initialize_new_slots(
+    previous: &Instance,
+    instance: &Rc<Instance>,
+    initargs: &[Value],
+) -> Step {
+    let old = previous.class();
+    let added = instance
+        .class()
+        .slots
+        .borrow()
+        .iter()
+        .map(|s| s.name)
+        .filter(|name| old.slot_index(*name).is_none())
+        .collect();
+    let finish = Finish::Return(Value::Instance(instance.clone()));
+    fill(instance, &Which::Only(added), initargs, finish)
+}

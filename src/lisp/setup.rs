@@ -1,0 +1,95 @@
+//! A new image: standard packages, classes, variables, functions and macros.
+
+use std::rc::Rc;
+
+use super::builtins::registry;
+use super::image::Image;
+use super::known;
+use super::package::PackageTable;
+use super::stream::{Stream, StreamKind};
+use super::symbol::Sym;
+use super::value::Value;
+
+impl Image {
+    /// An image as sessions start with, in `COMMON-LISP-USER`.
+    pub fn new() -> Image {
+        let mut image = Image::bare();
+        image.define_constant(known::NIL, Value::NIL);
+        image.define_constant(known::T, Value::T);
+        image.define_constant(known::PI, Value::Double(std::f64::consts::PI));
+        image.define_standard_classes();
+        registry::install(&mut image);
+        define_variables(&mut image);
+        image
+    }
+}
+
+impl Default for Image {
+    fn default() -> Image {
+        Image::new()
+    }
+}
+
+fn define_variables(image: &mut Image) {
+    let output = Value::Stream(Rc::new(Stream::new(StreamKind::StandardOutput)));
+    let input = Value::Stream(Rc::new(Stream::new(StreamKind::StandardInput)));
+    let features: Vec<Value> = ["PLANWRIGHT", "COMMON-LISP", "ANSI-CL", "CRAM"]
+        .iter()
+        .map(|name| image.keyword(name).into())
+        .collect();
+    let history: [Sym; 9] = [
+        known::TIMES,
+        known::V_STAR,
+        known::V_STAR3,
+        known::PLUS,
+        known::V_PLUS2,
+        known::V_PLUS3,
+        known::DIVIDE,
+        known::V_SLASH2,
+        known::V_SLASH3,
+    ];
+    for sym in history {
+        image.define_special(sym, Value::NIL);
+    }
+    image.define_special(known::MINUS, Value::NIL);
+    for (variable, value) in [
+        (known::V_PACKAGE, Value::Package(PackageTable::USER)),
+        (known::V_STANDARD_OUTPUT, output.clone()),
+        (known::V_ERROR_OUTPUT, output.clone()),
+        (known::V_TRACE_OUTPUT, output.clone()),
+        (known::V_DEBUG_IO, output.clone()),
+        (known::V_TERMINAL_IO, output.clone()),
+        (known::V_QUERY_IO, output),
+        (known::V_STANDARD_INPUT, input),
+        (known::V_PRINT_ESCAPE, Value::T),
+        (known::V_PRINT_PRETTY, Value::T),
+        (known::V_PRINT_BASE, Value::Int(10)),
+        (known::V_PRINT_RADIX, Value::NIL),
+        (known::V_PRINT_CASE, Value::Symbol(known::K_UPCASE)),
+        (known::V_PRINT_LENGTH, Value::NIL),
+        (known::V_PRINT_LEVEL, Value::NIL),
+        (known::V_PRINT_CIRCLE, Value::NIL),
+        (known::V_PRINT_GENSYM, Value::T),
+        (known::V_PRINT_ARRAY, Value::T),
+        (known::V_PRINT_READABLY, Value::NIL),
+        (known::V_PRINT_LINES, Value::NIL),
+        (known::V_PRINT_RIGHT_MARGIN, Value::NIL),
+        (known::V_PRINT_MISER_WIDTH, Value::NIL),
+        (known::V_READ_BASE, Value::Int(10)),
+        (
+            known::V_READ_DEFAULT_FLOAT_FORMAT,
+            Value::Symbol(known::SINGLE_FLOAT),
+        ),
+        (known::V_READ_EVAL, Value::T),
+        (known::V_READTABLE, Value::NIL),
+        (known::V_FEATURES, Value::list(features)),
+        (known::V_RANDOM_STATE, Value::NIL),
+        (known::V_GENSYM_COUNTER, Value::Int(97)),
+        (known::V_MACROEXPAND_HOOK, Value::Symbol(known::FUNCALL)),
+        (known::V_BREAK_ON_SIGNALS, Value::NIL),
+        (known::V_LOAD_PATHNAME, Value::NIL),
+        (known::V_LOAD_TRUENAME, Value::NIL),
+    ] {
+        image.define_special(variable, value);
+    }
+}

@@ -1,0 +1,125 @@
+//! `coerce`: a value of another type that means the same.
+
+use super::specifier::{Answers, Stop};
+use super::test::typep_with;
+use crate::lisp::builtins::sequence::Sequence;
+use crate::lisp::builtins::sequence_types::SequenceType;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::number;
+use crate::lisp::object::text;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::{FunctionCell, Sym};
+use crate::lisp::value::Value;
+
+/// Converts a value to a type.
+pub fn coerce(
+    image: &Image,
+    value: &Value,
+    specifier: &Value,
+    answers: &mut Answers,
+) -> Result<Value, Stop> {
+    if typep_with(image, value, specifier, answers)? {
+        return Ok(value.clone());
+    }
+    let specifier = expand(image, specifier, answers)?;
+    let name = match &specifier {
+        Value::Class(class) => Some(class.name),
+        Value::Cons(list) => list.car().as_symbol(),
+        other => other.as_symbol(),
+    };
+    let converted = match name {
+        Some(name) => convert(image, value, name, &specifier, answers)?,
+        None => None,
+    };
+    match converted {
+        // A range or another restriction holds for the result.
+        Some(result) if typep_with(image, &result, &specifier, answers)? => Ok(result),
+        _ => Err(cannot(image, value, &specifier).into()),
+    }
+}
+
+/// Expands a type that `deftype` defines, down to one that it does not.
+fn expand(image: &Image, specifier: &Value, answers: &mut Answers) -> Result<Value, Stop> {
+    let mut specifier = specifier.clone();
+    loop {
+        let (name, args) = match &specifier {
+            Value::Cons(list) => (list.car().as_symbol(), list.cdr()),
+            other => (other.as_symbol(), Value::NIL),
+        };
+        let Some(expander) = name.and_then(|n| image.types.get(&n)) else {
+            return Ok(specifier);
+        };
+        specifier = answers.ask(&Value::Function(expander.clone()), vec![args])?;
+    }
+}
+
+fn convert(
+    image: &Image,
+    value: &Value,
+    name: Sym,
+    specifier: &Value,
+    answers: &mut Answers,
+) -> Result<Option<Value>, Stop> {
+    let is_real = number::is_real(value);
+    Ok(match name {
+        known::FLOAT | known::SINGLE_FLOAT | known::SHORT_FLOAT if is_real => {
+            Some(number::to_single(value)?)
+        }
+        known::DOUBLE_FLOAT | known::LONG_FLOAT if is_real => Some(number::to_double(value)?),
+        known::CHARACTER => character(image, value),
+        known::FUNCTION => function(image, value, answers)?,
+        _ => match SequenceType::of(image, specifier) {
+            Some(wanted) => match Sequence::of(value) {
+                Ok(sequence) => Some(wanted.make(sequence.all()?)?),
+                Err(_) => None,
+            },
+            None => None,
+        },
+    })
+}
+
+/// The character of a string or symbol name of length one.
+fn character(image: &Image, value: &Value) -> Option<Value> {
+    let name = match value {
+        Value::Str(s) => s.text(),
+        Value::Symbol(sym) => image.name(*sym).to_owned(),
+        _ => return None,
+    };
+    let mut chars = name.chars();
+    match (chars.next(), chars.next()) {
+        (Some(c), None) => Some(Value::Char(c)),
+        _ => None,
+    }
+}
+
+/// The function that a symbol names or a lambda expression describes.
+fn function(image: &Image, value: &Value, answers: &mut Answers) -> Result<Option<Value>, Stop> {
+    match value {
+        Value::Symbol(sym) => match &image.symbol(*sym).function {
+            FunctionCell::Function(function) => Ok(Some(Value::Function(function.clone()))),
+            _ => Err(Raise::undefined_function(value.clone()).into()),
+        },
+        Value::Cons(list) => match list.car().as_symbol() {
+            Some(known::LAMBDA) => {
+                let form = Value::list([known::FUNCTION.into(), value.clone()]);
+                answers.ask(&known::EVAL.into(), vec![form]).map(Some)
+            }
+            _ => Ok(None),
+        },
+        _ => Ok(None),
+    }
+}
+
+fn cannot(image: &Image, value: &Value, specifier: &Value) -> Box<Raise> {
+    Raise::new(
+        known::SIMPLE_TYPE_ERROR,
+        format!(
+            "{} can't be converted to type {}.",
+            text(image, value),
+            text(image, specifier)
+        ),
+    )
+    .with(known::K_DATUM, value.clone())
+    .with(known::K_EXPECTED_TYPE, specifier.clone())
+}

@@ -1,0 +1,27 @@
+//! Type specifiers: reading them, testing values, comparing types, converting.
+//!
+//! `satisfies` and `deftype` call Lisp functions. Rust code never does: an operation that
+//! needs the value of a call stops with the call ([`Stop::Call`]) and is begun again with
+//! the answer; answers are kept in order, so nothing is called twice.
+
+pub mod asking;
+pub mod coerce;
+pub mod parse;
+pub mod specifier;
+pub mod subtype;
+pub mod test;
+pub mod type_of;
+
+pub use parse::parse;
+pub use specifier::{Answers, Stop, Type};
+pub use test::{TypeCheck, typep, typep_with};
+pub use type_of::type_of;
+
+use std::cmp::Ordering;
+
+use super::value::Value;
+
+/// Compares two real numbers; none if one is no real number, or not a number at all.
+pub(crate) fn compare(a: &Value, b: &Value) -> Option<Ordering> {
+    super::number::compare(a, b).ok().flatten()
+}

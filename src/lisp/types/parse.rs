@@ -1,0 +1,333 @@
+//! Reading type specifiers.
+
+use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
+use crate::lisp::builtins::sequence_types;
+use crate::lisp::class::ClassKind;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// How deeply specifiers may be nested, expansions of `deftype` included.
+const MAX_DEPTH: usize = 200;
+
+/// Largest fixnum plus one, as in SBCL on 64-bit machines.
+const FIXNUM_LIMIT: i64 = 1 << 62;
+
+/// Reads a specifier.
+pub fn parse(image: &Image, specifier: &Value, answers: &mut Answers) -> Result<Type, Stop> {
+    Parser {
+        image,
+        answers,
+        depth: 0,
+    }
+    .parse(specifier)
+}
+
+struct Parser<'a> {
+    image: &'a Image,
+    answers: &'a mut Answers,
+    depth: usize,
+}
+
+impl Parser<'_> {
+    fn parse(&mut self, specifier: &Value) -> Result<Type, Stop> {
+        self.depth += 1;
+        if self.depth > MAX_DEPTH {
+            return Err(Raise::simple("The type specifier is nested too deeply.").into());
+        }
+        let result = self.parse_nested(specifier);
+        self.depth -= 1;
+        result
+    }
+
+    fn parse_nested(&mut self, specifier: &Value) -> Result<Type, Stop> {
+        match specifier {
+            Value::Symbol(name) => match self.named(*name, &[])? {
+                Some(found) => Ok(found),
+                None => Err(unknown(self.image, specifier)),
+            },
+            Value::Class(class) => Ok(self
+                .named(class.name, &[])?
+                .unwrap_or_else(|| Type::Class(class.clone()))),
+            Value::Cons(_) => {
+                let items = specifier.list_to_vec().unwrap_or_default();
+                match items.split_first() {
+                    Some((Value::Symbol(name), args)) => match self.named(*name, args)? {
+                        Some(found) => Ok(found),
+                        None => Err(unknown(self.image, specifier)),
+                    },
+                    _ => Err(unknown(self.image, specifier)),
+                }
+            }
+            _ => Err(unknown(self.image, specifier)),
+        }
+    }
+
+    /// The type of a name with arguments; none if there is no such type.
+    fn named(&mut self, name: Sym, args: &[Value]) -> Result<Option<Type>, Stop> {
+        if let Some(expander) = self.image.types.get(&name) {
+            let function = Value::Function(expander.clone());
+            let expansion = self
+                .answers
+                .ask(&function, vec![Value::list(args.to_vec())])?;
+            return self.parse(&expansion).map(Some);
+        }
+        if let Some(combined) = self.combination(name, args)? {
+            return Ok(Some(combined));
+        }
+        if let Some(number) = self.number(name, args)? {
+            return Ok(Some(number));
+        }
+        if let Some(array) = self.array(name, args)? {
+            return Ok(Some(array));
+        }
+        Ok(simple(name).or_else(|| {
+            let class = self.image.class(name)?;
+            class.is_defined.get().then(|| Type::Class(class.clone()))
+        }))
+    }
+
+    fn combination(&mut self, name: Sym, args: &[Value]) -> Result<Option<Type>, Stop> {
+        let found = match (name, args) {
+            (known::AND, []) => Type::Any,
+            (known::AND, _) => Type::And(self.parse_all(args)?),
+            (known::OR, []) => Type::Nothing,
+            (known::OR, _) => Type::Or(self.parse_all(args)?),
+            (known::NOT, [of]) => Type::Not(Box::new(self.parse(of)?)),
+            (known::MEMBER, _) => Type::Member(args.to_vec()),
+            (known::EQL, [value]) => Type::Member(vec![value.clone()]),
+            (known::SATISFIES, [function]) => Type::Satisfies(function.clone()),
+            (known::CONS, [] | [_] | [_, _]) => {
+                let half = |parser: &mut Self, arg: Option<&Value>| match arg {
+                    Some(arg) if !is_star(arg) => parser.parse(arg),
+                    _ => Ok(Type::Any),
+                };
+                let car = half(self, args.first())?;
+                let cdr = half(self, args.get(1))?;
+                Type::Cons(Box::new(car), Box::new(cdr))
+            }
+            (known::FUNCTION, [_, ..]) => {
+                return self.named(known::FUNCTION, &[]);
+            }
+            (known::VALUES, [first, ..]) => self.parse(first)?,
+            _ => return Ok(None),
+        };
+        Ok(Some(found))
+    }
+
+    fn parse_all(&mut self, specifiers: &[Value]) -> Result<Vec<Type>, Stop> {
+        specifiers.iter().map(|s| self.parse(s)).collect()
+    }
+
+    fn number(&mut self, name: Sym, args: &[Value]) -> Result<Option<Type>, Stop> {
+        use RealKind::{Double, Integer, Ratio, Single};
+        let range = |kinds: &[RealKind]| real_range(self.image, kinds, args);
+        let found = match (name, args) {
+            (known::INTEGER, _) => range(&[Integer])?,
+            (known::RATIONAL, _) => range(&[Integer, Ratio])?,
+            (known::REAL, _) => range(&[Integer, Ratio, Single, Double])?,
+            (known::FLOAT, _) => range(&[Single, Double])?,
+            (known::SINGLE_FLOAT | known::SHORT_FLOAT, _) => range(&[Single])?,
+            (known::DOUBLE_FLOAT | known::LONG_FLOAT, _) => range(&[Double])?,
+            (known::RATIO, []) => range(&[Ratio])?,
+            (known::NUMBER, []) => Type::Or(vec![
+                range(&[Integer, Ratio, Single, Double])?,
+                Type::Complex,
+            ]),
+            (known::COMPLEX, _) => Type::Complex,
+            (known::FIXNUM, []) => integers(Some(-FIXNUM_LIMIT), Some(FIXNUM_LIMIT - 1)),
+            (known::BIGNUM, []) => Type::Or(vec![
+                integers(None, Some(-FIXNUM_LIMIT - 1)),
+                integers(Some(FIXNUM_LIMIT), None),
+            ]),
+            (known::BIT, []) => integers(Some(0), Some(1)),
+            (known::MOD, [Value::Int(n)]) => integers(Some(0), Some(n - 1)),
+            (known::UNSIGNED_BYTE, []) => integers(Some(0), None),
+            (known::UNSIGNED_BYTE, [bits]) if is_star(bits) => integers(Some(0), None),
+            (known::UNSIGNED_BYTE, [Value::Int(bits)]) if *bits > 0 => Type::Real(
+                Integer,
+                Bound::Inclusive(Value::Int(0)),
+                Bound::Exclusive(power_of_two(*bits)),
+            ),
+            (known::SIGNED_BYTE, []) => integers(None, None),
+            (known::SIGNED_BYTE, [bits]) if is_star(bits) => integers(None, None),
+            (known::SIGNED_BYTE, [Value::Int(bits)]) if *bits > 0 => Type::Real(
+                Integer,
+                Bound::Inclusive(negated(power_of_two(bits - 1))),
+                Bound::Exclusive(power_of_two(bits - 1)),
+            ),
+            _ => return Ok(None),
+        };
+        Ok(Some(found))
+    }
+
+    fn array(&mut self, name: Sym, args: &[Value]) -> Result<Option<Type>, Stop> {
+        let (simple, element) = match name {
+            known::ARRAY | known::VECTOR => (false, None),
+            known::SIMPLE_ARRAY => (true, None),
+            known::SIMPLE_VECTOR => (true, Some(known::T)),
+            known::STRING => (false, Some(known::CHARACTER)),
+            known::SIMPLE_STRING => (true, Some(known::CHARACTER)),
+            known::BASE_STRING => (false, Some(known::BASE_CHAR)),
+            known::SIMPLE_BASE_STRING => (true, Some(known::BASE_CHAR)),
+            known::BIT_VECTOR => (false, Some(known::BIT)),
+            known::SIMPLE_BIT_VECTOR => (true, Some(known::BIT)),
+            _ => return Ok(None),
+        };
+        let has_element = matches!(name, known::ARRAY | known::SIMPLE_ARRAY | known::VECTOR);
+        let (element, size) = match (has_element, args) {
+            (true, [of, rest @ ..]) if !is_star(of) => {
+                (Some(upgraded(self.image, of)), rest.first())
+            }
+            (true, [_, rest @ ..]) => (None, rest.first()),
+            (true, []) => (None, None),
+            (false, rest) => (element, rest.first()),
+        };
+        let dimensions = if matches!(name, known::ARRAY | known::SIMPLE_ARRAY) {
+            dimensions(self.image, size)?
+        } else {
+            Some(vec![dimension(self.image, size)?])
+        };
+        Ok(Some(Type::Array {
+            simple,
+            element,
+            dimensions,
+        }))
+    }
+}
+
+/// Types without arguments that are neither numbers nor arrays nor plain classes.
+fn simple(name: Sym) -> Option<Type> {
+    let pair = || Type::Cons(Box::new(Type::Any), Box::new(Type::Any));
+    let list = || Type::Or(vec![pair(), Type::Member(vec![Value::NIL])]);
+    Some(match name {
+        known::T => Type::Any,
+        known::NIL => Type::Nothing,
+        known::NULL => Type::Member(vec![Value::NIL]),
+        known::BOOLEAN => Type::Member(vec![Value::T, Value::NIL]),
+        known::LIST => list(),
+        known::ATOM => Type::Not(Box::new(pair())),
+        known::SEQUENCE => Type::Or(vec![
+            list(),
+            Type::Array {
+                simple: false,
+                element: None,
+                dimensions: Some(vec![None]),
+            },
+        ]),
+        known::STANDARD_CHAR => Type::Characters(CharacterKind::Standard),
+        known::BASE_CHAR => Type::Characters(CharacterKind::Base),
+        known::EXTENDED_CHAR => Type::Characters(CharacterKind::Extended),
+        known::COMPILED_FUNCTION => Type::CompiledFunction,
+        _ => return None,
+    })
+}
+
+fn is_star(value: &Value) -> bool {
+    value.as_symbol() == Some(known::TIMES)
+}
+
+/// The element type that an array made for elements of a type really has.
+pub fn upgraded(image: &Image, element: &Value) -> Sym {
+    sequence_types::upgraded(image, element)
+}
+
+fn integers(low: Option<i64>, high: Option<i64>) -> Type {
+    let bound = |n: Option<i64>| n.map_or(Bound::None, |n| Bound::Inclusive(Value::Int(n)));
+    Type::Real(RealKind::Integer, bound(low), bound(high))
+}
+
+fn power_of_two(exponent: i64) -> Value {
+    match u32::try_from(exponent) {
+        Ok(exponent) if exponent < 63 => Value::Int(1 << exponent),
+        Ok(exponent) => {
+            let one = num_bigint::BigInt::from(1);
+            Value::Big(std::rc::Rc::new(one << exponent.min(1 << 20)))
+        }
+        Err(_) => Value::Int(0),
+    }
+}
+
+fn negated(value: Value) -> Value {
+    match value {
+        Value::Int(n) => Value::Int(-n),
+        Value::Big(n) => Value::Big(std::rc::Rc::new(-n.as_ref())),
+        other => other,
+    }
+}
+
+fn real_range(image: &Image, kinds: &[RealKind], args: &[Value]) -> Result<Type, Stop> {
+    let low = bound(image, args.first())?;
+    let high = bound(image, args.get(1))?;
+    let mut types: Vec<Type> = kinds
+        .iter()
+        .map(|kind| Type::Real(*kind, low.clone(), high.clone()))
+        .collect();
+    Ok(match types.pop() {
+        Some(only) if types.is_empty() => only,
+        Some(last) => {
+            types.push(last);
+            Type::Or(types)
+        }
+        None => Type::Nothing,
+    })
+}
+
+fn bound(image: &Image, arg: Option<&Value>) -> Result<Bound, Stop> {
+    let is_real = crate::lisp::number::is_real;
+    match arg {
+        None => Ok(Bound::None),
+        Some(star) if is_star(star) => Ok(Bound::None),
+        Some(number) if is_real(number) => Ok(Bound::Inclusive(number.clone())),
+        Some(other) => match other.list_to_vec().as_deref() {
+            Some([number]) if is_real(number) => Ok(Bound::Exclusive(number.clone())),
+            _ => Err(Raise::simple(format!(
+                "{} is not a bound of a range: it must be a number, a list of a number, or *.",
+                crate::lisp::object::text(image, other)
+            ))
+            .into()),
+        },
+    }
+}
+
+fn dimension(image: &Image, size: Option<&Value>) -> Result<Option<usize>, Stop> {
+    match size {
+        None => Ok(None),
+        Some(star) if is_star(star) => Ok(None),
+        Some(Value::Int(n)) if *n >= 0 => Ok(usize::try_from(*n).ok()),
+        Some(other) => Err(Raise::simple(format!(
+            "{} is not a size of an array: it must be a natural number or *.",
+            crate::lisp::object::text(image, other)
+        ))
+        .into()),
+    }
+}
+
+fn dimensions(image: &Image, sizes: Option<&Value>) -> Result<Option<Vec<Option<usize>>>, Stop> {
+    match sizes {
+        None => Ok(None),
+        Some(star) if is_star(star) => Ok(None),
+        Some(Value::Int(rank)) => Ok(usize::try_from(*rank).ok().map(|r| vec![None; r.min(64)])),
+        Some(list) => {
+            let sizes = list.iter_list();
+            let all: Result<Vec<Option<usize>>, Stop> =
+                sizes.map(|size| dimension(image, Some(&size))).collect();
+            all.map(Some)
+        }
+    }
+}
+
+fn unknown(image: &Image, specifier: &Value) -> Stop {
+    let text = crate::lisp::object::text(image, specifier);
+    Raise::simple(format!("unknown type specifier: {text}")).into()
+}
+
+/// Is the symbol the name of a class that types alone describe?
+pub fn is_plain_class(image: &Image, name: Sym) -> bool {
+    image
+        .class(name)
+        .is_some_and(|class| class.kind != ClassKind::Builtin)
+        && !image.types.contains_key(&name)
+}

@@ -1,0 +1,295 @@
+//! `subtypep`: is every value of one type a value of the other?
+
+use std::cmp::Ordering;
+
+use super::compare;
+use super::specifier::{Answers, Bound, CharacterKind, RealKind, Type};
+use super::test::contains;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+
+/// An answer that may be out of reach.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Verdict {
+    /// Certainly.
+    Yes,
+    /// Certainly not.
+    No,
+    /// It cannot be told.
+    Unknown,
+}
+
+use Verdict::{No, Unknown, Yes};
+
+impl Verdict {
+    fn from_bool(yes: bool) -> Verdict {
+        if yes { Yes } else { No }
+    }
+
+    /// Yes if all are, no if one is not.
+    fn all(verdicts: impl Iterator<Item = Verdict>) -> Verdict {
+        let mut result = Yes;
+        for verdict in verdicts {
+            match verdict {
+                Yes => {}
+                No => return No,
+                Unknown => result = Unknown,
+            }
+        }
+        result
+    }
+
+    /// Yes if one is, no if none is.
+    fn any(verdicts: impl Iterator<Item = Verdict>) -> Verdict {
+        let mut result = No;
+        for verdict in verdicts {
+            match verdict {
+                Yes => return Yes,
+                No => {}
+                Unknown => result = Unknown,
+            }
+        }
+        result
+    }
+}
+
+/// Is `a` a subset of `b`?
+pub fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
+    match (a, b) {
+        (Type::Nothing, _) | (_, Type::Any) => Yes,
+        (Type::Or(parts), _) => Verdict::all(parts.iter().map(|p| is_subset(image, p, b))),
+        (_, Type::And(parts)) => Verdict::all(parts.iter().map(|p| is_subset(image, a, p))),
+        (Type::Member(values), _) => Verdict::all(values.iter().map(|value| {
+            match contains(image, b, value, &mut Answers::default()) {
+                Ok(yes) => Verdict::from_bool(yes),
+                Err(_) => Unknown,
+            }
+        })),
+        (Type::Not(x), Type::Not(y)) => is_subset(image, y, x),
+        (_, Type::Not(y)) => are_disjoint(image, a, y),
+        (Type::And(parts), _) => {
+            let verdict = Verdict::any(parts.iter().map(|p| is_subset(image, p, b)));
+            let disjoint = Verdict::any(parts.iter().map(|p| are_disjoint(image, p, b)));
+            match (verdict, disjoint) {
+                (Yes, _) => Yes,
+                (_, Yes) if is_nonempty(image, parts) == Yes => No,
+                _ => Unknown,
+            }
+        }
+        (_, Type::Or(parts)) => {
+            let verdict = Verdict::any(parts.iter().map(|p| is_subset(image, a, p)));
+            match (verdict, a) {
+                (No, Type::Real(kind, low, high)) => covers(*kind, low, high, parts),
+                _ => verdict,
+            }
+        }
+        (Type::Satisfies(x), Type::Satisfies(y)) if x.is_eql(y) => Yes,
+        (Type::Satisfies(_), _) | (_, Type::Satisfies(_)) => Unknown,
+        (Type::Any | Type::Not(_), _) | (_, Type::Nothing) => No,
+        _ => is_atomic_subset(image, a, b),
+    }
+}
+
+/// For types that are no combinations.
+fn is_atomic_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
+    Verdict::from_bool(match (a, b) {
+        (Type::Class(x), Type::Class(y)) => x.is_subclass_of(y.name),
+        (Type::Real(kind, low, high), Type::Real(other, from, to)) => {
+            kind == other && !starts_before(low, from) && !ends_after(high, to)
+        }
+        (Type::Complex, Type::Complex) => true,
+        (Type::Cons(a1, d1), Type::Cons(a2, d2)) => {
+            return Verdict::all([is_subset(image, a1, a2), is_subset(image, d1, d2)].into_iter());
+        }
+        (
+            Type::Array {
+                simple,
+                element,
+                dimensions,
+            },
+            Type::Array {
+                simple: wanted_simple,
+                element: wanted_element,
+                dimensions: wanted,
+            },
+        ) => {
+            (*simple || !wanted_simple)
+                && (wanted_element.is_none() || element == wanted_element)
+                && is_within(dimensions.as_deref(), wanted.as_deref())
+        }
+        (Type::Characters(x), Type::Characters(y)) => {
+            x == y || (*x, *y) == (CharacterKind::Standard, CharacterKind::Base)
+        }
+        (Type::Characters(_), Type::Class(y)) => y.name == known::CHARACTER,
+        (Type::CompiledFunction, Type::CompiledFunction) => true,
+        (Type::CompiledFunction, Type::Class(y)) => y.name == known::FUNCTION,
+        _ => false,
+    })
+}
+
+/// Is there no value that both sets have?
+fn are_disjoint(image: &Image, a: &Type, b: &Type) -> Verdict {
+    match (a, b) {
+        (Type::Nothing, _) | (_, Type::Nothing) => Yes,
+        (Type::Any, other) | (other, Type::Any) => match other {
+            Type::Satisfies(_) | Type::And(_) => Unknown,
+            _ => No,
+        },
+        (Type::Or(parts), other) | (other, Type::Or(parts)) => {
+            Verdict::all(parts.iter().map(|p| are_disjoint(image, p, other)))
+        }
+        (Type::Member(values), other) | (other, Type::Member(values)) => {
+            Verdict::all(values.iter().map(|v| {
+                match contains(image, other, v, &mut Answers::default()) {
+                    Ok(yes) => Verdict::from_bool(!yes),
+                    Err(_) => Unknown,
+                }
+            }))
+        }
+        (Type::Not(x), other) | (other, Type::Not(x)) => is_subset(image, other, x),
+        (Type::And(parts), other) | (other, Type::And(parts)) => {
+            match Verdict::any(parts.iter().map(|p| are_disjoint(image, p, other))) {
+                Yes => Yes,
+                _ => Unknown,
+            }
+        }
+        (Type::Satisfies(_), _) | (_, Type::Satisfies(_)) => Unknown,
+        (Type::Class(x), Type::Class(y)) => {
+            Verdict::from_bool(!x.is_subclass_of(y.name) && !y.is_subclass_of(x.name))
+        }
+        (Type::Real(kind, low, high), Type::Real(other, from, to)) => {
+            Verdict::from_bool(kind != other || is_gap(high, from) || is_gap(to, low))
+        }
+        (Type::Cons(a1, d1), Type::Cons(a2, d2)) => {
+            Verdict::any([are_disjoint(image, a1, a2), are_disjoint(image, d1, d2)].into_iter())
+        }
+        (
+            Type::Array {
+                element: Some(x), ..
+            },
+            Type::Array {
+                element: Some(y), ..
+            },
+        ) if x != y => Yes,
+        (Type::Array { .. }, Type::Array { .. }) => No,
+        (Type::Characters(x), Type::Characters(y)) => Verdict::from_bool(
+            x != y && (*x == CharacterKind::Extended || *y == CharacterKind::Extended),
+        ),
+        (Type::Characters(_), Type::Class(c)) | (Type::Class(c), Type::Characters(_)) => {
+            Verdict::from_bool(c.name != known::CHARACTER)
+        }
+        (Type::CompiledFunction, Type::Class(c)) | (Type::Class(c), Type::CompiledFunction) => {
+            Verdict::from_bool(c.name != known::FUNCTION)
+        }
+        (Type::Complex, Type::Complex) | (Type::CompiledFunction, Type::CompiledFunction) => No,
+        _ => Yes,
+    }
+}
+
+/// Does an intersection certainly have a value?
+fn is_nonempty(image: &Image, parts: &[Type]) -> Verdict {
+    let pairs = parts.iter().enumerate();
+    let overlap = pairs.flat_map(|(i, a)| {
+        parts[i + 1..]
+            .iter()
+            .map(move |b| match are_disjoint(image, a, b) {
+                Yes => No,
+                No => Yes,
+                Unknown => Unknown,
+            })
+    });
+    Verdict::all(overlap)
+}
+
+/// The bound's number, and whether it belongs to the range.
+fn limit(bound: &Bound) -> Option<(&crate::lisp::Value, bool)> {
+    match bound {
+        Bound::None => None,
+        Bound::Inclusive(n) => Some((n, true)),
+        Bound::Exclusive(n) => Some((n, false)),
+    }
+}
+
+/// Does a range with this lower bound begin before the other?
+fn starts_before(low: &Bound, other: &Bound) -> bool {
+    match (limit(low), limit(other)) {
+        (_, None) => false,
+        (None, Some(_)) => true,
+        (Some((a, a_in)), Some((b, b_in))) => match compare(a, b) {
+            Some(Ordering::Less) => true,
+            Some(Ordering::Equal) => a_in && !b_in,
+            _ => false,
+        },
+    }
+}
+
+/// Does a range with this upper bound end after the other?
+fn ends_after(high: &Bound, other: &Bound) -> bool {
+    match (limit(high), limit(other)) {
+        (_, None) => false,
+        (None, Some(_)) => true,
+        (Some((a, a_in)), Some((b, b_in))) => match compare(a, b) {
+            Some(Ordering::Greater) => true,
+            Some(Ordering::Equal) => a_in && !b_in,
+            _ => false,
+        },
+    }
+}
+
+/// Does a range that ends at `high` lie wholly before one that begins at `low`?
+fn is_gap(high: &Bound, low: &Bound) -> bool {
+    match (limit(high), limit(low)) {
+        (Some((a, a_in)), Some((b, b_in))) => match compare(a, b) {
+            Some(Ordering::Less) => true,
+            Some(Ordering::Equal) => !(a_in && b_in),
+            _ => false,
+        },
+        _ => false,
+    }
+}
+
+/// Do the ranges among `parts` together cover a range?
+fn covers(kind: RealKind, low: &Bound, high: &Bound, parts: &[Type]) -> Verdict {
+    let mut from = low.clone();
+    let mut used = vec![false; parts.len()];
+    loop {
+        let next = parts.iter().enumerate().find_map(|(i, part)| match part {
+            Type::Real(k, lo, hi) if *k == kind && !used[i] && !starts_before(&from, lo) => {
+                Some((i, hi))
+            }
+            _ => None,
+        });
+        let Some((i, reached)) = next else {
+            return No;
+        };
+        used[i] = true;
+        if !ends_after(high, reached) {
+            return Yes;
+        }
+        let following = match reached {
+            Bound::None => return Yes,
+            Bound::Inclusive(crate::lisp::Value::Int(n)) if kind == RealKind::Integer => {
+                Bound::Inclusive(crate::lisp::Value::Int(n.saturating_add(1)))
+            }
+            Bound::Inclusive(n) => Bound::Exclusive(n.clone()),
+            Bound::Exclusive(n) => Bound::Inclusive(n.clone()),
+        };
+        if starts_before(&from, &following) {
+            from = following;
+        }
+    }
+}
+
+fn is_within(sizes: Option<&[Option<usize>]>, wanted: Option<&[Option<usize>]>) -> bool {
+    match (sizes, wanted) {
+        (_, None) => true,
+        (None, Some(_)) => false,
+        (Some(sizes), Some(wanted)) => {
+            sizes.len() == wanted.len()
+                && sizes
+                    .iter()
+                    .zip(wanted)
+                    .all(|(size, wanted)| wanted.is_none() || size == wanted)
+        }
+    }
+}

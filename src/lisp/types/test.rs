@@ -1,0 +1,285 @@
+//! `typep`.
+
+use super::compare;
+use super::parse::{is_plain_class, parse};
+use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
+use crate::lisp::function::Body;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::object::class_of;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// Whether a value is of a type, as far as it can be told without calling a function.
+pub enum TypeCheck {
+    /// It is.
+    Yes,
+    /// It is not.
+    No,
+    /// The value of a call is needed first; [`typep_with`] goes on from there.
+    NeedsCall {
+        /// The function.
+        function: Value,
+        /// The arguments.
+        args: Vec<Value>,
+    },
+}
+
+/// Is the value of the type?
+pub fn typep(image: &Image, value: &Value, specifier: &Value) -> Result<TypeCheck, Box<Raise>> {
+    match typep_with(image, value, specifier, &mut Answers::default()) {
+        Ok(true) => Ok(TypeCheck::Yes),
+        Ok(false) => Ok(TypeCheck::No),
+        Err(Stop::Call { function, args }) => Ok(TypeCheck::NeedsCall { function, args }),
+        Err(Stop::Raise(raise)) => Err(raise),
+    }
+}
+
+/// Like [`typep`], with the values of the calls that were needed before.
+pub fn typep_with(
+    image: &Image,
+    value: &Value,
+    specifier: &Value,
+    answers: &mut Answers,
+) -> Result<bool, Stop> {
+    if let Value::Symbol(name) = specifier
+        && let Some(answer) = quickly(image, value, *name)
+    {
+        return Ok(answer);
+    }
+    let parsed = parse(image, specifier, answers)?;
+    contains(image, &parsed, value, answers)
+}
+
+/// The most usual types, told without reading the specifier.
+fn quickly(image: &Image, value: &Value, name: Sym) -> Option<bool> {
+    Some(match name {
+        known::T => true,
+        known::NIL => false,
+        known::INTEGER => matches!(value, Value::Int(_) | Value::Big(_)),
+        known::NUMBER | known::REAL => match value {
+            Value::Int(_) | Value::Big(_) | Value::Ratio(_) => true,
+            Value::Single(_) | Value::Double(_) => true,
+            _ => return None,
+        },
+        known::FLOAT => matches!(value, Value::Single(_) | Value::Double(_)),
+        known::SINGLE_FLOAT => matches!(value, Value::Single(_)),
+        known::DOUBLE_FLOAT => matches!(value, Value::Double(_)),
+        known::STRING => matches!(value, Value::Str(_)),
+        known::SYMBOL => matches!(value, Value::Symbol(_)),
+        known::LIST => value.is_list(),
+        known::CONS => matches!(value, Value::Cons(_)),
+        known::NULL => value.is_nil(),
+        known::FUNCTION => matches!(value, Value::Function(_)),
+        known::CHARACTER => matches!(value, Value::Char(_)),
+        known::HASH_TABLE => matches!(value, Value::Hash(_)),
+        _ if is_plain_class(image, name) => {
+            let class = class_of(image, value);
+            class.is_subclass_of(name)
+        }
+        _ => return None,
+    })
+}
+
+/// Is the value in the set?
+pub fn contains(
+    image: &Image,
+    set: &Type,
+    value: &Value,
+    answers: &mut Answers,
+) -> Result<bool, Stop> {
+    Ok(match set {
+        Type::Any => true,
+        Type::Nothing => false,
+        Type::Class(class) => {
+            let own = class_of(image, value);
+            own.precedence
+                .borrow()
+                .iter()
+                .any(|c| std::rc::Rc::ptr_eq(c, class))
+        }
+        Type::Member(values) => values.iter().any(|v| v.is_eql(value)),
+        Type::Real(kind, low, high) => {
+            is_of_kind(value, *kind) && is_above(value, low) && is_below(value, high)
+        }
+        Type::Complex => class_of(image, value).name == known::COMPLEX,
+        Type::And(types) => {
+            for each in types {
+                if !contains(image, each, value, answers)? {
+                    return Ok(false);
+                }
+            }
+            true
+        }
+        Type::Or(types) => {
+            for each in types {
+                if contains(image, each, value, answers)? {
+                    return Ok(true);
+                }
+            }
+            false
+        }
+        Type::Not(of) => !contains(image, of, value, answers)?,
+        Type::Cons(car, cdr) => match value {
+            Value::Cons(cons) => {
+                contains(image, car, &cons.car(), answers)?
+                    && contains(image, cdr, &cons.cdr(), answers)?
+            }
+            _ => false,
+        },
+        Type::Array {
+            simple,
+            element,
+            dimensions,
+        } => is_array(value, *simple, *element, dimensions.as_deref()),
+        Type::Characters(kind) => is_character(value, *kind),
+        Type::CompiledFunction => {
+            matches!(value, Value::Function(f) if !matches!(f.body, Body::Generic(_)))
+        }
+        Type::Satisfies(function) => answers.ask(function, vec![value.clone()])?.is_true(),
+    })
+}
+
+fn is_of_kind(value: &Value, kind: RealKind) -> bool {
+    match kind {
+        RealKind::Integer => matches!(value, Value::Int(_) | Value::Big(_)),
+        RealKind::Ratio => matches!(value, Value::Ratio(_)),
+        RealKind::Single => matches!(value, Value::Single(_)),
+        RealKind::Double => matches!(value, Value::Double(_)),
+    }
+}
+
+fn is_above(value: &Value, low: &Bound) -> bool {
+    match low {
+        Bound::None => true,
+        Bound::Inclusive(bound) => compare(value, bound).is_some_and(|o| o.is_ge()),
+        Bound::Exclusive(bound) => compare(value, bound).is_some_and(|o| o.is_gt()),
+    }
+}
+
+fn is_below(value: &Value, high: &Bound) -> bool {
+    match high {
+        Bound::None => true,
+        Bound::Inclusive(bound) => compare(value, bound).is_some_and(|o| o.is_le()),
+        Bound::Exclusive(bound) => compare(value, bound).is_some_and(|o| o.is_lt()),
+    }
+}
+
+fn is_array(
+    value: &Value,
+    simple: bool,
+    element: Option<Sym>,
+    dimensions: Option<&[Option<usize>]>,
+) -> bool {
+    let (own_simple, own_element, sizes) = match value {
+        Value::Str(s) => (!s.has_fill_pointer.get(), known::CHARACTER, vec![s.len()]),
+        Value::Vector(v) => {
+            let own_simple = v.fill_pointer.get().is_none() && !v.adjustable;
+            (own_simple, v.element_type, vec![v.items.borrow().len()])
+        }
+        Value::Array(a) => (true, a.element_type, a.dimensions.clone()),
+        _ => return false,
+    };
+    (own_simple || !simple)
+        && element.is_none_or(|wanted| wanted == own_element)
+        && dimensions.is_none_or(|wanted| {
+            wanted.len() == sizes.len()
+                && wanted
+                    .iter()
+                    .zip(&sizes)
+                    .all(|(wanted, size)| wanted.is_none_or(|w| w == *size))
+        })
+}
+
+fn is_character(value: &Value, kind: CharacterKind) -> bool {
+    let Value::Char(c) = value else {
+        return false;
+    };
+    match kind {
+        CharacterKind::Standard => is_standard_char(*c),
+        CharacterKind::Base => c.is_ascii(),
+        CharacterKind::Extended => !c.is_ascii(),
+    }
+}
+
+/// Is the character one of the 96 of the standard?
+pub fn is_standard_char(c: char) -> bool {
+    c == '\n' || matches!(c, ' '..='~')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lisp::object::testing;
+
+    fn symbols(names: &[Sym]) -> Value {
+        Value::list(names.iter().map(|n| Value::Symbol(*n)))
+    }
+
+    fn is(image: &Image, value: &Value, specifier: &Value) -> bool {
+        matches!(typep(image, value, specifier), Ok(TypeCheck::Yes))
+    }
+
+    fn range(name: Sym, bounds: &[Value]) -> Value {
+        Value::list_with_tail([Value::Symbol(name)], Value::list(bounds.to_vec()))
+    }
+
+    #[test]
+    fn an_exclusive_bound_excludes_the_number_itself() {
+        let image = testing::image();
+        let bounds = [Value::Int(0), Value::list([Value::Int(10)])];
+        let specifier = range(known::INTEGER, &bounds);
+        assert!(is(&image, &Value::Int(9), &specifier));
+        assert!(!is(&image, &Value::Int(10), &specifier));
+    }
+
+    #[test]
+    fn a_byte_of_eight_bits_ends_at_255() {
+        let image = testing::image();
+        let specifier = range(known::UNSIGNED_BYTE, &[Value::Int(8)]);
+        assert!(is(&image, &Value::Int(255), &specifier));
+        assert!(!is(&image, &Value::Int(256), &specifier));
+        assert!(!is(&image, &Value::Int(-1), &specifier));
+    }
+
+    #[test]
+    fn conditions_and_builtin_classes_are_types() {
+        let image = testing::image();
+        let raise = Raise::simple("x");
+        let condition = crate::lisp::condition::make(&image, &raise)
+            .ok()
+            .expect("made");
+        assert!(is(&image, &condition, &known::ERROR.into()));
+        assert!(!is(&image, &condition, &known::WARNING.into()));
+        assert!(is(&image, &Value::string("s"), &known::SEQUENCE.into()));
+        assert!(is(&image, &Value::NIL, &known::SYMBOL.into()));
+    }
+
+    #[test]
+    fn satisfies_asks_for_a_call() {
+        let image = testing::image();
+        let specifier = symbols(&[known::SATISFIES, known::NULL]);
+        match typep(&image, &Value::Int(1), &specifier) {
+            Ok(TypeCheck::NeedsCall { function, args }) => {
+                assert_eq!(function.as_symbol(), Some(known::NULL));
+                assert_eq!(args.len(), 1);
+            }
+            _ => panic!("expected a call"),
+        }
+        let mut answers = Answers::default();
+        answers.add(Value::T);
+        let answer = typep_with(&image, &Value::Int(1), &specifier, &mut answers);
+        assert!(matches!(answer, Ok(true)));
+    }
+
+    #[test]
+    fn a_vector_of_given_length_is_a_type() {
+        let image = testing::image();
+        let value = Value::vector(vec![Value::Int(1), Value::Int(2)]);
+        let any = range(known::VECTOR, &[known::TIMES.into(), Value::Int(2)]);
+        let three = range(known::VECTOR, &[Value::T, Value::Int(3)]);
+        assert!(is(&image, &value, &any));
+        assert!(!is(&image, &value, &three));
+    }
+}

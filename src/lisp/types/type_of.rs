@@ -1,0 +1,77 @@
+//! `type-of`.
+
+use super::test::is_standard_char;
+use crate::lisp::array::Vector;
+use crate::lisp::function::Body;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::object::class_of::builtin_class_name;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// The largest fixnum.
+const LARGEST_FIXNUM: i64 = 0x3fff_ffff_ffff_ffff;
+
+/// The type of a value as a specifier, in SBCL's words.
+pub fn type_of(image: &Image, value: &Value) -> Value {
+    match value {
+        Value::Symbol(known::T) => known::BOOLEAN.into(),
+        Value::Int(0 | 1) => known::BIT.into(),
+        Value::Int(_) | Value::Big(_) => integer_type(image, value),
+        Value::Char(c) if is_standard_char(*c) => known::STANDARD_CHAR.into(),
+        Value::Char(c) if c.is_ascii() => known::BASE_CHAR.into(),
+        Value::Str(s) => {
+            let simple = !s.has_fill_pointer.get();
+            array_type(simple, known::CHARACTER, &[s.len()])
+        }
+        Value::Vector(v) => vector_type(v),
+        Value::Array(a) => array_type(true, a.element_type, &a.dimensions),
+        Value::Function(f) => match f.body {
+            Body::Generic(_) => known::STANDARD_GENERIC_FUNCTION.into(),
+            _ => known::COMPILED_FUNCTION.into(),
+        },
+        other => builtin_class_name(image, other).into(),
+    }
+}
+
+/// Integers that are no bits: `(INTEGER 0 4611686018427387903)`, negative ones `FIXNUM`.
+fn integer_type(image: &Image, value: &Value) -> Value {
+    match value {
+        Value::Int(0..=LARGEST_FIXNUM) => Value::list([
+            known::INTEGER.into(),
+            Value::Int(0),
+            Value::Int(LARGEST_FIXNUM),
+        ]),
+        Value::Int(1..) => unsigned_beyond_fixnum(),
+        Value::Big(n) if n.sign() == num_bigint::Sign::Plus => unsigned_beyond_fixnum(),
+        other => builtin_class_name(image, other).into(),
+    }
+}
+
+fn unsigned_beyond_fixnum() -> Value {
+    Value::list([known::INTEGER.into(), Value::Int(LARGEST_FIXNUM + 1)])
+}
+
+fn vector_type(vector: &Vector) -> Value {
+    let simple = vector.fill_pointer.get().is_none() && !vector.adjustable;
+    let size = vector.items.borrow().len();
+    match (vector.element_type, simple) {
+        (known::T, true) => Value::list([known::SIMPLE_VECTOR.into(), size.into()]),
+        (known::BIT, true) => Value::list([known::SIMPLE_BIT_VECTOR.into(), size.into()]),
+        (element, simple) => array_type(simple, element, &[size]),
+    }
+}
+
+fn array_type(simple: bool, element: Sym, sizes: &[usize]) -> Value {
+    if let ([size], false) = (sizes, simple) {
+        let vector = [known::VECTOR.into(), element.into(), (*size).into()];
+        let not_simple = [known::NOT.into(), known::SIMPLE_ARRAY.into()];
+        return Value::list([
+            known::AND.into(),
+            Value::list(vector),
+            Value::list(not_simple),
+        ]);
+    }
+    let sizes = Value::list(sizes.iter().map(|n| Value::from(*n)));
+    Value::list([known::SIMPLE_ARRAY.into(), element.into(), sizes])
+}

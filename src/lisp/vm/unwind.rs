@@ -1,0 +1,165 @@
+//! Non-local exits: returning from blocks, jumping to tags, throwing, and running cleanup
+//! code on the way.
+
+use super::fiber::{Dynamic, FrameKind, Pending, Target};
+use super::machine::{Event, Machine, Next};
+use super::step::Step;
+use crate::lisp::function::Body;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+impl Machine<'_> {
+    pub(super) fn return_from(&mut self, id: &Value, value: Value) -> Next {
+        let found = self.fiber.dynamic.iter().rposition(
+            |d| matches!(d, Dynamic::Block { id: other, .. } if id.is_eql(&Value::Int(*other))),
+        );
+        match found {
+            Some(i) => self.unwind(Target::Exit(i), value),
+            None => self.raise(exit_is_gone()),
+        }
+    }
+
+    pub(super) fn go(&mut self, id: &Value, tag: u32) -> Next {
+        let found = self.fiber.dynamic.iter().rposition(
+            |d| matches!(d, Dynamic::Tagbody { id: other, .. } if id.is_eql(&Value::Int(*other))),
+        );
+        match found {
+            Some(i) => self.unwind(Target::Tag(i, tag), Value::NIL),
+            None => self.raise(exit_is_gone()),
+        }
+    }
+
+    /// `throw`: the step that leaves the innermost catch of the tag with a value.
+    pub fn throw(&mut self, tag: &Value, value: Value) -> Result<Step, Box<Raise>> {
+        let found = self
+            .fiber
+            .dynamic
+            .iter()
+            .rposition(|d| matches!(d, Dynamic::Catch { tag: other, .. } if other.is_eq(tag)));
+        match found {
+            Some(i) => Ok(Step::Unwind(Target::Exit(i), value)),
+            None => {
+                let shown = print::to_string(self.image, tag, true);
+                Err(Raise::control(format!(
+                    "attempt to THROW to a tag that does not exist: {shown}"
+                )))
+            }
+        }
+    }
+
+    /// Leaves everything inside the target, running cleanup code on the way.
+    pub(super) fn unwind(&mut self, target: Target, value: Value) -> Next {
+        let limit = match target {
+            Target::Exit(i) => i + 1,
+            Target::Tag(i, _) => i + 1,
+            Target::Everything => 0,
+        };
+        while self.fiber.dynamic.len() > limit {
+            match self.fiber.dynamic.pop() {
+                Some(Dynamic::Bind(sym, outside)) => {
+                    self.image.symbols.get_mut(sym).value = outside;
+                }
+                Some(Dynamic::Unwind {
+                    frame,
+                    height,
+                    target: cleanup,
+                }) => {
+                    self.cut_to(frame, height);
+                    self.fiber.stack.push(Value::Unbound);
+                    self.fiber.stack.push(Value::Int(1));
+                    self.save_pc(cleanup as usize);
+                    self.fiber.pending.push(Pending {
+                        target,
+                        value,
+                        dynamic: self.fiber.dynamic.len(),
+                    });
+                    return Next::Run;
+                }
+                _ => {}
+            }
+        }
+        self.arrive(target, value)
+    }
+
+    fn arrive(&mut self, target: Target, value: Value) -> Next {
+        match target {
+            Target::Everything => {
+                self.fiber.frames.clear();
+                self.fiber.stack.clear();
+                self.fiber.pending.clear();
+                return Next::Stop(Event::Unwound);
+            }
+            Target::Exit(i) => {
+                if let Some(
+                    Dynamic::Block {
+                        frame,
+                        height,
+                        target,
+                        multi,
+                        ..
+                    }
+                    | Dynamic::Catch {
+                        frame,
+                        height,
+                        target,
+                        multi,
+                        ..
+                    },
+                ) = self.fiber.dynamic.pop()
+                {
+                    self.cut_to(frame, height);
+                    self.fiber
+                        .stack
+                        .push(if multi { value } else { value.primary() });
+                    self.save_pc(target as usize);
+                }
+                self.fiber.pending.retain(|p| p.dynamic <= i);
+            }
+            Target::Tag(i, tag) => {
+                if let Some(&Dynamic::Tagbody {
+                    frame,
+                    height,
+                    table,
+                    ..
+                }) = self.fiber.dynamic.last()
+                {
+                    self.cut_to(frame, height);
+                    if let Some(pc) = self.tag_position(table, tag) {
+                        self.save_pc(pc);
+                    }
+                }
+                self.fiber.pending.retain(|p| p.dynamic <= i + 1);
+            }
+        }
+        Next::Run
+    }
+
+    fn tag_position(&self, table: u32, tag: u32) -> Option<usize> {
+        let FrameKind::Code { function, .. } = &self.fiber.frames.last()?.kind else {
+            return None;
+        };
+        let Body::Closure { code, .. } = &function.body else {
+            return None;
+        };
+        let position = code.tags.get(table as usize)?.get(tag as usize)?;
+        Some(*position as usize)
+    }
+
+    fn cut_to(&mut self, frame: usize, height: usize) {
+        self.fiber.frames.truncate(frame + 1);
+        self.fiber.stack.truncate(height);
+    }
+
+    /// Goes on with the exit that cleanup code, now at its end, interrupted.
+    pub(super) fn continue_unwinding(&mut self) -> Next {
+        match self.fiber.pending.pop() {
+            Some(pending) => self.unwind(pending.target, pending.value),
+            None => Next::Run,
+        }
+    }
+}
+
+fn exit_is_gone() -> Box<Raise> {
+    Raise::control("Attempt to RETURN-FROM a block or GO to a tag that no longer exists")
+}
