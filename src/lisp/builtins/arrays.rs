@@ -5,7 +5,6 @@ use std::rc::Rc;
 use super::array_index;
 use super::array_make;
 use super::sequence::{checked_element, index};
-use super::sequence_types::upgraded;
 use crate::lisp::array::Array;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
@@ -219,10 +218,6 @@ fn array_element_type(_: &mut Image, args: &[Value]) -> Outcome {
     element_type(&args[0]).map(Value::Symbol)
 }
 
-fn upgraded_element_type(image: &mut Image, args: &[Value]) -> Outcome {
-    Ok(upgraded(image, &args[0]).into())
-}
-
 fn is_adjustable(array: &Value) -> bool {
     match array {
         Value::Vector(v) => v.adjustable || v.fill_pointer.get().is_some(),
@@ -431,13 +426,6 @@ pub static TABLE: &[Builtin] = &[
         "The type of the elements.",
         &["(array-element-type \"a\") => CHARACTER"],
         array_element_type,
-    ),
-    pure(
-        "UPGRADED-ARRAY-ELEMENT-TYPE",
-        "type &optional environment",
-        "The element type that an array made for a type has.",
-        &["(upgraded-array-element-type 'integer) => T"],
-        upgraded_element_type,
     ),
     pure(
         "ADJUSTABLE-ARRAY-P",

@@ -33,6 +33,15 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     string_compare::TABLE,
     strings::TABLE,
     types::TABLE,
+    array_make::TABLE,
+    arrays::TABLE,
+    bits::TABLE,
+    files::TABLE,
+    fill_pointers::TABLE,
+    hash_tables::TABLE,
+    packages::TABLE,
+    streams::TABLE,
+    symbols::TABLE,
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
@@ -44,6 +53,9 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
+    hash_tables::SYSTEM_TABLE,
+    package_macros::SYSTEM_TABLE,
+    streams::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
@@ -52,11 +64,21 @@ pub static SETTERS: &[&[Builtin]] = &[
     property_lists::SETTERS,
     sequence_access::SETTERS,
     strings::SETTERS,
+    arrays::SETTERS,
+    fill_pointers::SETTERS,
+    hash_tables::SETTERS,
+    symbols::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
-pub static OPERATORS: &[&[Operator]] =
-    &[compile::SPECIAL_FORMS, compile::OPERATORS, types::OPERATORS];
+pub static OPERATORS: &[&[Operator]] = &[
+    compile::SPECIAL_FORMS,
+    compile::OPERATORS,
+    types::OPERATORS,
+    hash_tables::OPERATORS,
+    package_macros::OPERATORS,
+    stream_macros::OPERATORS,
+];
 
 /// Special operators and macros of package `SYSTEM`.
 pub static SYSTEM_OPERATORS: &[&[Operator]] = &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];

@@ -275,36 +275,6 @@ fn apropos(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::values(Vec::new()))
 }
 
-/// A function that keeps returning one value, whatever its arguments.
-fn constantly(_: &mut Image, args: &[Value]) -> Outcome {
-    let value = args[0].clone();
-    Ok(Value::Function(Function::made(
-        known::CONSTANTLY,
-        (0, None),
-        move |_, _| Ok(value.clone()),
-    )))
-}
-
-fn identity(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(args[0].clone())
-}
-
-fn complement(image: &mut Image, args: &[Value]) -> Outcome {
-    use super::calls::{Args, run};
-    let function = callable(image, &args[0])?;
-    Ok(Value::Function(Function::made_control(
-        known::COMPLEMENT,
-        (0, None),
-        move |machine, args| {
-            let function = function.clone();
-            run(machine, "COMPLEMENT", |calls| async move {
-                let value = calls.call(&function, Args::Many(args)).await;
-                Ok(Value::bool(value.is_nil()))
-            })
-        },
-    )))
-}
-
 /// Symbols.
 pub static TABLE: &[Builtin] = &[
     pure(
@@ -455,27 +425,6 @@ pub static TABLE: &[Builtin] = &[
         "Prints the symbols whose names contain a text.",
         &["(apropos \"no symbol has this in its name\") => "],
         apropos,
-    ),
-    pure(
-        "CONSTANTLY",
-        "value",
-        "A function that always returns a value.",
-        &["(funcall (constantly 5) 1 2) => 5"],
-        constantly,
-    ),
-    pure(
-        "IDENTITY",
-        "object",
-        "The object itself.",
-        &["(identity 5) => 5"],
-        identity,
-    ),
-    pure(
-        "COMPLEMENT",
-        "predicate",
-        "A predicate that is true where the given one is false.",
-        &["(funcall (complement #'evenp) 1) => T"],
-        complement,
     ),
 ];
 
