@@ -34,6 +34,15 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     string_compare::TABLE,
     strings::TABLE,
     types::TABLE,
+    array_make::TABLE,
+    arrays::TABLE,
+    bits::TABLE,
+    files::TABLE,
+    fill_pointers::TABLE,
+    hash_tables::TABLE,
+    packages::TABLE,
+    streams::TABLE,
+    symbols::TABLE,
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
@@ -46,6 +55,9 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     signalling::SYSTEM_TABLE,
     structures::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
+    hash_tables::SYSTEM_TABLE,
+    package_macros::SYSTEM_TABLE,
+    streams::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
@@ -55,6 +67,10 @@ pub static SETTERS: &[&[Builtin]] = &[
     property_lists::SETTERS,
     sequence_access::SETTERS,
     strings::SETTERS,
+    arrays::SETTERS,
+    fill_pointers::SETTERS,
+    hash_tables::SETTERS,
+    symbols::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
@@ -65,6 +81,10 @@ pub static OPERATORS: &[&[Operator]] = &[
     objects::OPERATORS,
     structures::OPERATORS,
     types::OPERATORS,
+    types::OPERATORS,
+    hash_tables::OPERATORS,
+    package_macros::OPERATORS,
+    stream_macros::OPERATORS,
 ];
 
 /// Special operators and macros of package `SYSTEM`.
