@@ -30,7 +30,6 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     sequence_search::TABLE,
     signalling::TABLE,
     sort::TABLE,
-    structures::TABLE,
     string_compare::TABLE,
     strings::TABLE,
     types::TABLE,
@@ -43,6 +42,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     packages::TABLE,
     streams::TABLE,
     symbols::TABLE,
+    structures::TABLE,
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
@@ -53,16 +53,15 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
-    structures::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
     hash_tables::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,
     streams::SYSTEM_TABLE,
+    structures::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
 pub static SETTERS: &[&[Builtin]] = &[
-    objects::SETTERS,
     pairs::SETTERS,
     property_lists::SETTERS,
     sequence_access::SETTERS,
@@ -71,20 +70,20 @@ pub static SETTERS: &[&[Builtin]] = &[
     fill_pointers::SETTERS,
     hash_tables::SETTERS,
     symbols::SETTERS,
+    objects::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
 pub static OPERATORS: &[&[Operator]] = &[
     compile::SPECIAL_FORMS,
     compile::OPERATORS,
-    generic_functions::OPERATORS,
-    objects::OPERATORS,
-    structures::OPERATORS,
-    types::OPERATORS,
     types::OPERATORS,
     hash_tables::OPERATORS,
     package_macros::OPERATORS,
     stream_macros::OPERATORS,
+    generic_functions::OPERATORS,
+    objects::OPERATORS,
+    structures::OPERATORS,
 ];
 
 /// Special operators and macros of package `SYSTEM`.
