@@ -79,6 +79,11 @@ impl Output {
         }
     }
 
+    /// Notes that what is written next stands at the start of a line.
+    pub fn begin_line(&mut self) {
+        self.column = 0;
+    }
+
     /// Number of characters on the current line.
     pub fn column(&self) -> usize {
         self.column
