@@ -12,6 +12,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     characters::TABLE,
     conditions::TABLE,
     definitions::TABLE,
+    documentation::TABLE,
     evaluation::TABLE,
     generic_functions::TABLE,
     list_search::TABLE,
@@ -19,6 +20,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     list_trees::TABLE,
     lists::TABLE,
     mapping::TABLE,
+    object_printing::TABLE,
     objects::TABLE,
     pairs::TABLE,
     property_lists::TABLE,
@@ -50,6 +52,7 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
     generic_functions::SYSTEM_TABLE,
+    object_printing::SYSTEM_TABLE,
     objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
@@ -70,6 +73,7 @@ pub static SETTERS: &[&[Builtin]] = &[
     fill_pointers::SETTERS,
     hash_tables::SETTERS,
     symbols::SETTERS,
+    documentation::SETTERS,
     objects::SETTERS,
 ];
 
@@ -82,6 +86,7 @@ pub static OPERATORS: &[&[Operator]] = &[
     package_macros::OPERATORS,
     stream_macros::OPERATORS,
     generic_functions::OPERATORS,
+    object_printing::OPERATORS,
     objects::OPERATORS,
     structures::OPERATORS,
 ];
