@@ -2,4 +2,6 @@
 //! Common-Lisp-like plan language.
 
 pub mod motion;
+pub mod robot;
 pub mod spatial;
+pub mod world;

@@ -1,0 +1,23 @@
+//! The robot's body: links and joints read from a URDF, where every link is for
+//! given joint positions, and which joint positions bring a hand to a given place.
+//!
+//! The same kinematic tree also describes the furniture. Nothing here knows of
+//! time, physics or the plan language; poses are those of [`crate::spatial`].
+
+pub mod closest_name;
+pub mod joint_positions;
+pub mod tree;
+pub mod urdf;
+pub mod urdf_error;
+mod urdf_schema;
+mod xml_elements;
+
+pub use joint_positions::JointPositions;
+pub use tree::{Joint, JointId, JointKind, KinematicTree, Limits, Link, LinkId, Mimic};
+pub use urdf_error::UrdfError;
+
+/// The text of the built-in PR2 description, `world/pr2.urdf`.
+pub const PR2_URDF: &str = include_str!("../../world/pr2.urdf");
+
+/// The text of the built-in kitchen, `world/kitchen.urdf`; its root is the map frame.
+pub const KITCHEN_URDF: &str = include_str!("../../world/kitchen.urdf");

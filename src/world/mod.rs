@@ -1,0 +1,33 @@
+//! The physical world.
+pub mod allowed_pairs;
+pub mod body_name;
+pub mod collision;
+pub mod contacts;
+pub mod error;
+pub mod hash;
+mod link_geometry;
+pub mod models;
+pub mod object;
+pub mod part_key;
+pub mod physics;
+pub mod robot_configuration;
+pub mod roles;
+pub mod scene;
+mod separation;
+pub mod snapshot;
+mod solid;
+pub mod spawn;
+
+pub use allowed_pairs::AllowedPairs;
+pub use body_name::{BodyName, LinkName};
+pub use collision::{Clearance, CollisionChecker, CollisionHit};
+pub use contacts::{ContactForce, WeldError};
+pub use error::WorldError;
+pub use models::Models;
+pub use object::{Attachment, Object};
+pub use part_key::PartKey;
+pub use robot_configuration::RobotConfiguration;
+pub use roles::{HandRoles, Roles};
+pub use scene::World;
+pub use snapshot::Snapshot;
+pub use spawn::{ObjectDescription, SpawnReport};

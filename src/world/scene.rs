@@ -1,0 +1,520 @@
+//! The world: robot, kitchen, objects, and the time that has passed.
+//!
+//! Held true here:
+//! - Time passes in [`World::step`] only, and there by exactly one physics step.
+//! - The robot and the kitchen follow their joint vectors exactly. `set_…` makes them move
+//!   there during the next step, pushing what is in the way; `teleport_…` puts them there,
+//!   which is an edit of the world and no motion.
+//! - An object that is attached to a link is welded to it softly until it is detached.
+//! - Objects are kept in the order in which they appeared.
+
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+
+use super::collision::{CollisionChecker, HeldObject, ObjectAt, Obstacle, index};
+use super::error::WorldError;
+use super::hash::Hasher;
+use super::link_geometry::TreeGeometry;
+use super::models::Models;
+use super::object::{Attachment, Object};
+use super::part_key::PartKey;
+use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS};
+use super::robot_configuration::RobotConfiguration;
+use super::solid::to_parry;
+use crate::robot::{JointPositions, KinematicTree, LinkId};
+use crate::spatial::Pose;
+
+/// A kitchen with a robot and objects in it.
+///
+/// A clone is a world of its own that goes on from the same state with the same bits.
+#[derive(Clone)]
+pub struct World {
+    pub(super) models: Arc<Models>,
+    pub(super) physics: Physics,
+    pub(super) state: State,
+    robot_bodies: Arc<[BodyHandle]>,
+    kitchen_bodies: Arc<[Option<BodyHandle>]>,
+}
+
+/// What a world knows besides the state of the physics engine.
+#[derive(Clone)]
+pub(super) struct State {
+    pub(super) robot: RobotConfiguration,
+    pub(super) robot_poses: Vec<Pose>,
+    robot_moves: bool,
+    pub(super) kitchen: JointPositions,
+    pub(super) kitchen_poses: Vec<Pose>,
+    kitchen_moves: bool,
+    pub(super) furniture: Arc<Vec<Obstacle>>,
+    pub(super) objects: IndexMap<String, Object>,
+    pub(super) next_number: u32,
+    pub(super) steps: u64,
+}
+
+impl World {
+    /// A world without objects, the kitchen closed and the robot as given.
+    pub fn new(models: Arc<Models>, robot: RobotConfiguration) -> Self {
+        let mut physics = Physics::new();
+        physics.add_floor(PartKey::Floor.code());
+
+        let kitchen = models.kitchen.zero_positions();
+        let mut kitchen_poses = Vec::new();
+        models
+            .kitchen
+            .forward_kinematics(&Pose::identity(), &kitchen, &mut kitchen_poses);
+        let kitchen_bodies = models
+            .kitchen_geometry
+            .groups
+            .iter()
+            .enumerate()
+            .map(|(i, group)| {
+                let kind = if group.moves {
+                    BodyKind::MovingFurniture
+                } else {
+                    BodyKind::Static
+                };
+                let parts = group_parts(&models.kitchen_geometry, i, PartKey::Furniture, &[]);
+                let pose = pose_of(&kitchen_poses, group.root);
+                (!parts.is_empty()).then(|| physics.add_body(kind, &pose, &parts))
+            })
+            .collect();
+
+        let mut robot_poses = Vec::new();
+        models
+            .robot
+            .forward_kinematics(&robot.base, &robot.joints, &mut robot_poses);
+        let fingers: Vec<LinkId> = models
+            .roles
+            .hands
+            .iter()
+            .flat_map(|hand| hand.fingers.iter().flatten().copied())
+            .collect();
+        let robot_bodies = models
+            .robot_geometry
+            .groups
+            .iter()
+            .enumerate()
+            .map(|(i, group)| {
+                let parts = group_parts(&models.robot_geometry, i, PartKey::Robot, &fingers);
+                physics.add_body(BodyKind::Robot, &pose_of(&robot_poses, group.root), &parts)
+            })
+            .collect();
+
+        let furniture = Arc::new(furniture_obstacles(
+            &models.kitchen_geometry,
+            &kitchen_poses,
+        ));
+        Self {
+            models,
+            physics,
+            state: State {
+                robot,
+                robot_poses,
+                robot_moves: false,
+                kitchen,
+                kitchen_poses,
+                kitchen_moves: false,
+                furniture,
+                objects: IndexMap::new(),
+                next_number: 0,
+                steps: 0,
+            },
+            robot_bodies,
+            kitchen_bodies,
+        }
+    }
+
+    /// The models that the world is built from.
+    pub fn models(&self) -> &Arc<Models> {
+        &self.models
+    }
+
+    /// Lets one physics step pass: robot and kitchen move to where they were set, objects
+    /// fall, slide and are carried.
+    pub fn step(&mut self) {
+        if self.state.robot_moves {
+            for (body, group) in self
+                .robot_bodies
+                .iter()
+                .zip(&self.models.robot_geometry.groups)
+            {
+                self.physics
+                    .move_to(*body, &pose_of(&self.state.robot_poses, group.root));
+            }
+            for object in self
+                .state
+                .objects
+                .values()
+                .filter(|o| o.attachment.is_some())
+            {
+                self.physics.wake(object.body);
+            }
+            self.state.robot_moves = false;
+        }
+        if self.state.kitchen_moves {
+            for (body, group) in self
+                .kitchen_bodies
+                .iter()
+                .zip(&self.models.kitchen_geometry.groups)
+            {
+                if let (Some(body), true) = (body, group.moves) {
+                    self.physics
+                        .move_to(*body, &pose_of(&self.state.kitchen_poses, group.root));
+                }
+            }
+            self.state.kitchen_moves = false;
+        }
+        self.physics.step();
+        self.state.steps += 1;
+    }
+
+    /// Lets time pass until every object is at rest, at most `seconds` (s). Returns whether
+    /// all came to rest.
+    pub fn settle(&mut self, seconds: f64) -> bool {
+        let mut quiet = 0;
+        let mut left = steps_in(seconds);
+        while left > 0 {
+            self.step();
+            left -= 1;
+            quiet = if self.is_at_rest() { quiet + 1 } else { 0 };
+            if quiet >= QUIET_STEPS {
+                return true;
+            }
+        }
+        self.state.objects.is_empty()
+    }
+
+    /// Whether no object moves faster than 2 mm/s or turns faster than 0.02 rad/s.
+    pub fn is_at_rest(&self) -> bool {
+        self.state.objects.values().all(|object| {
+            let (linear, angular) = self.physics.velocity(object.body);
+            linear.norm() < REST_SPEED && angular.norm() < REST_TURN
+        })
+    }
+
+    /// Number of steps since the world began.
+    pub fn steps(&self) -> u64 {
+        self.state.steps
+    }
+
+    /// Simulated time since the world began (s).
+    pub fn time(&self) -> f64 {
+        // Exact for any number of steps that can be simulated.
+        self.state.steps as f64 * STEP_SECONDS
+    }
+
+    /// Where the robot stands and how its joints are set.
+    pub fn robot_configuration(&self) -> &RobotConfiguration {
+        &self.state.robot
+    }
+
+    /// Makes the robot move to the configuration during the next step. Meant for one tick of
+    /// a smooth motion: the way there is not checked.
+    pub fn set_robot_configuration(&mut self, configuration: &RobotConfiguration) {
+        if self.state.robot != *configuration {
+            self.place_robot_links(configuration);
+            self.state.robot_moves = true;
+        }
+    }
+
+    /// Puts the robot into the configuration at once, with what it holds. An edit of the
+    /// world, not a motion.
+    pub fn teleport_robot(&mut self, configuration: &RobotConfiguration) {
+        self.place_robot_links(configuration);
+        self.state.robot_moves = false;
+        for (body, group) in self
+            .robot_bodies
+            .iter()
+            .zip(&self.models.robot_geometry.groups)
+        {
+            self.physics
+                .place(*body, &pose_of(&self.state.robot_poses, group.root));
+        }
+        for object in self.state.objects.values() {
+            if let Some(attachment) = &object.attachment {
+                let link = pose_of(&self.state.robot_poses, attachment.link);
+                self.physics.place(object.body, &(link * attachment.at));
+            }
+        }
+    }
+
+    fn place_robot_links(&mut self, configuration: &RobotConfiguration) {
+        self.state.robot.clone_from(configuration);
+        self.models.robot.forward_kinematics(
+            &configuration.base,
+            &configuration.joints,
+            &mut self.state.robot_poses,
+        );
+    }
+
+    /// Pose of a link of the robot in the map frame.
+    pub fn link_pose(&self, link: LinkId) -> Pose {
+        pose_of(&self.state.robot_poses, link)
+    }
+
+    /// Poses of all links of the robot in the map frame, at [`LinkId::index`].
+    pub fn link_poses(&self) -> &[Pose] {
+        &self.state.robot_poses
+    }
+
+    /// Pose of a link of the kitchen in the map frame.
+    pub fn furniture_pose(&self, link: LinkId) -> Pose {
+        pose_of(&self.state.kitchen_poses, link)
+    }
+
+    /// Positions of all joints of the kitchen (rad or m).
+    pub fn kitchen_joints(&self) -> &JointPositions {
+        &self.state.kitchen
+    }
+
+    /// Position of a joint of the kitchen (rad or m).
+    pub fn kitchen_joint(&self, name: &str) -> Result<f64, WorldError> {
+        let joint = self.moving_kitchen_joint(name)?;
+        Ok(self.models.kitchen.position(&self.state.kitchen, joint))
+    }
+
+    /// Makes a drawer or door move to the position (rad or m) during the next step, taking
+    /// along what is in it. The position is brought into the joint's limits and returned.
+    pub fn set_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
+        let position = self.change_kitchen_joint(name, position)?;
+        self.state.kitchen_moves = true;
+        Ok(position)
+    }
+
+    /// Puts a drawer or door at the position (rad or m) at once; what is in it stays behind.
+    /// The position is brought into the joint's limits and returned.
+    pub fn teleport_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
+        let position = self.change_kitchen_joint(name, position)?;
+        for (body, group) in self
+            .kitchen_bodies
+            .iter()
+            .zip(&self.models.kitchen_geometry.groups)
+        {
+            if let (Some(body), true) = (body, group.moves) {
+                self.physics
+                    .place(*body, &pose_of(&self.state.kitchen_poses, group.root));
+            }
+        }
+        Ok(position)
+    }
+
+    fn change_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
+        let joint = self.moving_kitchen_joint(name)?;
+        if !position.is_finite() {
+            return Err(WorldError::ImpossibleNumber {
+                quantity: "the position",
+                name: name.to_owned(),
+                value: position,
+            });
+        }
+        let limits = self.models.kitchen.joint(joint).limits;
+        let position = limits.map_or(position, |l| l.clamp(position));
+        self.state.kitchen.set(joint, position);
+        self.models.kitchen.forward_kinematics(
+            &Pose::identity(),
+            &self.state.kitchen,
+            &mut self.state.kitchen_poses,
+        );
+        self.state.furniture = Arc::new(furniture_obstacles(
+            &self.models.kitchen_geometry,
+            &self.state.kitchen_poses,
+        ));
+        Ok(position)
+    }
+
+    fn moving_kitchen_joint(&self, name: &str) -> Result<crate::robot::JointId, WorldError> {
+        let tree: &KinematicTree = &self.models.kitchen;
+        tree.joint_named(name)
+            .filter(|j| tree.joint(*j).is_actuated())
+            .ok_or_else(|| WorldError::UnknownKitchenJoint {
+                name: name.to_owned(),
+                closest: crate::robot::closest_name::closest_name(
+                    name,
+                    tree.joints()
+                        .filter(|(_, j)| j.is_actuated())
+                        .map(|(_, j)| j.name.as_str()),
+                )
+                .map(str::to_owned),
+            })
+    }
+
+    /// All objects in the order in which they appeared.
+    pub fn objects(&self) -> impl ExactSizeIterator<Item = &Object> {
+        self.state.objects.values()
+    }
+
+    /// The object of that name.
+    pub fn object(&self, name: &str) -> Result<&Object, WorldError> {
+        self.state
+            .objects
+            .get(name)
+            .ok_or_else(|| WorldError::UnknownObject {
+                name: name.to_owned(),
+                closest: crate::robot::closest_name::closest_name(
+                    name,
+                    self.state.objects.keys().map(String::as_str),
+                )
+                .map(str::to_owned),
+            })
+    }
+
+    /// Pose of the object in the map frame.
+    pub fn object_pose(&self, name: &str) -> Result<Pose, WorldError> {
+        Ok(self.physics.pose(self.object(name)?.body))
+    }
+
+    /// Welds the object softly to the robot's link, where it is now. An object that was
+    /// attached elsewhere is let go there.
+    pub fn attach(&mut self, name: &str, link: LinkId) -> Result<(), WorldError> {
+        self.detach(name)?;
+        let object = self.object(name)?;
+        let (body, pose) = (object.body, self.physics.pose(object.body));
+        let link_pose = self.link_pose(link);
+        let geometry = &self.models.robot_geometry;
+        // Every link has a group, and every group of the robot a body.
+        let group = geometry.group_of[link.index()];
+        let root = pose_of(&self.state.robot_poses, geometry.groups[group].root);
+        let weld = self
+            .physics
+            .weld(self.robot_bodies[group], &(root.inverse() * pose), body);
+        let at = link_pose.inverse() * pose;
+        if let Some(object) = self.state.objects.get_mut(name) {
+            object.attachment = Some(Attachment { link, at, weld });
+        }
+        Ok(())
+    }
+
+    /// Lets go of the object. Returns the link that held it.
+    pub fn detach(&mut self, name: &str) -> Result<Option<LinkId>, WorldError> {
+        self.object(name)?;
+        let Some(object) = self.state.objects.get_mut(name) else {
+            return Ok(None);
+        };
+        let held = object.attachment.take();
+        if let Some(attachment) = held {
+            self.physics.unweld(attachment.weld);
+            self.physics.wake(object.body);
+        }
+        Ok(held.map(|a| a.link))
+    }
+
+    /// The body of the engine that the link is part of.
+    pub(super) fn body_of_link(&self, link: LinkId) -> Option<BodyHandle> {
+        let group = *self.models.robot_geometry.group_of.get(link.index())?;
+        self.robot_bodies.get(group).copied()
+    }
+
+    /// A judge of robot configurations for the world as it is now.
+    pub fn collision_checker(&self) -> CollisionChecker<'_> {
+        let mut lying = Vec::new();
+        let mut held = Vec::new();
+        for object in self.state.objects.values() {
+            match &object.attachment {
+                Some(attachment) => held.push(HeldObject {
+                    key: object.key(),
+                    name: &object.name,
+                    solids: &object.solids,
+                    bounds: object.bounds,
+                    link: attachment.link,
+                    at: attachment.at,
+                }),
+                None => lying.push(self.object_at(object)),
+            }
+        }
+        CollisionChecker::new(&self.models, &self.state.furniture, lying, held)
+    }
+
+    pub(super) fn object_at<'w>(&self, object: &'w Object) -> ObjectAt<'w> {
+        let pose = to_parry(&self.physics.pose(object.body));
+        ObjectAt {
+            key: object.key(),
+            name: &object.name,
+            solids: &object.solids,
+            pose,
+            bounds: object.bounds.transform_by(&pose),
+        }
+    }
+
+    /// A hash of the bits of the whole state.
+    pub fn hash(&self) -> u64 {
+        let mut hasher = Hasher::default();
+        self.physics.hash_into(&mut hasher);
+        hasher.integer(self.state.steps);
+        hasher.pose(&self.state.robot.base);
+        let joints = self.state.robot.joints.as_slice();
+        for position in joints.iter().chain(self.state.kitchen.as_slice()) {
+            hasher.number(*position);
+        }
+        for object in self.state.objects.values() {
+            hasher.text(&object.name);
+            hasher.text(&object.type_name);
+            hasher.integer(object.key().code());
+            if let Some(attachment) = &object.attachment {
+                hasher.integer(u64::from(index(attachment.link)));
+                hasher.pose(&attachment.at);
+            }
+        }
+        hasher.finish()
+    }
+}
+
+/// Steps of quiet that count as rest: a tenth of a second.
+const QUIET_STEPS: u32 = 24;
+
+/// Speeds (m/s, rad/s) below which an object counts as resting.
+const REST_SPEED: f64 = 0.002;
+const REST_TURN: f64 = 0.02;
+
+/// Number of steps that cover the time (s), at least one; nothing for a negative time.
+fn steps_in(seconds: f64) -> u64 {
+    // The cast saturates.
+    (seconds / STEP_SECONDS).ceil() as u64
+}
+
+/// The pose of the link; identity for a link of another tree.
+fn pose_of(poses: &[Pose], link: LinkId) -> Pose {
+    poses.get(link.index()).copied().unwrap_or_default()
+}
+
+/// The solids of a group in its root's frame, with their keys and whether they grip.
+fn group_parts(
+    geometry: &TreeGeometry,
+    group: usize,
+    key: fn(u32) -> PartKey,
+    grips: &[LinkId],
+) -> Vec<(super::solid::Solid, u64, bool)> {
+    let mut parts = Vec::new();
+    for (place, pose) in &geometry.groups[group].members {
+        // Members are places in this very list.
+        let link = &geometry.solid_links[*place];
+        for solid in &link.solids {
+            let mut solid = solid.clone();
+            solid.pose = to_parry(pose) * solid.pose;
+            parts.push((
+                solid,
+                key(index(link.link)).code(),
+                grips.contains(&link.link),
+            ));
+        }
+    }
+    parts
+}
+
+/// The furniture's solids in the map frame.
+fn furniture_obstacles(geometry: &TreeGeometry, poses: &[Pose]) -> Vec<Obstacle> {
+    let mut obstacles = Vec::new();
+    for link in &geometry.solid_links {
+        let link_pose = to_parry(&pose_of(poses, link.link));
+        for solid in &link.solids {
+            let pose = link_pose * solid.pose;
+            obstacles.push(Obstacle {
+                key: PartKey::Furniture(index(link.link)),
+                bounds: solid.shape.compute_aabb(&pose),
+                solid: solid.clone(),
+                pose,
+            });
+        }
+    }
+    obstacles
+}

@@ -1,0 +1,302 @@
+//! Putting objects into the world, moving them about and taking them out.
+//!
+//! An object that would overlap something is lifted until it is free and set down exactly on
+//! what is below; one that hovers closely is set down too. So nothing is ever thrown out of
+//! furniture by the physics engine. These are edits of the world: no time passes.
+
+use std::sync::Arc;
+
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
+use parry3d_f64::math::{Pose as ParryPose, Vector};
+use parry3d_f64::query::{ShapeCastOptions, cast_shapes};
+
+use super::body_name::BodyName;
+use super::error::WorldError;
+use super::object::Object;
+use super::part_key::PartKey;
+use super::physics::BodyKind;
+use super::scene::World;
+use super::separation::{lowest_point, separation};
+use super::solid::{Solid, bounds_of, to_parry};
+use crate::spatial::{PlacedShape, Pose};
+
+/// Mass (kg) of an object when none is given.
+pub const DEFAULT_MASS: f64 = 0.2;
+
+/// Steps (m) in which an overlapping object is lifted while looking for free space.
+const LIFT_STEP: f64 = 0.005;
+
+/// Highest lift (m): above everything in a kitchen.
+const LIFT_LIMIT: f64 = 4.0;
+
+/// Gap (m) up to which a hovering object is set down instead of dropped.
+const SNAP_GAP: f64 = 0.05;
+
+/// Overlap (m) that counts as touching.
+const TOUCH: f64 = 1e-6;
+
+/// What is to appear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectDescription {
+    /// Type in the object library.
+    pub type_name: String,
+    /// Shapes in the object's frame.
+    pub shapes: Vec<PlacedShape>,
+    /// Colour, red green blue alpha in 0..1.
+    pub color: [f32; 4],
+    /// Mass (kg).
+    pub mass: f64,
+}
+
+/// What became of an order to put an object somewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpawnReport {
+    /// Whether the object is new; otherwise it was only moved.
+    pub is_new: bool,
+    /// Where the object is now, in the map frame.
+    pub pose: Pose,
+    /// How much higher (m) that is than asked for; negative when it was set down.
+    pub lifted: f64,
+    /// What the object would have overlapped where it was asked for.
+    pub blocked_by: Option<BodyName>,
+    /// What the object was set down on; `None` when it is left to fall.
+    pub support: Option<BodyName>,
+}
+
+/// A body near the place of a new object.
+struct Neighbour {
+    key: PartKey,
+    pose: ParryPose,
+    solid: Solid,
+}
+
+impl World {
+    /// Puts a new object at the pose, or moves the object that has the name already (its type,
+    /// colour and mass stay then).
+    pub fn spawn(
+        &mut self,
+        name: &str,
+        description: &ObjectDescription,
+        pose: &Pose,
+    ) -> Result<SpawnReport, WorldError> {
+        if self.state.objects.contains_key(name) {
+            return self.move_object(name, pose);
+        }
+        check_finite(name, pose)?;
+        let mass = description.mass;
+        if !(mass.is_finite() && mass > 0.0) {
+            return Err(WorldError::ImpossibleNumber {
+                quantity: "the mass",
+                name: name.to_owned(),
+                value: mass,
+            });
+        }
+        let solids = Solid::all(&description.shapes);
+        let Some(bounds) = bounds_of(&solids) else {
+            return Err(WorldError::NoSolid {
+                type_name: description.type_name.clone(),
+            });
+        };
+        let number = self.state.next_number;
+        self.state.next_number += 1;
+        let key = PartKey::Object(number);
+        let mut report = self.find_place(key, &solids, &bounds, pose);
+        report.is_new = true;
+        let parts: Vec<_> = solids
+            .iter()
+            .map(|s| (s.clone(), key.code(), false))
+            .collect();
+        let body = self
+            .physics
+            .add_body(BodyKind::Object { mass }, &report.pose, &parts);
+        self.state.objects.insert(
+            name.to_owned(),
+            Object {
+                name: name.to_owned(),
+                type_name: description.type_name.clone(),
+                color: description.color,
+                mass,
+                shapes: Arc::from(description.shapes.as_slice()),
+                solids: Arc::from(solids),
+                bounds,
+                number,
+                body,
+                attachment: None,
+            },
+        );
+        Ok(report)
+    }
+
+    /// Puts the object somewhere else, let go and at rest.
+    pub fn move_object(&mut self, name: &str, pose: &Pose) -> Result<SpawnReport, WorldError> {
+        check_finite(name, pose)?;
+        self.detach(name)?;
+        let object = self.object(name)?;
+        let (key, body) = (object.key(), object.body);
+        let (solids, bounds) = (Arc::clone(&object.solids), object.bounds);
+        let report = self.find_place(key, &solids, &bounds, pose);
+        self.physics.place(body, &report.pose);
+        Ok(report)
+    }
+
+    /// Takes the object out of the world.
+    pub fn remove(&mut self, name: &str) -> Result<(), WorldError> {
+        self.detach(name)?;
+        // The line above has found it. Later objects keep their order.
+        if let Some(object) = self.state.objects.shift_remove(name) {
+            self.physics.remove_body(object.body);
+        }
+        Ok(())
+    }
+
+    /// Takes all objects out of the world.
+    pub fn remove_all(&mut self) {
+        for (_, object) in std::mem::take(&mut self.state.objects) {
+            self.physics.remove_body(object.body);
+        }
+    }
+
+    /// The place for the solids that is nearest to the pose along the vertical.
+    fn find_place(
+        &self,
+        own: PartKey,
+        solids: &[Solid],
+        bounds: &Aabb,
+        pose: &Pose,
+    ) -> SpawnReport {
+        let wanted = to_parry(pose);
+        let neighbours = self.neighbours(own, &bounds.transform_by(&wanted));
+        let blocked_by = first_overlap(solids, &wanted, &neighbours);
+        let mut height = 0.0;
+        let mut place = wanted;
+        let mut free = blocked_by.is_none();
+        while !free && height < LIFT_LIMIT {
+            height += LIFT_STEP;
+            place.translation.z = wanted.translation.z + height;
+            free = first_overlap(solids, &place, &neighbours).is_none();
+        }
+        let landing = drop_onto(solids, &place, &neighbours)
+            .filter(|(gap, _)| blocked_by.is_some() || *gap <= SNAP_GAP);
+        let mut lifted = place.translation.z - wanted.translation.z;
+        if let Some((gap, _)) = landing {
+            lifted -= gap;
+        }
+        let mut pose = *pose;
+        pose.translation.z += lifted;
+        SpawnReport {
+            is_new: false,
+            pose,
+            lifted,
+            blocked_by: blocked_by.and_then(|key| self.body_name(key)),
+            support: landing.and_then(|(_, key)| self.body_name(key)),
+        }
+    }
+
+    /// Everything above, below and around the bounds, the floor not included.
+    fn neighbours(&self, own: PartKey, bounds: &Aabb) -> Vec<Neighbour> {
+        let mut column = bounds.loosened(TOUCH);
+        column.mins.z = f64::NEG_INFINITY;
+        column.maxs.z = f64::INFINITY;
+        let mut found = Vec::new();
+        let mut add = |key, pose: ParryPose, solid: &Solid| {
+            if solid.shape.compute_aabb(&pose).intersects(&column) {
+                found.push(Neighbour {
+                    key,
+                    pose,
+                    solid: solid.clone(),
+                });
+            }
+        };
+        for obstacle in self.state.furniture.iter() {
+            add(obstacle.key, obstacle.pose, &obstacle.solid);
+        }
+        for link in &self.models.robot_geometry.solid_links {
+            let pose = to_parry(&self.link_pose(link.link));
+            let key = PartKey::Robot(super::collision::index(link.link));
+            link.solids.iter().for_each(|s| add(key, pose * s.pose, s));
+        }
+        for object in self.state.objects.values().filter(|o| o.key() != own) {
+            let pose = to_parry(&self.physics.pose(object.body));
+            object
+                .solids
+                .iter()
+                .for_each(|s| add(object.key(), pose * s.pose, s));
+        }
+        found
+    }
+
+    /// The name of the body that has the key.
+    pub fn body_name(&self, key: PartKey) -> Option<BodyName> {
+        Some(match key {
+            PartKey::Floor => BodyName::Floor,
+            PartKey::Robot(i) => BodyName::Robot(self.models.robot_geometry.name(i)?.clone()),
+            PartKey::Furniture(i) => {
+                BodyName::Furniture(self.models.kitchen_geometry.name(i)?.clone())
+            }
+            PartKey::Object(_) => {
+                let object = self.state.objects.values().find(|o| o.key() == key)?;
+                BodyName::Object(object.name.clone())
+            }
+        })
+    }
+}
+
+fn check_finite(name: &str, pose: &Pose) -> Result<(), WorldError> {
+    let q = pose.rotation.quaternion();
+    let numbers = pose.translation.vector.iter().chain(q.coords.iter());
+    match numbers.copied().find(|v| !v.is_finite()) {
+        None => Ok(()),
+        Some(value) => Err(WorldError::ImpossibleNumber {
+            quantity: "a coordinate",
+            name: name.to_owned(),
+            value,
+        }),
+    }
+}
+
+/// The first body that the solids overlap at the pose.
+fn first_overlap(solids: &[Solid], at: &ParryPose, neighbours: &[Neighbour]) -> Option<PartKey> {
+    for solid in solids {
+        let pose = at * solid.pose;
+        if lowest_point(&pose, solid).z < -TOUCH {
+            return Some(PartKey::Floor);
+        }
+        for other in neighbours {
+            if separation(&pose, solid, &other.pose, &other.solid, -TOUCH).is_some() {
+                return Some(other.key);
+            }
+        }
+    }
+    None
+}
+
+/// How far (m) the solids can fall from the pose, and onto what.
+fn drop_onto(solids: &[Solid], at: &ParryPose, neighbours: &[Neighbour]) -> Option<(f64, PartKey)> {
+    let mut nearest: Option<(f64, PartKey)> = None;
+    let mut keep = |gap: f64, key| {
+        if nearest.is_none_or(|(best, _)| gap < best) {
+            nearest = Some((gap, key));
+        }
+    };
+    for solid in solids {
+        let pose = at * solid.pose;
+        keep(lowest_point(&pose, solid).z.max(0.0), PartKey::Floor);
+        for other in neighbours {
+            let options = ShapeCastOptions::with_max_time_of_impact(LIFT_LIMIT);
+            let hit = cast_shapes(
+                &pose,
+                -Vector::Z,
+                &*solid.shape,
+                &other.pose,
+                Vector::ZERO,
+                &*other.solid.shape,
+                options,
+            );
+            // All shapes are convex, so that the cast is supported.
+            if let Ok(Some(hit)) = hit {
+                keep(hit.time_of_impact, other.key);
+            }
+        }
+    }
+    nearest
+}
