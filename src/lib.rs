@@ -2,6 +2,7 @@
 //! Common-Lisp-like plan language.
 
 pub mod motion;
+pub mod perception;
 pub mod robot;
 pub mod spatial;
 pub mod world;

@@ -205,6 +205,25 @@ impl<'w> CollisionChecker<'w> {
         })
     }
 
+    /// As [`Self::clearance`], without the pairs of the robot with itself.
+    pub fn clearance_to_world(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        reach: f64,
+    ) -> Option<Clearance> {
+        let hits = self.all_hits(robot, allowed, reach);
+        let nearest = hits.into_iter().find(|hit| {
+            let own = hit.other.robot_link().is_some();
+            !own && !matches!(hit.other, BodyName::Floor)
+        })?;
+        Some(Clearance {
+            moving: nearest.moving,
+            other: nearest.other,
+            distance: -nearest.depth,
+        })
+    }
+
     fn with_poses<T>(
         &mut self,
         robot: &RobotConfiguration,
