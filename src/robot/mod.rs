@@ -4,16 +4,24 @@
 //! The same kinematic tree also describes the furniture. Nothing here knows of
 //! time, physics or the plan language; poses are those of [`crate::spatial`].
 
+pub mod arm_chain;
+pub mod arm_kinematics;
 pub mod closest_name;
+mod elbow_curve;
 pub mod joint_positions;
+mod polynomial;
 pub mod tree;
+pub mod unreachable;
 pub mod urdf;
 pub mod urdf_error;
 mod urdf_schema;
 mod xml_elements;
 
+pub use arm_chain::{ARM_JOINTS, ArmChainError, ArmPositions};
+pub use arm_kinematics::ArmKinematics;
 pub use joint_positions::JointPositions;
 pub use tree::{Joint, JointId, JointKind, KinematicTree, Limits, Link, LinkId, Mimic};
+pub use unreachable::{LimitViolation, Unreachable};
 pub use urdf_error::UrdfError;
 
 /// The text of the built-in PR2 description, `world/pr2.urdf`.
