@@ -64,7 +64,7 @@ impl World {
             let mut forces: Vec<ContactForce> = Vec::new();
             // Two fingers per hand by type.
             for &link in &roles.fingers[finger] {
-                let own = PartKey::Robot(super::collision::index(link)).code();
+                let own = PartKey::Robot(super::part_key::index(link)).code();
                 let Some(body) = self.body_of_link(link) else {
                     continue;
                 };

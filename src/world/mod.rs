@@ -2,12 +2,14 @@
 pub mod allowed_pairs;
 pub mod body_name;
 pub mod collision;
+mod collision_search;
 pub mod contacts;
 pub mod error;
 pub mod hash;
 mod link_geometry;
 pub mod models;
 pub mod object;
+mod obstacles;
 pub mod part_key;
 pub mod physics;
 pub mod robot_configuration;

@@ -1,5 +1,7 @@
 //! Which body a primitive belongs to, small enough to be carried by every primitive.
 
+use crate::robot::LinkId;
+
 /// The owner of a primitive. Links are counted as in their tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PartKey {
@@ -36,6 +38,12 @@ impl PartKey {
             _ => Self::Floor,
         }
     }
+}
+
+/// The link's place in its tree as keys count it.
+pub(crate) fn index(link: LinkId) -> u32 {
+    // A tree of four milliard links does not fit into memory.
+    u32::try_from(link.index()).unwrap_or(u32::MAX)
 }
 
 #[cfg(test)]

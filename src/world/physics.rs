@@ -231,14 +231,6 @@ impl Physics {
             })
     }
 
-    /// Whether the engine has put the body to sleep.
-    pub(crate) fn is_sleeping(&self, body: BodyHandle) -> bool {
-        self.sets
-            .bodies
-            .get(body.0)
-            .is_some_and(|b| b.is_sleeping())
-    }
-
     /// Puts the body somewhere else, at rest. An edit of the world, not a motion.
     pub(crate) fn place(&mut self, body: BodyHandle, pose: &Pose) {
         if let Some(b) = self.sets.bodies.get_mut(body.0) {

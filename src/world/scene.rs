@@ -12,13 +12,15 @@ use std::sync::Arc;
 
 use indexmap::IndexMap;
 
-use super::collision::{CollisionChecker, HeldObject, ObjectAt, Obstacle, index};
+use super::collision::CollisionChecker;
+use super::collision_search::{HeldObject, ObjectAt, Surroundings};
 use super::error::WorldError;
 use super::hash::Hasher;
 use super::link_geometry::TreeGeometry;
 use super::models::Models;
 use super::object::{Attachment, Object};
-use super::part_key::PartKey;
+use super::obstacles::Obstacles;
+use super::part_key::{PartKey, index};
 use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::to_parry;
@@ -46,7 +48,7 @@ pub(super) struct State {
     pub(super) kitchen: JointPositions,
     pub(super) kitchen_poses: Vec<Pose>,
     kitchen_moves: bool,
-    pub(super) furniture: Arc<Vec<Obstacle>>,
+    pub(super) furniture: Arc<Obstacles>,
     pub(super) objects: IndexMap<String, Object>,
     pub(super) next_number: u32,
     pub(super) steps: u64,
@@ -101,10 +103,7 @@ impl World {
             })
             .collect();
 
-        let furniture = Arc::new(furniture_obstacles(
-            &models.kitchen_geometry,
-            &kitchen_poses,
-        ));
+        let furniture = Arc::new(Obstacles::new(&models.kitchen_geometry, &kitchen_poses));
         Self {
             models,
             physics,
@@ -316,7 +315,7 @@ impl World {
             &self.state.kitchen,
             &mut self.state.kitchen_poses,
         );
-        self.state.furniture = Arc::new(furniture_obstacles(
+        self.state.furniture = Arc::new(Obstacles::new(
             &self.models.kitchen_geometry,
             &self.state.kitchen_poses,
         ));
@@ -362,6 +361,14 @@ impl World {
     /// Pose of the object in the map frame.
     pub fn object_pose(&self, name: &str) -> Result<Pose, WorldError> {
         Ok(self.physics.pose(self.object(name)?.body))
+    }
+
+    /// Keeps all objects of now from falling asleep, which makes every step cost what it costs
+    /// while things move. For measurements.
+    pub fn keep_objects_awake(&mut self) {
+        for object in self.state.objects.values() {
+            self.physics.keep_awake(object.body);
+        }
     }
 
     /// Welds the object softly to the robot's link, where it is now. An object that was
@@ -422,7 +429,12 @@ impl World {
                 None => lying.push(self.object_at(object)),
             }
         }
-        CollisionChecker::new(&self.models, &self.state.furniture, lying, held)
+        CollisionChecker::new(Surroundings {
+            models: &self.models,
+            furniture: &self.state.furniture,
+            objects: lying,
+            held,
+        })
     }
 
     pub(super) fn object_at<'w>(&self, object: &'w Object) -> ObjectAt<'w> {
@@ -499,22 +511,4 @@ fn group_parts(
         }
     }
     parts
-}
-
-/// The furniture's solids in the map frame.
-fn furniture_obstacles(geometry: &TreeGeometry, poses: &[Pose]) -> Vec<Obstacle> {
-    let mut obstacles = Vec::new();
-    for link in &geometry.solid_links {
-        let link_pose = to_parry(&pose_of(poses, link.link));
-        for solid in &link.solids {
-            let pose = link_pose * solid.pose;
-            obstacles.push(Obstacle {
-                key: PartKey::Furniture(index(link.link)),
-                bounds: solid.shape.compute_aabb(&pose),
-                solid: solid.clone(),
-                pose,
-            });
-        }
-    }
-    obstacles
 }

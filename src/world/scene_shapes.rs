@@ -55,7 +55,7 @@ fn add_tree<'w>(
     key: fn(u32) -> PartKey,
 ) {
     for ((id, link), pose) in tree.links().zip(poses) {
-        let key = key(super::collision::index(id));
+        let key = key(super::part_key::index(id));
         found.extend(
             link.collisions
                 .iter()

@@ -1,6 +1,5 @@
 //! Signed distance between two solids, and between a solid and the floor.
 
-use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::{Pose as ParryPose, Vector};
 use parry3d_f64::query;
 
@@ -17,6 +16,8 @@ pub(crate) struct Separation {
 
 /// The separation of two solids (their own poses in the map frame) when it is below `margin`
 /// (m); with a negative margin only deeper overlaps count.
+///
+/// Compare bounds before: this is the expensive part.
 pub(crate) fn separation(
     pose1: &ParryPose,
     solid1: &Solid,
@@ -26,11 +27,6 @@ pub(crate) fn separation(
 ) -> Option<Separation> {
     let (shape1, shape2) = (&*solid1.shape, &*solid2.shape);
     let reach = margin.max(0.0);
-    let bounds1: Aabb = shape1.compute_aabb(pose1);
-    let bounds2: Aabb = shape2.compute_aabb(pose2);
-    if !bounds1.loosened(reach).intersects(&bounds2) {
-        return None;
-    }
     // All shapes of a solid are convex, so that every query is supported.
     if margin <= 0.0 {
         let hit = query::intersection_test(pose1, shape1, pose2, shape2).ok()?;

@@ -4,7 +4,7 @@
 //! A solid keeps the axis fix-up that the library wants (its cylinders lie along y), so
 //! nobody else has to think of it. Shapes are shared: a clone costs a reference count.
 
-use nalgebra::{Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
 use parry3d_f64::shape::SharedShape;
@@ -33,11 +33,6 @@ pub(crate) fn from_parry(pose: &ParryPose) -> Pose {
 /// Our vector for the library's.
 pub(crate) fn from_parry_vector(v: Vector) -> Vector3<f64> {
     Vector3::new(v.x, v.y, v.z)
-}
-
-/// The library's vector for ours.
-pub(crate) fn to_parry_vector(v: &Vector3<f64>) -> Vector {
-    Vector::new(v.x, v.y, v.z)
 }
 
 /// A convex primitive placed in the frame of the link or object that owns it.
@@ -104,27 +99,4 @@ pub(crate) fn bounds_of(solids: &[Solid]) -> Option<Aabb> {
         .peekable();
     points.peek()?;
     Some(Aabb::from_points(points))
-}
-
-/// Bounds (m) of a box of `local` bounds after `pose`.
-pub(crate) fn moved_bounds(local: &Aabb, pose: &ParryPose) -> Aabb {
-    local.transform_by(pose)
-}
-
-/// An axis-aligned box in the map frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// Smallest coordinates (m).
-    pub min: Point3<f64>,
-    /// Largest coordinates (m).
-    pub max: Point3<f64>,
-}
-
-impl From<Aabb> for Bounds {
-    fn from(b: Aabb) -> Self {
-        Self {
-            min: from_parry_vector(b.mins).into(),
-            max: from_parry_vector(b.maxs).into(),
-        }
-    }
 }

@@ -67,6 +67,7 @@ pub struct SpawnReport {
 struct Neighbour {
     key: PartKey,
     pose: ParryPose,
+    bounds: Aabb,
     solid: Solid,
 }
 
@@ -199,20 +200,22 @@ impl World {
         column.maxs.z = f64::INFINITY;
         let mut found = Vec::new();
         let mut add = |key, pose: ParryPose, solid: &Solid| {
-            if solid.shape.compute_aabb(&pose).intersects(&column) {
+            let bounds = solid.shape.compute_aabb(&pose);
+            if bounds.intersects(&column) {
                 found.push(Neighbour {
                     key,
                     pose,
+                    bounds,
                     solid: solid.clone(),
                 });
             }
         };
-        for obstacle in self.state.furniture.iter() {
+        for obstacle in self.state.furniture.all() {
             add(obstacle.key, obstacle.pose, &obstacle.solid);
         }
         for link in &self.models.robot_geometry.solid_links {
             let pose = to_parry(&self.link_pose(link.link));
-            let key = PartKey::Robot(super::collision::index(link.link));
+            let key = PartKey::Robot(super::part_key::index(link.link));
             link.solids.iter().for_each(|s| add(key, pose * s.pose, s));
         }
         for object in self.state.objects.values().filter(|o| o.key() != own) {
@@ -261,7 +264,11 @@ fn first_overlap(solids: &[Solid], at: &ParryPose, neighbours: &[Neighbour]) -> 
         if lowest_point(&pose, solid).z < -TOUCH {
             return Some(PartKey::Floor);
         }
+        let bounds = solid.shape.compute_aabb(&pose);
         for other in neighbours {
+            if !bounds.intersects(&other.bounds) {
+                continue;
+            }
             if separation(&pose, solid, &other.pose, &other.solid, -TOUCH).is_some() {
                 return Some(other.key);
             }
