@@ -2,19 +2,37 @@
 //!
 //! Only this folder moves the robot. Nothing here knows of the plan language.
 
+mod arm_axes;
 pub mod arm_path;
+mod arm_way;
 pub mod base_path;
+pub mod body;
+pub mod detect;
 pub mod drive;
 pub mod failure;
 mod follower;
+pub mod gripper;
 pub mod guard;
+pub mod hold;
 pub mod job;
+mod joint_follow;
+mod judge;
+pub mod look;
+pub mod move_joints;
+pub mod move_torso;
 mod patience;
 pub mod speeds;
 pub mod trajectory;
 pub mod unreachable;
 
+pub use body::{ArmBody, Body};
+pub use detect::{Detect, DetectQuery};
 pub use drive::Drive;
 pub use failure::{LimitViolation, MotionFailure, Side};
+pub use gripper::{GripperCommand, MoveGripper};
+pub use hold::{LetGo, held_objects, take_hold};
 pub use job::{DetectedObject, Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+pub use look::{Look, LookDirection, LookTarget};
+pub use move_joints::MoveJoints;
+pub use move_torso::MoveTorso;
 pub use unreachable::{Unreachable, UnreachableReason};

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::failure::{LimitViolation, Side};
+use super::failure::Side;
+use crate::robot;
 use crate::spatial::Pose;
 use crate::world::CollisionHit;
 
@@ -24,15 +25,12 @@ pub struct Unreachable {
 /// Why no posture was good enough.
 #[derive(Clone, Debug, PartialEq)]
 pub enum UnreachableReason {
-    /// The wrist would have to be farther from the shoulder than the arm is long.
-    TooFar {
-        /// How much too far (m), at the best height of the torso.
-        by: f64,
-    },
-    /// The arm is long enough, but joints would have to leave their ranges.
-    Limits {
-        /// The smallest violation, at the best height of the torso.
-        nearest: Option<LimitViolation>,
+    /// The arm is too short, or joints would have to leave their ranges.
+    Arm {
+        /// What is missing at the height of the torso where least is missing.
+        nearest: robot::Unreachable,
+        /// That height (m).
+        torso: f64,
     },
     /// There are postures, but all touch something.
     Collisions {
@@ -51,20 +49,14 @@ impl fmt::Display for Unreachable {
         let [x, y, z] = [t.x, t.y, t.z].map(double);
         let [i, j, k, w] = [q.i, q.j, q.k, q.w].map(double);
         write!(f, "#<\"{frame}\" (({x} {y} {z}) ({i} {j} {k} {w}))> is unreachable for EE.")?;
-        write!(f, "\nthe {side} arm, torso {low:.2} to {high:.2} m: ")?;
+        write!(f, "\nthe {side} arm, torso from {low:.2} to {high:.2} m: ")?;
         match reason {
-            UnreachableReason::TooFar { by } => {
-                write!(f, "the wrist would be {:.0} mm beyond the reach of the arm", by * 1e3)
-            }
-            UnreachableReason::Limits { nearest: Some(violation) } => {
-                write!(f, "no posture within the joint limits; nearest: {violation}")
-            }
-            UnreachableReason::Limits { nearest: None } => {
-                write!(f, "no posture within the joint limits")
+            UnreachableReason::Arm { nearest, torso } => {
+                write!(f, "{nearest} (with the torso at {torso:.2} m)")
             }
             UnreachableReason::Collisions { hit, postures } => write!(
                 f,
-                "all {postures} postures touch something, such as {} {}",
+                "all {postures} postures that were tried touch something, one of them {} and {}",
                 hit.moving, hit.other
             ),
         }

@@ -1,0 +1,240 @@
+//! Opening, closing and positioning the fingers, gripping, and the hold on an object.
+
+use std::sync::Arc;
+
+use super::body::Body;
+use super::failure::{LimitViolation, MotionFailure, Side};
+use super::guard;
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::joint_follow::{FollowStep, JointFollow, with_joints};
+use super::speeds;
+use super::trajectory::{Corners, Trajectory};
+use crate::robot::Limits;
+use crate::world::physics::STEP_SECONDS;
+use crate::world::{AllowedPairs, BodyName, ContactForce, LinkName, World};
+
+/// A goal farther outside of the limits than this (rad) is a failure.
+const CROPPED: f64 = 1e-4;
+/// How long (s) the way may be blocked while nothing moves.
+const PATIENCE: f64 = 0.3;
+/// Force (N) from which on a finger counts as pressing.
+pub const GRIP_FORCE: f64 = 2.0;
+/// How long (s) fingers may press on different things before that counts as a failure.
+const UNEQUAL: f64 = 0.25;
+
+/// What to do with the fingers of a hand.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GripperCommand {
+    /// Open as far as possible.
+    Open,
+    /// Close completely, or as far as what is in between lets them.
+    Close,
+    /// To an opening (m).
+    Position(f64),
+    /// Close until both fingers press on one object: the named one, or any.
+    Grip {
+        /// Name of the object, when another one would be wrong.
+        object: Option<String>,
+    },
+}
+
+/// Moves the fingers of one hand.
+#[derive(Clone, Debug)]
+pub struct MoveGripper {
+    body: Arc<Body>,
+    side: Side,
+    command: GripperCommand,
+    follow: Option<JointFollow>,
+    unequal: f64,
+    ended: bool,
+}
+
+/// Any object may be touched by any link of the hand.
+pub(super) fn hand_may_touch_objects(body: &Body, world: &World, side: Side) -> AllowedPairs {
+    let names = hand_names(body, world, side);
+    world.objects().fold(AllowedPairs::none(), |all, object| {
+        all.and_all(names.clone(), &BodyName::Object(object.name().to_owned()))
+    })
+}
+
+/// The links of a hand as bodies.
+pub(super) fn hand_names(body: &Body, world: &World, side: Side) -> Vec<BodyName> {
+    let tree = &world.models().robot;
+    let name = |&id| BodyName::Robot(LinkName { id, name: tree.link(id).name.as_str().into() });
+    body.arm(side).hand.iter().map(name).collect()
+}
+
+impl MoveGripper {
+    /// Carries out the command with one hand.
+    pub fn new(body: Arc<Body>, side: Side, command: GripperCommand) -> Self {
+        Self { body, side, command, follow: None, unequal: 0.0, ended: false }
+    }
+
+    fn limits(&self, world: &World) -> Limits {
+        let tree = &world.models().robot;
+        let fingers = self.body.arm(self.side).fingers.iter();
+        let mut all = fingers.filter_map(|j| tree.joint(*j).limits);
+        all.next().unwrap_or(Limits { lower: 0.0, upper: 0.0 })
+    }
+
+    fn goal(&self, world: &World) -> f64 {
+        let limits = self.limits(world);
+        match self.command {
+            GripperCommand::Open => limits.upper,
+            GripperCommand::Close | GripperCommand::Grip { .. } => limits.lower,
+            GripperCommand::Position(opening) => opening * self.body.arm(self.side).finger_factor,
+        }
+    }
+
+    fn is_closing(&self, world: &World) -> bool {
+        let now = world.robot_configuration();
+        let goal = self.goal(world);
+        self.body.arm(self.side).fingers.iter().any(|j| now.joints.get(*j) > goal)
+    }
+
+    fn start(&self, world: &World) -> JointFollow {
+        let joints = self.body.arm(self.side).fingers.clone();
+        let now = world.robot_configuration();
+        let from: Vec<f64> = joints.iter().map(|j| now.joints.get(*j)).collect();
+        let to = vec![self.limits(world).clamp(self.goal(world)); joints.len()];
+        let limits: Vec<_> = (0..joints.len())
+            .map(|axis| super::trajectory::AxisGroup::single(axis, speeds::FINGERS.velocity, speeds::FINGERS.acceleration))
+            .collect();
+        let way = Trajectory::new(&[from, to], &limits, Corners::Round);
+        JointFollow::new(joints, way, hand_may_touch_objects(&self.body, world, self.side))
+    }
+
+    /// Moves the fingers to a position; closing ones stop when something is between them.
+    fn position(&mut self, world: &mut World) -> Option<MotionStatus> {
+        if self.is_closing(world) && self.pressing(world).iter().any(Option::is_some) {
+            return Some(MotionStatus::Done(MotionOutcome::Arrived));
+        }
+        let mut follow = self.follow.take().unwrap_or_else(|| self.start(world));
+        let step = follow.tick(world, |_| false);
+        self.follow = Some(follow);
+        match step {
+            FollowStep::Moving | FollowStep::Stuck(_) => None,
+            FollowStep::Blocked { still, .. } if still < PATIENCE => None,
+            FollowStep::Blocked { hit, .. } => {
+                let side = self.side;
+                Some(MotionStatus::failed(MotionFailure::FingersBlocked { side, hit }))
+            }
+            FollowStep::Arrived => Some(self.arrived(world)),
+        }
+    }
+
+    fn arrived(&self, world: &World) -> MotionStatus {
+        let (limits, goal) = (self.limits(world), self.goal(world));
+        if limits.excess(goal) <= CROPPED {
+            return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        let arm = self.body.arm(self.side);
+        let joint = arm.fingers.first().map(|j| world.models().robot.joint(*j).name.clone());
+        MotionStatus::failed(MotionFailure::GripperLimit {
+            side: self.side,
+            goal: goal / arm.finger_factor,
+            violation: LimitViolation {
+                joint: joint.unwrap_or_default(),
+                wanted: goal,
+                lower: limits.lower,
+                upper: limits.upper,
+            },
+        })
+    }
+
+    /// What each finger presses on.
+    fn pressing(&self, world: &World) -> [Option<ContactForce>; 2] {
+        let contacts = world.finger_contacts(self.side.index());
+        contacts.map(|forces| {
+            let objects = forces.into_iter().filter(|f| f.body.object().is_some());
+            objects.filter(|f| f.force > GRIP_FORCE).max_by(|a, b| a.force.total_cmp(&b.force))
+        })
+    }
+
+    /// Closes each finger until it presses; ends when both press on one object.
+    fn grip(&mut self, world: &mut World) -> Option<MotionStatus> {
+        let GripperCommand::Grip { object: wanted } = &self.command else { return None };
+        let side = self.side;
+        let pressing = self.pressing(world);
+        if let [Some(left), Some(right)] = &pressing {
+            if left.body == right.body {
+                let held = left.body.object().unwrap_or_default().to_owned();
+                let right_one = wanted.as_ref().is_none_or(|w| *w == held);
+                return Some(match (right_one, wanted) {
+                    (false, Some(wanted)) => MotionStatus::failed(MotionFailure::WrongObject {
+                        side,
+                        wanted: wanted.clone(),
+                        held: left.body.clone(),
+                    }),
+                    _ => MotionStatus::Done(MotionOutcome::Gripped { object: held }),
+                });
+            }
+            self.unequal += STEP_SECONDS;
+            if self.unequal > UNEQUAL {
+                return Some(MotionStatus::failed(MotionFailure::WrongObject {
+                    side,
+                    wanted: wanted.clone().unwrap_or_else(|| "one object".to_owned()),
+                    held: left.body.clone(),
+                }));
+            }
+        }
+        let fingers = &self.body.arm(side).fingers;
+        let now = world.robot_configuration();
+        let lower = self.limits(world).lower;
+        let mut positions: Vec<f64> = fingers.iter().map(|j| now.joints.get(*j)).collect();
+        if positions.iter().all(|p| *p <= lower) {
+            return Some(MotionStatus::failed(MotionFailure::NothingGripped { side }));
+        }
+        let coupled = positions.len() < 2;
+        for (finger, position) in positions.iter_mut().enumerate() {
+            let waits = !coupled && pressing.get(finger).is_some_and(Option::is_some);
+            if !waits {
+                *position = (*position - speeds::GRIP_VELOCITY * STEP_SECONDS).max(lower);
+            }
+        }
+        let next = with_joints(now, fingers, &positions);
+        let allowed = hand_may_touch_objects(&self.body, world, side);
+        if let Some(hit) = guard::obstacle(world, &next, &allowed) {
+            return Some(MotionStatus::failed(MotionFailure::FingersBlocked { side, hit }));
+        }
+        world.set_robot_configuration(&next);
+        None
+    }
+}
+
+impl Motion for MoveGripper {
+    fn module(&self) -> ProcessModule {
+        ProcessModule::Grippers
+    }
+
+    fn tick(&mut self, world: &mut World) -> MotionStatus {
+        if self.ended {
+            return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        let end = match self.command {
+            GripperCommand::Grip { .. } => self.grip(world),
+            _ => self.position(world),
+        };
+        match end {
+            None => MotionStatus::Running,
+            Some(end) => {
+                self.ended = true;
+                end
+            }
+        }
+    }
+
+    fn cancel(&mut self) {
+        self.ended = true;
+    }
+
+    fn progress(&self) -> Progress {
+        let what = match self.command {
+            GripperCommand::Open => "opening the gripper",
+            GripperCommand::Close => "closing the gripper",
+            GripperCommand::Position(_) => "moving the gripper",
+            GripperCommand::Grip { .. } => "gripping",
+        };
+        Progress { what, fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction) }
+    }
+}

@@ -1,0 +1,97 @@
+//! Raising and lowering the torso.
+
+use std::sync::Arc;
+
+use super::body::Body;
+use super::failure::MotionFailure;
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::joint_follow::{FollowStep, JointFollow};
+use super::speeds;
+use super::trajectory::{Corners, Trajectory};
+use crate::robot::Limits;
+use crate::world::{AllowedPairs, World};
+
+/// A goal farther outside of the limits than this (m) is a failure.
+const CROPPED: f64 = 1e-4;
+/// How long (s) the way may be blocked while nothing moves.
+const PATIENCE: f64 = 0.3;
+
+/// Moves the torso to a height. A goal beyond the joint's limits is first cropped and
+/// reached as far as possible, then reported.
+#[derive(Clone, Debug)]
+pub struct MoveTorso {
+    body: Arc<Body>,
+    goal: f64,
+    follow: Option<JointFollow>,
+    ended: bool,
+}
+
+impl MoveTorso {
+    /// To the height (m) of the lift joint.
+    pub fn new(body: Arc<Body>, goal: f64) -> Self {
+        Self { body, goal, follow: None, ended: false }
+    }
+
+    fn limits(&self, world: &World) -> Limits {
+        let everything = Limits { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
+        world.models().robot.joint(self.body.torso).limits.unwrap_or(everything)
+    }
+
+    fn start(&self, world: &World) -> JointFollow {
+        let joints = vec![self.body.torso];
+        let now = world.robot_configuration().joints.get(self.body.torso);
+        let points = [vec![now], vec![self.limits(world).clamp(self.goal)]];
+        let limits = speeds::limits_of(&world.models().robot, &joints);
+        let way = Trajectory::new(&points, &limits, Corners::Round);
+        JointFollow::new(joints, way, AllowedPairs::none())
+    }
+
+    fn arrived(&self, world: &World) -> MotionStatus {
+        let limits = self.limits(world);
+        if limits.excess(self.goal) <= CROPPED {
+            return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        MotionStatus::failed(MotionFailure::TorsoGoalOutOfLimits {
+            goal: self.goal,
+            lower: limits.lower,
+            upper: limits.upper,
+        })
+    }
+}
+
+impl Motion for MoveTorso {
+    fn module(&self) -> ProcessModule {
+        ProcessModule::Torso
+    }
+
+    fn tick(&mut self, world: &mut World) -> MotionStatus {
+        if self.ended {
+            return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        let mut follow = self.follow.take().unwrap_or_else(|| self.start(world));
+        let step = follow.tick(world, |_| true);
+        self.follow = Some(follow);
+        let end = match step {
+            FollowStep::Moving => return MotionStatus::Running,
+            FollowStep::Blocked { still, .. } if still < PATIENCE => return MotionStatus::Running,
+            FollowStep::Blocked { hit, .. } => MotionStatus::failed(MotionFailure::TorsoBlocked {
+                goal: self.goal,
+                height: world.robot_configuration().joints.get(self.body.torso),
+                hit,
+            }),
+            FollowStep::Stuck(stuck) => MotionStatus::failed(MotionFailure::HeldObjectStuck(stuck)),
+            FollowStep::Arrived => self.arrived(world),
+        };
+        self.ended = true;
+        end
+    }
+
+    fn cancel(&mut self) {
+        self.ended = true;
+    }
+
+    fn progress(&self) -> Progress {
+        let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
+        Progress { what: "moving the torso", fraction }
+    }
+}
