@@ -3,6 +3,8 @@
 
 pub mod motion;
 pub mod perception;
+pub mod closest_name;
 pub mod robot;
+pub mod sexp;
 pub mod spatial;
 pub mod world;

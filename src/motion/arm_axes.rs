@@ -1,8 +1,6 @@
 //! The joints that a motion of the arms sets, as axes of a path.
 
 use super::arm_path::PathAxis;
-use super::body::{ArmBody, Body};
-use super::failure::Side;
 use crate::robot::{JointId, KinematicTree, Limits};
 use crate::world::World;
 
@@ -20,11 +18,11 @@ pub(super) struct ArmAxes {
 
 impl ArmAxes {
     /// The axes of the arms of those sides, after that of the torso if it is to move.
-    pub(super) fn new(body: &Body, world: &World, torso: bool, sides: &[Side]) -> Self {
+    pub(super) fn new(body: &RobotDescription, world: &World, torso: bool, sides: &[Side]) -> Self {
         let tree = &world.models().robot;
         let mut all = Self { joints: Vec::new(), path: Vec::new() };
         if torso {
-            all.add(tree, body.torso, 1.0, 0.0);
+            all.add(tree, body.torso.joint, 1.0, 0.0);
         }
         for &side in sides {
             let arm = body.arm(side);
@@ -51,7 +49,7 @@ impl ArmAxes {
 }
 
 /// How far (m) any part of arm and hand is at most from the axis of each joint.
-fn reaches(tree: &KinematicTree, arm: &ArmBody) -> [f64; 7] {
+fn reaches(tree: &KinematicTree, arm: &Arm) -> [f64; 7] {
     let joints = arm.kinematics.joints();
     let length = |i: usize| tree.joint(joints[i]).origin.translation.vector.norm();
     // From the elbow, the forearm and the hand; the roll joints turn about the link before

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::body::Body;
 use super::failure::MotionFailure;
 use super::job::{DetectedObject, Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use crate::perception::{Camera, Sight};
@@ -23,14 +22,14 @@ pub struct DetectQuery {
 /// they appeared in the world.
 #[derive(Clone, Debug)]
 pub struct Detect {
-    body: Arc<Body>,
+    body: Arc<RobotDescription>,
     query: DetectQuery,
     ended: bool,
 }
 
 impl Detect {
     /// Looks once, with the head as it is.
-    pub fn new(body: Arc<Body>, query: DetectQuery) -> Self {
+    pub fn new(body: Arc<RobotDescription>, query: DetectQuery) -> Self {
         Self { body, query, ended: false }
     }
 

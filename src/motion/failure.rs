@@ -13,38 +13,8 @@ use super::base_path::BasePlace;
 use super::guard::StuckObject;
 use super::unreachable::Unreachable;
 use crate::perception::Visibility;
+use crate::robot::Side;
 use crate::world::{BodyName, CollisionHit};
-
-/// Which arm, hand or gripper.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Side {
-    /// The left one.
-    Left,
-    /// The right one.
-    Right,
-}
-
-impl Side {
-    /// Both, in the order in which the world counts hands.
-    pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
-
-    /// 0 for left, 1 for right.
-    pub fn index(self) -> usize {
-        match self {
-            Self::Left => 0,
-            Self::Right => 1,
-        }
-    }
-}
-
-impl fmt::Display for Side {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Left => "left",
-            Self::Right => "right",
-        })
-    }
-}
 
 /// A range of a joint (rad or m) and where in it a joint was wanted.
 #[derive(Clone, Debug, PartialEq)]

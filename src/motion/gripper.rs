@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use super::body::Body;
-use super::failure::{LimitViolation, MotionFailure, Side};
+use super::failure::{LimitViolation, MotionFailure};
 use super::guard;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
@@ -41,7 +40,7 @@ pub enum GripperCommand {
 /// Moves the fingers of one hand.
 #[derive(Clone, Debug)]
 pub struct MoveGripper {
-    body: Arc<Body>,
+    body: Arc<RobotDescription>,
     side: Side,
     command: GripperCommand,
     follow: Option<JointFollow>,
@@ -50,7 +49,7 @@ pub struct MoveGripper {
 }
 
 /// Any object may be touched by any link of the hand.
-pub(super) fn hand_may_touch_objects(body: &Body, world: &World, side: Side) -> AllowedPairs {
+pub(super) fn hand_may_touch_objects(body: &RobotDescription, world: &World, side: Side) -> AllowedPairs {
     let names = hand_names(body, world, side);
     world.objects().fold(AllowedPairs::none(), |all, object| {
         all.and_all(names.clone(), &BodyName::Object(object.name().to_owned()))
@@ -58,15 +57,15 @@ pub(super) fn hand_may_touch_objects(body: &Body, world: &World, side: Side) -> 
 }
 
 /// The links of a hand as bodies.
-pub(super) fn hand_names(body: &Body, world: &World, side: Side) -> Vec<BodyName> {
+pub(super) fn hand_names(body: &RobotDescription, world: &World, side: Side) -> Vec<BodyName> {
     let tree = &world.models().robot;
-    let name = |&id| BodyName::Robot(LinkName { id, name: tree.link(id).name.as_str().into() });
-    body.arm(side).hand.iter().map(name).collect()
+    let name = |id| BodyName::Robot(LinkName { id, name: tree.link(id).name.as_str().into() });
+    body.arm(side).gripper.links().map(name).collect()
 }
 
 impl MoveGripper {
     /// Carries out the command with one hand.
-    pub fn new(body: Arc<Body>, side: Side, command: GripperCommand) -> Self {
+    pub fn new(body: Arc<RobotDescription>, side: Side, command: GripperCommand) -> Self {
         Self { body, side, command, follow: None, unequal: 0.0, ended: false }
     }
 

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use super::body::Body;
-use super::failure::{MotionFailure, Side};
+use super::failure::MotionFailure;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use crate::world::World;
 use crate::world::physics::STEP_SECONDS;
@@ -15,18 +14,18 @@ const SETTLE: f64 = 2.0;
 
 /// Welds the object softly to the palm of the hand, where it is now.
 pub fn take_hold(
-    body: &Body,
+    body: &RobotDescription,
     world: &mut World,
     side: Side,
     object: &str,
 ) -> Result<(), MotionFailure> {
-    let palm = body.arm(side).palm;
+    let palm = body.arm(side).gripper.palm;
     world.attach(object, palm).map_err(|e| MotionFailure::UnknownName(e.to_string()))
 }
 
 /// Names of the objects that the hand holds.
-pub fn held_objects(body: &Body, world: &World, side: Side) -> Vec<String> {
-    let palm = body.arm(side).palm;
+pub fn held_objects(body: &RobotDescription, world: &World, side: Side) -> Vec<String> {
+    let palm = body.arm(side).gripper.palm;
     let held = world.objects().filter(|o| o.attachment().is_some_and(|a| a.link == palm));
     held.map(|o| o.name().to_owned()).collect()
 }
@@ -34,7 +33,7 @@ pub fn held_objects(body: &Body, world: &World, side: Side) -> Vec<String> {
 /// Lets go of an object and waits until everything is at rest.
 #[derive(Clone, Debug)]
 pub struct LetGo {
-    body: Arc<Body>,
+    body: Arc<RobotDescription>,
     side: Side,
     object: Option<String>,
     released: Option<String>,
@@ -45,7 +44,7 @@ pub struct LetGo {
 
 impl LetGo {
     /// Of the named object, or of whatever the hand holds.
-    pub fn new(body: Arc<Body>, side: Side, object: Option<String>) -> Self {
+    pub fn new(body: Arc<RobotDescription>, side: Side, object: Option<String>) -> Self {
         Self { body, side, object, released: None, quiet: 0, waited: 0.0, ended: false }
     }
 

@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use nalgebra::Point3;
 
-use super::body::Body;
 use super::failure::{LimitViolation, MotionFailure};
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
@@ -66,7 +65,7 @@ pub enum LookTarget {
 /// possible, then reported.
 #[derive(Clone, Debug)]
 pub struct Look {
-    body: Arc<Body>,
+    body: Arc<RobotDescription>,
     target: LookTarget,
     follow: Option<JointFollow>,
     violation: Option<LimitViolation>,
@@ -75,7 +74,7 @@ pub struct Look {
 
 impl Look {
     /// At the target as it is when the motion starts.
-    pub fn new(body: Arc<Body>, target: LookTarget) -> Self {
+    pub fn new(body: Arc<RobotDescription>, target: LookTarget) -> Self {
         Self { body, target, follow: None, violation: None, ended: false }
     }
 
@@ -153,7 +152,7 @@ impl Look {
 }
 
 /// Angles (rad) of pan and tilt that aim the head at the point of the map frame (m).
-pub fn pan_and_tilt(body: &Body, world: &World, point: &Point3<f64>) -> [f64; 2] {
+pub fn pan_and_tilt(body: &RobotDescription, world: &World, point: &Point3<f64>) -> [f64; 2] {
     let tree = &world.models().robot;
     let [pan, tilt] = body.neck;
     let level = with_joints(world.robot_configuration(), &body.neck, &[0.0, 0.0]);

@@ -5,8 +5,7 @@ use std::sync::Arc;
 use super::arm_axes::ArmAxes;
 use super::arm_path::ArmPathEffort;
 use super::arm_way::plan_way;
-use super::body::Body;
-use super::failure::{LimitViolation, MotionFailure, Side};
+use super::failure::{LimitViolation, MotionFailure};
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::judge::Judge;
@@ -22,7 +21,7 @@ const MOST_PLANS: u32 = 4;
 /// Moves the joints of one or both arms. Both arrive at the same time.
 #[derive(Clone, Debug)]
 pub struct MoveJoints {
-    body: Arc<Body>,
+    body: Arc<RobotDescription>,
     goals: [Option<Vec<f64>>; 2],
     follow: Option<JointFollow>,
     patience: super::patience::Patience,
@@ -33,7 +32,7 @@ pub struct MoveJoints {
 impl MoveJoints {
     /// The positions (rad) of the left and of the right arm, from the shoulder to the wrist;
     /// an arm without positions stays. Continuous joints turn the shorter way.
-    pub fn new(body: Arc<Body>, left: Option<Vec<f64>>, right: Option<Vec<f64>>) -> Self {
+    pub fn new(body: Arc<RobotDescription>, left: Option<Vec<f64>>, right: Option<Vec<f64>>) -> Self {
         Self {
             body,
             goals: [left, right],
@@ -117,7 +116,7 @@ impl MoveJoints {
             }
         }
         let follow = self.follow.as_mut()?;
-        let hands = [self.body.arms[0].palm, self.body.arms[1].palm];
+        let hands = [self.body.arms[0].gripper.palm, self.body.arms[1].gripper.palm];
         match follow.tick(world, |link| hands.contains(&link)) {
             FollowStep::Moving => None,
             FollowStep::Blocked { still, .. } if still < PATIENCE => None,

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::body::Body;
 use super::failure::MotionFailure;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow};
@@ -20,7 +19,7 @@ const PATIENCE: f64 = 0.3;
 /// reached as far as possible, then reported.
 #[derive(Clone, Debug)]
 pub struct MoveTorso {
-    body: Arc<Body>,
+    body: Arc<RobotDescription>,
     goal: f64,
     follow: Option<JointFollow>,
     ended: bool,
@@ -28,18 +27,18 @@ pub struct MoveTorso {
 
 impl MoveTorso {
     /// To the height (m) of the lift joint.
-    pub fn new(body: Arc<Body>, goal: f64) -> Self {
+    pub fn new(body: Arc<RobotDescription>, goal: f64) -> Self {
         Self { body, goal, follow: None, ended: false }
     }
 
     fn limits(&self, world: &World) -> Limits {
         let everything = Limits { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
-        world.models().robot.joint(self.body.torso).limits.unwrap_or(everything)
+        world.models().robot.joint(self.body.torso.joint).limits.unwrap_or(everything)
     }
 
     fn start(&self, world: &World) -> JointFollow {
-        let joints = vec![self.body.torso];
-        let now = world.robot_configuration().joints.get(self.body.torso);
+        let joints = vec![self.body.torso.joint];
+        let now = world.robot_configuration().joints.get(self.body.torso.joint);
         let points = [vec![now], vec![self.limits(world).clamp(self.goal)]];
         let limits = speeds::limits_of(&world.models().robot, &joints);
         let way = Trajectory::new(&points, &limits, Corners::Round);
@@ -76,7 +75,7 @@ impl Motion for MoveTorso {
             FollowStep::Blocked { still, .. } if still < PATIENCE => return MotionStatus::Running,
             FollowStep::Blocked { hit, .. } => MotionStatus::failed(MotionFailure::TorsoBlocked {
                 goal: self.goal,
-                height: world.robot_configuration().joints.get(self.body.torso),
+                height: world.robot_configuration().joints.get(self.body.torso.joint),
                 hit,
             }),
             FollowStep::Stuck(stuck) => MotionStatus::failed(MotionFailure::HeldObjectStuck(stuck)),

@@ -2,8 +2,6 @@
 
 use super::arm_axes::ArmAxes;
 use super::arm_path::{between, blocked_between};
-use super::body::{ArmBody, Body};
-use super::failure::Side;
 use super::judge::Judge;
 use crate::robot::{ARM_JOINTS, ArmPositions, KinematicTree};
 use crate::spatial::{Pose, pose};
@@ -28,7 +26,7 @@ pub(super) struct TcpLine {
 /// Straight lines that both arms, or one, follow at the same time while the torso goes to
 /// a height.
 pub(super) struct LineTask<'a> {
-    pub(super) body: &'a Body,
+    pub(super) body: &'a RobotDescription,
     pub(super) tree: &'a KinematicTree,
     pub(super) robot: RobotConfiguration,
     pub(super) axes: ArmAxes,
@@ -105,7 +103,7 @@ impl LineTask<'_> {
         if let Some(end) = self.torso {
             let from = start.first().copied()?;
             let height = from + (end - from) * share;
-            robot.joints.set(self.body.torso, height);
+            robot.joints.set(self.body.torso.joint, height);
             posture.push(height);
         }
         for line in &self.lines {
@@ -122,19 +120,19 @@ impl LineTask<'_> {
 
 /// The wrist's pose in the frame of the torso, for a pose of the tool in that of the base.
 pub(super) fn wrist_in_torso(
-    body: &Body,
+    body: &RobotDescription,
     tree: &KinematicTree,
     robot: &RobotConfiguration,
-    arm: &ArmBody,
+    arm: &Arm,
     tcp_in_base: &Pose,
 ) -> Pose {
-    let torso = tree.link_pose(body.torso_link, &Pose::identity(), &robot.joints);
-    torso.inverse() * arm.wrist_of_tcp(tcp_in_base)
+    let torso = tree.link_pose(body.torso.link, &Pose::identity(), &robot.joints);
+    torso.inverse() * arm.wrist_for_tool(tcp_in_base)
 }
 
 /// Where the tool of the arm is now, in the frame of the base.
-pub fn tcp_in_base(body: &Body, world: &World, side: Side) -> Pose {
+pub fn tcp_in_base(body: &RobotDescription, world: &World, side: Side) -> Pose {
     let arm = body.arm(side);
     let base = world.robot_configuration().base;
-    base.inverse() * arm.tcp_of_wrist(&world.link_pose(arm.wrist))
+    base.inverse() * arm.tool_for_wrist(&world.link_pose(arm.wrist))
 }

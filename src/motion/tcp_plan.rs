@@ -8,8 +8,7 @@
 use super::arm_axes::ArmAxes;
 use super::arm_path::{ArmPathEffort, blocked_between};
 use super::arm_way::{plan_way, smooth};
-use super::body::Body;
-use super::failure::{MotionFailure, Side};
+use super::failure::MotionFailure;
 use super::joint_follow::{JointFollow, with_joints};
 use super::judge::Judge;
 use super::speeds;
@@ -41,7 +40,7 @@ const MOST_HEIGHTS: usize = 4;
 
 /// Goals of the hands: poses of their tools in the frame of the base.
 pub(super) struct TcpTask<'a> {
-    pub(super) body: &'a Body,
+    pub(super) body: &'a RobotDescription,
     pub(super) world: &'a World,
     pub(super) goals: Vec<(Side, Pose)>,
     pub(super) allowed: AllowedPairs,
@@ -60,13 +59,13 @@ impl TcpTask<'_> {
     }
 
     fn torso_now(&self) -> f64 {
-        self.world.robot_configuration().joints.get(self.body.torso)
+        self.world.robot_configuration().joints.get(self.body.torso.joint)
     }
 
     fn torso_limits(&self) -> Limits {
         let now = self.torso_now();
         let tree = &self.world.models().robot;
-        tree.joint(self.body.torso).limits.unwrap_or(Limits { lower: now, upper: now })
+        tree.joint(self.body.torso.joint).limits.unwrap_or(Limits { lower: now, upper: now })
     }
 
     /// Heights of the torso (m), the present one first, then the nearest first.
@@ -88,7 +87,7 @@ impl TcpTask<'_> {
     }
 
     fn wrist(&self, side: Side, tcp: &Pose, height: f64) -> Pose {
-        let robot = with_joints(self.world.robot_configuration(), &[self.body.torso], &[height]);
+        let robot = with_joints(self.world.robot_configuration(), &[self.body.torso.joint], &[height]);
         let tree = &self.world.models().robot;
         wrist_in_torso(self.body, tree, &robot, self.body.arm(side), tcp)
     }
@@ -295,7 +294,7 @@ impl TcpTask<'_> {
         let report = |side: Side, tcp: &Pose, reason| {
             let unreachable = Unreachable {
                 side,
-                frame: tree.link(self.body.torso_link).name.clone(),
+                frame: tree.link(self.body.torso.link).name.clone(),
                 wrist: self.wrist(side, tcp, now),
                 torso,
                 reason,

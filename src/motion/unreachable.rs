@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::failure::Side;
 use crate::robot;
 use crate::spatial::Pose;
 use crate::world::CollisionHit;

@@ -7,7 +7,7 @@
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::JointPositions;
-use super::closest_name::closest_name;
+use crate::closest_name::closest_name;
 use crate::spatial::{PlacedShape, Pose, trig};
 
 /// A link of one [`KinematicTree`].

@@ -6,11 +6,11 @@
 use nalgebra::{Unit, Vector3};
 use urdf_rs::{Geometry, JointType};
 
-use super::closest_name::closest_name;
 use super::tree::{AssemblyError, JointPart, LinkPart};
 use super::urdf_error::{Place, UrdfError, UrdfProblem};
 use super::xml_elements::{Element, elements};
 use super::{JointKind, KinematicTree, Limits, urdf_schema};
+use crate::closest_name::closest_name;
 use crate::spatial::pose::from_xyz_rpy;
 use crate::spatial::{PlacedShape, Pose, Shape};
 
