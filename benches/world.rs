@@ -121,11 +121,22 @@ fn collisions(c: &mut Criterion) {
             robots.push(carry(&models, [x, y, f64::from(i * 37 + j * 91)], 0.1));
         }
     }
+    let blocked = robots
+        .iter()
+        .filter(|r| !checker.is_free(r, &none, 0.0))
+        .count();
+    eprintln!("{blocked} of {} base poses are blocked", robots.len());
     let mut i = 0;
     c.bench_function("check random base poses with early out", |b| {
         b.iter(|| {
             i = (i + 1) % robots.len();
             black_box(checker.first_hit(&robots[i], &none, 0.0))
+        });
+    });
+    c.bench_function("is a random base pose free", |b| {
+        b.iter(|| {
+            i = (i + 1) % robots.len();
+            black_box(checker.is_free(&robots[i], &none, 0.0))
         });
     });
     c.bench_function("all hits of random base poses", |b| {

@@ -14,7 +14,7 @@ use nalgebra::Point3;
 
 use super::allowed_pairs::AllowedPairs;
 use super::body_name::BodyName;
-use super::collision_search::{Near, Scratch, Surroundings};
+use super::collision_search::{Near, Scratch, Surroundings, Wanted};
 use super::part_key::{PartKey, index};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::from_parry_vector;
@@ -71,7 +71,19 @@ impl<'w> CollisionChecker<'w> {
         allowed: &AllowedPairs,
         margin: f64,
     ) -> bool {
-        self.first_hit(robot, allowed, margin).is_none()
+        self.with_poses(robot, |checker, poses| {
+            checker.is_free_at(poses, allowed, margin)
+        })
+    }
+
+    /// As [`Self::is_free`], for the poses of all links as forward kinematics gives them.
+    pub fn is_free_at(&mut self, link_poses: &[Pose], allowed: &AllowedPairs, margin: f64) -> bool {
+        let mut free = true;
+        self.search(link_poses, allowed, Wanted::Whether, margin, |_, _| {
+            free = false;
+            ControlFlow::Break(())
+        });
+        free
     }
 
     /// Some pair that is nearer than `margin` (m) and not allowed, the first one found in a
@@ -95,7 +107,7 @@ impl<'w> CollisionChecker<'w> {
         margin: f64,
     ) -> Option<CollisionHit> {
         let mut found = None;
-        self.search(link_poses, allowed, margin, |near, _| {
+        self.search(link_poses, allowed, Wanted::HowMuch, margin, |near, _| {
             found = Some(near);
             ControlFlow::Break(())
         });
@@ -111,7 +123,7 @@ impl<'w> CollisionChecker<'w> {
     ) -> Vec<CollisionHit> {
         let mut found: Vec<Near> = Vec::new();
         self.with_poses(robot, |checker, poses| {
-            checker.search(poses, allowed, margin, |near, _| {
+            checker.search(poses, allowed, Wanted::HowMuch, margin, |near, _| {
                 let known = found
                     .iter_mut()
                     .find(|n| n.moving == near.moving && n.other == near.other);
@@ -158,7 +170,7 @@ impl<'w> CollisionChecker<'w> {
     ) -> Option<Clearance> {
         let mut found = None;
         self.with_poses(robot, |checker, poses| {
-            checker.search(poses, allowed, reach, |near, margin| {
+            checker.search(poses, allowed, Wanted::HowMuch, reach, |near, margin| {
                 if counts(near.other) {
                     // From here on, only what is nearer still matters.
                     *margin = near.separation.distance;
@@ -192,12 +204,19 @@ impl<'w> CollisionChecker<'w> {
         &mut self,
         link_poses: &[Pose],
         allowed: &AllowedPairs,
+        wanted: Wanted,
         margin: f64,
         visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
     ) {
         let allowed = self.allowed_keys(allowed);
-        self.surroundings
-            .search(link_poses, &allowed, margin, &mut self.scratch, visit);
+        self.surroundings.search(
+            link_poses,
+            &allowed,
+            wanted,
+            margin,
+            &mut self.scratch,
+            visit,
+        );
     }
 
     fn allowed_keys(&self, allowed: &AllowedPairs) -> Vec<(PartKey, PartKey)> {

@@ -11,7 +11,7 @@ use parry3d_f64::math::Pose as ParryPose;
 use super::models::Models;
 use super::obstacles::Obstacles;
 use super::part_key::{PartKey, index};
-use super::separation::{Separation, below_floor, separation};
+use super::separation::{Separation, below_floor, overlap, separation};
 use super::solid::{Solid, to_parry};
 use crate::robot::LinkId;
 use crate::spatial::Pose;
@@ -53,6 +53,15 @@ pub(crate) struct Near {
     pub(crate) separation: Separation,
 }
 
+/// What a query wants to know of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Only that it is nearer than the margin; distance and point mean nothing then.
+    Whether,
+    /// How near it is, and where.
+    HowMuch,
+}
+
 /// Memory that queries use again.
 #[derive(Default)]
 pub(crate) struct Scratch {
@@ -80,6 +89,7 @@ struct Search<'s, 'w, V> {
     around: &'s Surroundings<'w>,
     link_poses: &'s [Pose],
     allowed: &'s [(PartKey, PartKey)],
+    wanted: Wanted,
     margin: f64,
     scratch: &'s mut Scratch,
     visit: V,
@@ -92,6 +102,7 @@ impl<'w> Surroundings<'w> {
         &self,
         link_poses: &[Pose],
         allowed: &[(PartKey, PartKey)],
+        wanted: Wanted,
         margin: f64,
         scratch: &mut Scratch,
         visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
@@ -102,6 +113,7 @@ impl<'w> Surroundings<'w> {
             around: self,
             link_poses,
             allowed,
+            wanted,
             margin,
             scratch,
             visit,
@@ -191,7 +203,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             }
             for solid in object.solids {
                 let pose = object.pose * solid.pose;
-                let bounds = solid.shape.compute_aabb(&pose);
+                let bounds = solid.bounds.transform_by(&object.pose);
                 self.solids_against(place, object.key, &pose, solid, &bounds)?;
             }
         }
@@ -256,7 +268,11 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             if !self.with_slack(&placed.bounds).intersects(other_bounds) {
                 continue;
             }
-            let near = separation(&placed.pose, solid, other_pose, other_solid, self.margin);
+            let near = if self.wanted == Wanted::Whether && self.margin == 0.0 {
+                overlap(&placed.pose, solid, other_pose, other_solid)
+            } else {
+                separation(&placed.pose, solid, other_pose, other_solid, self.margin)
+            };
             if let Some(separation) = near {
                 // The mover exists: its solids were placed.
                 let moving = self.scratch.movers[place].key;
@@ -278,11 +294,10 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         *mover.placed.get_or_insert_with(|| {
             let first = solids.len();
             solids.extend(self.around.solids(place).iter().map(|solid| {
+                // Somewhat larger than the bounds of the turned solid, but cheap.
+                let bounds = solid.bounds.transform_by(&mover.pose);
                 let pose = mover.pose * solid.pose;
-                PlacedSolid {
-                    pose,
-                    bounds: solid.shape.compute_aabb(&pose),
-                }
+                PlacedSolid { pose, bounds }
             }));
             first
         })

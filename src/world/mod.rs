@@ -11,6 +11,7 @@ pub mod models;
 pub mod object;
 mod obstacles;
 pub mod part_key;
+pub mod penetration;
 pub mod physics;
 pub mod robot_configuration;
 pub mod roles;

@@ -41,6 +41,21 @@ pub(crate) fn separation(
     })
 }
 
+/// Whether two solids overlap, told by a separation whose numbers mean nothing.
+pub(crate) fn overlap(
+    pose1: &ParryPose,
+    solid1: &Solid,
+    pose2: &ParryPose,
+    solid2: &Solid,
+) -> Option<Separation> {
+    // All shapes of a solid are convex, so that every query is supported.
+    let hit = query::intersection_test(pose1, &*solid1.shape, pose2, &*solid2.shape).ok()?;
+    hit.intersecting.then_some(Separation {
+        distance: 0.0,
+        point: Vector::ZERO,
+    })
+}
+
 /// The separation of a solid (its own pose in the map frame) from the floor z = 0, when it is
 /// below `margin` (m).
 pub(crate) fn below_floor(pose: &ParryPose, solid: &Solid, margin: f64) -> Option<Separation> {
