@@ -1,7 +1,8 @@
 //! The joints that a motion of the arms sets, as axes of a path.
 
 use super::arm_path::PathAxis;
-use crate::robot::{JointId, KinematicTree, Limits};
+use crate::robot::description::Arm;
+use crate::robot::{JointId, KinematicTree, Limits, RobotDescription, Side};
 use crate::world::World;
 
 /// What a hand adds (m) to the distance from the wrist: its own length and what it holds.

@@ -9,6 +9,7 @@ use super::failure::MotionFailure;
 use super::judge::Judge;
 use super::speeds;
 use super::trajectory::{AxisGroup, Corners, Trajectory};
+use crate::robot::RobotDescription;
 use crate::world::{CollisionHit, World};
 
 /// Time (s) between two places of a trajectory that are checked.
@@ -16,6 +17,7 @@ const CHECK_EVERY: f64 = 0.02;
 
 /// A path of the axes from where they are now to the goal, as a trajectory.
 pub(super) fn plan_way(
+    body: &RobotDescription,
     world: &World,
     axes: &ArmAxes,
     goal: &[f64],
@@ -27,7 +29,7 @@ pub(super) fn plan_way(
     let mut blocked = |q: &[f64]| judge.blocked(q);
     let path = find_arm_path(&axes.path, &axes.now(world), goal, effort, &mut rng, &mut blocked)
         .map_err(path_failure)?;
-    let limits = speeds::limits_of(&world.models().robot, &axes.joints);
+    let limits = speeds::limits_of(body, &axes.joints);
     Ok(smooth(&path, &limits, judge))
 }
 

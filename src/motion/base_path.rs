@@ -119,7 +119,7 @@ struct Search<'a, 'c, P> {
 
 impl<P: Clone + PartialEq> Search<'_, '_, P> {
     fn place(&mut self, p: &BasePlace) -> Option<P> {
-        let near = |q: &BasePlace| (p[0] - q[0]).hypot(p[1] - q[1]) < NO_MARGIN_WITHIN;
+        let near = |q: &BasePlace| libm::hypot(p[0] - q[0], p[1] - q[1]) < NO_MARGIN_WITHIN;
         let margin = if near(&self.start) || near(&self.goal) {
             0.0
         } else {
@@ -130,7 +130,7 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
 
     /// What blocks the straight way, coarse steps first; the ends are taken as free.
     fn edge(&mut self, from: &BasePlace, to: &BasePlace) -> Option<P> {
-        let way = (to[0] - from[0]).hypot(to[1] - from[1]) + (to[2] - from[2]).abs() * self.reach;
+        let way = libm::hypot(to[0] - from[0], to[1] - from[1]) + (to[2] - from[2]).abs() * self.reach;
         let parts = (way / RESOLUTION).ceil().max(1.0) as usize;
         let mut stride = parts.next_power_of_two();
         while stride > 1 {
@@ -214,7 +214,7 @@ fn between(from: &BasePlace, to: &BasePlace, fraction: f64) -> BasePlace {
 
 /// Driving and turning at once cost as much as the longer of both.
 fn step_cost(from: &BasePlace, to: &BasePlace) -> f64 {
-    let drive = (to[0] - from[0]).hypot(to[1] - from[1]);
+    let drive = libm::hypot(to[0] - from[0], to[1] - from[1]);
     drive.max((to[2] - from[2]).abs() * TURN_COST)
 }
 
@@ -306,7 +306,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
     fn estimate(&self, place: &BasePlace) -> f64 {
         let goal = &self.search.goal;
         let turn = trig::wrap(goal[2] - place[2]).abs() * TURN_COST;
-        (goal[0] - place[0]).hypot(goal[1] - place[1]) + turn
+        libm::hypot(goal[0] - place[0], goal[1] - place[1]) + turn
     }
 
     fn neighbours(&self, cell: Cell) -> Vec<(Cell, f64)> {
@@ -323,7 +323,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         }
         all.retain(|(c, _)| self.search.area.contains(&self.place(*c)));
         let (place, goal) = (self.place(cell), &self.search.goal);
-        let near = (goal[0] - place[0]).hypot(goal[1] - place[1]) <= self.spacing * 0.75;
+        let near = libm::hypot(goal[0] - place[0], goal[1] - place[1]) <= self.spacing * 0.75;
         if near && trig::wrap(goal[2] - place[2]).abs() <= TURN * 0.51 {
             all.push((GOAL, self.estimate(&place)));
         }

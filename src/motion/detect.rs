@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::failure::MotionFailure;
 use super::job::{DetectedObject, Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use crate::perception::{Camera, Sight};
+use crate::robot::RobotDescription;
 use crate::world::World;
 
 /// Which objects are looked for.
@@ -42,7 +43,7 @@ impl Detect {
     fn look(&self, world: &World) -> Result<Vec<DetectedObject>, MotionFailure> {
         let wanted = || world.objects().filter(|o| self.matches(o.name(), o.type_name()));
         let base = world.robot_configuration().base;
-        let sight = Sight::take(world, Camera::of_head(world.link_pose(self.body.camera)));
+        let sight = Sight::take(world, Camera::of_head(world.link_pose(self.body.camera().frame)));
         let (mut seen, mut candidates) = (Vec::new(), Vec::new());
         for object in wanted() {
             // The names come from the world itself.

@@ -5,15 +5,16 @@
 //! meanwhile. Then the way ahead is looked at again and again; where it has become blocked
 //! the base slows down, stops, and looks for another path as soon as the posture is steady.
 
+use std::sync::Arc;
+
 use super::base_path::{BasePathFailure, BasePlace, FloorArea, find_base_path};
 use super::failure::MotionFailure;
 use super::follower::Follower;
 use super::guard;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::patience::Patience;
-use super::speeds::{BASE_DRIVE, BASE_TURN};
 use super::trajectory::{AxisGroup, Corners, Trajectory};
-use crate::robot::JointPositions;
+use crate::robot::{JointPositions, RobotDescription};
 use crate::spatial::{Pose, pose};
 use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
 
@@ -35,6 +36,7 @@ const NEARBY: (f64, u32) = (0.05, 16);
 /// Drives the base to a pose.
 #[derive(Clone, Debug)]
 pub struct Drive {
+    body: Arc<RobotDescription>,
     goal: BasePlace,
     way: Option<Follower>,
     /// The arms and the torso when the way ahead was last looked at.
@@ -48,9 +50,10 @@ pub struct Drive {
 
 impl Drive {
     /// To the pose in the map frame, of which only x, y and the heading count.
-    pub fn new(goal: &Pose) -> Self {
+    pub fn new(body: Arc<RobotDescription>, goal: &Pose) -> Self {
         let t = goal.translation;
         Self {
+            body,
             goal: [t.x, t.y, pose::yaw(goal)],
             way: None,
             seen: JointPositions::default(),
@@ -65,9 +68,10 @@ impl Drive {
     fn plan(&mut self, world: &World) -> Result<Follower, MotionFailure> {
         self.plans += 1;
         let path = plan_drive(world, self.goal)?;
+        let (drive, turn) = (self.body.base.drive, self.body.base.turn);
         let limits = [
-            AxisGroup { axes: 0..2, velocity: BASE_DRIVE.velocity, acceleration: BASE_DRIVE.acceleration },
-            AxisGroup::single(2, BASE_TURN.velocity, BASE_TURN.acceleration),
+            AxisGroup { axes: 0..2, velocity: drive.velocity, acceleration: drive.acceleration },
+            AxisGroup::single(2, turn.velocity, turn.acceleration),
         ];
         let points: Vec<Vec<f64>> = path.iter().map(|p| p.to_vec()).collect();
         let round = Trajectory::new(&points, &limits, Corners::Round);
@@ -221,7 +225,7 @@ pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, Moti
         }
         checker.first_hit_at(&poses, &allowed, margin)
     };
-    let reach = in_base.iter().map(|p| p.translation.x.hypot(p.translation.y)).fold(0.0, f64::max);
+    let reach = in_base.iter().map(|p| libm::hypot(p.translation.x, p.translation.y)).fold(0.0, f64::max);
     let found = find_base_path(start, goal, floor_area(world, &start, &goal), reach + LINK_EXTENT, &mut |p, m| {
         blocked(p, m).map(Obstacle)
     });

@@ -8,7 +8,8 @@ use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
-use crate::robot::Limits;
+use crate::robot::description::Gripper;
+use crate::robot::{RobotDescription, Side};
 use crate::world::physics::STEP_SECONDS;
 use crate::world::{AllowedPairs, BodyName, ContactForce, LinkName, World};
 
@@ -69,36 +70,30 @@ impl MoveGripper {
         Self { body, side, command, follow: None, unequal: 0.0, ended: false }
     }
 
-    fn limits(&self, world: &World) -> Limits {
-        let tree = &world.models().robot;
-        let fingers = self.body.arm(self.side).fingers.iter();
-        let mut all = fingers.filter_map(|j| tree.joint(*j).limits);
-        all.next().unwrap_or(Limits { lower: 0.0, upper: 0.0 })
+    fn gripper(&self) -> &Gripper {
+        &self.body.arm(self.side).gripper
     }
 
-    fn goal(&self, world: &World) -> f64 {
-        let limits = self.limits(world);
+    /// Position of the finger joint (rad) that is wanted.
+    fn goal(&self) -> f64 {
+        let gripper = self.gripper();
         match self.command {
-            GripperCommand::Open => limits.upper,
-            GripperCommand::Close | GripperCommand::Grip { .. } => limits.lower,
-            GripperCommand::Position(opening) => opening * self.body.arm(self.side).finger_factor,
+            GripperCommand::Open => gripper.limits.upper,
+            GripperCommand::Close | GripperCommand::Grip { .. } => gripper.limits.lower,
+            GripperCommand::Position(opening) => opening * gripper.joint_per_metre,
         }
     }
 
     fn is_closing(&self, world: &World) -> bool {
-        let now = world.robot_configuration();
-        let goal = self.goal(world);
-        self.body.arm(self.side).fingers.iter().any(|j| now.joints.get(*j) > goal)
+        world.robot_configuration().joints.get(self.gripper().joint) > self.goal()
     }
 
     fn start(&self, world: &World) -> JointFollow {
-        let joints = self.body.arm(self.side).fingers.clone();
-        let now = world.robot_configuration();
-        let from: Vec<f64> = joints.iter().map(|j| now.joints.get(*j)).collect();
-        let to = vec![self.limits(world).clamp(self.goal(world)); joints.len()];
-        let limits: Vec<_> = (0..joints.len())
-            .map(|axis| super::trajectory::AxisGroup::single(axis, speeds::FINGERS.velocity, speeds::FINGERS.acceleration))
-            .collect();
+        let gripper = self.gripper();
+        let joints = vec![gripper.joint];
+        let from = vec![world.robot_configuration().joints.get(gripper.joint)];
+        let to = vec![gripper.limits.clamp(self.goal())];
+        let limits = speeds::limits_of(&self.body, &joints);
         let way = Trajectory::new(&[from, to], &limits, Corners::Round);
         JointFollow::new(joints, way, hand_may_touch_objects(&self.body, world, self.side))
     }
@@ -123,20 +118,18 @@ impl MoveGripper {
     }
 
     fn arrived(&self, world: &World) -> MotionStatus {
-        let (limits, goal) = (self.limits(world), self.goal(world));
-        if limits.excess(goal) <= CROPPED {
+        let (gripper, goal) = (self.gripper(), self.goal());
+        if gripper.limits.excess(goal) <= CROPPED {
             return MotionStatus::Done(MotionOutcome::Arrived);
         }
-        let arm = self.body.arm(self.side);
-        let joint = arm.fingers.first().map(|j| world.models().robot.joint(*j).name.clone());
         MotionStatus::failed(MotionFailure::GripperLimit {
             side: self.side,
-            goal: goal / arm.finger_factor,
+            goal: goal / gripper.joint_per_metre,
             violation: LimitViolation {
-                joint: joint.unwrap_or_default(),
+                joint: world.models().robot.joint(gripper.joint).name.clone(),
                 wanted: goal,
-                lower: limits.lower,
-                upper: limits.upper,
+                lower: gripper.limits.lower,
+                upper: gripper.limits.upper,
             },
         })
     }
@@ -150,7 +143,7 @@ impl MoveGripper {
         })
     }
 
-    /// Closes each finger until it presses; ends when both press on one object.
+    /// Closes both fingers, which one joint moves; ends when both press on one object.
     fn grip(&mut self, world: &mut World) -> Option<MotionStatus> {
         let GripperCommand::Grip { object: wanted } = &self.command else { return None };
         let side = self.side;
@@ -177,21 +170,14 @@ impl MoveGripper {
                 }));
             }
         }
-        let fingers = &self.body.arm(side).fingers;
+        let gripper = self.gripper();
         let now = world.robot_configuration();
-        let lower = self.limits(world).lower;
-        let mut positions: Vec<f64> = fingers.iter().map(|j| now.joints.get(*j)).collect();
-        if positions.iter().all(|p| *p <= lower) {
+        let position = now.joints.get(gripper.joint);
+        if position <= gripper.limits.lower {
             return Some(MotionStatus::failed(MotionFailure::NothingGripped { side }));
         }
-        let coupled = positions.len() < 2;
-        for (finger, position) in positions.iter_mut().enumerate() {
-            let waits = !coupled && pressing.get(finger).is_some_and(Option::is_some);
-            if !waits {
-                *position = (*position - speeds::GRIP_VELOCITY * STEP_SECONDS).max(lower);
-            }
-        }
-        let next = with_joints(now, fingers, &positions);
+        let closer = position - speeds::GRIP_VELOCITY * STEP_SECONDS;
+        let next = with_joints(now, &[gripper.joint], &[closer.max(gripper.limits.lower)]);
         let allowed = hand_may_touch_objects(&self.body, world, side);
         if let Some(hit) = guard::obstacle(world, &next, &allowed) {
             return Some(MotionStatus::failed(MotionFailure::FingersBlocked { side, hit }));

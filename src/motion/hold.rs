@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::failure::MotionFailure;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use crate::robot::{RobotDescription, Side};
 use crate::world::World;
 use crate::world::physics::STEP_SECONDS;
 

@@ -12,6 +12,7 @@ use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
+use crate::robot::{JointId, RobotDescription};
 use crate::spatial::{Pose, trig};
 use crate::world::{AllowedPairs, World};
 
@@ -109,7 +110,7 @@ impl Look {
         };
         let tree = &world.models().robot;
         let mut goal = Vec::new();
-        for (id, wanted) in self.body.neck.into_iter().zip(wanted) {
+        for (id, wanted) in neck_joints(&self.body).into_iter().zip(wanted) {
             let joint = tree.joint(id);
             let cropped = joint.limits.map_or(wanted, |l| l.clamp(wanted));
             goal.push(cropped);
@@ -122,9 +123,9 @@ impl Look {
                 });
             }
         }
-        let joints = self.body.neck.to_vec();
+        let joints = neck_joints(&self.body).to_vec();
         let now = joints.iter().map(|j| world.robot_configuration().joints.get(*j)).collect();
-        let limits = speeds::limits_of(tree, &joints);
+        let limits = speeds::limits_of(&self.body, &joints);
         let way = Trajectory::new(&[now, goal], &limits, Corners::Round);
         Ok(JointFollow::new(joints, way, AllowedPairs::none()))
     }
@@ -151,17 +152,21 @@ impl Look {
     }
 }
 
+fn neck_joints(body: &RobotDescription) -> [JointId; 2] {
+    [body.neck.pan_joint, body.neck.tilt_joint]
+}
+
 /// Angles (rad) of pan and tilt that aim the head at the point of the map frame (m).
 pub fn pan_and_tilt(body: &RobotDescription, world: &World, point: &Point3<f64>) -> [f64; 2] {
     let tree = &world.models().robot;
-    let [pan, tilt] = body.neck;
-    let level = with_joints(world.robot_configuration(), &body.neck, &[0.0, 0.0]);
-    let frame_of = |joint| tree.link_pose(tree.joint(joint).child, &level.base, &level.joints);
+    let (pan, tilt) = (body.neck.pan_link, body.neck.tilt_link);
+    let level = with_joints(world.robot_configuration(), &neck_joints(body), &[0.0, 0.0]);
+    let frame_of = |link| tree.link_pose(link, &level.base, &level.joints);
     // Both joints turn about an axis of their own frame: pan about z, tilt about y.
     let seen = frame_of(pan).inverse_transform_point(point);
     let axis = frame_of(pan).inverse() * frame_of(tilt);
     let pan_angle = trig::atan2(seen.y, seen.x);
-    let ahead = seen.x.hypot(seen.y) - axis.translation.x;
+    let ahead = libm::hypot(seen.x, seen.y) - axis.translation.x;
     let tilt_angle = trig::atan2(axis.translation.z - seen.z, ahead);
     [pan_angle, tilt_angle]
 }

@@ -9,7 +9,7 @@ use super::failure::{LimitViolation, MotionFailure};
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::judge::Judge;
-use crate::robot::ARM_JOINTS;
+use crate::robot::{ARM_JOINTS, RobotDescription, Side};
 use crate::spatial::trig;
 use crate::world::{AllowedPairs, World};
 
@@ -84,7 +84,7 @@ impl MoveJoints {
         let goal = self.goal(world, &axes)?;
         let none = AllowedPairs::none();
         let mut judge = Judge::new(world, axes.joints.clone(), &none);
-        let way = plan_way(world, &axes, &goal, &mut judge, ArmPathEffort::default())?;
+        let way = plan_way(&self.body, world, &axes, &goal, &mut judge, ArmPathEffort::default())?;
         Ok(JointFollow::new(axes.joints, way, none))
     }
 

@@ -7,7 +7,7 @@ use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
-use crate::robot::Limits;
+use crate::robot::{Limits, RobotDescription};
 use crate::world::{AllowedPairs, World};
 
 /// A goal farther outside of the limits than this (m) is a failure.
@@ -31,22 +31,21 @@ impl MoveTorso {
         Self { body, goal, follow: None, ended: false }
     }
 
-    fn limits(&self, world: &World) -> Limits {
-        let everything = Limits { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
-        world.models().robot.joint(self.body.torso.joint).limits.unwrap_or(everything)
+    fn limits(&self) -> Limits {
+        self.body.torso.limits
     }
 
     fn start(&self, world: &World) -> JointFollow {
         let joints = vec![self.body.torso.joint];
         let now = world.robot_configuration().joints.get(self.body.torso.joint);
-        let points = [vec![now], vec![self.limits(world).clamp(self.goal)]];
-        let limits = speeds::limits_of(&world.models().robot, &joints);
+        let points = [vec![now], vec![self.limits().clamp(self.goal)]];
+        let limits = speeds::limits_of(&self.body, &joints);
         let way = Trajectory::new(&points, &limits, Corners::Round);
         JointFollow::new(joints, way, AllowedPairs::none())
     }
 
-    fn arrived(&self, world: &World) -> MotionStatus {
-        let limits = self.limits(world);
+    fn arrived(&self) -> MotionStatus {
+        let limits = self.limits();
         if limits.excess(self.goal) <= CROPPED {
             return MotionStatus::Done(MotionOutcome::Arrived);
         }
@@ -79,7 +78,7 @@ impl Motion for MoveTorso {
                 hit,
             }),
             FollowStep::Stuck(stuck) => MotionStatus::failed(MotionFailure::HeldObjectStuck(stuck)),
-            FollowStep::Arrived => self.arrived(world),
+            FollowStep::Arrived => self.arrived(),
         };
         self.ended = true;
         end

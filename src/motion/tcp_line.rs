@@ -3,7 +3,8 @@
 use super::arm_axes::ArmAxes;
 use super::arm_path::{between, blocked_between};
 use super::judge::Judge;
-use crate::robot::{ARM_JOINTS, ArmPositions, KinematicTree};
+use crate::robot::description::Arm;
+use crate::robot::{ARM_JOINTS, ArmPositions, KinematicTree, RobotDescription, Side};
 use crate::spatial::{Pose, pose};
 use crate::world::{RobotConfiguration, World};
 

@@ -15,7 +15,8 @@ use super::speeds;
 use super::tcp_line::{LineEnd, LinePath, LineTask, TcpLine, tcp_in_base, wrist_in_torso};
 use super::trajectory::{AxisGroup, Corners, Trajectory};
 use super::unreachable::{Unreachable, UnreachableReason};
-use crate::robot::{self, Limits};
+use crate::robot::description::Speed;
+use crate::robot::{self, JointId, Limits, RobotDescription, Side};
 use crate::spatial::{Pose, trig};
 use crate::world::{AllowedPairs, CollisionHit, World};
 
@@ -63,9 +64,7 @@ impl TcpTask<'_> {
     }
 
     fn torso_limits(&self) -> Limits {
-        let now = self.torso_now();
-        let tree = &self.world.models().robot;
-        tree.joint(self.body.torso.joint).limits.unwrap_or(Limits { lower: now, upper: now })
+        self.body.torso.limits
     }
 
     /// Heights of the torso (m), the present one first, then the nearest first.
@@ -209,14 +208,14 @@ impl TcpTask<'_> {
                 &mut blocked,
             );
             if met.is_none() {
-                let limits = speeds::limits_of(&self.world.models().robot, &axes.joints);
+                let limits = speeds::limits_of(self.body, &axes.joints);
                 let path = [now, posture.positions.clone()];
                 return Ok(Trajectory::new(&path, &limits, Corners::Round));
             }
         }
         let mut result = None;
         for posture in free.iter().take(LONG_SEARCHES) {
-            match plan_way(self.world, axes, &posture.positions, judge, effort) {
+            match plan_way(self.body, self.world, axes, &posture.positions, judge, effort) {
                 Ok(way) => return Ok(way),
                 Err(failure) => result = Some(failure),
             }
@@ -271,10 +270,10 @@ impl TcpTask<'_> {
         &self,
         path: &LinePath,
         axes: &ArmAxes,
-        speed: speeds::Speed,
+        speed: Speed,
         judge: &mut Judge<'_>,
     ) -> Trajectory {
-        let mut limits = speeds::limits_of(&self.world.models().robot, &axes.joints);
+        let mut limits = speeds::limits_of(self.body, &axes.joints);
         limits.push(AxisGroup::single(axes.joints.len(), speed.velocity, speed.acceleration));
         let points: Vec<Vec<f64>> = path
             .points
@@ -336,31 +335,63 @@ impl TcpTask<'_> {
         }
     }
 
-    /// A way straight to the goal and then `depth` (m) straight down, as far as arm and
-    /// furniture let it, for putting something down.
-    pub(super) fn plan_put(&self, depth: f64, is_met: &mut dyn FnMut(&[f64]) -> bool) -> Option<PutPlan> {
+    /// A path that leads the tools straight to the goals and from there `depth` (m) straight
+    /// down, cut short a little behind the place where `is_met` first finds the held object to
+    /// touch something, or at the goals where it never does.
+    pub(super) fn plan_put(
+        &self,
+        depth: f64,
+        is_met: &mut dyn FnMut(&[JointId], &[f64]) -> bool,
+    ) -> Option<JointFollow> {
         for height in self.heights(REASON_STEP) {
             let axes = self.axes(height);
             let postures = self.postures(height, &axes);
-            if postures.is_empty() {
-                continue;
-            }
             let mut judge = Judge::new(self.world, axes.joints.clone(), &self.allowed);
-            let mut task = self.line_task(height, &axes);
             let start = axes.now(self.world);
             let ends = postures.iter().take(6).map(|p| Some(p.positions.as_slice()));
             for end in std::iter::once(None).chain(ends) {
-                let (mut path, _) = task.follow(&start, end, &mut judge);
-                let _ = (&mut path, &mut task, depth, &mut *is_met);
+                let found = self.follow_down(height, &axes, &start, end, depth, &mut judge);
+                let (mut path, goal_at) = found;
+                let met = (1..path.points.len())
+                    .find(|&i| is_met(&axes.joints, path.points.get(i).map_or(&[], Vec::as_slice)));
+                let Some(last) = met.map(|i| i + 1).or(goal_at) else { continue };
+                path.points.truncate(last + 1);
+                path.way.truncate(last + 1);
+                let way = self.line_way(&path, &axes, speeds::PUT, &mut judge);
+                return Some(JointFollow::new(axes.joints, way, self.allowed.clone()));
             }
         }
         None
     }
-}
 
-/// A way for putting something down.
-pub(super) struct PutPlan {
-    pub(super) follow: JointFollow,
+    /// Straight to the goals and down, as far as it goes; and the place of the goals in the
+    /// path, when it gets there.
+    fn follow_down(
+        &self,
+        height: f64,
+        axes: &ArmAxes,
+        start: &[f64],
+        end: Option<&[f64]>,
+        depth: f64,
+        judge: &mut Judge<'_>,
+    ) -> (LinePath, Option<usize>) {
+        let mut task = self.line_task(height, axes);
+        let (mut path, to_goal) = task.follow(start, end, judge);
+        if !matches!(to_goal, LineEnd::Complete) {
+            return (path, None);
+        }
+        let goal_at = path.points.len() - 1;
+        for line in &mut task.lines {
+            line.from = line.to;
+            line.to.translation.z -= depth;
+        }
+        let reached = path.points.last().cloned().unwrap_or_default();
+        let (down, _) = task.follow(&reached, None, judge);
+        let so_far = path.way.last().copied().unwrap_or(0.0);
+        path.points.extend(down.points.into_iter().skip(1));
+        path.way.extend(down.way.into_iter().skip(1).map(|way| so_far + way));
+        (path, Some(goal_at))
+    }
 }
 
 /// What a position near its limit costs (rad).

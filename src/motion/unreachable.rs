@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::robot;
+use crate::robot::{self, Side};
 use crate::spatial::Pose;
 use crate::world::CollisionHit;
 
