@@ -176,7 +176,10 @@ fn a_missing_parenthesis_is_reported() {
 fn numbers_are_read_to_the_last_digit() {
     let tree = tree();
     let pr2 = pr2(&tree);
-    let park = pr2.arm(Side::Left).posture("park").expect("there is a parking posture");
+    let park = pr2
+        .arm(Side::Left)
+        .posture("park")
+        .expect("there is a parking posture");
     assert_eq!(park[0], 1.9652919379395388);
     assert_eq!(park[4], 16.99646118944817);
     assert_eq!(pr2.camera().vertical_view, 50.0_f64.to_radians());

@@ -21,7 +21,10 @@ impl ArmAxes {
     /// The axes of the arms of those sides, after that of the torso if it is to move.
     pub(super) fn new(body: &RobotDescription, world: &World, torso: bool, sides: &[Side]) -> Self {
         let tree = &world.models().robot;
-        let mut all = Self { joints: Vec::new(), path: Vec::new() };
+        let mut all = Self {
+            joints: Vec::new(),
+            path: Vec::new(),
+        };
         if torso {
             all.add(tree, body.torso.joint, 1.0, 0.0);
         }
@@ -36,10 +39,17 @@ impl ArmAxes {
     }
 
     fn add(&mut self, tree: &KinematicTree, joint: JointId, reach: f64, now: f64) {
-        let turn = Limits { lower: now - std::f64::consts::PI, upper: now + std::f64::consts::PI };
+        let turn = Limits {
+            lower: now - std::f64::consts::PI,
+            upper: now + std::f64::consts::PI,
+        };
         let Limits { lower, upper } = tree.joint(joint).limits.unwrap_or(turn);
         self.joints.push(joint);
-        self.path.push(PathAxis { lower, upper, reach });
+        self.path.push(PathAxis {
+            lower,
+            upper,
+            reach,
+        });
     }
 
     /// Where the joints are now.
@@ -57,5 +67,13 @@ fn reaches(tree: &KinematicTree, arm: &Arm) -> [f64; 7] {
     // the next bend, so its length does not count.
     let forearm = length(5) + HAND_EXTENT;
     let arm = length(3) + length(2) + forearm;
-    [length(1) + arm, arm, forearm, forearm, HAND_EXTENT, HAND_EXTENT, HAND_WIDTH]
+    [
+        length(1) + arm,
+        arm,
+        forearm,
+        forearm,
+        HAND_EXTENT,
+        HAND_EXTENT,
+        HAND_WIDTH,
+    ]
 }

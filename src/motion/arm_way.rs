@@ -27,8 +27,15 @@ pub(super) fn plan_way(
     // One generator per plan, seeded by the time: a plan depends on nothing but the world.
     let mut rng = Pcg64::seed_from_u64(world.steps());
     let mut blocked = |q: &[f64]| judge.blocked(q);
-    let path = find_arm_path(&axes.path, &axes.now(world), goal, effort, &mut rng, &mut blocked)
-        .map_err(path_failure)?;
+    let path = find_arm_path(
+        &axes.path,
+        &axes.now(world),
+        goal,
+        effort,
+        &mut rng,
+        &mut blocked,
+    )
+    .map_err(path_failure)?;
     let limits = speeds::limits_of(body, &axes.joints);
     Ok(smooth(&path, &limits, judge))
 }
@@ -54,8 +61,9 @@ fn path_failure(failure: ArmPathFailure<CollisionHit>) -> MotionFailure {
     match failure {
         ArmPathFailure::Start(hit) => MotionFailure::ArmStartInCollision { hit },
         ArmPathFailure::Goal(hit) => MotionFailure::ArmGoalInCollision { hit },
-        ArmPathFailure::NotFound { blocker, samples } => {
-            MotionFailure::ArmPathNotFound { hit: blocker, samples }
-        }
+        ArmPathFailure::NotFound { blocker, samples } => MotionFailure::ArmPathNotFound {
+            hit: blocker,
+            samples,
+        },
     }
 }

@@ -130,7 +130,8 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
 
     /// What blocks the straight way, coarse steps first; the ends are taken as free.
     fn edge(&mut self, from: &BasePlace, to: &BasePlace) -> Option<P> {
-        let way = libm::hypot(to[0] - from[0], to[1] - from[1]) + (to[2] - from[2]).abs() * self.reach;
+        let way =
+            libm::hypot(to[0] - from[0], to[1] - from[1]) + (to[2] - from[2]).abs() * self.reach;
         let parts = (way / RESOLUTION).ceil().max(1.0) as usize;
         let mut stride = parts.next_power_of_two();
         while stride > 1 {

@@ -31,7 +31,11 @@ pub struct Detect {
 impl Detect {
     /// Looks once, with the head as it is.
     pub fn new(body: Arc<RobotDescription>, query: DetectQuery) -> Self {
-        Self { body, query, ended: false }
+        Self {
+            body,
+            query,
+            ended: false,
+        }
     }
 
     fn matches(&self, name: &str, type_name: &str) -> bool {
@@ -41,14 +45,25 @@ impl Detect {
     }
 
     fn look(&self, world: &World) -> Result<Vec<DetectedObject>, MotionFailure> {
-        let wanted = || world.objects().filter(|o| self.matches(o.name(), o.type_name()));
+        let wanted = || {
+            world
+                .objects()
+                .filter(|o| self.matches(o.name(), o.type_name()))
+        };
         let base = world.robot_configuration().base;
-        let sight = Sight::take(world, Camera::of_head(world.link_pose(self.body.camera().frame)));
+        let sight = Sight::take(
+            world,
+            Camera::of_head(world.link_pose(self.body.camera().frame)),
+        );
         let (mut seen, mut candidates) = (Vec::new(), Vec::new());
         for object in wanted() {
             // The names come from the world itself.
-            let Ok(visibility) = sight.visibility(object.name()) else { continue };
-            let Ok(pose) = world.object_pose(object.name()) else { continue };
+            let Ok(visibility) = sight.visibility(object.name()) else {
+                continue;
+            };
+            let Ok(pose) = world.object_pose(object.name()) else {
+                continue;
+            };
             if visibility.is_seen() {
                 seen.push(DetectedObject {
                     name: object.name().to_owned(),
@@ -88,6 +103,9 @@ impl Motion for Detect {
     }
 
     fn progress(&self) -> Progress {
-        Progress { what: "detecting", fraction: if self.ended { 1.0 } else { 0.0 } }
+        Progress {
+            what: "detecting",
+            fraction: if self.ended { 1.0 } else { 0.0 },
+        }
     }
 }

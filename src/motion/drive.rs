@@ -70,14 +70,22 @@ impl Drive {
         let path = plan_drive(world, self.goal)?;
         let (drive, turn) = (self.body.base.drive, self.body.base.turn);
         let limits = [
-            AxisGroup { axes: 0..2, velocity: drive.velocity, acceleration: drive.acceleration },
+            AxisGroup {
+                axes: 0..2,
+                velocity: drive.velocity,
+                acceleration: drive.acceleration,
+            },
             AxisGroup::single(2, turn.velocity, turn.acceleration),
         ];
         let points: Vec<Vec<f64>> = path.iter().map(|p| p.to_vec()).collect();
         let round = Trajectory::new(&points, &limits, Corners::Round);
         // Rounding leaves the path that was checked, so what comes out is checked again.
         let free = points.len() <= 2 || is_way_free(world, &round, world.robot_configuration());
-        Ok(Follower::new(if free { round } else { Trajectory::new(&points, &limits, Corners::Stop) }))
+        Ok(Follower::new(if free {
+            round
+        } else {
+            Trajectory::new(&points, &limits, Corners::Stop)
+        }))
     }
 
     /// Looks at the way ahead when arms or torso have moved since the last look.
@@ -108,7 +116,11 @@ impl Drive {
         let next = at_place(world.robot_configuration(), &way.next());
         match guard::obstacle(world, &next, &AllowedPairs::none()) {
             None => {
-                if self.brake { way.brake() } else { way.advance() }
+                if self.brake {
+                    way.brake()
+                } else {
+                    way.advance()
+                }
                 self.patience.reset();
                 world.set_robot_configuration(&next);
                 None
@@ -127,7 +139,10 @@ impl Drive {
         }
         if self.plans >= MOST_PLANS {
             let goal = self.goal;
-            return Some(MotionStatus::failed(MotionFailure::DriveBlocked { goal, hit }));
+            return Some(MotionStatus::failed(MotionFailure::DriveBlocked {
+                goal,
+                hit,
+            }));
         }
         self.patience.reset();
         match self.plan(world) {
@@ -175,7 +190,10 @@ impl Motion for Drive {
 
     fn progress(&self) -> Progress {
         let fraction = self.way.as_ref().map_or(0.0, Follower::fraction);
-        Progress { what: "driving", fraction }
+        Progress {
+            what: "driving",
+            fraction,
+        }
     }
 }
 
@@ -211,7 +229,9 @@ pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, Moti
     let allowed = touching
         .into_iter()
         .filter(|hit| hit.depth < guard::GREATEST_LAG)
-        .fold(AllowedPairs::none(), |all, hit| all.and(hit.moving, hit.other));
+        .fold(AllowedPairs::none(), |all, hit| {
+            all.and(hit.moving, hit.other)
+        });
     let mut there = robot.clone();
     let mut poses = Vec::new();
     let tree = &world.models().robot;
@@ -225,15 +245,28 @@ pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, Moti
         }
         checker.first_hit_at(&poses, &allowed, margin)
     };
-    let reach = in_base.iter().map(|p| libm::hypot(p.translation.x, p.translation.y)).fold(0.0, f64::max);
-    let found = find_base_path(start, goal, floor_area(world, &start, &goal), reach + LINK_EXTENT, &mut |p, m| {
-        blocked(p, m).map(Obstacle)
-    });
+    let reach = in_base
+        .iter()
+        .map(|p| libm::hypot(p.translation.x, p.translation.y))
+        .fold(0.0, f64::max);
+    let found = find_base_path(
+        start,
+        goal,
+        floor_area(world, &start, &goal),
+        reach + LINK_EXTENT,
+        &mut |p, m| blocked(p, m).map(Obstacle),
+    );
     found.map_err(|failure| match failure {
         BasePathFailure::StartOccupied(hit) => MotionFailure::DriveStartOccupied { hit: hit.0 },
         BasePathFailure::GoalOccupied(hit) => {
-            let nearest_free = nearby(&goal).into_iter().find(|p| blocked(p, 0.0).is_none());
-            MotionFailure::GoalOccupied { goal, hit: hit.0, nearest_free }
+            let nearest_free = nearby(&goal)
+                .into_iter()
+                .find(|p| blocked(p, 0.0).is_none());
+            MotionFailure::GoalOccupied {
+                goal,
+                hit: hit.0,
+                nearest_free,
+            }
         }
         BasePathFailure::Enclosed { blockers } => MotionFailure::Enclosed {
             goal,
@@ -258,7 +291,8 @@ fn nearby(goal: &BasePlace) -> Vec<BasePlace> {
     let mut places = Vec::new();
     for ring in 1..=rings {
         for turn in 0..16 {
-            let (s, c) = crate::spatial::trig::sin_cos(f64::from(turn) * std::f64::consts::FRAC_PI_8);
+            let (s, c) =
+                crate::spatial::trig::sin_cos(f64::from(turn) * std::f64::consts::FRAC_PI_8);
             let r = f64::from(ring) * spacing;
             places.push([goal[0] + r * c, goal[1] + r * s, goal[2]]);
         }
@@ -269,12 +303,17 @@ fn nearby(goal: &BasePlace) -> Vec<BasePlace> {
 /// The floor that holds the robot, its goal and all furniture.
 fn floor_area(world: &World, start: &BasePlace, goal: &BasePlace) -> FloorArea {
     let links = world.models().kitchen.links();
-    let furniture = links.filter(|(_, link)| !link.collisions.is_empty()).map(|(id, _)| {
-        let t = world.furniture_pose(id).translation;
-        [t.x, t.y]
-    });
+    let furniture = links
+        .filter(|(_, link)| !link.collisions.is_empty())
+        .map(|(id, _)| {
+            let t = world.furniture_pose(id).translation;
+            [t.x, t.y]
+        });
     let ends = [[start[0], start[1]], [goal[0], goal[1]]];
-    let mut area = FloorArea { min: [f64::MAX; 2], max: [f64::MIN; 2] };
+    let mut area = FloorArea {
+        min: [f64::MAX; 2],
+        max: [f64::MIN; 2],
+    };
     for p in furniture.chain(ends) {
         for (i, v) in p.into_iter().enumerate() {
             area.min[i] = area.min[i].min(v - AREA_BORDER);

@@ -31,8 +31,16 @@ pub struct LimitViolation {
 
 impl fmt::Display for LimitViolation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { joint, wanted, lower, upper } = self;
-        write!(f, "{joint} would be at {wanted:.4}, its range is {lower:.4} to {upper:.4}")
+        let Self {
+            joint,
+            wanted,
+            lower,
+            upper,
+        } = self;
+        write!(
+            f,
+            "{joint} would be at {wanted:.4}, its range is {lower:.4} to {upper:.4}"
+        )
     }
 }
 
@@ -115,7 +123,9 @@ pub enum MotionFailure {
         candidates: Vec<Visibility>,
     },
     /// The fingers met without an object between them.
-    #[error("There was no object to grip\nthe fingers of the {side} hand met without an object between them")]
+    #[error(
+        "There was no object to grip\nthe fingers of the {side} hand met without an object between them"
+    )]
     NothingGripped {
         /// The hand.
         side: Side,
@@ -155,7 +165,9 @@ pub enum MotionFailure {
         violation: LimitViolation,
     },
     /// A list of joint positions has the wrong length.
-    #[error("length of joints list is incorrect: the {side} arm has {expected} joints, not {given}")]
+    #[error(
+        "length of joints list is incorrect: the {side} arm has {expected} joints, not {given}"
+    )]
     JointCount {
         /// The arm.
         side: Side,
@@ -235,7 +247,9 @@ impl MotionFailure {
             Self::ObjectNotFound { .. } => "PERCEPTION-OBJECT-NOT-FOUND",
             Self::NothingGripped { .. } | Self::WrongObject { .. } => "GRIPPER-CLOSED-COMPLETELY",
             Self::GripperLimit { .. } | Self::FingersBlocked { .. } => "GRIPPER-GOAL-NOT-REACHED",
-            Self::PoseUnreachable(_) | Self::TorsoConflict { .. } => "MANIPULATION-POSE-UNREACHABLE",
+            Self::PoseUnreachable(_) | Self::TorsoConflict { .. } => {
+                "MANIPULATION-POSE-UNREACHABLE"
+            }
             Self::JointLimit { .. }
             | Self::JointCount { .. }
             | Self::ArmGoalInCollision { .. }
@@ -250,17 +264,31 @@ impl MotionFailure {
 }
 
 fn place(&[x, y, yaw]: &BasePlace) -> String {
-    format!("x {x:.3}, y {y:.3}, heading {:.1} degrees", yaw.to_degrees())
+    format!(
+        "x {x:.3}, y {y:.3}, heading {:.1} degrees",
+        yaw.to_degrees()
+    )
 }
 
 /// "a touches b" or, for a gap that is too narrow, "a is 3 mm from b".
 fn touch(hit: &CollisionHit) -> String {
-    let CollisionHit { moving, other, depth, point } = hit;
+    let CollisionHit {
+        moving,
+        other,
+        depth,
+        point,
+    } = hit;
     let at = format!("at ({:.2} {:.2} {:.2})", point.x, point.y, point.z);
     if *depth > 0.0 {
-        format!("{moving} would overlap {other} by {:.1} mm {at}", depth * 1e3)
+        format!(
+            "{moving} would overlap {other} by {:.1} mm {at}",
+            depth * 1e3
+        )
     } else {
-        format!("{moving} would be only {:.1} mm from {other} {at}", -depth * 1e3)
+        format!(
+            "{moving} would be only {:.1} mm from {other} {at}",
+            -depth * 1e3
+        )
     }
 }
 
@@ -275,7 +303,11 @@ fn nearest(place: &Option<BasePlace>) -> String {
 
 fn list<'a>(lead: &str, bodies: impl IntoIterator<Item = &'a BodyName>) -> String {
     let names: Vec<String> = bodies.into_iter().map(ToString::to_string).collect();
-    if names.is_empty() { String::new() } else { format!("{lead}{}", names.join(", ")) }
+    if names.is_empty() {
+        String::new()
+    } else {
+        format!("{lead}{}", names.join(", "))
+    }
 }
 
 fn heights(range: &Option<[f64; 2]>) -> String {

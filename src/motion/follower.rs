@@ -19,7 +19,11 @@ pub(super) struct Follower {
 
 impl Follower {
     pub(super) fn new(trajectory: Trajectory) -> Self {
-        Self { trajectory, time: 0.0, rate: 1.0 }
+        Self {
+            trajectory,
+            time: 0.0,
+            rate: 1.0,
+        }
     }
 
     /// Whether the end has been taken.
@@ -61,6 +65,10 @@ impl Follower {
     /// How much of the time has passed, 0..1.
     pub(super) fn fraction(&self) -> f64 {
         let duration = self.trajectory.duration();
-        if duration > 0.0 { (self.time / duration).min(1.0) } else { 1.0 }
+        if duration > 0.0 {
+            (self.time / duration).min(1.0)
+        } else {
+            1.0
+        }
     }
 }

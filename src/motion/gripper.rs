@@ -50,7 +50,11 @@ pub struct MoveGripper {
 }
 
 /// Any object may be touched by any link of the hand.
-pub(super) fn hand_may_touch_objects(body: &RobotDescription, world: &World, side: Side) -> AllowedPairs {
+pub(super) fn hand_may_touch_objects(
+    body: &RobotDescription,
+    world: &World,
+    side: Side,
+) -> AllowedPairs {
     let names = hand_names(body, world, side);
     world.objects().fold(AllowedPairs::none(), |all, object| {
         all.and_all(names.clone(), &BodyName::Object(object.name().to_owned()))
@@ -60,14 +64,26 @@ pub(super) fn hand_may_touch_objects(body: &RobotDescription, world: &World, sid
 /// The links of a hand as bodies.
 pub(super) fn hand_names(body: &RobotDescription, world: &World, side: Side) -> Vec<BodyName> {
     let tree = &world.models().robot;
-    let name = |id| BodyName::Robot(LinkName { id, name: tree.link(id).name.as_str().into() });
+    let name = |id| {
+        BodyName::Robot(LinkName {
+            id,
+            name: tree.link(id).name.as_str().into(),
+        })
+    };
     body.arm(side).gripper.links().map(name).collect()
 }
 
 impl MoveGripper {
     /// Carries out the command with one hand.
     pub fn new(body: Arc<RobotDescription>, side: Side, command: GripperCommand) -> Self {
-        Self { body, side, command, follow: None, unequal: 0.0, ended: false }
+        Self {
+            body,
+            side,
+            command,
+            follow: None,
+            unequal: 0.0,
+            ended: false,
+        }
     }
 
     fn gripper(&self) -> &Gripper {
@@ -95,7 +111,11 @@ impl MoveGripper {
         let to = vec![gripper.limits.clamp(self.goal())];
         let limits = speeds::limits_of(&self.body, &joints);
         let way = Trajectory::new(&[from, to], &limits, Corners::Round);
-        JointFollow::new(joints, way, hand_may_touch_objects(&self.body, world, self.side))
+        JointFollow::new(
+            joints,
+            way,
+            hand_may_touch_objects(&self.body, world, self.side),
+        )
     }
 
     /// Moves the fingers to a position; closing ones stop when something is between them.
@@ -111,7 +131,10 @@ impl MoveGripper {
             FollowStep::Blocked { still, .. } if still < PATIENCE => None,
             FollowStep::Blocked { hit, .. } => {
                 let side = self.side;
-                Some(MotionStatus::failed(MotionFailure::FingersBlocked { side, hit }))
+                Some(MotionStatus::failed(MotionFailure::FingersBlocked {
+                    side,
+                    hit,
+                }))
             }
             FollowStep::Arrived => Some(self.arrived(world)),
         }
@@ -139,13 +162,17 @@ impl MoveGripper {
         let contacts = world.finger_contacts(self.side.index());
         contacts.map(|forces| {
             let objects = forces.into_iter().filter(|f| f.body.object().is_some());
-            objects.filter(|f| f.force > GRIP_FORCE).max_by(|a, b| a.force.total_cmp(&b.force))
+            objects
+                .filter(|f| f.force > GRIP_FORCE)
+                .max_by(|a, b| a.force.total_cmp(&b.force))
         })
     }
 
     /// Closes both fingers, which one joint moves; ends when both press on one object.
     fn grip(&mut self, world: &mut World) -> Option<MotionStatus> {
-        let GripperCommand::Grip { object: wanted } = &self.command else { return None };
+        let GripperCommand::Grip { object: wanted } = &self.command else {
+            return None;
+        };
         let side = self.side;
         let pressing = self.pressing(world);
         if let [Some(left), Some(right)] = &pressing {
@@ -180,7 +207,10 @@ impl MoveGripper {
         let next = with_joints(now, &[gripper.joint], &[closer.max(gripper.limits.lower)]);
         let allowed = hand_may_touch_objects(&self.body, world, side);
         if let Some(hit) = guard::obstacle(world, &next, &allowed) {
-            return Some(MotionStatus::failed(MotionFailure::FingersBlocked { side, hit }));
+            return Some(MotionStatus::failed(MotionFailure::FingersBlocked {
+                side,
+                hit,
+            }));
         }
         world.set_robot_configuration(&next);
         None
@@ -220,6 +250,9 @@ impl Motion for MoveGripper {
             GripperCommand::Position(_) => "moving the gripper",
             GripperCommand::Grip { .. } => "gripping",
         };
-        Progress { what, fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction) }
+        Progress {
+            what,
+            fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction),
+        }
     }
 }

@@ -31,10 +31,15 @@ pub(super) fn obstacle(
         return Some(first);
     }
     let deeper = |hit: &CollisionHit| {
-        let before = now.iter().find(|n| n.moving == hit.moving && n.other == hit.other);
+        let before = now
+            .iter()
+            .find(|n| n.moving == hit.moving && n.other == hit.other);
         before.is_none_or(|b| hit.depth > b.depth + SAME_DEPTH)
     };
-    checker.all_hits(next, allowed, -GUARD_DEPTH).into_iter().find(deeper)
+    checker
+        .all_hits(next, allowed, -GUARD_DEPTH)
+        .into_iter()
+        .find(deeper)
 }
 
 /// A held object that does not follow the hand as it should.
@@ -52,16 +57,29 @@ pub struct StuckObject {
 
 /// The first object held by one of the links that lags or is pressed too much.
 pub(super) fn stuck_object(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Option<StuckObject> {
-    let held = world.objects().filter(|o| o.attachment().is_some_and(|a| is_hand(a.link)));
+    let held = world
+        .objects()
+        .filter(|o| o.attachment().is_some_and(|a| is_hand(a.link)));
     for object in held {
         let name = object.name();
-        let lag = world.weld_error(name).ok().flatten().map_or(0.0, |e| e.distance);
+        let lag = world
+            .weld_error(name)
+            .ok()
+            .flatten()
+            .map_or(0.0, |e| e.distance);
         let force = world.support_force(name).unwrap_or(0.0);
         if lag > GREATEST_LAG || force > GREATEST_FORCE {
             let pressed = world.supports(name).unwrap_or_default();
-            let most = pressed.into_iter().max_by(|a, b| a.force.total_cmp(&b.force));
+            let most = pressed
+                .into_iter()
+                .max_by(|a, b| a.force.total_cmp(&b.force));
             let against = most.map(|m| m.body);
-            return Some(StuckObject { object: name.to_owned(), lag, force, against });
+            return Some(StuckObject {
+                object: name.to_owned(),
+                lag,
+                force,
+                against,
+            });
         }
     }
     None

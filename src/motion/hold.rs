@@ -21,13 +21,17 @@ pub fn take_hold(
     object: &str,
 ) -> Result<(), MotionFailure> {
     let palm = body.arm(side).gripper.palm;
-    world.attach(object, palm).map_err(|e| MotionFailure::UnknownName(e.to_string()))
+    world
+        .attach(object, palm)
+        .map_err(|e| MotionFailure::UnknownName(e.to_string()))
 }
 
 /// Names of the objects that the hand holds.
 pub fn held_objects(body: &RobotDescription, world: &World, side: Side) -> Vec<String> {
     let palm = body.arm(side).gripper.palm;
-    let held = world.objects().filter(|o| o.attachment().is_some_and(|a| a.link == palm));
+    let held = world
+        .objects()
+        .filter(|o| o.attachment().is_some_and(|a| a.link == palm));
     held.map(|o| o.name().to_owned()).collect()
 }
 
@@ -46,13 +50,25 @@ pub struct LetGo {
 impl LetGo {
     /// Of the named object, or of whatever the hand holds.
     pub fn new(body: Arc<RobotDescription>, side: Side, object: Option<String>) -> Self {
-        Self { body, side, object, released: None, quiet: 0, waited: 0.0, ended: false }
+        Self {
+            body,
+            side,
+            object,
+            released: None,
+            quiet: 0,
+            waited: 0.0,
+            ended: false,
+        }
     }
 
     fn release(&mut self, world: &mut World) -> Result<String, MotionFailure> {
         let side = self.side;
         let held = held_objects(&self.body, world, side).into_iter().next();
-        let name = self.object.clone().or(held).ok_or(MotionFailure::HoldsNothing { side })?;
+        let name = self
+            .object
+            .clone()
+            .or(held)
+            .ok_or(MotionFailure::HoldsNothing { side })?;
         match world.detach(&name) {
             Ok(Some(_)) => Ok(name),
             Ok(None) => Err(MotionFailure::HoldsNothing { side }),
@@ -83,13 +99,20 @@ impl Motion for LetGo {
             };
         };
         self.waited += STEP_SECONDS;
-        self.quiet = if world.is_at_rest() { self.quiet + 1 } else { 0 };
+        self.quiet = if world.is_at_rest() {
+            self.quiet + 1
+        } else {
+            0
+        };
         if self.quiet < QUIET && self.waited < SETTLE {
             return MotionStatus::Running;
         }
         self.ended = true;
         let at_rest = self.quiet >= QUIET;
-        MotionStatus::Done(MotionOutcome::Released { object: object.clone(), at_rest })
+        MotionStatus::Done(MotionOutcome::Released {
+            object: object.clone(),
+            at_rest,
+        })
     }
 
     fn cancel(&mut self) {
@@ -97,6 +120,9 @@ impl Motion for LetGo {
     }
 
     fn progress(&self) -> Progress {
-        Progress { what: "letting go", fraction: (self.waited / SETTLE).min(1.0) }
+        Progress {
+            what: "letting go",
+            fraction: (self.waited / SETTLE).min(1.0),
+        }
     }
 }

@@ -38,7 +38,12 @@ pub(super) struct JointFollow {
 impl JointFollow {
     pub(super) fn new(joints: Vec<JointId>, way: Trajectory, allowed: AllowedPairs) -> Self {
         let follower = Follower::new(way);
-        Self { joints, follower, allowed, patience: Patience::default() }
+        Self {
+            joints,
+            follower,
+            allowed,
+            patience: Patience::default(),
+        }
     }
 
     pub(super) fn fraction(&self) -> f64 {
@@ -46,14 +51,22 @@ impl JointFollow {
     }
 
     /// Sets the joints for the next step; `is_hand` tells links whose held objects must follow.
-    pub(super) fn tick(&mut self, world: &mut World, is_hand: impl Fn(LinkId) -> bool) -> FollowStep {
+    pub(super) fn tick(
+        &mut self,
+        world: &mut World,
+        is_hand: impl Fn(LinkId) -> bool,
+    ) -> FollowStep {
         if let Some(stuck) = guard::stuck_object(world, is_hand) {
             return FollowStep::Stuck(stuck);
         }
         if self.follower.is_at_end() {
             return FollowStep::Arrived;
         }
-        let next = with_joints(world.robot_configuration(), &self.joints, &self.follower.next());
+        let next = with_joints(
+            world.robot_configuration(),
+            &self.joints,
+            &self.follower.next(),
+        );
         match guard::obstacle(world, &next, &self.allowed) {
             None => {
                 self.follower.advance();
@@ -63,7 +76,10 @@ impl JointFollow {
             }
             Some(hit) => {
                 self.follower.hold();
-                FollowStep::Blocked { hit, still: self.patience.wait(world) }
+                FollowStep::Blocked {
+                    hit,
+                    still: self.patience.wait(world),
+                }
             }
         }
     }

@@ -35,9 +35,17 @@ impl<'w> Judge<'w> {
             .filter(|h| h.depth < GREATEST_LAG)
             .fold(allowed.clone(), |all, h| all.and(h.moving, h.other));
         let is_near_something = !near.is_empty();
-        let relaxed =
-            near.into_iter().fold(allowed.clone(), |all, h| all.and(h.moving, h.other));
-        Self { checker, robot, joints, relaxed, allowed, is_near_something }
+        let relaxed = near
+            .into_iter()
+            .fold(allowed.clone(), |all, h| all.and(h.moving, h.other));
+        Self {
+            checker,
+            robot,
+            joints,
+            relaxed,
+            allowed,
+            is_near_something,
+        }
     }
 
     /// The whole robot with the joints at the positions.
@@ -50,16 +58,21 @@ impl<'w> Judge<'w> {
         for (joint, position) in self.joints.iter().zip(positions) {
             self.robot.joints.set(*joint, *position);
         }
-        let near = self.checker.first_hit(&self.robot, &self.relaxed, PLAN_MARGIN);
+        let near = self
+            .checker
+            .first_hit(&self.robot, &self.relaxed, PLAN_MARGIN);
         if near.is_some() || !self.is_near_something {
             return near;
         }
-        self.checker.first_hit(&self.robot, &self.allowed, -TOUCH_DEPTH)
+        self.checker
+            .first_hit(&self.robot, &self.allowed, -TOUCH_DEPTH)
     }
 
     /// The smallest gap (m) in that posture, up to `reach` (m).
     pub(super) fn clearance(&mut self, positions: &[f64], reach: f64) -> f64 {
         let robot = self.robot_at(positions);
-        self.checker.clearance(&robot, &self.relaxed, reach).map_or(reach, |c| c.distance)
+        self.checker
+            .clearance(&robot, &self.relaxed, reach)
+            .map_or(reach, |c| c.distance)
     }
 }

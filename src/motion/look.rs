@@ -76,7 +76,13 @@ pub struct Look {
 impl Look {
     /// At the target as it is when the motion starts.
     pub fn new(body: Arc<RobotDescription>, target: LookTarget) -> Self {
-        Self { body, target, follow: None, violation: None, ended: false }
+        Self {
+            body,
+            target,
+            follow: None,
+            violation: None,
+            ended: false,
+        }
     }
 
     /// The point to look at in the map frame; `None` for straight ahead.
@@ -90,13 +96,18 @@ impl Look {
             LookTarget::Frame(name) => {
                 let models = world.models();
                 let robot = models.robot.link_named(name).map(|l| world.link_pose(l));
-                let kitchen = || models.kitchen.link_named(name).map(|l| world.furniture_pose(l));
+                let kitchen = || {
+                    models
+                        .kitchen
+                        .link_named(name)
+                        .map(|l| world.furniture_pose(l))
+                };
                 let found = robot.or_else(kitchen);
                 let pose = match found {
                     Some(pose) => pose,
-                    None => world
-                        .object_pose(name)
-                        .map_err(|_| MotionFailure::UnknownName(format!("there is no frame {name}")))?,
+                    None => world.object_pose(name).map_err(|_| {
+                        MotionFailure::UnknownName(format!("there is no frame {name}"))
+                    })?,
                 };
                 Some(origin(&pose))
             }
@@ -124,7 +135,10 @@ impl Look {
             }
         }
         let joints = neck_joints(&self.body).to_vec();
-        let now = joints.iter().map(|j| world.robot_configuration().joints.get(*j)).collect();
+        let now = joints
+            .iter()
+            .map(|j| world.robot_configuration().joints.get(*j))
+            .collect();
         let limits = speeds::limits_of(&self.body, &joints);
         let way = Trajectory::new(&[now, goal], &limits, Corners::Round);
         Ok(JointFollow::new(joints, way, AllowedPairs::none()))
@@ -195,6 +209,9 @@ impl Motion for Look {
 
     fn progress(&self) -> Progress {
         let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
-        Progress { what: "looking", fraction }
+        Progress {
+            what: "looking",
+            fraction,
+        }
     }
 }

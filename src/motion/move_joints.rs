@@ -32,7 +32,11 @@ pub struct MoveJoints {
 impl MoveJoints {
     /// The positions (rad) of the left and of the right arm, from the shoulder to the wrist;
     /// an arm without positions stays. Continuous joints turn the shorter way.
-    pub fn new(body: Arc<RobotDescription>, left: Option<Vec<f64>>, right: Option<Vec<f64>>) -> Self {
+    pub fn new(
+        body: Arc<RobotDescription>,
+        left: Option<Vec<f64>>,
+        right: Option<Vec<f64>>,
+    ) -> Self {
         Self {
             body,
             goals: [left, right],
@@ -44,7 +48,10 @@ impl MoveJoints {
     }
 
     fn sides(&self) -> Vec<Side> {
-        Side::BOTH.into_iter().filter(|s| self.goals[s.index()].is_some()).collect()
+        Side::BOTH
+            .into_iter()
+            .filter(|s| self.goals[s.index()].is_some())
+            .collect()
     }
 
     /// The goals one after the other, within hard limits.
@@ -54,7 +61,11 @@ impl MoveJoints {
             let Some(given) = given else { continue };
             if given.len() != ARM_JOINTS {
                 let (given, expected) = (given.len(), ARM_JOINTS);
-                return Err(MotionFailure::JointCount { side, given, expected });
+                return Err(MotionFailure::JointCount {
+                    side,
+                    given,
+                    expected,
+                });
             }
             goal.extend(given);
         }
@@ -84,7 +95,14 @@ impl MoveJoints {
         let goal = self.goal(world, &axes)?;
         let none = AllowedPairs::none();
         let mut judge = Judge::new(world, axes.joints.clone(), &none);
-        let way = plan_way(&self.body, world, &axes, &goal, &mut judge, ArmPathEffort::default())?;
+        let way = plan_way(
+            &self.body,
+            world,
+            &axes,
+            &goal,
+            &mut judge,
+            ArmPathEffort::default(),
+        )?;
         Ok(JointFollow::new(axes.joints, way, none))
     }
 
@@ -116,7 +134,10 @@ impl MoveJoints {
             }
         }
         let follow = self.follow.as_mut()?;
-        let hands = [self.body.arms[0].gripper.palm, self.body.arms[1].gripper.palm];
+        let hands = [
+            self.body.arms[0].gripper.palm,
+            self.body.arms[1].gripper.palm,
+        ];
         match follow.tick(world, |link| hands.contains(&link)) {
             FollowStep::Moving => None,
             FollowStep::Blocked { still, .. } if still < PATIENCE => None,
@@ -170,6 +191,9 @@ impl Motion for MoveJoints {
 
     fn progress(&self) -> Progress {
         let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
-        Progress { what: "moving the arms", fraction }
+        Progress {
+            what: "moving the arms",
+            fraction,
+        }
     }
 }

@@ -85,11 +85,19 @@ impl MoveTcp {
     fn plan(&self, world: &World) -> Result<JointFollow, MotionFailure> {
         let base = world.robot_configuration().base;
         let goals = Side::BOTH.into_iter().zip(self.goals);
-        let goals: Vec<(Side, Pose)> =
-            goals.filter_map(|(side, goal)| Some((side, in_base(goal?, &base)))).collect();
+        let goals: Vec<(Side, Pose)> = goals
+            .filter_map(|(side, goal)| Some((side, in_base(goal?, &base))))
+            .collect();
         let allowed = allowed_pairs(&self.body, world, &goals, self.mode);
-        let task = TcpTask { body: &self.body, world, goals, allowed };
-        let straight = (self.path == TcpPath::Straight).then(|| task.plan_line()).flatten();
+        let task = TcpTask {
+            body: &self.body,
+            world,
+            goals,
+            allowed,
+        };
+        let straight = (self.path == TcpPath::Straight)
+            .then(|| task.plan_line())
+            .flatten();
         straight.map_or_else(|| task.plan_free(), Ok)
     }
 
@@ -117,7 +125,10 @@ impl MoveTcp {
             return Some(end);
         }
         let follow = self.follow.as_mut()?;
-        let hands = [self.body.arms[0].gripper.palm, self.body.arms[1].gripper.palm];
+        let hands = [
+            self.body.arms[0].gripper.palm,
+            self.body.arms[1].gripper.palm,
+        ];
         match follow.tick(world, |link| hands.contains(&link)) {
             FollowStep::Moving => None,
             FollowStep::Blocked { still, .. } if still < PATIENCE => None,
@@ -155,14 +166,21 @@ pub(super) fn allowed_pairs(
     if mode == CollisionMode::AvoidAll {
         return allowed;
     }
-    let object_names = || world.objects().map(|o| BodyName::Object(o.name().to_owned()));
+    let object_names = || {
+        world
+            .objects()
+            .map(|o| BodyName::Object(o.name().to_owned()))
+    };
     for (side, _) in goals {
         let hand = hand_names(body, world, *side);
         for object in object_names() {
             allowed = allowed.and_all(hand.iter().cloned(), &object);
         }
         if mode == CollisionMode::AllowAll {
-            for held in held_objects(body, world, *side).into_iter().map(BodyName::Object) {
+            for held in held_objects(body, world, *side)
+                .into_iter()
+                .map(BodyName::Object)
+            {
                 allowed = allowed.and_all(object_names().filter(|o| *o != held), &held);
                 allowed = allowed.and_all(furniture(world), &held);
             }
@@ -173,8 +191,17 @@ pub(super) fn allowed_pairs(
 
 /// All pieces of furniture that can be touched, and the floor.
 fn furniture(world: &World) -> Vec<BodyName> {
-    let links = world.models().kitchen.links().filter(|(_, l)| !l.collisions.is_empty());
-    let names = links.map(|(id, l)| BodyName::Furniture(LinkName { id, name: l.name.as_str().into() }));
+    let links = world
+        .models()
+        .kitchen
+        .links()
+        .filter(|(_, l)| !l.collisions.is_empty());
+    let names = links.map(|(id, l)| {
+        BodyName::Furniture(LinkName {
+            id,
+            name: l.name.as_str().into(),
+        })
+    });
     names.chain([BodyName::Floor]).collect()
 }
 
@@ -205,6 +232,9 @@ impl Motion for MoveTcp {
             TcpPath::Free => "reaching",
             TcpPath::Straight => "moving the hand straight",
         };
-        Progress { what, fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction) }
+        Progress {
+            what,
+            fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction),
+        }
     }
 }

@@ -28,7 +28,12 @@ pub struct MoveTorso {
 impl MoveTorso {
     /// To the height (m) of the lift joint.
     pub fn new(body: Arc<RobotDescription>, goal: f64) -> Self {
-        Self { body, goal, follow: None, ended: false }
+        Self {
+            body,
+            goal,
+            follow: None,
+            ended: false,
+        }
     }
 
     fn limits(&self) -> Limits {
@@ -37,7 +42,10 @@ impl MoveTorso {
 
     fn start(&self, world: &World) -> JointFollow {
         let joints = vec![self.body.torso.joint];
-        let now = world.robot_configuration().joints.get(self.body.torso.joint);
+        let now = world
+            .robot_configuration()
+            .joints
+            .get(self.body.torso.joint);
         let points = [vec![now], vec![self.limits().clamp(self.goal)]];
         let limits = speeds::limits_of(&self.body, &joints);
         let way = Trajectory::new(&points, &limits, Corners::Round);
@@ -74,7 +82,10 @@ impl Motion for MoveTorso {
             FollowStep::Blocked { still, .. } if still < PATIENCE => return MotionStatus::Running,
             FollowStep::Blocked { hit, .. } => MotionStatus::failed(MotionFailure::TorsoBlocked {
                 goal: self.goal,
-                height: world.robot_configuration().joints.get(self.body.torso.joint),
+                height: world
+                    .robot_configuration()
+                    .joints
+                    .get(self.body.torso.joint),
                 hit,
             }),
             FollowStep::Stuck(stuck) => MotionStatus::failed(MotionFailure::HeldObjectStuck(stuck)),
@@ -90,6 +101,9 @@ impl Motion for MoveTorso {
 
     fn progress(&self) -> Progress {
         let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
-        Progress { what: "moving the torso", fraction }
+        Progress {
+            what: "moving the torso",
+            fraction,
+        }
     }
 }

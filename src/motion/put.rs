@@ -36,7 +36,14 @@ pub struct Put {
 impl Put {
     /// With the tool centre point going to the goal.
     pub fn new(body: Arc<RobotDescription>, side: Side, goal: TcpGoal) -> Self {
-        Self { body, side, goal, object: String::new(), follow: None, ended: false }
+        Self {
+            body,
+            side,
+            goal,
+            object: String::new(),
+            follow: None,
+            ended: false,
+        }
     }
 
     fn plan(&mut self, world: &World) -> Result<JointFollow, MotionFailure> {
@@ -46,21 +53,32 @@ impl Put {
         let goal = in_base(self.goal, &world.robot_configuration().base);
         let goals = vec![(side, goal)];
         let allowed = allowed_pairs(&self.body, world, &goals, CollisionMode::AllowAll);
-        let task = TcpTask { body: &self.body, world, goals, allowed };
+        let task = TcpTask {
+            body: &self.body,
+            world,
+            goals,
+            allowed,
+        };
         let object = BodyName::Object(self.object.clone());
         let mut checker = world.collision_checker();
         let none = AllowedPairs::none();
         let mut is_met = |joints: &[JointId], positions: &[f64]| {
             let there = with_joints(world.robot_configuration(), joints, positions);
-            checker.all_hits(&there, &none, 0.0).iter().any(|hit| hit.moving == object)
+            checker
+                .all_hits(&there, &none, 0.0)
+                .iter()
+                .any(|hit| hit.moving == object)
         };
-        task.plan_put(DEPTH, &mut is_met).map_or_else(|| task.plan_free(), Ok)
+        task.plan_put(DEPTH, &mut is_met)
+            .map_or_else(|| task.plan_free(), Ok)
     }
 
     /// What carries the object, if anything does.
     fn support(&self, world: &World) -> Option<BodyName> {
         let forces = world.supports(&self.object).ok()?;
-        let most = forces.into_iter().max_by(|a, b| a.force.total_cmp(&b.force))?;
+        let most = forces
+            .into_iter()
+            .max_by(|a, b| a.force.total_cmp(&b.force))?;
         (most.force > CARRIED).then_some(most.body)
     }
 
@@ -115,6 +133,9 @@ impl Motion for Put {
     }
 
     fn progress(&self) -> Progress {
-        Progress { what: "putting down", fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction) }
+        Progress {
+            what: "putting down",
+            fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction),
+        }
     }
 }

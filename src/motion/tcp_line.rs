@@ -72,7 +72,10 @@ impl LineTask<'_> {
     ) -> (LinePath, LineEnd) {
         let length = self.length();
         let steps = (length / STEP.0).ceil().max(1.0) as u32;
-        let mut path = LinePath { points: vec![start.to_vec()], way: vec![0.0] };
+        let mut path = LinePath {
+            points: vec![start.to_vec()],
+            way: vec![0.0],
+        };
         let mut before = start.to_vec();
         for i in 1..=steps {
             let share = f64::from(i) / f64::from(steps);
@@ -80,13 +83,18 @@ impl LineTask<'_> {
             let Some(next) = self.posture(share, &seed, start) else {
                 return (path, LineEnd::Unreachable);
             };
-            let jump = before.iter().zip(&next).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let jump = before
+                .iter()
+                .zip(&next)
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, f64::max);
             if jump > JUMP {
                 return (path, LineEnd::Unreachable);
             }
             let mut blocked = |q: &[f64]| judge.blocked(q);
             if blocked(&next).is_some()
-                || blocked_between(&self.axes.path, &before, &next, RESOLUTION, &mut blocked).is_some()
+                || blocked_between(&self.axes.path, &before, &next, RESOLUTION, &mut blocked)
+                    .is_some()
             {
                 return (path, LineEnd::Blocked);
             }

@@ -60,7 +60,10 @@ impl TcpTask<'_> {
     }
 
     fn torso_now(&self) -> f64 {
-        self.world.robot_configuration().joints.get(self.body.torso.joint)
+        self.world
+            .robot_configuration()
+            .joints
+            .get(self.body.torso.joint)
     }
 
     fn torso_limits(&self) -> Limits {
@@ -82,11 +85,20 @@ impl TcpTask<'_> {
 
     /// The torso is one of the axes only when it has to move.
     fn axes(&self, height: f64) -> ArmAxes {
-        ArmAxes::new(self.body, self.world, height != self.torso_now(), &self.sides())
+        ArmAxes::new(
+            self.body,
+            self.world,
+            height != self.torso_now(),
+            &self.sides(),
+        )
     }
 
     fn wrist(&self, side: Side, tcp: &Pose, height: f64) -> Pose {
-        let robot = with_joints(self.world.robot_configuration(), &[self.body.torso.joint], &[height]);
+        let robot = with_joints(
+            self.world.robot_configuration(),
+            &[self.body.torso.joint],
+            &[height],
+        );
         let tree = &self.world.models().robot;
         wrist_in_torso(self.body, tree, &robot, self.body.arm(side), tcp)
     }
@@ -96,7 +108,10 @@ impl TcpTask<'_> {
         let now = axes.now(self.world);
         let lead = now.len() - self.goals.len() * robot::ARM_JOINTS;
         let torso = if lead > 0 { vec![height] } else { Vec::new() };
-        let mut all = vec![Posture { cost: 0.0, positions: torso }];
+        let mut all = vec![Posture {
+            cost: 0.0,
+            positions: torso,
+        }];
         for (side, tcp) in &self.goals {
             let kinematics = &self.body.arm(*side).kinematics;
             let wrist = self.wrist(*side, tcp, height);
@@ -215,7 +230,14 @@ impl TcpTask<'_> {
         }
         let mut result = None;
         for posture in free.iter().take(LONG_SEARCHES) {
-            match plan_way(self.body, self.world, axes, &posture.positions, judge, effort) {
+            match plan_way(
+                self.body,
+                self.world,
+                axes,
+                &posture.positions,
+                judge,
+                effort,
+            ) {
                 Ok(way) => return Ok(way),
                 Err(failure) => result = Some(failure),
             }
@@ -253,7 +275,10 @@ impl TcpTask<'_> {
             let mut judge = Judge::new(self.world, axes.joints.clone(), &self.allowed);
             let task = self.line_task(height, &axes);
             let start = axes.now(self.world);
-            let ends = postures.iter().take(6).map(|p| Some(p.positions.as_slice()));
+            let ends = postures
+                .iter()
+                .take(6)
+                .map(|p| Some(p.positions.as_slice()));
             for end in std::iter::once(None).chain(ends) {
                 let (path, met) = task.follow(&start, end, &mut judge);
                 if matches!(met, LineEnd::Complete) {
@@ -274,7 +299,11 @@ impl TcpTask<'_> {
         judge: &mut Judge<'_>,
     ) -> Trajectory {
         let mut limits = speeds::limits_of(self.body, &axes.joints);
-        limits.push(AxisGroup::single(axes.joints.len(), speed.velocity, speed.acceleration));
+        limits.push(AxisGroup::single(
+            axes.joints.len(),
+            speed.velocity,
+            speed.acceleration,
+        ));
         let points: Vec<Vec<f64>> = path
             .points
             .iter()
@@ -313,7 +342,10 @@ impl TcpTask<'_> {
                         range = Some([least.min(height), most.max(height)]);
                     }
                     Err(reason) => {
-                        if nearest.as_ref().is_none_or(|n| reason.badness() < n.0.badness()) {
+                        if nearest
+                            .as_ref()
+                            .is_none_or(|n| reason.badness() < n.0.badness())
+                        {
                             nearest = Some((reason, height));
                         }
                     }
@@ -329,8 +361,16 @@ impl TcpTask<'_> {
                 report(*side, tcp, UnreachableReason::Collisions { hit, postures })
             }
             _ => {
-                let of = |wanted| suitable.iter().find(|(s, _)| *s == wanted).and_then(|(_, r)| *r);
-                MotionFailure::TorsoConflict { left: of(Side::Left), right: of(Side::Right) }
+                let of = |wanted| {
+                    suitable
+                        .iter()
+                        .find(|(s, _)| *s == wanted)
+                        .and_then(|(_, r)| *r)
+                };
+                MotionFailure::TorsoConflict {
+                    left: of(Side::Left),
+                    right: of(Side::Right),
+                }
             }
         }
     }
@@ -348,13 +388,18 @@ impl TcpTask<'_> {
             let postures = self.postures(height, &axes);
             let mut judge = Judge::new(self.world, axes.joints.clone(), &self.allowed);
             let start = axes.now(self.world);
-            let ends = postures.iter().take(6).map(|p| Some(p.positions.as_slice()));
+            let ends = postures
+                .iter()
+                .take(6)
+                .map(|p| Some(p.positions.as_slice()));
             for end in std::iter::once(None).chain(ends) {
                 let found = self.follow_down(height, &axes, &start, end, depth, &mut judge);
                 let (mut path, goal_at) = found;
                 let met = (1..path.points.len())
                     .find(|&i| is_met(&axes.joints, path.points.get(i).map_or(&[], Vec::as_slice)));
-                let Some(last) = met.map(|i| i + 1).or(goal_at) else { continue };
+                let Some(last) = met.map(|i| i + 1).or(goal_at) else {
+                    continue;
+                };
                 path.points.truncate(last + 1);
                 path.way.truncate(last + 1);
                 let way = self.line_way(&path, &axes, speeds::PUT, &mut judge);
@@ -389,7 +434,8 @@ impl TcpTask<'_> {
         let (down, _) = task.follow(&reached, None, judge);
         let so_far = path.way.last().copied().unwrap_or(0.0);
         path.points.extend(down.points.into_iter().skip(1));
-        path.way.extend(down.way.into_iter().skip(1).map(|way| so_far + way));
+        path.way
+            .extend(down.way.into_iter().skip(1).map(|way| so_far + way));
         (path, Some(goal_at))
     }
 }

@@ -42,12 +42,21 @@ pub enum UnreachableReason {
 
 impl fmt::Display for Unreachable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { side, frame, wrist, torso: [low, high], reason } = self;
+        let Self {
+            side,
+            frame,
+            wrist,
+            torso: [low, high],
+            reason,
+        } = self;
         let t = wrist.translation;
         let q = wrist.rotation.quaternion();
         let [x, y, z] = [t.x, t.y, t.z].map(double);
         let [i, j, k, w] = [q.i, q.j, q.k, q.w].map(double);
-        write!(f, "#<\"{frame}\" (({x} {y} {z}) ({i} {j} {k} {w}))> is unreachable for EE.")?;
+        write!(
+            f,
+            "#<\"{frame}\" (({x} {y} {z}) ({i} {j} {k} {w}))> is unreachable for EE."
+        )?;
         write!(f, "\nthe {side} arm, torso from {low:.2} to {high:.2} m: ")?;
         match reason {
             UnreachableReason::Arm { nearest, torso } => {
@@ -80,6 +89,9 @@ mod tests {
 
     #[test]
     fn doubles_are_printed_as_in_common_lisp() {
-        assert_eq!([0.0, -0.25, 1.0, 1e-17, 2.5e9].map(double).join(" "), "0.0d0 -0.25d0 1.0d0 1.0d-17 2.5d9");
+        assert_eq!(
+            [0.0, -0.25, 1.0, 1e-17, 2.5e9].map(double).join(" "),
+            "0.0d0 -0.25d0 1.0d0 1.0d-17 2.5d9"
+        );
     }
 }
