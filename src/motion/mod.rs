@@ -22,6 +22,7 @@ pub mod move_tcp;
 pub mod move_torso;
 mod patience;
 pub mod put;
+mod put_plan;
 pub mod speeds;
 pub mod tcp_line;
 mod tcp_plan;

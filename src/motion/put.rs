@@ -9,11 +9,12 @@ use std::sync::Arc;
 use super::failure::MotionFailure;
 use super::hold::held_objects;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
-use super::joint_follow::{FollowStep, JointFollow, with_joints};
+use super::joint_follow::{FollowStep, JointFollow};
 use super::move_tcp::{CollisionMode, TcpGoal, allowed_pairs, in_base};
+use super::put_plan::PutPlan;
 use super::tcp_plan::TcpTask;
-use crate::robot::{JointId, RobotDescription, Side};
-use crate::world::{AllowedPairs, BodyName, World};
+use crate::robot::{RobotDescription, Side};
+use crate::world::{BodyName, World};
 
 /// How far (m) below the goal a surface is looked for.
 const DEPTH: f64 = 0.10;
@@ -60,17 +61,13 @@ impl Put {
             allowed,
         };
         let object = BodyName::Object(self.object.clone());
-        let mut checker = world.collision_checker();
-        let none = AllowedPairs::none();
-        let mut is_met = |joints: &[JointId], positions: &[f64]| {
-            let there = with_joints(world.robot_configuration(), joints, positions);
-            checker
-                .all_hits(&there, &none, 0.0)
-                .iter()
-                .any(|hit| hit.moving == object)
-        };
-        task.plan_put(DEPTH, &mut is_met)
-            .map_or_else(|| task.plan_free(), Ok)
+        PutPlan {
+            task,
+            side,
+            object,
+            depth: DEPTH,
+        }
+        .way()
     }
 
     /// What carries the object, if anything does.

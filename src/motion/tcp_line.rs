@@ -41,6 +41,8 @@ pub(super) struct LineTask<'a> {
 pub(super) struct LinePath {
     pub(super) points: Vec<Vec<f64>>,
     pub(super) way: Vec<f64>,
+    /// Number of steps of the complete line.
+    pub(super) steps: u32,
 }
 
 /// Where a line ended.
@@ -63,18 +65,19 @@ impl LineTask<'_> {
     }
 
     /// Follows the lines as far as possible. Each posture is the one nearest to the one
-    /// before; with a final posture, to one that drifts there.
+    /// before; with a final posture, to one that drifts there. Without a judge nothing is in the way.
     pub(super) fn follow(
         &self,
         start: &[f64],
         last: Option<&[f64]>,
-        judge: &mut Judge<'_>,
+        mut judge: Option<&mut Judge<'_>>,
     ) -> (LinePath, LineEnd) {
         let length = self.length();
         let steps = (length / STEP.0).ceil().max(1.0) as u32;
         let mut path = LinePath {
             points: vec![start.to_vec()],
             way: vec![0.0],
+            steps,
         };
         let mut before = start.to_vec();
         for i in 1..=steps {
@@ -91,10 +94,8 @@ impl LineTask<'_> {
             if jump > JUMP {
                 return (path, LineEnd::Unreachable);
             }
-            let mut blocked = |q: &[f64]| judge.blocked(q);
-            if blocked(&next).is_some()
-                || blocked_between(&self.axes.path, &before, &next, RESOLUTION, &mut blocked)
-                    .is_some()
+            if let Some(judge) = judge.as_deref_mut()
+                && self.is_blocked(&before, &next, judge)
             {
                 return (path, LineEnd::Blocked);
             }
@@ -105,8 +106,14 @@ impl LineTask<'_> {
         (path, LineEnd::Complete)
     }
 
+    fn is_blocked(&self, before: &[f64], next: &[f64], judge: &mut Judge<'_>) -> bool {
+        let mut blocked = |q: &[f64]| judge.blocked(q);
+        blocked(next).is_some()
+            || blocked_between(&self.axes.path, before, next, RESOLUTION, &mut blocked).is_some()
+    }
+
     /// The posture at that share of the way that is nearest to the seed.
-    fn posture(&self, share: f64, seed: &[f64], start: &[f64]) -> Option<Vec<f64>> {
+    pub(super) fn posture(&self, share: f64, seed: &[f64], start: &[f64]) -> Option<Vec<f64>> {
         let mut posture = Vec::with_capacity(seed.len());
         let mut robot = self.robot.clone();
         if let Some(end) = self.torso {

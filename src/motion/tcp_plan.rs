@@ -16,7 +16,7 @@ use super::tcp_line::{LineEnd, LinePath, LineTask, TcpLine, tcp_in_base, wrist_i
 use super::trajectory::{AxisGroup, Corners, Trajectory};
 use super::unreachable::{Unreachable, UnreachableReason};
 use crate::robot::description::Speed;
-use crate::robot::{self, JointId, Limits, RobotDescription, Side};
+use crate::robot::{self, Limits, RobotDescription, Side};
 use crate::spatial::{Pose, trig};
 use crate::world::{AllowedPairs, CollisionHit, World};
 
@@ -25,7 +25,7 @@ const POSTURE_STEP: f64 = 0.15;
 /// Steps of the torso's height (m) that are tried.
 const TORSO_STEP: f64 = 0.01;
 /// Steps of the torso's height (m) at which a reason for failing is looked for.
-const REASON_STEP: f64 = 0.03;
+pub(super) const REASON_STEP: f64 = 0.03;
 /// How many postures are judged by the room they leave.
 const SHORT_LIST: usize = 10;
 /// Room (m) around the arm beyond which more is not better.
@@ -48,10 +48,10 @@ pub(super) struct TcpTask<'a> {
 }
 
 /// A posture that reaches the goals.
-struct Posture {
+pub(super) struct Posture {
     cost: f64,
     /// Positions of the axes, that of the torso first if it moves.
-    positions: Vec<f64>,
+    pub(super) positions: Vec<f64>,
 }
 
 impl TcpTask<'_> {
@@ -59,7 +59,7 @@ impl TcpTask<'_> {
         self.goals.iter().map(|(side, _)| *side).collect()
     }
 
-    fn torso_now(&self) -> f64 {
+    pub(super) fn torso_now(&self) -> f64 {
         self.world
             .robot_configuration()
             .joints
@@ -71,7 +71,7 @@ impl TcpTask<'_> {
     }
 
     /// Heights of the torso (m), the present one first, then the nearest first.
-    fn heights(&self, step: f64) -> Vec<f64> {
+    pub(super) fn heights(&self, step: f64) -> Vec<f64> {
         let (now, limits) = (self.torso_now(), self.torso_limits());
         let count = ((limits.upper - limits.lower) / step).ceil() as u32;
         let mut others: Vec<f64> = (0..=count)
@@ -84,7 +84,7 @@ impl TcpTask<'_> {
     }
 
     /// The torso is one of the axes only when it has to move.
-    fn axes(&self, height: f64) -> ArmAxes {
+    pub(super) fn axes(&self, height: f64) -> ArmAxes {
         ArmAxes::new(
             self.body,
             self.world,
@@ -104,7 +104,7 @@ impl TcpTask<'_> {
     }
 
     /// All postures at the height, the best one first; what they touch is not looked at.
-    fn postures(&self, height: f64, axes: &ArmAxes) -> Vec<Posture> {
+    pub(super) fn postures(&self, height: f64, axes: &ArmAxes) -> Vec<Posture> {
         let now = axes.now(self.world);
         let lead = now.len() - self.goals.len() * robot::ARM_JOINTS;
         let torso = if lead > 0 { vec![height] } else { Vec::new() };
@@ -245,7 +245,7 @@ impl TcpTask<'_> {
         Err(result.unwrap_or_else(|| self.unreachable(None)))
     }
 
-    fn line_task(&self, height: f64, axes: &ArmAxes) -> LineTask<'_> {
+    pub(super) fn line_task(&self, height: f64, axes: &ArmAxes) -> LineTask<'_> {
         LineTask {
             body: self.body,
             tree: &self.world.models().robot,
@@ -280,7 +280,7 @@ impl TcpTask<'_> {
                 .take(6)
                 .map(|p| Some(p.positions.as_slice()));
             for end in std::iter::once(None).chain(ends) {
-                let (path, met) = task.follow(&start, end, &mut judge);
+                let (path, met) = task.follow(&start, end, Some(&mut judge));
                 if matches!(met, LineEnd::Complete) {
                     let way = self.line_way(&path, &axes, speeds::HAND, &mut judge);
                     return Some(JointFollow::new(axes.joints, way, self.allowed.clone()));
@@ -291,7 +291,7 @@ impl TcpTask<'_> {
     }
 
     /// The path in time: the tool's way is one more axis, with its own speed limit.
-    fn line_way(
+    pub(super) fn line_way(
         &self,
         path: &LinePath,
         axes: &ArmAxes,
@@ -373,70 +373,6 @@ impl TcpTask<'_> {
                 }
             }
         }
-    }
-
-    /// A path that leads the tools straight to the goals and from there `depth` (m) straight
-    /// down, cut short a little behind the place where `is_met` first finds the held object to
-    /// touch something, or at the goals where it never does.
-    pub(super) fn plan_put(
-        &self,
-        depth: f64,
-        is_met: &mut dyn FnMut(&[JointId], &[f64]) -> bool,
-    ) -> Option<JointFollow> {
-        for height in self.heights(REASON_STEP) {
-            let axes = self.axes(height);
-            let postures = self.postures(height, &axes);
-            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.allowed);
-            let start = axes.now(self.world);
-            let ends = postures
-                .iter()
-                .take(6)
-                .map(|p| Some(p.positions.as_slice()));
-            for end in std::iter::once(None).chain(ends) {
-                let found = self.follow_down(height, &axes, &start, end, depth, &mut judge);
-                let (mut path, goal_at) = found;
-                let met = (1..path.points.len())
-                    .find(|&i| is_met(&axes.joints, path.points.get(i).map_or(&[], Vec::as_slice)));
-                let Some(last) = met.map(|i| i + 1).or(goal_at) else {
-                    continue;
-                };
-                path.points.truncate(last + 1);
-                path.way.truncate(last + 1);
-                let way = self.line_way(&path, &axes, speeds::PUT, &mut judge);
-                return Some(JointFollow::new(axes.joints, way, self.allowed.clone()));
-            }
-        }
-        None
-    }
-
-    /// Straight to the goals and down, as far as it goes; and the place of the goals in the
-    /// path, when it gets there.
-    fn follow_down(
-        &self,
-        height: f64,
-        axes: &ArmAxes,
-        start: &[f64],
-        end: Option<&[f64]>,
-        depth: f64,
-        judge: &mut Judge<'_>,
-    ) -> (LinePath, Option<usize>) {
-        let mut task = self.line_task(height, axes);
-        let (mut path, to_goal) = task.follow(start, end, judge);
-        if !matches!(to_goal, LineEnd::Complete) {
-            return (path, None);
-        }
-        let goal_at = path.points.len() - 1;
-        for line in &mut task.lines {
-            line.from = line.to;
-            line.to.translation.z -= depth;
-        }
-        let reached = path.points.last().cloned().unwrap_or_default();
-        let (down, _) = task.follow(&reached, None, judge);
-        let so_far = path.way.last().copied().unwrap_or(0.0);
-        path.points.extend(down.points.into_iter().skip(1));
-        path.way
-            .extend(down.way.into_iter().skip(1).map(|way| so_far + way));
-        (path, Some(goal_at))
     }
 }
 
