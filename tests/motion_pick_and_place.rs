@@ -82,7 +82,13 @@ fn a_bottle_is_carried_from_the_table_to_the_island() {
         .place(Side::Right, &LEFT_SIDE, &target)
         .unwrap_or_else(|f| panic!("{f}"));
     assert!(
-        matches!(put, MotionOutcome::Put { support: Some(_) }),
+        matches!(
+            put,
+            MotionOutcome::Put {
+                support: Some(_),
+                ..
+            }
+        ),
         "{put:?}"
     );
     lap(&kitchen, "placed");

@@ -53,6 +53,9 @@ pub enum MotionOutcome {
     Put {
         /// What carries it; `None` when nothing was met below the goal.
         support: Option<BodyName>,
+        /// How much higher (m) than its goal the hand is; negative below the goal. Poses for
+        /// retracting that were derived from the same goal must be raised by as much.
+        raised: f64,
     },
     /// An object was let go.
     Released {

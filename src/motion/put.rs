@@ -12,6 +12,7 @@ use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow};
 use super::move_tcp::{CollisionMode, TcpGoal, allowed_pairs, in_base};
 use super::put_plan::PutPlan;
+use super::tcp_line::tcp_in_base;
 use super::tcp_plan::TcpTask;
 use crate::robot::{RobotDescription, Side};
 use crate::world::{BodyName, World};
@@ -79,6 +80,13 @@ impl Put {
         (most.force > CARRIED).then_some(most.body)
     }
 
+    fn done(&self, world: &World, support: Option<BodyName>) -> MotionStatus {
+        let base = world.robot_configuration().base;
+        let hand = tcp_in_base(&self.body, world, self.side);
+        let raised = hand.translation.z - in_base(self.goal, &base).translation.z;
+        MotionStatus::Done(MotionOutcome::Put { support, raised })
+    }
+
     fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
         if self.follow.is_none() {
             match self.plan(world) {
@@ -90,7 +98,7 @@ impl Put {
         let follow = self.follow.as_mut()?;
         // What the object stood on when the way began does not count at once.
         if support.is_some() && follow.fraction() > 0.1 {
-            return Some(MotionStatus::Done(MotionOutcome::Put { support }));
+            return Some(self.done(world, support));
         }
         let palm = self.body.arm(self.side).gripper.palm;
         match follow.tick(world, |link| link == palm) {
@@ -102,7 +110,7 @@ impl Put {
             FollowStep::Stuck(stuck) => {
                 Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(stuck)))
             }
-            FollowStep::Arrived => Some(MotionStatus::Done(MotionOutcome::Put { support: None })),
+            FollowStep::Arrived => Some(self.done(world, None)),
         }
     }
 }

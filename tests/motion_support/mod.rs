@@ -204,12 +204,26 @@ impl Kitchen {
         let object = held_objects(&self.body, &self.world, side).remove(0);
         self.run_one(self.tcp(side, lift, TcpPath::Free, CollisionMode::AvoidAll))?;
         let put = self.run_one(Put::new(Arc::clone(&self.body), side, TcpGoal::InBase(at)))?;
+        let raised = match put {
+            MotionOutcome::Put { raised, .. } => Translation3::new(0.0, 0.0, raised),
+            _ => Translation3::identity(),
+        };
         // The object is let go before the fingers open, as long as they hold it upright.
         self.run_one(LetGo::new(Arc::clone(&self.body), side, Some(object)))?;
         self.run_one(self.gripper(side, GripperCommand::Open))?;
-        self.run_one(self.tcp(side, second, TcpPath::Straight, CollisionMode::AllowHand))?;
+        self.run_one(self.tcp(
+            side,
+            raised * second,
+            TcpPath::Straight,
+            CollisionMode::AllowHand,
+        ))?;
         self.declared = AllowedPairs::none();
-        self.run_one(self.tcp(side, pre, TcpPath::Straight, CollisionMode::AvoidAll))?;
+        self.run_one(self.tcp(
+            side,
+            raised * pre,
+            TcpPath::Straight,
+            CollisionMode::AvoidAll,
+        ))?;
         Ok(put)
     }
 
