@@ -59,18 +59,6 @@ impl PutPlan<'_> {
         let mut task = self.task.line_task(height, &axes);
         for end in std::iter::once(None).chain(ends) {
             let (mut path, met) = task.follow(&start, end, Some(&mut judge));
-            eprintln!(
-                "DBG h {height} end {} path {} of {} {met:?} hit {:?}; end blocked {:?}",
-                end.is_some(),
-                path.points.len(),
-                path.steps,
-                (),
-                end.map(|e| judge.blocked(e).map(|h| (
-                    h.moving.to_string(),
-                    h.other.to_string(),
-                    h.depth
-                )))
-            );
             if !matches!(met, LineEnd::Complete) {
                 continue;
             }
