@@ -59,10 +59,10 @@ fn is_free(way: &Trajectory, judge: &mut Judge<'_>) -> bool {
 
 fn path_failure(failure: ArmPathFailure<CollisionHit>) -> MotionFailure {
     match failure {
-        ArmPathFailure::Start(hit) => MotionFailure::ArmStartInCollision { hit },
-        ArmPathFailure::Goal(hit) => MotionFailure::ArmGoalInCollision { hit },
+        ArmPathFailure::Start(hit) => MotionFailure::ArmStartInCollision { hit: hit.into() },
+        ArmPathFailure::Goal(hit) => MotionFailure::ArmGoalInCollision { hit: hit.into() },
         ArmPathFailure::NotFound { blocker, samples } => MotionFailure::ArmPathNotFound {
-            hit: blocker,
+            hit: blocker.into(),
             samples,
         },
     }

@@ -111,7 +111,9 @@ impl Drive {
             return Some(MotionStatus::Done(MotionOutcome::Arrived));
         }
         if let Some(stuck) = guard::stuck_object(world, |_| true) {
-            return Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(stuck)));
+            return Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(
+                Box::new(stuck),
+            )));
         }
         let next = at_place(world.robot_configuration(), &way.next());
         match guard::obstacle(world, &next, &AllowedPairs::none()) {
@@ -141,7 +143,7 @@ impl Drive {
             let goal = self.goal;
             return Some(MotionStatus::failed(MotionFailure::DriveBlocked {
                 goal,
-                hit,
+                hit: hit.into(),
             }));
         }
         self.patience.reset();
@@ -257,14 +259,16 @@ pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, Moti
         &mut |p, m| blocked(p, m).map(Obstacle),
     );
     found.map_err(|failure| match failure {
-        BasePathFailure::StartOccupied(hit) => MotionFailure::DriveStartOccupied { hit: hit.0 },
+        BasePathFailure::StartOccupied(hit) => {
+            MotionFailure::DriveStartOccupied { hit: hit.0.into() }
+        }
         BasePathFailure::GoalOccupied(hit) => {
             let nearest_free = nearby(&goal)
                 .into_iter()
                 .find(|p| blocked(p, 0.0).is_none());
             MotionFailure::GoalOccupied {
                 goal,
-                hit: hit.0,
+                hit: hit.0.into(),
                 nearest_free,
             }
         }

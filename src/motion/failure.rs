@@ -53,7 +53,7 @@ pub enum MotionFailure {
         /// Where the base shall stand, in the map frame.
         goal: BasePlace,
         /// What would touch.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
         /// The nearest place with the same heading where the robot can stand as it is.
         nearest_free: Option<BasePlace>,
     },
@@ -72,7 +72,7 @@ pub enum MotionFailure {
     #[error("the robot cannot drive: {}", touch(.hit))]
     DriveStartOccupied {
         /// What touches.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
     },
     /// The way was free and is not any more.
     #[error("on the way to {} the robot was stopped: {}", place(.goal), touch(.hit))]
@@ -80,7 +80,7 @@ pub enum MotionFailure {
         /// Where the base shall stand, in the map frame.
         goal: BasePlace,
         /// What would touch.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
     },
     /// The torso is at its limit, short of the goal.
     #[error("Torso goal {goal} was out of joint limits\nthe torso goes from {lower} to {upper} m")]
@@ -100,7 +100,7 @@ pub enum MotionFailure {
         /// Height that was reached (m).
         height: f64,
         /// What would touch.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
     },
     /// The neck is at its limit, short of the goal.
     #[error("Look action wanted to twist the neck\n{violation}")]
@@ -112,7 +112,7 @@ pub enum MotionFailure {
     #[error("the head was stopped: {}", touch(.hit))]
     NeckBlocked {
         /// What would touch.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
     },
     /// No object that was asked for is in sight.
     #[error("Could not find object {wanted}.{}", sights(.candidates, .wanted))]
@@ -156,7 +156,7 @@ pub enum MotionFailure {
         /// The hand.
         side: Side,
         /// What would touch.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
     },
     /// A joint goal is outside of the joint's range.
     #[error("{violation}")]
@@ -194,19 +194,19 @@ pub enum MotionFailure {
     #[error("the arms cannot be put there: {}", touch(.hit))]
     ArmGoalInCollision {
         /// What would touch.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
     },
     /// The arms touch something and may not move.
     #[error("the arms cannot move: {}", touch(.hit))]
     ArmStartInCollision {
         /// What touches.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
     },
     /// No path of the arms was found.
     #[error("no path of the arms was found in {samples} attempts: {}", touch(.hit))]
     ArmPathNotFound {
         /// What would touch on the straight path.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
         /// How many random postures were tried.
         samples: usize,
     },
@@ -214,14 +214,14 @@ pub enum MotionFailure {
     #[error("the arms were stopped: {}", touch(.hit))]
     ArmBlocked {
         /// What would touch.
-        hit: CollisionHit,
+        hit: Box<CollisionHit>,
     },
     /// A held object does not follow the hand.
     #[error(
         "stopped because {} is stuck{}: it is {:.1} mm behind the hand and pressed with {:.0} N",
         .0.object, list(" against ", &.0.against), .0.lag * 1e3, .0.force
     )]
-    HeldObjectStuck(StuckObject),
+    HeldObjectStuck(Box<StuckObject>),
     /// The hand holds nothing.
     #[error("the {side} hand holds nothing")]
     HoldsNothing {

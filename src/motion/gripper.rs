@@ -133,7 +133,7 @@ impl MoveGripper {
                 let side = self.side;
                 Some(MotionStatus::failed(MotionFailure::FingersBlocked {
                     side,
-                    hit,
+                    hit: hit.into(),
                 }))
             }
             FollowStep::Arrived => Some(self.arrived(world)),
@@ -209,7 +209,7 @@ impl MoveGripper {
         if let Some(hit) = guard::obstacle(world, &next, &allowed) {
             return Some(MotionStatus::failed(MotionFailure::FingersBlocked {
                 side,
-                hit,
+                hit: hit.into(),
             }));
         }
         world.set_robot_configuration(&next);

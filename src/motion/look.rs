@@ -156,7 +156,9 @@ impl Look {
             FollowStep::Moving | FollowStep::Stuck(_) => None,
             FollowStep::Blocked { still, .. } if still < PATIENCE => None,
             FollowStep::Blocked { hit, .. } => {
-                Some(MotionStatus::failed(MotionFailure::NeckBlocked { hit }))
+                Some(MotionStatus::failed(MotionFailure::NeckBlocked {
+                    hit: hit.into(),
+                }))
             }
             FollowStep::Arrived => Some(match self.violation.take() {
                 None => MotionStatus::Done(MotionOutcome::Arrived),

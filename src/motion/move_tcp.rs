@@ -133,15 +133,17 @@ impl MoveTcp {
             FollowStep::Moving => None,
             FollowStep::Blocked { still, .. } if still < PATIENCE => None,
             FollowStep::Blocked { hit, .. } if self.plans >= MOST_PLANS => {
-                Some(MotionStatus::failed(MotionFailure::ArmBlocked { hit }))
+                Some(MotionStatus::failed(MotionFailure::ArmBlocked {
+                    hit: hit.into(),
+                }))
             }
             FollowStep::Blocked { .. } => {
                 self.follow = None;
                 None
             }
-            FollowStep::Stuck(stuck) => {
-                Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(stuck)))
-            }
+            FollowStep::Stuck(stuck) => Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(
+                Box::new(stuck),
+            ))),
             FollowStep::Arrived => Some(MotionStatus::Done(MotionOutcome::Arrived)),
         }
     }

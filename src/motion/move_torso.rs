@@ -86,9 +86,11 @@ impl Motion for MoveTorso {
                     .robot_configuration()
                     .joints
                     .get(self.body.torso.joint),
-                hit,
+                hit: hit.into(),
             }),
-            FollowStep::Stuck(stuck) => MotionStatus::failed(MotionFailure::HeldObjectStuck(stuck)),
+            FollowStep::Stuck(stuck) => {
+                MotionStatus::failed(MotionFailure::HeldObjectStuck(Box::new(stuck)))
+            }
             FollowStep::Arrived => self.arrived(),
         };
         self.ended = true;

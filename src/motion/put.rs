@@ -105,11 +105,13 @@ impl Put {
             FollowStep::Moving => None,
             FollowStep::Blocked { still, .. } if still < PATIENCE => None,
             FollowStep::Blocked { hit, .. } => {
-                Some(MotionStatus::failed(MotionFailure::ArmBlocked { hit }))
+                Some(MotionStatus::failed(MotionFailure::ArmBlocked {
+                    hit: hit.into(),
+                }))
             }
-            FollowStep::Stuck(stuck) => {
-                Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(stuck)))
-            }
+            FollowStep::Stuck(stuck) => Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(
+                Box::new(stuck),
+            ))),
             FollowStep::Arrived => Some(self.done(world, None)),
         }
     }

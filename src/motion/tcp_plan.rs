@@ -191,9 +191,7 @@ impl TcpTask<'_> {
             };
             match self.plan_to_one_of(&free, &axes, &mut judge) {
                 Ok(way) => return Ok(JointFollow::new(axes.joints, way, self.allowed.clone())),
-                Err(MotionFailure::ArmStartInCollision { hit }) => {
-                    return Err(MotionFailure::ArmStartInCollision { hit });
-                }
+                Err(failure @ MotionFailure::ArmStartInCollision { .. }) => return Err(failure),
                 Err(failure) => last_failure = Some(failure),
             }
             searched += 1;
