@@ -128,10 +128,10 @@ impl MoveJoints {
     }
 
     fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
-        if self.follow.is_none() {
-            if let Some(end) = self.try_plan(world) {
-                return Some(end);
-            }
+        if self.follow.is_none()
+            && let Some(end) = self.try_plan(world)
+        {
+            return Some(end);
         }
         let follow = self.follow.as_mut()?;
         let hands = [
