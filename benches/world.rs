@@ -8,9 +8,9 @@ mod world_support;
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use planwright::perception::{Camera, Sight};
+use planwright::perception::Sight;
 use planwright::world::{AllowedPairs, World};
-use world_support::{at, bottle, carry, cube, models, sausage, set_joint};
+use world_support::{at, carry, models, set_joint, spawn};
 
 /// The kitchen with ten objects at rest and the robot in front of the table.
 fn furnished() -> World {
@@ -26,21 +26,15 @@ fn furnished() -> World {
         (-0.8, 2.0, 0.96),
     ];
     for (i, (x, y, z)) in places.into_iter().enumerate() {
-        world
-            .spawn(&format!("BOTTLE-{i}"), &bottle(), &at(x, y, z))
-            .unwrap();
+        spawn(&mut world, &format!("BOTTLE-{i}"), "bottle", &at(x, y, z));
     }
     for (i, (x, y)) in [(1.44, 0.8), (-0.9, 1.5), (-1.2, 1.5)]
         .into_iter()
         .enumerate()
     {
-        world
-            .spawn(&format!("CUBE-{i}"), &cube(), &at(x, y, 0.95))
-            .unwrap();
+        spawn(&mut world, &format!("CUBE-{i}"), "cube", &at(x, y, 0.95));
     }
-    world
-        .spawn("WURST", &sausage(), &at(1.5, 1.0, 0.9))
-        .unwrap();
+    spawn(&mut world, "WURST", "weisswurst", &at(1.5, 1.0, 0.9));
     assert!(world.settle(10.0));
     for _ in 0..480 {
         world.step();
@@ -152,16 +146,10 @@ fn collisions(c: &mut Criterion) {
 
 fn pictures(c: &mut Criterion) {
     let world = furnished();
-    let frame = world
-        .models()
-        .robot
-        .link_named("narrow_stereo_optical_frame")
-        .unwrap();
-    let camera = Camera::of_head(world.link_pose(frame));
     c.bench_function("picture of 320 x 200", |b| {
-        b.iter(|| black_box(Sight::take(&world, camera)));
+        b.iter(|| black_box(Sight::of_robot(&world)));
     });
-    let sight = Sight::take(&world, camera);
+    let sight = Sight::of_robot(&world);
     c.bench_function("visibility of one object", |b| {
         b.iter(|| black_box(sight.visibility("BOTTLE-0").unwrap()));
     });

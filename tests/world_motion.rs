@@ -2,12 +2,11 @@
 
 mod world_support;
 
+use planwright::robot::Side;
 use planwright::spatial::Pose;
 use planwright::spatial::pose::{distance_between, from_xy_yaw};
 use planwright::world::{AllowedPairs, BodyName, World};
-use world_support::{at, bottle, carry, cube, models, set_joint, world};
-
-const RIGHT: usize = 1;
+use world_support::{at, carry, models, set_joint, spawn, world};
 
 /// A robot in free space with a bottle in the open right hand, welded to its palm.
 fn world_with_held_bottle() -> World {
@@ -15,9 +14,9 @@ fn world_with_held_bottle() -> World {
     let mut robot = carry(&models, [0.3, -0.5, 0.0], 0.2);
     set_joint(&models, &mut robot, "r_gripper_l_finger_joint", 0.5);
     let mut world = World::new(models, robot);
-    let palm = world.models().roles.hands[RIGHT].palm;
+    let palm = world.models().description.arm(Side::Right).gripper.palm;
     let grip = world.link_pose(palm) * Pose::translation(0.18, 0.0, 0.0);
-    let report = world.spawn("BOTTLE-1", &bottle(), &grip).unwrap();
+    let report = spawn(&mut world, "BOTTLE-1", "bottle", &grip);
     assert_eq!(report.blocked_by, None);
     assert_eq!(report.pose, grip);
     world.attach("BOTTLE-1", palm).unwrap();
@@ -39,7 +38,7 @@ fn a_welded_object_goes_where_the_hand_goes() {
         worst = worst.max(world.weld_error("BOTTLE-1").unwrap().unwrap().distance);
     }
     assert!(worst < 1e-3, "the bottle lagged by {worst} m");
-    let palm = world.models().roles.hands[RIGHT].palm;
+    let palm = world.models().description.arm(Side::Right).gripper.palm;
     let wanted = world.link_pose(palm) * Pose::translation(0.18, 0.0, 0.0);
     let real = world.object_pose("BOTTLE-1").unwrap();
     assert!(distance_between(&wanted, &real) < 1e-3);
@@ -61,7 +60,7 @@ fn closing_fingers_feel_the_object_between_them() {
     let models = world.models().clone();
     let mut robot = world.robot_configuration().clone();
     let pressed = |world: &World| {
-        world.finger_contacts(RIGHT).map(|contacts| {
+        world.finger_contacts(Side::Right).map(|contacts| {
             contacts
                 .iter()
                 .filter(|c| c.body == BodyName::Object("BOTTLE-1".to_owned()))
@@ -95,9 +94,7 @@ fn a_drawer_takes_along_what_is_in_it() {
     let mut world = world();
     world.teleport_kitchen_joint(DRAWER, 0.4).unwrap();
     let front = 1.25 - 0.4 + 0.15;
-    world
-        .spawn("CUBE-1", &cube(), &at(front, 0.9, 0.78))
-        .unwrap();
+    spawn(&mut world, "CUBE-1", "cube", &at(front, 0.9, 0.78));
     assert!(world.settle(5.0));
     let before = world.object_pose("CUBE-1").unwrap();
     let mut position = 0.4;
@@ -145,14 +142,14 @@ fn world_with_a_pile() -> World {
     let mut world = world();
     for i in 0..6 {
         let name = format!("THING-{i}");
-        let thing = if i % 2 == 0 { bottle() } else { cube() };
-        world
-            .spawn(
-                &name,
-                &thing,
-                &at(0.6 + 0.01 * f64::from(i), 0.02, 1.0 + 0.2 * f64::from(i)),
-            )
-            .unwrap();
+        let thing = if i % 2 == 0 { "bottle" } else { "cube" };
+        let i = f64::from(i);
+        spawn(
+            &mut world,
+            &name,
+            thing,
+            &at(0.6 + 0.01 * i, 0.02, 1.0 + 0.2 * i),
+        );
     }
     world
 }
@@ -171,9 +168,7 @@ fn a_restored_world_goes_on_with_the_same_bits() {
     let hash = world.hash();
     let first = turmoil(&mut world, 300);
     world.remove("THING-3").unwrap();
-    world
-        .spawn("LATER", &bottle(), &at(-1.0, -0.9, 0.9))
-        .unwrap();
+    spawn(&mut world, "LATER", "bottle", &at(-1.0, -0.9, 0.9));
     world.restore(&snapshot);
     assert_eq!(world.hash(), hash);
     assert_eq!(turmoil(&mut world, 300), first);
@@ -206,9 +201,7 @@ fn queries_do_not_change_what_happens() {
 #[test]
 fn a_standing_bottle_is_carried_with_its_weight() {
     let mut world = world();
-    world
-        .spawn("BOTTLE-1", &bottle(), &at(-1.6, -0.9, 0.82))
-        .unwrap();
+    spawn(&mut world, "BOTTLE-1", "bottle", &at(-1.6, -0.9, 0.82));
     world.settle(5.0);
     let force = world.support_force("BOTTLE-1").unwrap();
     assert!((force - 0.2 * 9.81).abs() < 0.05, "{force} N");
@@ -220,9 +213,7 @@ fn a_standing_bottle_is_carried_with_its_weight() {
 #[test]
 fn a_teleported_robot_takes_along_what_it_holds_and_nothing_else() {
     let mut world = world_with_held_bottle();
-    world
-        .spawn("CUBE-1", &cube(), &at(-1.6, -0.9, 0.8))
-        .unwrap();
+    spawn(&mut world, "CUBE-1", "cube", &at(-1.6, -0.9, 0.8));
     world.settle(2.0);
     let cube_before = world.object_pose("CUBE-1").unwrap();
     let mut robot = world.robot_configuration().clone();

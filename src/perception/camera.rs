@@ -22,16 +22,30 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// The camera that CRAM's renderer simulates for the PR2: 320 x 200 pixels, 50 degrees
-    /// from top to bottom, 0.1 m to 10 m.
-    pub fn of_head(pose: Pose) -> Self {
+    /// A camera of the robot whose optical frame has the pose.
+    pub fn new(camera: &crate::robot::description::Camera, pose: Pose) -> Self {
         Self {
             pose,
-            width: 320,
-            height: 200,
-            vertical_fov: 50f64.to_radians(),
-            near: 0.1,
-            far: 10.0,
+            width: camera.width,
+            height: camera.height,
+            vertical_fov: camera.vertical_view,
+            near: camera.near,
+            far: camera.far,
+        }
+    }
+
+    /// The camera that CRAM's renderer simulates for the PR2.
+    #[cfg(test)]
+    pub(crate) fn of_head(pose: Pose) -> Self {
+        let (width, height, near, far) = (320, 200, 0.1, 10.0);
+        let vertical_fov = 50f64.to_radians();
+        Self {
+            pose,
+            width,
+            height,
+            vertical_fov,
+            near,
+            far,
         }
     }
 

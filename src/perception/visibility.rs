@@ -10,9 +10,6 @@ use super::picture::Picture;
 use crate::spatial::trig;
 use crate::world::{BodyName, Object, PartKey, World, WorldError};
 
-/// Share of an object that must be in sight for it to be seen, as in CRAM.
-pub const SEEN_FROM: f64 = 0.9;
-
 /// A side of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Border {
@@ -48,6 +45,8 @@ pub struct Visibility {
     pub full_pixels: usize,
     /// Bodies in front of the object with the pixels that they take away, most first.
     pub occluders: Vec<(BodyName, usize)>,
+    /// Share of the object (0..1) that must be in sight for it to be seen.
+    pub needed_share: f64,
     /// The border beyond which the object reaches farthest, and by how much (rad).
     pub outside: Option<(Border, f64)>,
 }
@@ -63,7 +62,7 @@ impl Visibility {
 
     /// Whether the object counts as seen.
     pub fn is_seen(&self) -> bool {
-        self.fraction() >= SEEN_FROM
+        self.fraction() >= self.needed_share
     }
 }
 
@@ -90,16 +89,34 @@ impl fmt::Display for Visibility {
 pub struct Sight<'w> {
     world: &'w World,
     picture: Picture,
+    needed_share: f64,
 }
 
 impl<'w> Sight<'w> {
-    /// Takes a picture of the world, the robot's own body included.
-    pub fn take(world: &'w World, camera: Camera) -> Self {
+    /// Looks through the camera that the robot uses.
+    pub fn of_robot(world: &'w World) -> Self {
+        let camera = world.models().description.camera();
+        Self::through(world, camera)
+    }
+
+    /// Looks through a camera of the robot. The robot's own body may be in the way.
+    pub fn through(world: &'w World, camera: &crate::robot::description::Camera) -> Self {
+        let pose = world.link_pose(camera.frame);
+        Self::take(world, Camera::new(camera, pose), camera.visible_share)
+    }
+
+    /// Takes a picture of the world from anywhere. An object of which `needed_share` (0..1) is
+    /// in sight counts as seen.
+    pub fn take(world: &'w World, camera: Camera, needed_share: f64) -> Self {
         let mut picture = Picture::new(camera);
         for shape in world.shapes() {
             picture.draw(shape.key, &shape.pose, &Mesh::of(shape.shape));
         }
-        Self { world, picture }
+        Self {
+            world,
+            picture,
+            needed_share,
+        }
     }
 
     /// The picture.
@@ -126,6 +143,7 @@ impl<'w> Sight<'w> {
             visible_pixels: self.picture.count(key),
             full_pixels: alone(camera.turned_to(&origin)).count(key),
             occluders: self.occluders(key, &alone(camera)),
+            needed_share: self.needed_share,
             outside: self.outside(object, &pose),
         })
     }

@@ -6,7 +6,9 @@
 //! and objects, and the robot against itself; furniture is never judged against furniture.
 //!
 //! Castors never meet the floor, which they roll on, and links that are neighbours or
-//! always overlap are left out as the robot's description says.
+//! always overlap are left out as the robot's description says. Queries may ask for a gap.
+//! Between parts of the robot no more than 5 mm are asked for, and between the floor and
+//! anything but arms and what they hold nothing: these gaps are as the robot was built.
 
 use std::ops::ControlFlow;
 
@@ -139,45 +141,28 @@ impl<'w> CollisionChecker<'w> {
         found.iter().filter_map(|near| self.report(near)).collect()
     }
 
-    /// The pair with the smallest gap among those nearer than `reach` (m) and not allowed.
+    /// The pair with the smallest gap among those nearer than `reach` (m) and not allowed. Pairs
+    /// of the robot with itself do not count: how close those are is a matter of posture.
     pub fn clearance(
         &mut self,
         robot: &RobotConfiguration,
         allowed: &AllowedPairs,
         reach: f64,
     ) -> Option<Clearance> {
-        self.nearest(robot, allowed, reach, |_| true)
-    }
-
-    /// As [`Self::clearance`], without the floor and the pairs of the robot with itself.
-    pub fn clearance_to_world(
-        &mut self,
-        robot: &RobotConfiguration,
-        allowed: &AllowedPairs,
-        reach: f64,
-    ) -> Option<Clearance> {
-        self.nearest(robot, allowed, reach, |other| {
-            !matches!(other, PartKey::Robot(_) | PartKey::Floor)
-        })
-    }
-
-    fn nearest(
-        &mut self,
-        robot: &RobotConfiguration,
-        allowed: &AllowedPairs,
-        reach: f64,
-        counts: impl Fn(PartKey) -> bool,
-    ) -> Option<Clearance> {
         let mut found = None;
         self.with_poses(robot, |checker, poses| {
-            checker.search(poses, allowed, Wanted::HowMuch, reach, |near, margin| {
-                if counts(near.other) {
+            checker.search(
+                poses,
+                allowed,
+                Wanted::HowMuchToOthers,
+                reach,
+                |near, margin| {
                     // From here on, only what is nearer still matters.
                     *margin = near.separation.distance;
                     found = Some(near);
-                }
-                ControlFlow::Continue(())
-            });
+                    ControlFlow::Continue(())
+                },
+            );
         });
         let nearest = self.report(&found?)?;
         Some(Clearance {

@@ -8,13 +8,17 @@ use std::ops::ControlFlow;
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::Pose as ParryPose;
 
-use super::models::Models;
+use super::models::{Footing, Models};
 use super::obstacles::Obstacles;
 use super::part_key::{PartKey, index};
 use super::separation::{Separation, below_floor, overlap, separation};
 use super::solid::{Solid, to_parry};
 use crate::robot::LinkId;
 use crate::spatial::Pose;
+
+/// Greatest gap (m) that is asked for between parts of the robot, which are made to pass each
+/// other closely.
+const SELF_MARGIN: f64 = 0.005;
 
 /// An object where it lies.
 pub(crate) struct ObjectAt<'w> {
@@ -60,6 +64,8 @@ pub(crate) enum Wanted {
     Whether,
     /// How near it is, and where.
     HowMuch,
+    /// As [`Wanted::HowMuch`], without the pairs of the robot with itself.
+    HowMuchToOthers,
 }
 
 /// Memory that queries use again.
@@ -155,6 +161,9 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             self.add_mover(held.key, to_parry(&(link * held.at)), &held.bounds);
             self.against_world(links.len() + place)?;
         }
+        if self.wanted == Wanted::HowMuchToOthers {
+            return ControlFlow::Continue(());
+        }
         for &(a, b) in &around.models.self_pairs {
             self.against_each_other(a, b)?;
         }
@@ -189,13 +198,13 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             return ControlFlow::Continue(());
         };
         let (key, lowest) = (mover.key, mover.bounds.mins.z);
-        let bounds = self.with_slack(&mover.bounds);
+        let (bounds, margin) = (with_slack(&mover.bounds, self.margin), self.margin);
         for obstacle in around.furniture.near(&bounds) {
             if self.is_allowed(key, obstacle.key) {
                 continue;
             }
             let (pose, solid) = (&obstacle.pose, &obstacle.solid);
-            self.solids_against(place, obstacle.key, pose, solid, &obstacle.bounds)?;
+            self.solids_against(place, obstacle.key, pose, solid, &obstacle.bounds, margin)?;
         }
         for object in &around.objects {
             if !object.bounds.intersects(&bounds) || self.is_allowed(key, object.key) {
@@ -204,18 +213,20 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             for solid in object.solids {
                 let pose = object.pose * solid.pose;
                 let bounds = solid.bounds.transform_by(&object.pose);
-                self.solids_against(place, object.key, &pose, solid, &bounds)?;
+                self.solids_against(place, object.key, &pose, solid, &bounds, margin)?;
             }
         }
-        if lowest < self.margin
-            && !around.models.rolls_on_floor(key)
-            && !self.is_allowed(key, PartKey::Floor)
-        {
+        let margin = match around.models.footing(key) {
+            Footing::Rolls => return ControlFlow::Continue(()),
+            Footing::Rides => self.margin.min(0.0),
+            Footing::Reaches => self.margin,
+        };
+        if lowest < margin && !self.is_allowed(key, PartKey::Floor) {
             let first = self.place_solids(place);
             for (i, solid) in around.solids(place).iter().enumerate() {
                 // The solids were placed from `first` on by the line above.
                 let pose = self.scratch.solids[first + i].pose;
-                if let Some(separation) = below_floor(&pose, solid, self.margin) {
+                if let Some(separation) = below_floor(&pose, solid, margin.min(self.margin)) {
                     self.report(Near {
                         moving: key,
                         other: PartKey::Floor,
@@ -234,7 +245,8 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         let (Some(one), Some(two)) = (movers.get(a), movers.get(b)) else {
             return ControlFlow::Continue(());
         };
-        let bounds = self.with_slack(&one.bounds);
+        let margin = self.margin.min(SELF_MARGIN);
+        let bounds = with_slack(&one.bounds, margin);
         if !bounds.intersects(&two.bounds) || self.is_allowed(one.key, two.key) {
             return ControlFlow::Continue(());
         }
@@ -245,7 +257,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             let placed = &self.scratch.solids[first + i];
             if placed.bounds.intersects(&bounds) {
                 let (pose, bounds) = (placed.pose, placed.bounds);
-                self.solids_against(a, other, &pose, solid, &bounds)?;
+                self.solids_against(a, other, &pose, solid, &bounds, margin)?;
             }
         }
         ControlFlow::Continue(())
@@ -259,19 +271,22 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         other_pose: &ParryPose,
         other_solid: &Solid,
         other_bounds: &Aabb,
+        margin: f64,
     ) -> ControlFlow<()> {
         let around = self.around;
         let first = self.place_solids(place);
         for (i, solid) in around.solids(place).iter().enumerate() {
             // The solids were placed from `first` on by the line above.
+            // The visitor may have lowered the margin since.
+            let margin = margin.min(self.margin);
             let placed = &self.scratch.solids[first + i];
-            if !self.with_slack(&placed.bounds).intersects(other_bounds) {
+            if !with_slack(&placed.bounds, margin).intersects(other_bounds) {
                 continue;
             }
-            let near = if self.wanted == Wanted::Whether && self.margin == 0.0 {
+            let near = if self.wanted == Wanted::Whether && margin == 0.0 {
                 overlap(&placed.pose, solid, other_pose, other_solid)
             } else {
-                separation(&placed.pose, solid, other_pose, other_solid, self.margin)
+                separation(&placed.pose, solid, other_pose, other_solid, margin)
             };
             if let Some(separation) = near {
                 // The mover exists: its solids were placed.
@@ -303,14 +318,6 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         })
     }
 
-    fn with_slack(&self, bounds: &Aabb) -> Aabb {
-        if self.margin > 0.0 {
-            bounds.loosened(self.margin)
-        } else {
-            *bounds
-        }
-    }
-
     fn is_allowed(&self, a: PartKey, b: PartKey) -> bool {
         self.allowed
             .iter()
@@ -319,5 +326,14 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
 
     fn report(&mut self, near: Near) -> ControlFlow<()> {
         (self.visit)(near, &mut self.margin)
+    }
+}
+
+/// The bounds, grown by the margin (m) unless it is negative.
+fn with_slack(bounds: &Aabb, margin: f64) -> Aabb {
+    if margin > 0.0 {
+        bounds.loosened(margin)
+    } else {
+        *bounds
     }
 }

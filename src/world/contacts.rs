@@ -5,6 +5,7 @@ use super::error::WorldError;
 use super::part_key::PartKey;
 use super::physics::{BodyHandle, RawContact};
 use super::scene::World;
+use crate::robot::Side;
 use crate::spatial::pose::{angle_between, distance_between};
 
 /// The force that one body exerts on another.
@@ -54,16 +55,13 @@ impl World {
         Ok(forces)
     }
 
-    /// What each of the two fingers of a hand touches: first the left one, then the right one.
-    /// `hand` is 0 for the left and 1 for the right arm.
-    pub fn finger_contacts(&self, hand: usize) -> [Vec<ContactForce>; 2] {
-        let Some(roles) = self.models.roles.hands.get(hand) else {
-            return [Vec::new(), Vec::new()];
-        };
-        [0, 1].map(|finger| {
+    /// What each of the two fingers of a hand touches: first the one that closes from the
+    /// left, then the one from the right.
+    pub fn finger_contacts(&self, side: Side) -> [Vec<ContactForce>; 2] {
+        let [left, right] = &self.models.description.arm(side).gripper.fingers;
+        [left, right].map(|finger| {
             let mut forces: Vec<ContactForce> = Vec::new();
-            // Two fingers per hand by type.
-            for &link in &roles.fingers[finger] {
+            for &link in finger {
                 let own = PartKey::Robot(super::part_key::index(link)).code();
                 let Some(body) = self.body_of_link(link) else {
                     continue;

@@ -8,7 +8,7 @@ use parry3d_f64::bounding_volume::Aabb;
 
 use super::body_name::LinkName;
 use super::solid::{Solid, bounds_of};
-use crate::robot::{KinematicTree, LinkId};
+use crate::robot::{JointId, KinematicTree, LinkId};
 
 /// A link that can touch something.
 pub(crate) struct LinkSolids {
@@ -46,7 +46,7 @@ pub(crate) struct TreeGeometry {
 impl TreeGeometry {
     /// Prepares the tree. `is_idle` tells joints that can move but never do, such as those of
     /// castors: they count as fixed.
-    pub(crate) fn new(tree: &KinematicTree, is_idle: impl Fn(&str) -> bool) -> Self {
+    pub(crate) fn new(tree: &KinematicTree, is_idle: impl Fn(JointId) -> bool) -> Self {
         let zero = tree.zero_positions();
         let names: Vec<_> = tree
             .links()
@@ -73,7 +73,7 @@ impl TreeGeometry {
                 return link;
             };
             let joint = tree.joint(id);
-            let moves = joint.kind != crate::robot::JointKind::Fixed && !is_idle(&joint.name);
+            let moves = joint.kind != crate::robot::JointKind::Fixed && !is_idle(id);
             if moves {
                 return link;
             }

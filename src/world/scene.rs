@@ -24,7 +24,8 @@ use super::part_key::{PartKey, index};
 use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::to_parry;
-use crate::robot::{JointPositions, KinematicTree, LinkId};
+use crate::closest_name::closest_name;
+use crate::robot::{JointId, JointPositions, KinematicTree, LinkId};
 use crate::spatial::Pose;
 
 /// A kitchen with a robot and objects in it.
@@ -86,12 +87,11 @@ impl World {
         models
             .robot
             .forward_kinematics(&robot.base, &robot.joints, &mut robot_poses);
-        let fingers: Vec<LinkId> = models
-            .roles
-            .hands
+        let arms = &models.description.arms;
+        let fingers = arms
             .iter()
-            .flat_map(|hand| hand.fingers.iter().flatten().copied())
-            .collect();
+            .flat_map(|arm| arm.gripper.fingers.iter().flatten());
+        let fingers: Vec<LinkId> = fingers.copied().collect();
         let robot_bodies = models
             .robot_geometry
             .groups
@@ -322,13 +322,13 @@ impl World {
         Ok(position)
     }
 
-    fn moving_kitchen_joint(&self, name: &str) -> Result<crate::robot::JointId, WorldError> {
+    fn moving_kitchen_joint(&self, name: &str) -> Result<JointId, WorldError> {
         let tree: &KinematicTree = &self.models.kitchen;
         tree.joint_named(name)
             .filter(|j| tree.joint(*j).is_actuated())
             .ok_or_else(|| WorldError::UnknownKitchenJoint {
                 name: name.to_owned(),
-                closest: crate::robot::closest_name::closest_name(
+                closest: closest_name(
                     name,
                     tree.joints()
                         .filter(|(_, j)| j.is_actuated())
@@ -350,11 +350,8 @@ impl World {
             .get(name)
             .ok_or_else(|| WorldError::UnknownObject {
                 name: name.to_owned(),
-                closest: crate::robot::closest_name::closest_name(
-                    name,
-                    self.state.objects.keys().map(String::as_str),
-                )
-                .map(str::to_owned),
+                closest: closest_name(name, self.state.objects.keys().map(String::as_str))
+                    .map(str::to_owned),
             })
     }
 

@@ -13,15 +13,13 @@ use parry3d_f64::query::{ShapeCastOptions, cast_shapes};
 use super::body_name::BodyName;
 use super::error::WorldError;
 use super::object::Object;
+use super::object_library::ObjectType;
 use super::part_key::PartKey;
 use super::physics::BodyKind;
 use super::scene::World;
 use super::separation::{lowest_point, separation};
 use super::solid::{Solid, bounds_of, to_parry};
-use crate::spatial::{PlacedShape, Pose};
-
-/// Mass (kg) of an object when none is given.
-pub const DEFAULT_MASS: f64 = 0.2;
+use crate::spatial::Pose;
 
 /// Steps (m) in which an overlapping object is lifted while looking for free space.
 const LIFT_STEP: f64 = 0.005;
@@ -34,19 +32,6 @@ const SNAP_GAP: f64 = 0.05;
 
 /// Overlap (m) that counts as touching.
 const TOUCH: f64 = 1e-6;
-
-/// What is to appear.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ObjectDescription {
-    /// Type in the object library.
-    pub type_name: String,
-    /// Shapes in the object's frame.
-    pub shapes: Vec<PlacedShape>,
-    /// Colour, red green blue alpha in 0..1.
-    pub color: [f32; 4],
-    /// Mass (kg).
-    pub mass: f64,
-}
 
 /// What became of an order to put an object somewhere.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,19 +57,45 @@ struct Neighbour {
 }
 
 impl World {
-    /// Puts a new object at the pose, or moves the object that has the name already (its type,
+    /// Puts a new object of a type of the library at the pose, with the type's colour and mass
+    /// (kg) unless others are given, or moves the object that has the name already (its type,
     /// colour and mass stay then).
     pub fn spawn(
         &mut self,
         name: &str,
-        description: &ObjectDescription,
+        type_name: &str,
+        pose: &Pose,
+        color: Option<[f32; 4]>,
+        mass: Option<f64>,
+    ) -> Result<SpawnReport, WorldError> {
+        if self.state.objects.contains_key(name) {
+            return self.move_object(name, pose);
+        }
+        let library = &self.models.objects;
+        let Some(known) = library.get(type_name) else {
+            return Err(WorldError::UnknownType {
+                name: type_name.to_owned(),
+                closest: library.closest_name(type_name).map(str::to_owned),
+            });
+        };
+        let mut object = known.clone();
+        object.color = color.unwrap_or(object.color);
+        object.mass = mass.unwrap_or(object.mass);
+        self.spawn_kind(name, &object, pose)
+    }
+
+    /// As [`World::spawn`], for an object that need not be in the library.
+    pub fn spawn_kind(
+        &mut self,
+        name: &str,
+        kind: &ObjectType,
         pose: &Pose,
     ) -> Result<SpawnReport, WorldError> {
         if self.state.objects.contains_key(name) {
             return self.move_object(name, pose);
         }
         check_finite(name, pose)?;
-        let mass = description.mass;
+        let mass = kind.mass;
         if !(mass.is_finite() && mass > 0.0) {
             return Err(WorldError::ImpossibleNumber {
                 quantity: "the mass",
@@ -92,10 +103,10 @@ impl World {
                 value: mass,
             });
         }
-        let solids = Solid::all(&description.shapes);
+        let solids = Solid::all(&kind.shapes);
         let Some(bounds) = bounds_of(&solids) else {
             return Err(WorldError::NoSolid {
-                type_name: description.type_name.clone(),
+                type_name: kind.name.clone(),
             });
         };
         let number = self.state.next_number;
@@ -114,10 +125,10 @@ impl World {
             name.to_owned(),
             Object {
                 name: name.to_owned(),
-                type_name: description.type_name.clone(),
-                color: description.color,
+                type_name: kind.name.clone(),
+                color: kind.color,
                 mass,
-                shapes: Arc::from(description.shapes.as_slice()),
+                shapes: Arc::from(kind.shapes.as_slice()),
                 solids: Arc::from(solids),
                 bounds,
                 number,
