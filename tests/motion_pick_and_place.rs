@@ -5,12 +5,11 @@ mod motion_support;
 
 use std::time::Instant;
 
-use motion_support::{BACK, FRONT, Kitchen, LEFT_SIDE, Outcome, RIGHT_SIDE};
+use motion_support::{Kitchen, Outcome};
 use planwright::motion::{Detect, DetectQuery, Look, LookTarget, MotionOutcome};
 use planwright::robot::Side;
 use planwright::spatial::Pose;
 use planwright::spatial::pose::{from_xyz_rpy, yaw};
-use std::sync::Arc;
 
 /// Drives to the table, raises the torso and parks the arms, all at once.
 fn approach_table(kitchen: &mut Kitchen) {
@@ -26,17 +25,13 @@ fn approach_table(kitchen: &mut Kitchen) {
 
 fn look_and_detect(kitchen: &mut Kitchen) -> Pose {
     let down = LookTarget::InBase(from_xyz_rpy([0.65335, 0.076, 0.758], [0.0; 3]));
-    let body = Arc::clone(&kitchen.body);
-    assert_eq!(
-        kitchen.run_one(Look::new(Arc::clone(&body), down)),
-        Ok(MotionOutcome::Arrived)
-    );
+    assert_eq!(kitchen.run_one(Look::new(down)), Ok(MotionOutcome::Arrived));
     let query = DetectQuery {
         name: None,
         types: vec!["bottle".to_owned()],
         description: "a bottle".to_owned(),
     };
-    match kitchen.run_one(Detect::new(body, query)) {
+    match kitchen.run_one(Detect::new(query)) {
         Ok(MotionOutcome::Detected(seen)) => seen[0].pose_in_base,
         other => panic!("{other:?}"),
     }
@@ -60,7 +55,7 @@ fn a_bottle_is_carried_from_the_table_to_the_island() {
     let bottle = look_and_detect(&mut kitchen);
     lap(&kitchen, "detected");
     let gripped = kitchen
-        .pick(Side::Right, &LEFT_SIDE, "bottle-1", &bottle)
+        .pick(Side::Right, "left-side", "bottle-1", &bottle)
         .unwrap_or_else(|f| panic!("{f}"));
     assert_eq!(
         gripped,
@@ -79,7 +74,7 @@ fn a_bottle_is_carried_from_the_table_to_the_island() {
     let target = kitchen.world.robot_configuration().base.inverse()
         * from_xyz_rpy([-0.8, 2.0, 0.9], [0.0; 3]);
     let put = kitchen
-        .place(Side::Right, &LEFT_SIDE, &target)
+        .place(Side::Right, "left-side", &target)
         .unwrap_or_else(|f| panic!("{f}"));
     assert!(
         matches!(
@@ -115,7 +110,7 @@ fn a_bottle_near_the_robot_is_only_reached_from_behind_with_the_torso_lowered() 
     kitchen.spawn_bottle(-1.0, -0.75, 0.86);
     approach_table(&mut kitchen);
     let bottle = look_and_detect(&mut kitchen);
-    for grasp in [&LEFT_SIDE, &RIGHT_SIDE, &FRONT] {
+    for grasp in ["left-side", "right-side", "front"] {
         let end: Outcome = kitchen.pick(Side::Right, grasp, "bottle-1", &bottle);
         let failure = end.unwrap_err();
         assert_eq!(
@@ -125,7 +120,7 @@ fn a_bottle_near_the_robot_is_only_reached_from_behind_with_the_torso_lowered() 
         );
         eprintln!("{failure}");
     }
-    let end = kitchen.pick(Side::Right, &BACK, "bottle-1", &bottle);
+    let end = kitchen.pick(Side::Right, "back", "bottle-1", &bottle);
     assert_eq!(
         end.unwrap_or_else(|f| panic!("{f}")),
         MotionOutcome::Gripped {
@@ -136,6 +131,6 @@ fn a_bottle_near_the_robot_is_only_reached_from_behind_with_the_torso_lowered() 
         .world
         .robot_configuration()
         .joints
-        .get(kitchen.body.torso.joint);
+        .get(kitchen.world.models().description.torso.joint);
     assert!(torso < 0.225, "{torso}");
 }

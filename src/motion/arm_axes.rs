@@ -2,7 +2,7 @@
 
 use super::arm_path::PathAxis;
 use crate::robot::description::Arm;
-use crate::robot::{JointId, KinematicTree, Limits, RobotDescription, Side};
+use crate::robot::{JointId, KinematicTree, Limits, Side};
 use crate::world::World;
 
 /// What a hand adds (m) to the distance from the wrist: its own length and what it holds.
@@ -19,8 +19,9 @@ pub(super) struct ArmAxes {
 
 impl ArmAxes {
     /// The axes of the arms of those sides, after that of the torso if it is to move.
-    pub(super) fn new(body: &RobotDescription, world: &World, torso: bool, sides: &[Side]) -> Self {
+    pub(super) fn new(world: &World, torso: bool, sides: &[Side]) -> Self {
         let tree = &world.models().robot;
+        let body = &world.models().description;
         let mut all = Self {
             joints: Vec::new(),
             path: Vec::new(),

@@ -9,7 +9,6 @@ use super::failure::MotionFailure;
 use super::judge::Judge;
 use super::speeds;
 use super::trajectory::{AxisGroup, Corners, Trajectory};
-use crate::robot::RobotDescription;
 use crate::world::{CollisionHit, World};
 
 /// Time (s) between two places of a trajectory that are checked.
@@ -17,7 +16,6 @@ const CHECK_EVERY: f64 = 0.02;
 
 /// A path of the axes from where they are now to the goal, as a trajectory.
 pub(super) fn plan_way(
-    body: &RobotDescription,
     world: &World,
     axes: &ArmAxes,
     goal: &[f64],
@@ -36,7 +34,7 @@ pub(super) fn plan_way(
         &mut blocked,
     )
     .map_err(path_failure)?;
-    let limits = speeds::limits_of(body, &axes.joints);
+    let limits = speeds::limits_of(&world.models().description, &axes.joints);
     Ok(smooth(&path, &limits, judge))
 }
 

@@ -1,11 +1,8 @@
 //! Looking for objects with the camera. Nothing moves.
 
-use std::sync::Arc;
-
 use super::failure::MotionFailure;
 use super::job::{DetectedObject, Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
-use crate::perception::{Camera, Sight};
-use crate::robot::RobotDescription;
+use crate::perception::Sight;
 use crate::world::World;
 
 /// Which objects are looked for.
@@ -23,16 +20,14 @@ pub struct DetectQuery {
 /// they appeared in the world.
 #[derive(Clone, Debug)]
 pub struct Detect {
-    body: Arc<RobotDescription>,
     query: DetectQuery,
     ended: bool,
 }
 
 impl Detect {
     /// Looks once, with the head as it is.
-    pub fn new(body: Arc<RobotDescription>, query: DetectQuery) -> Self {
+    pub fn new(query: DetectQuery) -> Self {
         Self {
-            body,
             query,
             ended: false,
         }
@@ -51,10 +46,7 @@ impl Detect {
                 .filter(|o| self.matches(o.name(), o.type_name()))
         };
         let base = world.robot_configuration().base;
-        let sight = Sight::take(
-            world,
-            Camera::of_head(world.link_pose(self.body.camera().frame)),
-        );
+        let sight = Sight::of_robot(world);
         let (mut seen, mut candidates) = (Vec::new(), Vec::new());
         for object in wanted() {
             // The names come from the world itself.

@@ -5,8 +5,6 @@
 //! meanwhile. Then the way ahead is looked at again and again; where it has become blocked
 //! the base slows down, stops, and looks for another path as soon as the posture is steady.
 
-use std::sync::Arc;
-
 use super::base_path::{BasePathFailure, BasePlace, FloorArea, find_base_path};
 use super::failure::MotionFailure;
 use super::follower::Follower;
@@ -14,7 +12,7 @@ use super::guard;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::patience::Patience;
 use super::trajectory::{AxisGroup, Corners, Trajectory};
-use crate::robot::{JointPositions, RobotDescription};
+use crate::robot::JointPositions;
 use crate::spatial::{Pose, pose};
 use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
 
@@ -36,7 +34,6 @@ const NEARBY: (f64, u32) = (0.05, 16);
 /// Drives the base to a pose.
 #[derive(Clone, Debug)]
 pub struct Drive {
-    body: Arc<RobotDescription>,
     goal: BasePlace,
     way: Option<Follower>,
     /// The arms and the torso when the way ahead was last looked at.
@@ -50,10 +47,9 @@ pub struct Drive {
 
 impl Drive {
     /// To the pose in the map frame, of which only x, y and the heading count.
-    pub fn new(body: Arc<RobotDescription>, goal: &Pose) -> Self {
+    pub fn new(goal: &Pose) -> Self {
         let t = goal.translation;
         Self {
-            body,
             goal: [t.x, t.y, pose::yaw(goal)],
             way: None,
             seen: JointPositions::default(),
@@ -68,7 +64,10 @@ impl Drive {
     fn plan(&mut self, world: &World) -> Result<Follower, MotionFailure> {
         self.plans += 1;
         let path = plan_drive(world, self.goal)?;
-        let (drive, turn) = (self.body.base.drive, self.body.base.turn);
+        let (drive, turn) = (
+            world.models().description.base.drive,
+            world.models().description.base.turn,
+        );
         let limits = [
             AxisGroup {
                 axes: 0..2,

@@ -1,17 +1,15 @@
 //! Opening, closing and positioning the fingers, gripping, and the hold on an object.
 
-use std::sync::Arc;
-
 use super::failure::{LimitViolation, MotionFailure};
 use super::guard;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
+use crate::robot::Side;
 use crate::robot::description::Gripper;
-use crate::robot::{RobotDescription, Side};
 use crate::world::physics::STEP_SECONDS;
-use crate::world::{AllowedPairs, BodyName, ContactForce, LinkName, World};
+use crate::world::{AllowedPairs, BodyName, ContactForce, World};
 
 /// A goal farther outside of the limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
@@ -41,7 +39,6 @@ pub enum GripperCommand {
 /// Moves the fingers of one hand.
 #[derive(Clone, Debug)]
 pub struct MoveGripper {
-    body: Arc<RobotDescription>,
     side: Side,
     command: GripperCommand,
     follow: Option<JointFollow>,
@@ -50,34 +47,24 @@ pub struct MoveGripper {
 }
 
 /// Any object may be touched by any link of the hand.
-pub(super) fn hand_may_touch_objects(
-    body: &RobotDescription,
-    world: &World,
-    side: Side,
-) -> AllowedPairs {
-    let names = hand_names(body, world, side);
+pub(super) fn hand_may_touch_objects(world: &World, side: Side) -> AllowedPairs {
+    let names = hand_names(world, side);
     world.objects().fold(AllowedPairs::none(), |all, object| {
         all.and_all(names.clone(), &BodyName::Object(object.name().to_owned()))
     })
 }
 
 /// The links of a hand as bodies.
-pub(super) fn hand_names(body: &RobotDescription, world: &World, side: Side) -> Vec<BodyName> {
-    let tree = &world.models().robot;
-    let name = |id| {
-        BodyName::Robot(LinkName {
-            id,
-            name: tree.link(id).name.as_str().into(),
-        })
-    };
-    body.arm(side).gripper.links().map(name).collect()
+pub(super) fn hand_names(world: &World, side: Side) -> Vec<BodyName> {
+    let models = world.models();
+    let links = models.description.arm(side).gripper.links();
+    links.map(|link| models.robot_body(link)).collect()
 }
 
 impl MoveGripper {
     /// Carries out the command with one hand.
-    pub fn new(body: Arc<RobotDescription>, side: Side, command: GripperCommand) -> Self {
+    pub fn new(side: Side, command: GripperCommand) -> Self {
         Self {
-            body,
             side,
             command,
             follow: None,
@@ -86,13 +73,13 @@ impl MoveGripper {
         }
     }
 
-    fn gripper(&self) -> &Gripper {
-        &self.body.arm(self.side).gripper
+    fn gripper<'w>(&self, world: &'w World) -> &'w Gripper {
+        &world.models().description.arm(self.side).gripper
     }
 
     /// Position of the finger joint (rad) that is wanted.
-    fn goal(&self) -> f64 {
-        let gripper = self.gripper();
+    fn goal(&self, world: &World) -> f64 {
+        let gripper = self.gripper(world);
         match self.command {
             GripperCommand::Open => gripper.limits.upper,
             GripperCommand::Close | GripperCommand::Grip { .. } => gripper.limits.lower,
@@ -101,21 +88,21 @@ impl MoveGripper {
     }
 
     fn is_closing(&self, world: &World) -> bool {
-        world.robot_configuration().joints.get(self.gripper().joint) > self.goal()
+        world
+            .robot_configuration()
+            .joints
+            .get(self.gripper(world).joint)
+            > self.goal(world)
     }
 
     fn start(&self, world: &World) -> JointFollow {
-        let gripper = self.gripper();
+        let gripper = self.gripper(world);
         let joints = vec![gripper.joint];
         let from = vec![world.robot_configuration().joints.get(gripper.joint)];
-        let to = vec![gripper.limits.clamp(self.goal())];
-        let limits = speeds::limits_of(&self.body, &joints);
+        let to = vec![gripper.limits.clamp(self.goal(world))];
+        let limits = speeds::limits_of(&world.models().description, &joints);
         let way = Trajectory::new(&[from, to], &limits, Corners::Round);
-        JointFollow::new(
-            joints,
-            way,
-            hand_may_touch_objects(&self.body, world, self.side),
-        )
+        JointFollow::new(joints, way, hand_may_touch_objects(world, self.side))
     }
 
     /// Moves the fingers to a position; closing ones stop when something is between them.
@@ -141,7 +128,7 @@ impl MoveGripper {
     }
 
     fn arrived(&self, world: &World) -> MotionStatus {
-        let (gripper, goal) = (self.gripper(), self.goal());
+        let (gripper, goal) = (self.gripper(world), self.goal(world));
         if gripper.limits.excess(goal) <= CROPPED {
             return MotionStatus::Done(MotionOutcome::Arrived);
         }
@@ -159,7 +146,7 @@ impl MoveGripper {
 
     /// What each finger presses on.
     fn pressing(&self, world: &World) -> [Option<ContactForce>; 2] {
-        let contacts = world.finger_contacts(self.side.index());
+        let contacts = world.finger_contacts(self.side);
         contacts.map(|forces| {
             let objects = forces.into_iter().filter(|f| f.body.object().is_some());
             objects
@@ -197,7 +184,7 @@ impl MoveGripper {
                 }));
             }
         }
-        let gripper = self.gripper();
+        let gripper = self.gripper(world);
         let now = world.robot_configuration();
         let position = now.joints.get(gripper.joint);
         if position <= gripper.limits.lower {
@@ -205,7 +192,7 @@ impl MoveGripper {
         }
         let closer = position - speeds::GRIP_VELOCITY * STEP_SECONDS;
         let next = with_joints(now, &[gripper.joint], &[closer.max(gripper.limits.lower)]);
-        let allowed = hand_may_touch_objects(&self.body, world, side);
+        let allowed = hand_may_touch_objects(world, side);
         if let Some(hit) = guard::obstacle(world, &next, &allowed) {
             return Some(MotionStatus::failed(MotionFailure::FingersBlocked {
                 side,

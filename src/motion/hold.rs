@@ -1,10 +1,8 @@
 //! Taking hold of an object between the fingers, and letting go of it.
 
-use std::sync::Arc;
-
 use super::failure::MotionFailure;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
-use crate::robot::{RobotDescription, Side};
+use crate::robot::Side;
 use crate::world::World;
 use crate::world::physics::STEP_SECONDS;
 
@@ -14,21 +12,16 @@ const QUIET: u32 = 24;
 const SETTLE: f64 = 2.0;
 
 /// Welds the object softly to the palm of the hand, where it is now.
-pub fn take_hold(
-    body: &RobotDescription,
-    world: &mut World,
-    side: Side,
-    object: &str,
-) -> Result<(), MotionFailure> {
-    let palm = body.arm(side).gripper.palm;
+pub fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), MotionFailure> {
+    let palm = world.models().description.arm(side).gripper.palm;
     world
         .attach(object, palm)
         .map_err(|e| MotionFailure::UnknownName(e.to_string()))
 }
 
 /// Names of the objects that the hand holds.
-pub fn held_objects(body: &RobotDescription, world: &World, side: Side) -> Vec<String> {
-    let palm = body.arm(side).gripper.palm;
+pub fn held_objects(world: &World, side: Side) -> Vec<String> {
+    let palm = world.models().description.arm(side).gripper.palm;
     let held = world
         .objects()
         .filter(|o| o.attachment().is_some_and(|a| a.link == palm));
@@ -38,7 +31,6 @@ pub fn held_objects(body: &RobotDescription, world: &World, side: Side) -> Vec<S
 /// Lets go of an object and waits until everything is at rest.
 #[derive(Clone, Debug)]
 pub struct LetGo {
-    body: Arc<RobotDescription>,
     side: Side,
     object: Option<String>,
     released: Option<String>,
@@ -49,9 +41,8 @@ pub struct LetGo {
 
 impl LetGo {
     /// Of the named object, or of whatever the hand holds.
-    pub fn new(body: Arc<RobotDescription>, side: Side, object: Option<String>) -> Self {
+    pub fn new(side: Side, object: Option<String>) -> Self {
         Self {
-            body,
             side,
             object,
             released: None,
@@ -63,7 +54,7 @@ impl LetGo {
 
     fn release(&mut self, world: &mut World) -> Result<String, MotionFailure> {
         let side = self.side;
-        let held = held_objects(&self.body, world, side).into_iter().next();
+        let held = held_objects(world, side).into_iter().next();
         let name = self
             .object
             .clone()

@@ -3,8 +3,6 @@
 //! The head is aimed, not one of its cameras: the x axis of the tilted link passes through
 //! the point when the point is level with it.
 
-use std::sync::Arc;
-
 use nalgebra::Point3;
 
 use super::failure::{LimitViolation, MotionFailure};
@@ -66,7 +64,6 @@ pub enum LookTarget {
 /// possible, then reported.
 #[derive(Clone, Debug)]
 pub struct Look {
-    body: Arc<RobotDescription>,
     target: LookTarget,
     follow: Option<JointFollow>,
     violation: Option<LimitViolation>,
@@ -75,9 +72,8 @@ pub struct Look {
 
 impl Look {
     /// At the target as it is when the motion starts.
-    pub fn new(body: Arc<RobotDescription>, target: LookTarget) -> Self {
+    pub fn new(target: LookTarget) -> Self {
         Self {
-            body,
             target,
             follow: None,
             violation: None,
@@ -117,11 +113,14 @@ impl Look {
     fn start(&mut self, world: &World) -> Result<JointFollow, MotionFailure> {
         let wanted = match self.point(world)? {
             None => [0.0; 2],
-            Some(point) => pan_and_tilt(&self.body, world, &point),
+            Some(point) => pan_and_tilt(world, &point),
         };
         let tree = &world.models().robot;
         let mut goal = Vec::new();
-        for (id, wanted) in neck_joints(&self.body).into_iter().zip(wanted) {
+        for (id, wanted) in neck_joints(&world.models().description)
+            .into_iter()
+            .zip(wanted)
+        {
             let joint = tree.joint(id);
             let cropped = joint.limits.map_or(wanted, |l| l.clamp(wanted));
             goal.push(cropped);
@@ -134,12 +133,12 @@ impl Look {
                 });
             }
         }
-        let joints = neck_joints(&self.body).to_vec();
+        let joints = neck_joints(&world.models().description).to_vec();
         let now = joints
             .iter()
             .map(|j| world.robot_configuration().joints.get(*j))
             .collect();
-        let limits = speeds::limits_of(&self.body, &joints);
+        let limits = speeds::limits_of(&world.models().description, &joints);
         let way = Trajectory::new(&[now, goal], &limits, Corners::Round);
         Ok(JointFollow::new(joints, way, AllowedPairs::none()))
     }
@@ -173,8 +172,9 @@ fn neck_joints(body: &RobotDescription) -> [JointId; 2] {
 }
 
 /// Angles (rad) of pan and tilt that aim the head at the point of the map frame (m).
-pub fn pan_and_tilt(body: &RobotDescription, world: &World, point: &Point3<f64>) -> [f64; 2] {
+pub fn pan_and_tilt(world: &World, point: &Point3<f64>) -> [f64; 2] {
     let tree = &world.models().robot;
+    let body = &world.models().description;
     let (pan, tilt) = (body.neck.pan_link, body.neck.tilt_link);
     let level = with_joints(world.robot_configuration(), &neck_joints(body), &[0.0, 0.0]);
     let frame_of = |link| tree.link_pose(link, &level.base, &level.joints);

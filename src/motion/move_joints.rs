@@ -1,7 +1,5 @@
 //! Moving one or both arms to given joint positions, around what is in the way.
 
-use std::sync::Arc;
-
 use super::arm_axes::ArmAxes;
 use super::arm_path::ArmPathEffort;
 use super::arm_way::plan_way;
@@ -9,7 +7,7 @@ use super::failure::{LimitViolation, MotionFailure};
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::judge::Judge;
-use crate::robot::{ARM_JOINTS, RobotDescription, Side};
+use crate::robot::{ARM_JOINTS, Side};
 use crate::spatial::trig;
 use crate::world::{AllowedPairs, World};
 
@@ -21,7 +19,6 @@ const MOST_PLANS: u32 = 4;
 /// Moves the joints of one or both arms. Both arrive at the same time.
 #[derive(Clone, Debug)]
 pub struct MoveJoints {
-    body: Arc<RobotDescription>,
     goals: [Option<Vec<f64>>; 2],
     follow: Option<JointFollow>,
     patience: super::patience::Patience,
@@ -32,13 +29,8 @@ pub struct MoveJoints {
 impl MoveJoints {
     /// The positions (rad) of the left and of the right arm, from the shoulder to the wrist;
     /// an arm without positions stays. Continuous joints turn the shorter way.
-    pub fn new(
-        body: Arc<RobotDescription>,
-        left: Option<Vec<f64>>,
-        right: Option<Vec<f64>>,
-    ) -> Self {
+    pub fn new(left: Option<Vec<f64>>, right: Option<Vec<f64>>) -> Self {
         Self {
-            body,
             goals: [left, right],
             follow: None,
             patience: super::patience::Patience::default(),
@@ -91,18 +83,11 @@ impl MoveJoints {
     }
 
     fn plan(&self, world: &World) -> Result<JointFollow, MotionFailure> {
-        let axes = ArmAxes::new(&self.body, world, false, &self.sides());
+        let axes = ArmAxes::new(world, false, &self.sides());
         let goal = self.goal(world, &axes)?;
         let none = AllowedPairs::none();
         let mut judge = Judge::new(world, axes.joints.clone(), &none);
-        let way = plan_way(
-            &self.body,
-            world,
-            &axes,
-            &goal,
-            &mut judge,
-            ArmPathEffort::default(),
-        )?;
+        let way = plan_way(world, &axes, &goal, &mut judge, ArmPathEffort::default())?;
         Ok(JointFollow::new(axes.joints, way, none))
     }
 
@@ -135,8 +120,8 @@ impl MoveJoints {
         }
         let follow = self.follow.as_mut()?;
         let hands = [
-            self.body.arms[0].gripper.palm,
-            self.body.arms[1].gripper.palm,
+            world.models().description.arms[0].gripper.palm,
+            world.models().description.arms[1].gripper.palm,
         ];
         match follow.tick(world, |link| hands.contains(&link)) {
             FollowStep::Moving => None,
@@ -162,7 +147,7 @@ impl MoveJoints {
 
     /// Gives the joints the very numbers that were asked for: continuous joints were unwound.
     fn name_positions(&self, world: &mut World) {
-        let axes = ArmAxes::new(&self.body, world, false, &self.sides());
+        let axes = ArmAxes::new(world, false, &self.sides());
         let goal: Vec<f64> = self.goals.iter().flatten().flatten().copied().collect();
         let exact = with_joints(world.robot_configuration(), &axes.joints, &goal);
         world.set_robot_configuration(&exact);

@@ -1,7 +1,5 @@
 //! Bringing one or both hands to poses.
 
-use std::sync::Arc;
-
 use super::failure::MotionFailure;
 use super::gripper::hand_names;
 use super::hold::held_objects;
@@ -9,9 +7,9 @@ use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow};
 use super::patience::Patience;
 use super::tcp_plan::TcpTask;
-use crate::robot::{RobotDescription, Side};
+use crate::robot::Side;
 use crate::spatial::Pose;
-use crate::world::{AllowedPairs, BodyName, LinkName, World};
+use crate::world::{AllowedPairs, BodyName, World};
 
 /// How long (s) a plan or the way may be blocked while nothing moves.
 const PATIENCE: f64 = 0.3;
@@ -51,7 +49,6 @@ pub enum CollisionMode {
 /// Moves one or both hands to poses, with the torso's help where that is needed.
 #[derive(Clone, Debug)]
 pub struct MoveTcp {
-    body: Arc<RobotDescription>,
     goals: [Option<TcpGoal>; 2],
     path: TcpPath,
     mode: CollisionMode,
@@ -64,14 +61,12 @@ pub struct MoveTcp {
 impl MoveTcp {
     /// Goals of the left and of the right hand; a hand without one stays with its arm.
     pub fn new(
-        body: Arc<RobotDescription>,
         left: Option<TcpGoal>,
         right: Option<TcpGoal>,
         path: TcpPath,
         mode: CollisionMode,
     ) -> Self {
         Self {
-            body,
             goals: [left, right],
             path,
             mode,
@@ -88,9 +83,8 @@ impl MoveTcp {
         let goals: Vec<(Side, Pose)> = goals
             .filter_map(|(side, goal)| Some((side, in_base(goal?, &base))))
             .collect();
-        let allowed = allowed_pairs(&self.body, world, &goals, self.mode);
+        let allowed = allowed_pairs(world, &goals, self.mode);
         let task = TcpTask {
-            body: &self.body,
             world,
             goals,
             allowed,
@@ -126,8 +120,8 @@ impl MoveTcp {
         }
         let follow = self.follow.as_mut()?;
         let hands = [
-            self.body.arms[0].gripper.palm,
-            self.body.arms[1].gripper.palm,
+            world.models().description.arms[0].gripper.palm,
+            world.models().description.arms[1].gripper.palm,
         ];
         match follow.tick(world, |link| hands.contains(&link)) {
             FollowStep::Moving => None,
@@ -159,7 +153,6 @@ pub(super) fn in_base(goal: TcpGoal, base: &Pose) -> Pose {
 
 /// The pairs that a motion of those hands declares.
 pub(super) fn allowed_pairs(
-    body: &RobotDescription,
     world: &World,
     goals: &[(Side, Pose)],
     mode: CollisionMode,
@@ -174,15 +167,12 @@ pub(super) fn allowed_pairs(
             .map(|o| BodyName::Object(o.name().to_owned()))
     };
     for (side, _) in goals {
-        let hand = hand_names(body, world, *side);
+        let hand = hand_names(world, *side);
         for object in object_names() {
             allowed = allowed.and_all(hand.iter().cloned(), &object);
         }
         if mode == CollisionMode::AllowAll {
-            for held in held_objects(body, world, *side)
-                .into_iter()
-                .map(BodyName::Object)
-            {
+            for held in held_objects(world, *side).into_iter().map(BodyName::Object) {
                 allowed = allowed.and_all(object_names().filter(|o| *o != held), &held);
                 allowed = allowed.and_all(furniture(world), &held);
             }
@@ -193,17 +183,12 @@ pub(super) fn allowed_pairs(
 
 /// All pieces of furniture that can be touched, and the floor.
 fn furniture(world: &World) -> Vec<BodyName> {
-    let links = world
-        .models()
+    let models = world.models();
+    let links = models
         .kitchen
         .links()
-        .filter(|(_, l)| !l.collisions.is_empty());
-    let names = links.map(|(id, l)| {
-        BodyName::Furniture(LinkName {
-            id,
-            name: l.name.as_str().into(),
-        })
-    });
+        .filter(|(_, link)| !link.collisions.is_empty());
+    let names = links.map(|(id, _)| models.furniture_body(id));
     names.chain([BodyName::Floor]).collect()
 }
 

@@ -1,13 +1,11 @@
 //! Raising and lowering the torso.
 
-use std::sync::Arc;
-
 use super::failure::MotionFailure;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::joint_follow::{FollowStep, JointFollow};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
-use crate::robot::{Limits, RobotDescription};
+use crate::robot::Limits;
 use crate::world::{AllowedPairs, World};
 
 /// A goal farther outside of the limits than this (m) is a failure.
@@ -19,7 +17,6 @@ const PATIENCE: f64 = 0.3;
 /// reached as far as possible, then reported.
 #[derive(Clone, Debug)]
 pub struct MoveTorso {
-    body: Arc<RobotDescription>,
     goal: f64,
     follow: Option<JointFollow>,
     ended: bool,
@@ -27,33 +24,32 @@ pub struct MoveTorso {
 
 impl MoveTorso {
     /// To the height (m) of the lift joint.
-    pub fn new(body: Arc<RobotDescription>, goal: f64) -> Self {
+    pub fn new(goal: f64) -> Self {
         Self {
-            body,
             goal,
             follow: None,
             ended: false,
         }
     }
 
-    fn limits(&self) -> Limits {
-        self.body.torso.limits
+    fn limits(world: &World) -> Limits {
+        world.models().description.torso.limits
     }
 
     fn start(&self, world: &World) -> JointFollow {
-        let joints = vec![self.body.torso.joint];
+        let joints = vec![world.models().description.torso.joint];
         let now = world
             .robot_configuration()
             .joints
-            .get(self.body.torso.joint);
-        let points = [vec![now], vec![self.limits().clamp(self.goal)]];
-        let limits = speeds::limits_of(&self.body, &joints);
+            .get(world.models().description.torso.joint);
+        let points = [vec![now], vec![Self::limits(world).clamp(self.goal)]];
+        let limits = speeds::limits_of(&world.models().description, &joints);
         let way = Trajectory::new(&points, &limits, Corners::Round);
         JointFollow::new(joints, way, AllowedPairs::none())
     }
 
-    fn arrived(&self) -> MotionStatus {
-        let limits = self.limits();
+    fn arrived(&self, world: &World) -> MotionStatus {
+        let limits = Self::limits(world);
         if limits.excess(self.goal) <= CROPPED {
             return MotionStatus::Done(MotionOutcome::Arrived);
         }
@@ -85,13 +81,13 @@ impl Motion for MoveTorso {
                 height: world
                     .robot_configuration()
                     .joints
-                    .get(self.body.torso.joint),
+                    .get(world.models().description.torso.joint),
                 hit: hit.into(),
             }),
             FollowStep::Stuck(stuck) => {
                 MotionStatus::failed(MotionFailure::HeldObjectStuck(Box::new(stuck)))
             }
-            FollowStep::Arrived => self.arrived(),
+            FollowStep::Arrived => self.arrived(world),
         };
         self.ended = true;
         end

@@ -4,8 +4,6 @@
 //! object: earlier than the goal when the surface is higher, below the goal when it is lower.
 //! Without any surface within reach below the goal it ends in the goal.
 
-use std::sync::Arc;
-
 use super::failure::MotionFailure;
 use super::hold::held_objects;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
@@ -14,7 +12,7 @@ use super::move_tcp::{CollisionMode, TcpGoal, allowed_pairs, in_base};
 use super::put_plan::PutPlan;
 use super::tcp_line::tcp_in_base;
 use super::tcp_plan::TcpTask;
-use crate::robot::{RobotDescription, Side};
+use crate::robot::Side;
 use crate::world::{BodyName, World};
 
 /// How far (m) below the goal a surface is looked for.
@@ -27,7 +25,6 @@ const PATIENCE: f64 = 0.3;
 /// Puts down what a hand holds.
 #[derive(Clone, Debug)]
 pub struct Put {
-    body: Arc<RobotDescription>,
     side: Side,
     goal: TcpGoal,
     object: String,
@@ -37,9 +34,8 @@ pub struct Put {
 
 impl Put {
     /// With the tool centre point going to the goal.
-    pub fn new(body: Arc<RobotDescription>, side: Side, goal: TcpGoal) -> Self {
+    pub fn new(side: Side, goal: TcpGoal) -> Self {
         Self {
-            body,
             side,
             goal,
             object: String::new(),
@@ -50,13 +46,12 @@ impl Put {
 
     fn plan(&mut self, world: &World) -> Result<JointFollow, MotionFailure> {
         let side = self.side;
-        let held = held_objects(&self.body, world, side).into_iter().next();
+        let held = held_objects(world, side).into_iter().next();
         self.object = held.ok_or(MotionFailure::HoldsNothing { side })?;
         let goal = in_base(self.goal, &world.robot_configuration().base);
         let goals = vec![(side, goal)];
-        let allowed = allowed_pairs(&self.body, world, &goals, CollisionMode::AllowAll);
+        let allowed = allowed_pairs(world, &goals, CollisionMode::AllowAll);
         let task = TcpTask {
-            body: &self.body,
             world,
             goals,
             allowed,
@@ -82,7 +77,7 @@ impl Put {
 
     fn done(&self, world: &World, support: Option<BodyName>) -> MotionStatus {
         let base = world.robot_configuration().base;
-        let hand = tcp_in_base(&self.body, world, self.side);
+        let hand = tcp_in_base(world, self.side);
         let raised = hand.translation.z - in_base(self.goal, &base).translation.z;
         MotionStatus::Done(MotionOutcome::Put { support, raised })
     }
@@ -100,7 +95,7 @@ impl Put {
         if support.is_some() && follow.fraction() > 0.1 {
             return Some(self.done(world, support));
         }
-        let palm = self.body.arm(self.side).gripper.palm;
+        let palm = world.models().description.arm(self.side).gripper.palm;
         match follow.tick(world, |link| link == palm) {
             FollowStep::Moving => None,
             FollowStep::Blocked { still, .. } if still < PATIENCE => None,

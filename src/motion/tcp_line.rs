@@ -4,9 +4,9 @@ use super::arm_axes::ArmAxes;
 use super::arm_path::{between, blocked_between};
 use super::judge::Judge;
 use crate::robot::description::Arm;
-use crate::robot::{ARM_JOINTS, ArmPositions, KinematicTree, RobotDescription, Side};
+use crate::robot::{ARM_JOINTS, ArmPositions, Side};
 use crate::spatial::{Pose, pose};
-use crate::world::{RobotConfiguration, World};
+use crate::world::{Models, RobotConfiguration, World};
 
 /// Distance (m) and angle (rad) between neighbouring postures of a line.
 const STEP: (f64, f64) = (0.01, 0.05);
@@ -27,8 +27,7 @@ pub(super) struct TcpLine {
 /// Straight lines that both arms, or one, follow at the same time while the torso goes to
 /// a height.
 pub(super) struct LineTask<'a> {
-    pub(super) body: &'a RobotDescription,
-    pub(super) tree: &'a KinematicTree,
+    pub(super) models: &'a Models,
     pub(super) robot: RobotConfiguration,
     pub(super) axes: ArmAxes,
     pub(super) lines: Vec<TcpLine>,
@@ -119,13 +118,15 @@ impl LineTask<'_> {
         if let Some(end) = self.torso {
             let from = start.first().copied()?;
             let height = from + (end - from) * share;
-            robot.joints.set(self.body.torso.joint, height);
+            robot
+                .joints
+                .set(self.models.description.torso.joint, height);
             posture.push(height);
         }
         for line in &self.lines {
-            let arm = self.body.arm(line.side);
+            let arm = self.models.description.arm(line.side);
             let tcp = pose::between(&line.from, &line.to, share);
-            let wrist = wrist_in_torso(self.body, self.tree, &robot, arm, &tcp);
+            let wrist = wrist_in_torso(self.models, &robot, arm, &tcp);
             let offset = posture.len();
             let seed: ArmPositions = seed.get(offset..offset + ARM_JOINTS)?.try_into().ok()?;
             posture.extend(arm.kinematics.nearest(&wrist, &seed).ok()?);
@@ -136,19 +137,22 @@ impl LineTask<'_> {
 
 /// The wrist's pose in the frame of the torso, for a pose of the tool in that of the base.
 pub(super) fn wrist_in_torso(
-    body: &RobotDescription,
-    tree: &KinematicTree,
+    models: &Models,
     robot: &RobotConfiguration,
     arm: &Arm,
     tcp_in_base: &Pose,
 ) -> Pose {
-    let torso = tree.link_pose(body.torso.link, &Pose::identity(), &robot.joints);
+    let torso = models.robot.link_pose(
+        models.description.torso.link,
+        &Pose::identity(),
+        &robot.joints,
+    );
     torso.inverse() * arm.wrist_for_tool(tcp_in_base)
 }
 
 /// Where the tool of the arm is now, in the frame of the base.
-pub fn tcp_in_base(body: &RobotDescription, world: &World, side: Side) -> Pose {
-    let arm = body.arm(side);
+pub fn tcp_in_base(world: &World, side: Side) -> Pose {
+    let arm = world.models().description.arm(side);
     let base = world.robot_configuration().base;
     base.inverse() * arm.tool_for_wrist(&world.link_pose(arm.wrist))
 }

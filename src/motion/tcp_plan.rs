@@ -41,7 +41,6 @@ const MOST_HEIGHTS: usize = 4;
 
 /// Goals of the hands: poses of their tools in the frame of the base.
 pub(super) struct TcpTask<'a> {
-    pub(super) body: &'a RobotDescription,
     pub(super) world: &'a World,
     pub(super) goals: Vec<(Side, Pose)>,
     pub(super) allowed: AllowedPairs,
@@ -55,6 +54,10 @@ pub(super) struct Posture {
 }
 
 impl TcpTask<'_> {
+    fn body(&self) -> &RobotDescription {
+        &self.world.models().description
+    }
+
     fn sides(&self) -> Vec<Side> {
         self.goals.iter().map(|(side, _)| *side).collect()
     }
@@ -63,11 +66,11 @@ impl TcpTask<'_> {
         self.world
             .robot_configuration()
             .joints
-            .get(self.body.torso.joint)
+            .get(self.body().torso.joint)
     }
 
     fn torso_limits(&self) -> Limits {
-        self.body.torso.limits
+        self.body().torso.limits
     }
 
     /// Heights of the torso (m), the present one first, then the nearest first.
@@ -85,22 +88,16 @@ impl TcpTask<'_> {
 
     /// The torso is one of the axes only when it has to move.
     pub(super) fn axes(&self, height: f64) -> ArmAxes {
-        ArmAxes::new(
-            self.body,
-            self.world,
-            height != self.torso_now(),
-            &self.sides(),
-        )
+        ArmAxes::new(self.world, height != self.torso_now(), &self.sides())
     }
 
     fn wrist(&self, side: Side, tcp: &Pose, height: f64) -> Pose {
         let robot = with_joints(
             self.world.robot_configuration(),
-            &[self.body.torso.joint],
+            &[self.body().torso.joint],
             &[height],
         );
-        let tree = &self.world.models().robot;
-        wrist_in_torso(self.body, tree, &robot, self.body.arm(side), tcp)
+        wrist_in_torso(self.world.models(), &robot, self.body().arm(side), tcp)
     }
 
     /// All postures at the height, the best one first; what they touch is not looked at.
@@ -113,7 +110,7 @@ impl TcpTask<'_> {
             positions: torso,
         }];
         for (side, tcp) in &self.goals {
-            let kinematics = &self.body.arm(*side).kinematics;
+            let kinematics = &self.body().arm(*side).kinematics;
             let wrist = self.wrist(*side, tcp, height);
             let found = kinematics.solutions(&wrist, POSTURE_STEP);
             let mut next = Vec::new();
@@ -221,21 +218,14 @@ impl TcpTask<'_> {
                 &mut blocked,
             );
             if met.is_none() {
-                let limits = speeds::limits_of(self.body, &axes.joints);
+                let limits = speeds::limits_of(self.body(), &axes.joints);
                 let path = [now, posture.positions.clone()];
                 return Ok(Trajectory::new(&path, &limits, Corners::Round));
             }
         }
         let mut result = None;
         for posture in free.iter().take(LONG_SEARCHES) {
-            match plan_way(
-                self.body,
-                self.world,
-                axes,
-                &posture.positions,
-                judge,
-                effort,
-            ) {
+            match plan_way(self.world, axes, &posture.positions, judge, effort) {
                 Ok(way) => return Ok(way),
                 Err(failure) => result = Some(failure),
             }
@@ -245,8 +235,7 @@ impl TcpTask<'_> {
 
     pub(super) fn line_task(&self, height: f64, axes: &ArmAxes) -> LineTask<'_> {
         LineTask {
-            body: self.body,
-            tree: &self.world.models().robot,
+            models: self.world.models(),
             robot: self.world.robot_configuration().clone(),
             axes: axes.clone(),
             lines: self
@@ -254,7 +243,7 @@ impl TcpTask<'_> {
                 .iter()
                 .map(|(side, to)| TcpLine {
                     side: *side,
-                    from: tcp_in_base(self.body, self.world, *side),
+                    from: tcp_in_base(self.world, *side),
                     to: *to,
                 })
                 .collect(),
@@ -296,7 +285,7 @@ impl TcpTask<'_> {
         speed: Speed,
         judge: &mut Judge<'_>,
     ) -> Trajectory {
-        let mut limits = speeds::limits_of(self.body, &axes.joints);
+        let mut limits = speeds::limits_of(self.body(), &axes.joints);
         limits.push(AxisGroup::single(
             axes.joints.len(),
             speed.velocity,
@@ -320,7 +309,7 @@ impl TcpTask<'_> {
         let report = |side: Side, tcp: &Pose, reason| {
             let unreachable = Unreachable {
                 side,
-                frame: tree.link(self.body.torso.link).name.clone(),
+                frame: tree.link(self.body().torso.link).name.clone(),
                 wrist: self.wrist(side, tcp, now),
                 torso,
                 reason,
@@ -329,7 +318,7 @@ impl TcpTask<'_> {
         };
         let mut suitable = Vec::new();
         for (side, tcp) in &self.goals {
-            let kinematics = &self.body.arm(*side).kinematics;
+            let kinematics = &self.body().arm(*side).kinematics;
             let mut range: Option<[f64; 2]> = None;
             let mut nearest: Option<(robot::Unreachable, f64)> = None;
             for height in self.heights(REASON_STEP) {

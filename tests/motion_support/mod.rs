@@ -1,29 +1,27 @@
 //! A PR2 in the kitchen that carries out motions, for tests and measurements of motions.
 #![allow(dead_code)]
 
-use std::sync::Arc;
-
-use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
+use nalgebra::Translation3;
 use planwright::motion::{
     CollisionMode, Drive, GripperCommand, LetGo, Motion, MotionFailure, MotionOutcome,
     MotionStatus, MoveGripper, MoveJoints, MoveTcp, MoveTorso, Put, TcpGoal, TcpPath, held_objects,
     take_hold,
 };
-use planwright::robot::{RobotDescription, Side};
+use planwright::robot::Side;
 use planwright::spatial::Pose;
 use planwright::spatial::pose::{from_xy_yaw, from_xyz_rpy};
-use planwright::world::{AllowedPairs, BodyName, LinkName, Models, RobotConfiguration, World};
+use planwright::world::grasp_library::{GRASPS, GraspLibrary, ToolPoses};
+use planwright::world::{AllowedPairs, BodyName, RobotConfiguration, World};
 
 #[path = "../world_support/mod.rs"]
 mod world_support;
-pub use world_support::{bottle, models};
+pub use world_support::models;
 
 /// What a motion came to.
 pub type Outcome = Result<MotionOutcome, MotionFailure>;
 
 /// A robot in a kitchen.
 pub struct Kitchen {
-    pub body: Arc<RobotDescription>,
     pub world: World,
     /// Whether every step is checked for penetration.
     pub checked: bool,
@@ -31,29 +29,21 @@ pub struct Kitchen {
     pub declared: AllowedPairs,
 }
 
-pub fn description(models: &Models) -> Arc<RobotDescription> {
-    let text = include_str!("../../world/pr2.sexp");
-    Arc::new(RobotDescription::from_sexp(text, "pr2.sexp", &models.robot).unwrap())
-}
-
 impl Kitchen {
     /// The robot as after start-up: at the origin, arms tucked.
     pub fn new() -> Self {
         let models = models();
-        let body = description(&models);
-        let joints = body.start_positions(&models.robot);
-        let world = World::new(
-            models,
-            RobotConfiguration {
-                base: Pose::identity(),
-                joints,
-            },
-        );
+        let joints = models.description.start_positions(&models.robot);
+        let robot = RobotConfiguration {
+            base: Pose::identity(),
+            joints,
+        };
+        let world = World::new(models, robot);
+        let declared = AllowedPairs::none();
         Self {
-            body,
             world,
             checked: true,
-            declared: AllowedPairs::none(),
+            declared,
         }
     }
 
@@ -62,8 +52,10 @@ impl Kitchen {
         let mut kitchen = Self::new();
         let mut robot = kitchen.world.robot_configuration().clone();
         robot.base = from_xy_yaw(x, y, yaw_degrees.to_radians());
-        robot.joints.set(kitchen.body.torso.joint, torso);
-        for arm in &kitchen.body.arms {
+        robot
+            .joints
+            .set(kitchen.world.models().description.torso.joint, torso);
+        for arm in &kitchen.world.models().description.arms {
             arm.set_positions(&mut robot.joints, arm.posture("park").unwrap());
         }
         kitchen.world.teleport_robot(&robot);
@@ -71,8 +63,9 @@ impl Kitchen {
     }
 
     pub fn spawn_bottle(&mut self, x: f64, y: f64, z: f64) {
+        let at = from_xyz_rpy([x, y, z], [0.0; 3]);
         self.world
-            .spawn("bottle-1", &bottle(), &from_xyz_rpy([x, y, z], [0.0; 3]))
+            .spawn("bottle-1", "bottle", &at, None, None)
             .unwrap();
         assert!(self.world.settle(5.0));
     }
@@ -80,14 +73,13 @@ impl Kitchen {
     /// The hand and the object may touch, and the object may touch what it stands on.
     pub fn declare_grasp(&mut self, side: Side, object: &str) {
         let object = BodyName::Object(object.to_owned());
-        let models = Arc::clone(self.world.models());
-        let name = |id| {
-            BodyName::Robot(LinkName {
-                id,
-                name: models.robot.link(id).name.as_str().into(),
-            })
-        };
-        let hand = self.body.arm(side).gripper.links().map(name);
+        let models = self.world.models();
+        let hand = models
+            .description
+            .arm(side)
+            .gripper
+            .links()
+            .map(|link| models.robot_body(link));
         self.declared = AllowedPairs::none().and_all(hand, &object);
     }
 
@@ -124,29 +116,30 @@ impl Kitchen {
     }
 
     pub fn drive(&self, x: f64, y: f64, yaw_degrees: f64) -> Drive {
-        Drive::new(
-            Arc::clone(&self.body),
-            &from_xy_yaw(x, y, yaw_degrees.to_radians()),
-        )
+        Drive::new(&from_xy_yaw(x, y, yaw_degrees.to_radians()))
     }
 
     pub fn torso(&self, height: f64) -> MoveTorso {
-        MoveTorso::new(Arc::clone(&self.body), height)
+        MoveTorso::new(height)
     }
 
     pub fn park(&self, left: bool, right: bool) -> MoveJoints {
         let posture = |side: Side, wanted: bool| {
-            wanted.then(|| self.body.arm(side).posture("park").unwrap().to_vec())
+            wanted.then(|| {
+                self.world
+                    .models()
+                    .description
+                    .arm(side)
+                    .posture("park")
+                    .unwrap()
+                    .to_vec()
+            })
         };
-        MoveJoints::new(
-            Arc::clone(&self.body),
-            posture(Side::Left, left),
-            posture(Side::Right, right),
-        )
+        MoveJoints::new(posture(Side::Left, left), posture(Side::Right, right))
     }
 
     pub fn gripper(&self, side: Side, command: GripperCommand) -> MoveGripper {
-        MoveGripper::new(Arc::clone(&self.body), side, command)
+        MoveGripper::new(side, command)
     }
 
     pub fn tcp(&self, side: Side, pose: Pose, path: TcpPath, mode: CollisionMode) -> MoveTcp {
@@ -155,72 +148,78 @@ impl Kitchen {
             Side::Left => (goal, None),
             Side::Right => (None, goal),
         };
-        MoveTcp::new(Arc::clone(&self.body), left, right, path, mode)
+        MoveTcp::new(left, right, path, mode)
     }
 
-    /// The five poses of the grasp of an object, in the frame of the base.
-    pub fn grasp_poses(&self, grasp: &Grasp, object_in_base: &Pose) -> [Pose; 5] {
-        let at = |offset: [f64; 3]| {
-            let t = Translation3::from(grasp.translation) * Translation3::from(offset);
-            let in_object = Pose::from_parts(t, grasp.rotation());
-            object_in_base * in_object * self.body.arms[0].tool_axes
-        };
-        let [pre, second] = grasp.offsets;
-        [
-            at(pre),
-            at(second),
-            at([0.0; 3]),
-            at([0.0, 0.0, 0.15]),
-            at([0.0, 0.0, 0.15]),
-        ]
+    /// The poses of the tool for a grasp of a bottle, in the frame of the bottle's pose.
+    pub fn grasp_poses(&self, side: Side, grasp: &str, bottle: &Pose) -> ToolPoses {
+        let library = GraspLibrary::from_sexp(GRASPS, "grasps.sexp").unwrap();
+        let definition = library.get("bottle", side, grasp).unwrap();
+        let axes = self.world.models().description.arm(side).tool_axes;
+        definition.tool_poses(bottle, &axes).unwrap()
     }
 
     /// The flow of CRAM's picking-up. Stops at the first failure that matters.
-    pub fn pick(&mut self, side: Side, grasp: &Grasp, object: &str, in_base: &Pose) -> Outcome {
-        let [pre, second, at, lift, _] = self.grasp_poses(grasp, in_base);
+    pub fn pick(&mut self, side: Side, grasp: &str, object: &str, in_base: &Pose) -> Outcome {
+        let poses = self.grasp_poses(side, grasp, in_base);
         let mut open = self.gripper(side, GripperCommand::Position(0.10));
-        let mut reach = self.tcp(side, pre, TcpPath::Free, CollisionMode::AvoidAll);
+        let mut reach = self.tcp(side, poses.pregrasp, TcpPath::Free, CollisionMode::AvoidAll);
         let ends = self.run(&mut [&mut open, &mut reach]);
         for (what, end) in ["open", "pregrasp"].iter().zip(&ends) {
             if let Err(failure) = end {
                 eprintln!("{what}: {failure}");
             }
         }
-        self.run_one(self.tcp(side, second, TcpPath::Free, CollisionMode::AvoidAll))?;
+        self.run_one(self.tcp(
+            side,
+            poses.second_pregrasp,
+            TcpPath::Free,
+            CollisionMode::AvoidAll,
+        ))?;
         self.declare_grasp(side, object);
-        self.run_one(self.tcp(side, at, TcpPath::Straight, CollisionMode::AllowHand))?;
+        self.run_one(self.tcp(
+            side,
+            poses.grasp,
+            TcpPath::Straight,
+            CollisionMode::AllowHand,
+        ))?;
         let grip = GripperCommand::Grip {
             object: Some(object.to_owned()),
         };
         let gripped = self.run_one(self.gripper(side, grip))?;
-        take_hold(&self.body, &mut self.world, side, object)?;
-        self.run_one(self.tcp(side, lift, TcpPath::Straight, CollisionMode::AllowHand))?;
+        take_hold(&mut self.world, side, object)?;
+        self.run_one(self.tcp(
+            side,
+            poses.lift,
+            TcpPath::Straight,
+            CollisionMode::AllowHand,
+        ))?;
         Ok(gripped)
     }
 
     /// The flow of CRAM's placing.
-    pub fn place(&mut self, side: Side, grasp: &Grasp, target_in_base: &Pose) -> Outcome {
-        let [pre, second, at, lift, _] = self.grasp_poses(grasp, target_in_base);
-        let object = held_objects(&self.body, &self.world, side).remove(0);
-        self.run_one(self.tcp(side, lift, TcpPath::Free, CollisionMode::AvoidAll))?;
-        let put = self.run_one(Put::new(Arc::clone(&self.body), side, TcpGoal::InBase(at)))?;
+    pub fn place(&mut self, side: Side, grasp: &str, target_in_base: &Pose) -> Outcome {
+        let poses = self.grasp_poses(side, grasp, target_in_base);
+        let object = held_objects(&self.world, side).remove(0);
+        self.run_one(self.tcp(side, poses.lift, TcpPath::Free, CollisionMode::AvoidAll))?;
+        let put = self.run_one(Put::new(side, TcpGoal::InBase(poses.grasp)))?;
         let raised = match put {
             MotionOutcome::Put { raised, .. } => Translation3::new(0.0, 0.0, raised),
             _ => Translation3::identity(),
         };
         // The object is let go before the fingers open, as long as they hold it upright.
-        self.run_one(LetGo::new(Arc::clone(&self.body), side, Some(object)))?;
+        self.run_one(LetGo::new(side, Some(object)))?;
         self.run_one(self.gripper(side, GripperCommand::Open))?;
         self.run_one(self.tcp(
             side,
-            raised * second,
+            raised * poses.second_pregrasp,
             TcpPath::Straight,
             CollisionMode::AllowHand,
         ))?;
         self.declared = AllowedPairs::none();
         self.run_one(self.tcp(
             side,
-            raised * pre,
+            raised * poses.pregrasp,
             TcpPath::Straight,
             CollisionMode::AvoidAll,
         ))?;
@@ -233,40 +232,3 @@ impl Kitchen {
         base.inverse() * self.world.object_pose(object).unwrap()
     }
 }
-
-/// How a bottle is grasped: values of CRAM's object knowledge.
-pub struct Grasp {
-    pub translation: [f64; 3],
-    pub rows: [[f64; 3]; 3],
-    /// First and second pregrasp.
-    pub offsets: [[f64; 3]; 2],
-}
-
-impl Grasp {
-    fn rotation(&self) -> UnitQuaternion<f64> {
-        let [a, b, c] = self.rows;
-        let m = Matrix3::from_rows(&[a.into(), b.into(), c.into()]);
-        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(m))
-    }
-}
-
-pub const LEFT_SIDE: Grasp = Grasp {
-    translation: [0.0, -0.02, 0.005],
-    rows: [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
-    offsets: [[0.0, 0.15, 0.15], [0.0, 0.15, 0.0]],
-};
-pub const RIGHT_SIDE: Grasp = Grasp {
-    translation: [0.0, 0.02, 0.005],
-    rows: [[-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]],
-    offsets: [[0.0, -0.15, 0.15], [0.0, -0.15, 0.0]],
-};
-pub const BACK: Grasp = Grasp {
-    translation: [0.02, 0.0, 0.005],
-    rows: [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-    offsets: [[-0.15, 0.0, 0.15], [-0.15, 0.0, 0.0]],
-};
-pub const FRONT: Grasp = Grasp {
-    translation: [-0.02, 0.0, 0.005],
-    rows: [[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-    offsets: [[0.15, 0.0, 0.15], [0.15, 0.0, 0.0]],
-};
