@@ -2,45 +2,53 @@
 //!
 //! The goal is checked first, then a path is searched for the robot as it stands: with its
 //! arms where they are and with what they hold. Other jobs may move arms and torso
-//! meanwhile. Then the way ahead is looked at again and again; where it has become blocked
-//! the base slows down, stops, and looks for another path as soon as the posture is steady.
+//! meanwhile. While they do, the base keeps a larger distance from everything ahead, slows
+//! down and stops where it cannot, and goes on when the posture is steady; where the way has
+//! become blocked it then looks for another one.
 
-use super::base_path::{BasePathFailure, BasePlace, FloorArea, find_base_path};
+use super::base_path::BasePlace;
+use super::drive_plan::{at_place, is_way_free, plan_drive};
 use super::failure::MotionFailure;
 use super::follower::Follower;
 use super::guard;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use super::patience::Patience;
 use super::trajectory::{AxisGroup, Corners, Trajectory};
-use crate::robot::JointPositions;
+use crate::robot::JointId;
 use crate::spatial::{Pose, pose};
-use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
+use crate::world::physics::STEP_SECONDS;
+use crate::world::{AllowedPairs, CollisionHit, World};
 
-/// How far ahead (s) the way is looked at while driving.
-const LOOK_AHEAD: f64 = 0.6;
+/// Times ahead (s) at which the way is looked at while the posture changes.
+const LOOK_AHEAD: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
 /// Steps between two looks ahead.
 const LOOK_EVERY: u32 = 12;
-/// Robot and world must have been still for this long (s) before another path is searched.
+/// Free distance (m) that is kept ahead while the posture changes.
+const CHANGING_MARGIN: f64 = 0.10;
+/// A posture is steady when it has not changed for this long (s).
 const STEADY: f64 = 0.05;
-/// How often another path is searched before giving up.
+/// Times (s) without any motion of the robot after which a path is searched again; the
+/// failure of the last search is final. The first list is for the very first path.
+const FIRST_TRIES: &[f64] = &[0.1];
+const LATER_TRIES: &[f64] = &[0.05, 0.3, 1.0];
+/// How often a path is found, and then blocked, before giving up.
 const MOST_PLANS: u32 = 8;
-/// What the robot's links add (m) to the distance of their frames from the base's axis.
-const LINK_EXTENT: f64 = 0.15;
-/// Free floor (m) that is searched around robot, goal and furniture.
-const AREA_BORDER: f64 = 1.0;
-/// Places around an occupied goal that are tried (m): spacing and greatest distance.
-const NEARBY: (f64, u32) = (0.05, 16);
 
 /// Drives the base to a pose.
 #[derive(Clone, Debug)]
 pub struct Drive {
     goal: BasePlace,
     way: Option<Follower>,
-    /// The arms and the torso when the way ahead was last looked at.
-    seen: JointPositions,
+    /// Torso and arms in the last tick, and for how long (s) they have been so.
+    posture: Vec<f64>,
+    steady: f64,
     ticks: u32,
+    /// What the robot would come too near to on the way ahead.
+    ahead: Option<CollisionHit>,
+    /// Paths that were found.
     plans: u32,
-    brake: bool,
+    /// Searches without a path since the robot moved last.
+    tries: usize,
     patience: Patience,
     ended: bool,
 }
@@ -52,54 +60,108 @@ impl Drive {
         Self {
             goal: [t.x, t.y, pose::yaw(goal)],
             way: None,
-            seen: JointPositions::default(),
+            posture: Vec::new(),
+            steady: 0.0,
             ticks: 0,
+            ahead: None,
             plans: 0,
-            brake: false,
+            tries: 0,
             patience: Patience::default(),
             ended: false,
         }
     }
 
-    fn plan(&mut self, world: &World) -> Result<Follower, MotionFailure> {
-        self.plans += 1;
+    fn watch_posture(&mut self, world: &World) {
+        let joints = &world.robot_configuration().joints;
+        let posture: Vec<f64> = posture_joints(world).map(|j| joints.get(j)).collect();
+        self.steady = if posture == self.posture {
+            self.steady + STEP_SECONDS
+        } else {
+            0.0
+        };
+        self.posture = posture;
+    }
+
+    fn is_steady(&self) -> bool {
+        self.steady >= STEADY
+    }
+
+    fn plan(&self, world: &World) -> Result<Follower, MotionFailure> {
         let path = plan_drive(world, self.goal)?;
-        let (drive, turn) = (
-            world.models().description.base.drive,
-            world.models().description.base.turn,
-        );
-        let limits = [
-            AxisGroup {
-                axes: 0..2,
-                velocity: drive.velocity,
-                acceleration: drive.acceleration,
-            },
-            AxisGroup::single(2, turn.velocity, turn.acceleration),
-        ];
+        let base = &world.models().description.base;
+        let drive = AxisGroup {
+            axes: 0..2,
+            velocity: base.drive.velocity,
+            acceleration: base.drive.acceleration,
+        };
+        let turn = AxisGroup::single(2, base.turn.velocity, base.turn.acceleration);
+        let limits = [drive, turn];
         let points: Vec<Vec<f64>> = path.iter().map(|p| p.to_vec()).collect();
         let round = Trajectory::new(&points, &limits, Corners::Round);
         // Rounding leaves the path that was checked, so what comes out is checked again.
         let free = points.len() <= 2 || is_way_free(world, &round, world.robot_configuration());
-        Ok(Follower::new(if free {
+        let way = if free {
             round
         } else {
             Trajectory::new(&points, &limits, Corners::Stop)
-        }))
+        };
+        Ok(Follower::new(way))
     }
 
-    /// Looks at the way ahead when arms or torso have moved since the last look.
+    /// Searches a path at once, and later whenever the robot has been still for a while.
+    fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
+        let still = self.patience.wait(world);
+        if still == 0.0 {
+            self.tries = 0;
+        }
+        let times = if self.plans == 0 {
+            FIRST_TRIES
+        } else {
+            LATER_TRIES
+        };
+        let is_first = self.plans == 0 && self.tries == 0 && self.ticks <= 1;
+        let is_time = times.get(self.tries).is_some_and(|t| still >= *t);
+        if !is_first && !is_time {
+            return None;
+        }
+        match self.plan(world) {
+            Ok(way) => {
+                self.plans += 1;
+                self.tries = 0;
+                self.patience.reset();
+                self.ahead = None;
+                self.way = Some(way);
+                None
+            }
+            Err(_) if is_first => None,
+            Err(failure) => {
+                self.tries += 1;
+                let is_last = self.tries >= times.len();
+                is_last.then(|| MotionStatus::failed(failure))
+            }
+        }
+    }
+
+    /// Looks at the way ahead as long as arms or torso move, or something was there.
     fn look_ahead(&mut self, world: &World) {
-        self.ticks += 1;
-        let robot = world.robot_configuration();
-        if !self.ticks.is_multiple_of(LOOK_EVERY) || (robot.joints == self.seen && !self.brake) {
+        if !self.ticks.is_multiple_of(LOOK_EVERY) || (self.is_steady() && self.ahead.is_none()) {
             return;
         }
-        self.seen.clone_from(&robot.joints);
         let Some(way) = &self.way else { return };
+        let margin = if self.is_steady() {
+            -guard::GUARD_DEPTH
+        } else {
+            CHANGING_MARGIN
+        };
+        let robot = world.robot_configuration();
         let mut checker = world.collision_checker();
-        self.brake = [0.25, 0.5, 0.75, 1.0].iter().any(|part| {
-            let there = at_place(robot, &way.ahead(part * LOOK_AHEAD));
-            !checker.is_free(&there, &AllowedPairs::none(), -guard::GUARD_DEPTH)
+        // What is near already does not come from driving on.
+        let near = checker.all_hits(robot, &AllowedPairs::none(), margin);
+        let allowed = near.into_iter().fold(AllowedPairs::none(), |all, hit| {
+            all.and(hit.moving, hit.other)
+        });
+        self.ahead = LOOK_AHEAD.iter().find_map(|seconds| {
+            checker.first_hit(&at_place(robot, &way.ahead(*seconds)), &allowed, margin)
         });
     }
 
@@ -114,47 +176,42 @@ impl Drive {
                 Box::new(stuck),
             )));
         }
-        let next = at_place(world.robot_configuration(), &way.next());
-        match guard::obstacle(world, &next, &AllowedPairs::none()) {
-            None => {
-                if self.brake {
-                    way.brake()
-                } else {
-                    way.advance()
-                }
-                self.patience.reset();
-                world.set_robot_configuration(&next);
-                None
-            }
-            Some(hit) => {
-                way.hold();
-                self.wait(world, hit)
-            }
+        if way.is_stopped()
+            && self.steady >= STEADY
+            && let Some(hit) = self.ahead.take()
+        {
+            return self.give_up_way(hit);
         }
+        let next = at_place(world.robot_configuration(), &way.next());
+        if let Some(hit) = guard::obstacle(world, &next, &AllowedPairs::none()) {
+            return self.give_up_way(hit);
+        }
+        if self.ahead.is_some() {
+            way.brake()
+        } else {
+            way.advance()
+        }
+        world.set_robot_configuration(&next);
+        None
     }
 
-    /// Something is in the way: waits until everything is steady, then looks for another path.
-    fn wait(&mut self, world: &World, hit: CollisionHit) -> Option<MotionStatus> {
-        if self.patience.wait(world) < STEADY {
-            return None;
-        }
-        if self.plans >= MOST_PLANS {
-            let goal = self.goal;
-            return Some(MotionStatus::failed(MotionFailure::DriveBlocked {
-                goal,
-                hit: hit.into(),
-            }));
-        }
-        self.patience.reset();
-        match self.plan(world) {
-            Ok(way) => {
-                self.way = Some(way);
-                self.brake = false;
-                None
-            }
-            Err(failure) => Some(MotionStatus::failed(failure)),
-        }
+    /// Stops; another way is looked for in the next ticks.
+    fn give_up_way(&mut self, hit: CollisionHit) -> Option<MotionStatus> {
+        self.way = None;
+        let (goal, hit) = (self.goal, Box::new(hit));
+        (self.plans >= MOST_PLANS)
+            .then(|| MotionStatus::failed(MotionFailure::DriveBlocked { goal, hit }))
     }
+}
+
+/// The torso's and the arms' joints.
+fn posture_joints(world: &World) -> impl Iterator<Item = JointId> {
+    let description = &world.models().description;
+    let arms = description
+        .arms
+        .iter()
+        .flat_map(|arm| arm.joints().iter().copied());
+    std::iter::once(description.torso.joint).chain(arms)
 }
 
 impl Motion for Drive {
@@ -166,17 +223,16 @@ impl Motion for Drive {
         if self.ended {
             return MotionStatus::Done(MotionOutcome::Arrived);
         }
+        self.ticks += 1;
+        self.watch_posture(world);
+        let mut end = None;
         if self.way.is_none() {
-            self.seen.clone_from(&world.robot_configuration().joints);
-            match self.plan(world) {
-                Ok(way) => self.way = Some(way),
-                Err(failure) => {
-                    self.ended = true;
-                    return MotionStatus::failed(failure);
-                }
-            }
+            end = self.try_plan(world);
         }
-        match self.step(world) {
+        if end.is_none() {
+            end = self.step(world);
+        }
+        match end {
             None => MotionStatus::Running,
             Some(end) => {
                 self.ended = true;
@@ -196,132 +252,4 @@ impl Motion for Drive {
             fraction,
         }
     }
-}
-
-/// The configuration with the base elsewhere; its height stays.
-fn at_place(robot: &RobotConfiguration, place: &[f64]) -> RobotConfiguration {
-    let mut there = robot.clone();
-    if let [x, y, yaw] = *place {
-        there.base = pose::from_xy_yaw(x, y, yaw);
-        there.base.translation.z = robot.base.translation.z;
-    }
-    there
-}
-
-/// Whether the robot touches nothing all along the trajectory, sampled every 4 cm or so.
-fn is_way_free(world: &World, way: &Trajectory, robot: &RobotConfiguration) -> bool {
-    let mut checker = world.collision_checker();
-    let parts = (way.duration() / 0.04).ceil() as u32;
-    (0..=parts).all(|i| {
-        let place = way.position(way.duration() * f64::from(i) / f64::from(parts.max(1)));
-        checker.is_free(&at_place(robot, &place), &AllowedPairs::none(), 0.0)
-    })
-}
-
-/// The path of the base from where it is, for the robot's present posture.
-pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, MotionFailure> {
-    let robot = world.robot_configuration().clone();
-    let t = robot.base.translation;
-    let start = [t.x, t.y, pose::yaw(&robot.base)];
-    let mut checker = world.collision_checker();
-    let none = AllowedPairs::none();
-    // A robot that touches something already must be able to drive away from it.
-    let touching = checker.all_hits(&robot, &none, 0.0);
-    let allowed = touching
-        .into_iter()
-        .filter(|hit| hit.depth < guard::GREATEST_LAG)
-        .fold(AllowedPairs::none(), |all, hit| {
-            all.and(hit.moving, hit.other)
-        });
-    let mut there = robot.clone();
-    let mut poses = Vec::new();
-    let tree = &world.models().robot;
-    tree.forward_kinematics(&Pose::identity(), &robot.joints, &mut poses);
-    let in_base = poses.clone();
-    let mut blocked = |place: &BasePlace, margin: f64| {
-        let base = pose::from_xy_yaw(place[0], place[1], place[2]);
-        there.base = base;
-        for (pose, link) in poses.iter_mut().zip(&in_base) {
-            *pose = base * link;
-        }
-        checker.first_hit_at(&poses, &allowed, margin)
-    };
-    let reach = in_base
-        .iter()
-        .map(|p| libm::hypot(p.translation.x, p.translation.y))
-        .fold(0.0, f64::max);
-    let found = find_base_path(
-        start,
-        goal,
-        floor_area(world, &start, &goal),
-        reach + LINK_EXTENT,
-        &mut |p, m| blocked(p, m).map(Obstacle),
-    );
-    found.map_err(|failure| match failure {
-        BasePathFailure::StartOccupied(hit) => {
-            MotionFailure::DriveStartOccupied { hit: hit.0.into() }
-        }
-        BasePathFailure::GoalOccupied(hit) => {
-            let nearest_free = nearby(&goal)
-                .into_iter()
-                .find(|p| blocked(p, 0.0).is_none());
-            MotionFailure::GoalOccupied {
-                goal,
-                hit: hit.0.into(),
-                nearest_free,
-            }
-        }
-        BasePathFailure::Enclosed { blockers } => MotionFailure::Enclosed {
-            goal,
-            blockers: blockers.into_iter().map(|b| b.0.other).collect(),
-        },
-    })
-}
-
-/// A hit that equals another one with the same obstacle, wherever they touch.
-#[derive(Clone, Debug)]
-struct Obstacle(CollisionHit);
-
-impl PartialEq for Obstacle {
-    fn eq(&self, other: &Self) -> bool {
-        self.0.other == other.0.other
-    }
-}
-
-/// Places around the goal with the goal's heading, the nearest first.
-fn nearby(goal: &BasePlace) -> Vec<BasePlace> {
-    let (spacing, rings) = NEARBY;
-    let mut places = Vec::new();
-    for ring in 1..=rings {
-        for turn in 0..16 {
-            let (s, c) =
-                crate::spatial::trig::sin_cos(f64::from(turn) * std::f64::consts::FRAC_PI_8);
-            let r = f64::from(ring) * spacing;
-            places.push([goal[0] + r * c, goal[1] + r * s, goal[2]]);
-        }
-    }
-    places
-}
-
-/// The floor that holds the robot, its goal and all furniture.
-fn floor_area(world: &World, start: &BasePlace, goal: &BasePlace) -> FloorArea {
-    let links = world.models().kitchen.links();
-    let furniture = links
-        .filter(|(_, link)| !link.collisions.is_empty())
-        .map(|(id, _)| {
-            let t = world.furniture_pose(id).translation;
-            [t.x, t.y]
-        });
-    let ends = [[start[0], start[1]], [goal[0], goal[1]]];
-    let mut area = FloorArea {
-        min: [f64::MAX; 2],
-        max: [f64::MIN; 2],
-    };
-    for p in furniture.chain(ends) {
-        for (i, v) in p.into_iter().enumerate() {
-            area.min[i] = area.min[i].min(v - AREA_BORDER);
-            area.max[i] = area.max[i].max(v + AREA_BORDER);
-        }
-    }
-    area
 }

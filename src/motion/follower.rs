@@ -54,7 +54,12 @@ impl Follower {
     /// Takes the step, and makes the following ones shorter.
     pub(super) fn brake(&mut self) {
         self.time = self.next_time();
-        self.rate = (self.rate - RATE_CHANGE * STEP_SECONDS).max(0.05);
+        self.rate = (self.rate - RATE_CHANGE * STEP_SECONDS).max(0.0);
+    }
+
+    /// Whether braking has come to an end.
+    pub(super) fn is_stopped(&self) -> bool {
+        self.rate <= 0.0
     }
 
     /// Stays here.

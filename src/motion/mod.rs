@@ -8,6 +8,7 @@ mod arm_way;
 pub mod base_path;
 pub mod detect;
 pub mod drive;
+pub mod drive_plan;
 pub mod failure;
 mod follower;
 pub mod gripper;
