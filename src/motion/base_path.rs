@@ -46,7 +46,7 @@ pub enum BasePathFailure<P> {
 }
 
 /// Free distance (m) that a path keeps where it can.
-const MARGIN: f64 = 0.04;
+pub(super) const MARGIN: f64 = 0.04;
 /// No margin is asked for at places this near (m) to the start or the goal.
 const NO_MARGIN_WITHIN: f64 = 0.35;
 /// Between two checked places no part of the robot moves by more than this (m).

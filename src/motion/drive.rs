@@ -45,6 +45,8 @@ pub struct Drive {
     ticks: u32,
     /// What the robot would come too near to on the way ahead.
     ahead: Option<CollisionHit>,
+    /// Whether the posture was steady when that was found out.
+    ahead_is_sure: bool,
     /// Paths that were found.
     plans: u32,
     /// Searches without a path since the robot moved last.
@@ -64,6 +66,7 @@ impl Drive {
             steady: 0.0,
             ticks: 0,
             ahead: None,
+            ahead_is_sure: false,
             plans: 0,
             tries: 0,
             patience: Patience::default(),
@@ -99,7 +102,7 @@ impl Drive {
         let points: Vec<Vec<f64>> = path.iter().map(|p| p.to_vec()).collect();
         let round = Trajectory::new(&points, &limits, Corners::Round);
         // Rounding leaves the path that was checked, so what comes out is checked again.
-        let free = points.len() <= 2 || is_way_free(world, &round, world.robot_configuration());
+        let free = points.len() <= 2 || is_way_free(world, &round);
         let way = if free {
             round
         } else {
@@ -160,6 +163,7 @@ impl Drive {
         let allowed = near.into_iter().fold(AllowedPairs::none(), |all, hit| {
             all.and(hit.moving, hit.other)
         });
+        self.ahead_is_sure = self.is_steady();
         self.ahead = LOOK_AHEAD.iter().find_map(|seconds| {
             checker.first_hit(&at_place(robot, &way.ahead(*seconds)), &allowed, margin)
         });
@@ -177,7 +181,7 @@ impl Drive {
             )));
         }
         if way.is_stopped()
-            && self.steady >= STEADY
+            && self.ahead_is_sure
             && let Some(hit) = self.ahead.take()
         {
             return self.give_up_way(hit);

@@ -1,16 +1,20 @@
 //! Planning a drive: the path of the base for the robot as it stands.
 
-use super::base_path::{BasePathFailure, BasePlace, FloorArea, find_base_path};
+use super::base_path::{BasePathFailure, BasePlace, FloorArea, MARGIN, find_base_path};
 use super::failure::MotionFailure;
-use super::guard;
+use super::touching::TouchingPairs;
 use super::trajectory::Trajectory;
 use crate::spatial::{Pose, pose};
-use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
+use crate::world::{
+    AllowedPairs, BodyName, CollisionChecker, CollisionHit, RobotConfiguration, World,
+};
 
 /// What the robot's links add (m) to the distance of their frames from the base's axis.
 const LINK_EXTENT: f64 = 0.15;
 /// Free floor (m) that is searched around robot, goal and furniture.
 const AREA_BORDER: f64 = 1.0;
+/// Time (s) between two places of a trajectory that are checked.
+const CHECK_EVERY: f64 = 0.04;
 /// Places around an occupied goal that are tried (m): spacing and number of rings.
 const NEARBY: (f64, u32) = (0.05, 16);
 
@@ -24,73 +28,108 @@ pub(super) fn at_place(robot: &RobotConfiguration, place: &[f64]) -> RobotConfig
     there
 }
 
-/// Whether the robot touches nothing all along the trajectory, sampled every 4 cm or so.
-pub(super) fn is_way_free(world: &World, way: &Trajectory, robot: &RobotConfiguration) -> bool {
-    let mut checker = world.collision_checker();
-    let parts = (way.duration() / 0.04).ceil() as u32;
+/// Judges places of the base for the posture that the robot has now.
+pub(super) struct BaseJudge<'w> {
+    checker: CollisionChecker<'w>,
+    robot: RobotConfiguration,
+    /// Poses of the links in the frame of the base, and in the map for the place judged last.
+    in_base: Vec<Pose>,
+    in_map: Vec<Pose>,
+    touching: TouchingPairs,
+}
+
+impl<'w> BaseJudge<'w> {
+    pub(super) fn new(world: &'w World) -> Self {
+        let mut checker = world.collision_checker();
+        let robot = world.robot_configuration().clone();
+        // Parts of the robot do not come nearer to each other by driving.
+        let near = checker.all_hits(&robot, &AllowedPairs::none(), MARGIN);
+        let rides = |body: &BodyName| match body {
+            BodyName::Robot(_) => true,
+            BodyName::Object(name) => world.object(name).is_ok_and(|o| o.attachment().is_some()),
+            BodyName::Furniture(_) | BodyName::Floor => false,
+        };
+        let own = near
+            .into_iter()
+            .filter(|hit| rides(&hit.other))
+            .fold(AllowedPairs::none(), |all, hit| {
+                all.and(hit.moving, hit.other)
+            });
+        let touching = TouchingPairs::new(&mut checker, &robot, &own, 0.0, 0.0);
+        let mut in_base = Vec::new();
+        let tree = &world.models().robot;
+        tree.forward_kinematics(&Pose::identity(), &robot.joints, &mut in_base);
+        Self {
+            checker,
+            robot,
+            in_map: in_base.clone(),
+            in_base,
+            touching,
+        }
+    }
+
+    /// What the robot would come nearer to than the margin (m) at the place.
+    pub(super) fn blocked(&mut self, place: &BasePlace, margin: f64) -> Option<CollisionHit> {
+        self.robot = at_place(&self.robot, place);
+        for (in_map, in_base) in self.in_map.iter_mut().zip(&self.in_base) {
+            *in_map = self.robot.base * in_base;
+        }
+        let near = self
+            .checker
+            .first_hit_at(&self.in_map, self.touching.relaxed(), margin);
+        if near.is_some() || self.touching.is_empty() {
+            return near;
+        }
+        self.touching
+            .first_hit(&mut self.checker, &self.robot, margin)
+    }
+
+    /// The greatest distance (m) of any part of the robot from the axis of the base.
+    fn reach(&self) -> f64 {
+        let places = self.in_base.iter().map(|p| p.translation);
+        places.map(|t| libm::hypot(t.x, t.y)).fold(0.0, f64::max) + LINK_EXTENT
+    }
+}
+
+/// Whether the robot touches nothing all along the trajectory.
+pub(super) fn is_way_free(world: &World, way: &Trajectory) -> bool {
+    let mut judge = BaseJudge::new(world);
+    let parts = (way.duration() / CHECK_EVERY).ceil().max(1.0) as u32;
     (0..=parts).all(|i| {
-        let place = way.position(way.duration() * f64::from(i) / f64::from(parts.max(1)));
-        checker.is_free(&at_place(robot, &place), &AllowedPairs::none(), 0.0)
+        let place = way.position(way.duration() * f64::from(i) / f64::from(parts));
+        let place = <BasePlace>::try_from(place);
+        place.is_ok_and(|place| judge.blocked(&place, 0.0).is_none())
     })
 }
 
 /// The path of the base from where it is, for the robot's present posture.
 pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, MotionFailure> {
-    let robot = world.robot_configuration().clone();
-    let t = robot.base.translation;
-    let start = [t.x, t.y, pose::yaw(&robot.base)];
-    let mut checker = world.collision_checker();
-    let none = AllowedPairs::none();
-    // A robot that touches something already must be able to drive away from it.
-    let touching = checker.all_hits(&robot, &none, 0.0);
-    let allowed = touching
-        .into_iter()
-        .filter(|hit| hit.depth < guard::GREATEST_LAG)
-        .fold(AllowedPairs::none(), |all, hit| {
-            all.and(hit.moving, hit.other)
-        });
-    let mut there = robot.clone();
-    let mut poses = Vec::new();
-    let tree = &world.models().robot;
-    tree.forward_kinematics(&Pose::identity(), &robot.joints, &mut poses);
-    let in_base = poses.clone();
-    let mut blocked = |place: &BasePlace, margin: f64| {
-        let base = pose::from_xy_yaw(place[0], place[1], place[2]);
-        there.base = base;
-        for (pose, link) in poses.iter_mut().zip(&in_base) {
-            *pose = base * link;
-        }
-        checker.first_hit_at(&poses, &allowed, margin)
-    };
-    let reach = in_base
-        .iter()
-        .map(|p| libm::hypot(p.translation.x, p.translation.y))
-        .fold(0.0, f64::max);
-    let found = find_base_path(
-        start,
-        goal,
-        floor_area(world, &start, &goal),
-        reach + LINK_EXTENT,
-        &mut |p, m| blocked(p, m).map(Obstacle),
-    );
+    let base = world.robot_configuration().base;
+    let t = base.translation;
+    let start = [t.x, t.y, pose::yaw(&base)];
+    let area = floor_area(world, &start, &goal);
+    let mut judge = BaseJudge::new(world);
+    let reach = judge.reach();
+    let found = find_base_path(start, goal, area, reach, &mut |place, margin| {
+        judge.blocked(place, margin).map(Obstacle)
+    });
     found.map_err(|failure| match failure {
         BasePathFailure::StartOccupied(hit) => {
             MotionFailure::DriveStartOccupied { hit: hit.0.into() }
         }
         BasePathFailure::GoalOccupied(hit) => {
-            let nearest_free = nearby(&goal)
-                .into_iter()
-                .find(|p| blocked(p, 0.0).is_none());
+            let mut places = nearby(&goal).into_iter();
+            let nearest_free = places.find(|place| judge.blocked(place, 0.0).is_none());
             MotionFailure::GoalOccupied {
                 goal,
                 hit: hit.0.into(),
                 nearest_free,
             }
         }
-        BasePathFailure::Enclosed { blockers } => MotionFailure::Enclosed {
-            goal,
-            blockers: blockers.into_iter().map(|b| b.0.other).collect(),
-        },
+        BasePathFailure::Enclosed { blockers } => {
+            let blockers = blockers.into_iter().map(|b| b.0.other).collect();
+            MotionFailure::Enclosed { goal, blockers }
+        }
     })
 }
 

@@ -27,6 +27,7 @@ mod put_plan;
 pub mod speeds;
 pub mod tcp_line;
 mod tcp_plan;
+mod touching;
 pub mod trajectory;
 pub mod unreachable;
 
