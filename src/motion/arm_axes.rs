@@ -1,6 +1,6 @@
 //! The joints that a motion of the arms sets, as axes of a path.
 
-use super::arm_path::PathAxis;
+use super::arm_path::{ALL_CHAINS, PathAxis};
 use crate::robot::description::Arm;
 use crate::robot::{JointId, KinematicTree, Limits, Side};
 use crate::world::World;
@@ -27,19 +27,19 @@ impl ArmAxes {
             path: Vec::new(),
         };
         if torso {
-            all.add(tree, body.torso.joint, 1.0, 0.0);
+            all.add(tree, body.torso.joint, ALL_CHAINS, 1.0, 0.0);
         }
         for &side in sides {
             let arm = body.arm(side);
             for (joint, reach) in arm.kinematics.joints().iter().zip(reaches(tree, arm)) {
                 let now = world.robot_configuration().joints.get(*joint);
-                all.add(tree, *joint, reach, now);
+                all.add(tree, *joint, side.index() + 1, reach, now);
             }
         }
         all
     }
 
-    fn add(&mut self, tree: &KinematicTree, joint: JointId, reach: f64, now: f64) {
+    fn add(&mut self, tree: &KinematicTree, joint: JointId, chain: usize, reach: f64, now: f64) {
         let turn = Limits {
             lower: now - std::f64::consts::PI,
             upper: now + std::f64::consts::PI,
@@ -50,6 +50,7 @@ impl ArmAxes {
             lower,
             upper,
             reach,
+            chain,
         });
     }
 

@@ -1,7 +1,8 @@
 //! Search for a joint path between two configurations that touches nothing.
 //!
-//! The straight path is tried first, then RRT-Connect (Kuffner and LaValle, 2000), whose
-//! result is shortened. What "touches" means is the caller's: a closure that names what
+//! The straight path is tried first, then RRT-Connect (Kuffner and LaValle, 2000): for one
+//! chain of joints after the other where there are several, then for all at once. The result
+//! is shortened. What "touches" means is the caller's: a closure that names what
 //! blocks a configuration. All randomness comes from the generator that is passed in, so
 //! the same input gives the same path. Nothing here knows of robots or time.
 
@@ -17,7 +18,13 @@ pub struct PathAxis {
     pub upper: f64,
     /// How far (m) any part of the robot moves at most per unit of the axis.
     pub reach: f64,
+    /// The chain of joints that the axis is part of, such as one of two arms: axes of
+    /// different chains move different parts. [`ALL_CHAINS`] for an axis that moves all.
+    pub chain: usize,
 }
+
+/// The chain of an axis that carries all other chains.
+pub const ALL_CHAINS: usize = 0;
 
 /// Why there is no path; `P` is what the caller's check names.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,13 +58,19 @@ impl Default for ArmPathEffort {
         Self {
             resolution: 0.01,
             samples: 1500,
-            shortcuts: 60,
+            shortcuts: 40,
         }
     }
 }
 
 /// Longest new branch of a tree, as a bound on the motion of any part of the robot (m).
 const BRANCH: f64 = 0.5;
+
+/// How much coarser than the result the search is checked.
+const COARSENESS: f64 = 2.5;
+
+/// Number of chains that are told apart, [`ALL_CHAINS`] included.
+const CHAINS: usize = 3;
 
 type Point = Vec<f64>;
 
@@ -84,13 +97,26 @@ pub fn find_arm_path<P>(
     let Some(blocker) = search.edge(start, goal) else {
         return Ok(vec![start.to_vec(), goal.to_vec()]);
     };
-    match search.connect(start, goal, rng) {
-        Some(path) => Ok(search.shorten(path, rng)),
-        None => Err(ArmPathFailure::NotFound {
-            blocker,
-            samples: effort.samples,
-        }),
+    // A coarse search is mostly right; where it is not, a fine one follows.
+    for coarseness in [COARSENESS, 1.0] {
+        search.effort.resolution = effort.resolution * coarseness;
+        let found = search.in_turns(start, goal, rng);
+        let Some(path) = found.or_else(|| search.connect(start, goal, None, rng)) else {
+            break;
+        };
+        let path = search.shorten(path, rng);
+        search.effort.resolution = effort.resolution;
+        if path
+            .windows(2)
+            .all(|leg| search.edge(&leg[0], &leg[1]).is_none())
+        {
+            return Ok(path);
+        }
     }
+    Err(ArmPathFailure::NotFound {
+        blocker,
+        samples: effort.samples,
+    })
 }
 
 /// What blocks the straight path between two free configurations, if anything does.
@@ -131,8 +157,15 @@ enum Growth {
 impl<P> Search<'_, P> {
     /// Bound on how far (m) any part of the robot moves between the two.
     fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
-        let steps = a.iter().zip(b).zip(self.axes);
-        steps.map(|((a, b), axis)| (a - b).abs() * axis.reach).sum()
+        let (mut all, mut chains) = (0.0, [0.0; CHAINS]);
+        for ((a, b), axis) in a.iter().zip(b).zip(self.axes) {
+            let moved = (a - b).abs() * axis.reach;
+            match chains.get_mut(axis.chain) {
+                Some(chain) if axis.chain != ALL_CHAINS => *chain += moved,
+                _ => all += moved,
+            }
+        }
+        chains.into_iter().fold(0.0, f64::max) + all
     }
 
     /// Checks the inner points of the edge, coarse ones first.
@@ -153,17 +186,69 @@ impl<P> Search<'_, P> {
         None
     }
 
-    fn connect(&mut self, start: &[f64], goal: &[f64], rng: &mut Pcg64) -> Option<Vec<Point>> {
+    /// One chain after the other, in either order.
+    fn in_turns(&mut self, start: &[f64], goal: &[f64], rng: &mut Pcg64) -> Option<Vec<Point>> {
+        for order in [[1, 2], [2, 1]] {
+            if !order
+                .iter()
+                .all(|chain| self.axes.iter().any(|axis| axis.chain == *chain))
+            {
+                return None;
+            }
+            // Axes that carry all chains move with the first one.
+            let halfway: Point = (start.iter().zip(goal).zip(self.axes))
+                .map(|((from, to), axis)| if axis.chain == order[1] { *from } else { *to })
+                .collect();
+            if (self.blocked)(&halfway).is_some() {
+                continue;
+            }
+            let Some(mut path) = self.leg(start, &halfway, order[0], rng) else {
+                continue;
+            };
+            let Some(rest) = self.leg(&halfway, goal, order[1], rng) else {
+                continue;
+            };
+            path.extend(rest.into_iter().skip(1));
+            return Some(path);
+        }
+        None
+    }
+
+    /// A path on which only one chain moves.
+    fn leg(
+        &mut self,
+        from: &[f64],
+        to: &[f64],
+        chain: usize,
+        rng: &mut Pcg64,
+    ) -> Option<Vec<Point>> {
+        match self.edge(from, to) {
+            None => Some(vec![from.to_vec(), to.to_vec()]),
+            Some(_) => self.connect(from, to, Some(chain), rng),
+        }
+    }
+
+    /// RRT-Connect, with all axes or with those of one chain alone.
+    fn connect(
+        &mut self,
+        start: &[f64],
+        goal: &[f64],
+        chain: Option<usize>,
+        rng: &mut Pcg64,
+    ) -> Option<Vec<Point>> {
         let mut trees = [
             Tree(vec![(start.to_vec(), 0)]),
             Tree(vec![(goal.to_vec(), 0)]),
         ];
-        for round in 0..self.effort.samples {
+        let share = if chain.is_some() { 3 } else { 1 };
+        for round in 0..self.effort.samples / share {
             let side = round % 2;
-            let sample: Point = self
-                .axes
-                .iter()
-                .map(|a| a.lower + (a.upper - a.lower) * unit(rng))
+            let sample: Point = (self.axes.iter().zip(start).zip(goal))
+                .map(|((axis, from), to)| {
+                    let stays = chain.is_some_and(|c| axis.chain != c) && from == to;
+                    let random = axis.lower + (axis.upper - axis.lower) * unit(rng);
+                    if stays { *from } else { random }
+                })
                 .collect();
             let [from_start, from_goal] = &mut trees;
             let (growing, other) = if side == 0 {
@@ -306,6 +391,7 @@ mod tests {
         lower: -2.0,
         upper: 2.0,
         reach: 1.0,
+        chain: 1,
     }; 2];
 
     fn find(
