@@ -13,8 +13,9 @@ use crate::world::{AllowedPairs, BodyName, ContactForce, World};
 
 /// A goal farther outside of the limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
-/// How long (s) the way may be blocked while nothing moves.
-const PATIENCE: f64 = 0.3;
+/// How long (s) the way may be blocked while nothing moves. Longer than the arms wait before
+/// they look for another way: often it is the own forearm that fingers would touch.
+const PATIENCE: f64 = 1.0;
 /// Force (N) from which on a finger counts as pressing.
 pub const GRIP_FORCE: f64 = 2.0;
 /// How long (s) fingers may press on different things before that counts as a failure.

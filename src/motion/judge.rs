@@ -45,6 +45,23 @@ impl<'w> Judge<'w> {
             .first_hit(&mut self.checker, &self.robot, PLAN_MARGIN)
     }
 
+    /// Whether the posture would also be free with other joints elsewhere than they are now.
+    pub(super) fn is_free_with(&mut self, positions: &[f64], others: &[(JointId, f64)]) -> bool {
+        let joints = &self.robot.joints;
+        let before: Vec<_> = others
+            .iter()
+            .map(|(joint, _)| (*joint, joints.get(*joint)))
+            .collect();
+        for (joint, position) in others {
+            self.robot.joints.set(*joint, *position);
+        }
+        let free = self.blocked(positions).is_none();
+        for (joint, position) in before {
+            self.robot.joints.set(joint, position);
+        }
+        free
+    }
+
     /// The smallest gap (m) in that posture, up to `reach` (m).
     pub(super) fn clearance(&mut self, positions: &[f64], reach: f64) -> f64 {
         self.set(positions);

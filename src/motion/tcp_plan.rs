@@ -9,6 +9,7 @@ use super::arm_axes::ArmAxes;
 use super::arm_path::{ArmPathEffort, blocked_between};
 use super::arm_way::{plan_way, smooth};
 use super::failure::MotionFailure;
+use super::hold::held_objects;
 use super::joint_follow::{JointFollow, with_joints};
 use super::judge::Judge;
 use super::speeds;
@@ -16,7 +17,7 @@ use super::tcp_line::{LineEnd, LinePath, LineTask, TcpLine, tcp_in_base, wrist_i
 use super::trajectory::{AxisGroup, Corners, Trajectory};
 use super::unreachable::{Unreachable, UnreachableReason};
 use crate::robot::description::Speed;
-use crate::robot::{self, Limits, RobotDescription, Side};
+use crate::robot::{self, JointId, Limits, RobotDescription, Side};
 use crate::spatial::{Pose, trig};
 use crate::world::{AllowedPairs, CollisionHit, World};
 
@@ -32,6 +33,8 @@ const SHORT_LIST: usize = 10;
 const ROOM: f64 = 0.05;
 /// What a posture without any room costs, in radians of joint motion.
 const NO_ROOM_COST: f64 = 2.0;
+/// What a posture costs in which the empty hand could not open, in radians of joint motion.
+const SHUT_COST: f64 = 4.0;
 /// Distance (rad) from a joint's limit below which postures cost more, and how much.
 const LIMIT_MARGIN: (f64, f64) = (0.2, 1.0);
 /// How many postures at one height are tried with a long search for a path.
@@ -138,6 +141,16 @@ impl TcpTask<'_> {
         all
     }
 
+    /// The finger joints of the empty hands that are to move, wide open.
+    fn open_hands(&self) -> Vec<(JointId, f64)> {
+        let empty = self.sides().into_iter();
+        let empty = empty.filter(|side| held_objects(self.world, *side).is_empty());
+        let gripper = |side| &self.body().arm(side).gripper;
+        empty
+            .map(|side| (gripper(side).joint, gripper(side).limits.upper))
+            .collect()
+    }
+
     /// The postures at the height that touch nothing, the best one first; or how many there
     /// are and what one of them touches.
     fn free_postures(
@@ -148,15 +161,21 @@ impl TcpTask<'_> {
         let count = postures.len();
         let mut first_hit = None;
         let mut free = Vec::new();
-        for posture in postures {
-            match judge.blocked(&posture.positions) {
-                None => free.push(posture),
-                Some(hit) => first_hit = first_hit.or(Some(hit)),
+        let open_hands = self.open_hands();
+        for mut posture in postures {
+            if let Some(hit) = judge.blocked(&posture.positions) {
+                first_hit = first_hit.or(Some(hit));
+                continue;
             }
+            if !judge.is_free_with(&posture.positions, &open_hands) {
+                posture.cost += SHUT_COST;
+            }
+            free.push(posture);
         }
         if free.is_empty() {
             return Err((count, first_hit));
         }
+        free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         for posture in free.iter_mut().take(SHORT_LIST) {
             let room = judge.clearance(&posture.positions, ROOM);
             posture.cost += NO_ROOM_COST * (1.0 - room.max(0.0) / ROOM);
