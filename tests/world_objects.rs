@@ -88,6 +88,19 @@ fn what_is_spawned_into_an_object_ends_on_top_of_it() {
 }
 
 #[test]
+fn what_is_spawned_into_a_wall_ends_beside_it() {
+    let mut world = world();
+    let report = spawn(&mut world, "THING", "bottle", &at(-2.5, 2.98, 0.11));
+    assert_eq!(report.blocked_by.unwrap().to_string(), "kitchen_wall_3");
+    assert!(
+        report.shifted > 0.0 && report.shifted < 0.1,
+        "{}",
+        report.shifted
+    );
+    assert!((report.lifted + 0.0092).abs() < 1e-3, "{}", report.lifted);
+}
+
+#[test]
 fn what_rested_on_a_removed_object_falls() {
     let mut world = world();
     spawn(&mut world, "BELOW", "cube", &at(-1.4, -1.05, 0.755));
@@ -150,7 +163,8 @@ proptest! {
             world.step();
             let now = world.object_pose("THING").unwrap().translation.z;
             let speed = (now - before) * 240.0;
-            prop_assert!(speed < 1.0, "{name} flies up at {speed} m/s from {report:?}");
+            // Things that topple rise a little; things that are thrown rise fast.
+            prop_assert!(speed < 1.5, "{name} flies up at {speed} m/s from {report:?}");
             before = now;
         }
         prop_assert!(before > -0.01, "{name} fell through the floor");

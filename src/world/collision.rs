@@ -251,3 +251,94 @@ impl<'w> CollisionChecker<'w> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use parry3d_f64::query;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::robot::Side;
+    use crate::spatial::pose::from_xy_yaw;
+    use crate::world::solid::to_parry;
+    use crate::world::{Models, World};
+
+    fn world() -> World {
+        let models = Arc::new(Models::pr2_in_kitchen().unwrap());
+        let joints = models.description.start_positions(&models.robot);
+        let base = Pose::identity();
+        World::new(models, RobotConfiguration { base, joints })
+    }
+
+    /// The smallest distance (m) between the robot and the furniture, by looking at all pairs.
+    fn distance_by_brute_force(world: &World, robot: &RobotConfiguration) -> f64 {
+        let models = world.models();
+        let mut poses = Vec::new();
+        models
+            .robot
+            .forward_kinematics(&robot.base, &robot.joints, &mut poses);
+        let mut nearest = f64::INFINITY;
+        for link in &models.robot_geometry.solid_links {
+            let link_pose = to_parry(&poses[link.link.index()]);
+            for solid in &link.solids {
+                let pose = link_pose * solid.pose;
+                for other in world.state.furniture.all() {
+                    // The library's own distance of two boxes is off by centimetres.
+                    let (one, two) = (&*solid.shape, &*other.solid.shape);
+                    let near = query::contact(&pose, one, &other.pose, two, 1.0).unwrap();
+                    nearest = near.map_or(nearest, |c| nearest.min(c.dist));
+                }
+            }
+        }
+        nearest
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        #[test]
+        fn the_search_finds_what_looking_at_all_pairs_finds(
+            x in -3.5f64..1.5,
+            y in -1.8f64..2.9,
+            yaw in -3.1f64..3.1,
+            torso in 0.0f64..0.33,
+            pan in -0.7f64..0.7,
+            elbow in -2.1f64..0.0,
+        ) {
+            let world = world();
+            let models = world.models();
+            let mut robot = world.robot_configuration().clone();
+            robot.base = from_xy_yaw(x, y, yaw);
+            robot.joints.set(models.description.torso.joint, torso);
+            let arm = models.description.arm(Side::Right);
+            robot.joints.set(arm.joints()[0], pan);
+            robot.joints.set(arm.joints()[3], elbow);
+
+            let floor = models.robot.links().map(|(link, _)| models.robot_body(link));
+            let allowed = AllowedPairs::none().and_all(floor, &BodyName::Floor);
+            let expected = distance_by_brute_force(&world, &robot);
+            let mut checker = world.collision_checker();
+            let found = checker.clearance(&robot, &allowed, 0.5);
+            match &found {
+                None => prop_assert!(expected >= 0.5),
+                Some(near) => prop_assert!(
+                    (near.distance - expected).abs() < 1e-6,
+                    "{near:?} instead of {expected}"
+                ),
+            }
+            if expected < 0.0 {
+                prop_assert!(!checker.is_free(&robot, &allowed, 0.0));
+                prop_assert!(checker.first_hit(&robot, &allowed, 0.0).is_some());
+            }
+        }
+    }
+
+    #[test]
+    fn a_world_can_be_handed_to_another_thread() {
+        fn needs_send<T: Send + Sync>(_: &T) {}
+        needs_send(&world());
+        needs_send(&world().snapshot());
+    }
+}

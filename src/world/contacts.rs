@@ -63,7 +63,7 @@ impl World {
             let mut forces: Vec<ContactForce> = Vec::new();
             for &link in finger {
                 let own = PartKey::Robot(super::part_key::index(link)).code();
-                let Some(body) = self.body_of_link(link) else {
+                let Some((body, _)) = self.body_of_link(link) else {
                     continue;
                 };
                 for one in self.forces_on(body, |contact| contact.own == own) {

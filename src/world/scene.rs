@@ -18,14 +18,14 @@ use super::error::WorldError;
 use super::hash::Hasher;
 use super::link_geometry::TreeGeometry;
 use super::models::Models;
-use super::object::{Attachment, Object};
+use super::object::Object;
 use super::obstacles::Obstacles;
 use super::part_key::{PartKey, index};
 use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::to_parry;
 use crate::closest_name::closest_name;
-use crate::robot::{JointId, JointPositions, KinematicTree, LinkId};
+use crate::robot::{JointPositions, LinkId};
 use crate::spatial::Pose;
 
 /// A kitchen with a robot and objects in it.
@@ -36,8 +36,8 @@ pub struct World {
     pub(super) models: Arc<Models>,
     pub(super) physics: Physics,
     pub(super) state: State,
-    robot_bodies: Arc<[BodyHandle]>,
-    kitchen_bodies: Arc<[Option<BodyHandle>]>,
+    pub(super) robot_bodies: Arc<[BodyHandle]>,
+    pub(super) kitchen_bodies: Arc<[Option<BodyHandle>]>,
 }
 
 /// What a world knows besides the state of the physics engine.
@@ -45,10 +45,10 @@ pub struct World {
 pub(super) struct State {
     pub(super) robot: RobotConfiguration,
     pub(super) robot_poses: Vec<Pose>,
-    robot_moves: bool,
+    pub(super) robot_moves: bool,
     pub(super) kitchen: JointPositions,
     pub(super) kitchen_poses: Vec<Pose>,
-    kitchen_moves: bool,
+    pub(super) kitchen_moves: bool,
     pub(super) furniture: Arc<Obstacles>,
     pub(super) objects: IndexMap<String, Object>,
     pub(super) next_number: u32,
@@ -181,7 +181,7 @@ impl World {
                 return true;
             }
         }
-        self.state.objects.is_empty()
+        self.is_at_rest()
     }
 
     /// Whether no object moves faster than 2 mm/s or turns faster than 0.02 rad/s.
@@ -201,141 +201,6 @@ impl World {
     pub fn time(&self) -> f64 {
         // Exact for any number of steps that can be simulated.
         self.state.steps as f64 * STEP_SECONDS
-    }
-
-    /// Where the robot stands and how its joints are set.
-    pub fn robot_configuration(&self) -> &RobotConfiguration {
-        &self.state.robot
-    }
-
-    /// Makes the robot move to the configuration during the next step. Meant for one tick of
-    /// a smooth motion: the way there is not checked.
-    pub fn set_robot_configuration(&mut self, configuration: &RobotConfiguration) {
-        if self.state.robot != *configuration {
-            self.place_robot_links(configuration);
-            self.state.robot_moves = true;
-        }
-    }
-
-    /// Puts the robot into the configuration at once, with what it holds. An edit of the
-    /// world, not a motion.
-    pub fn teleport_robot(&mut self, configuration: &RobotConfiguration) {
-        self.place_robot_links(configuration);
-        self.state.robot_moves = false;
-        for (body, group) in self
-            .robot_bodies
-            .iter()
-            .zip(&self.models.robot_geometry.groups)
-        {
-            self.physics
-                .place(*body, &pose_of(&self.state.robot_poses, group.root));
-        }
-        for object in self.state.objects.values() {
-            if let Some(attachment) = &object.attachment {
-                let link = pose_of(&self.state.robot_poses, attachment.link);
-                self.physics.place(object.body, &(link * attachment.at));
-            }
-        }
-    }
-
-    fn place_robot_links(&mut self, configuration: &RobotConfiguration) {
-        self.state.robot.clone_from(configuration);
-        self.models.robot.forward_kinematics(
-            &configuration.base,
-            &configuration.joints,
-            &mut self.state.robot_poses,
-        );
-    }
-
-    /// Pose of a link of the robot in the map frame.
-    pub fn link_pose(&self, link: LinkId) -> Pose {
-        pose_of(&self.state.robot_poses, link)
-    }
-
-    /// Poses of all links of the robot in the map frame, at [`LinkId::index`].
-    pub fn link_poses(&self) -> &[Pose] {
-        &self.state.robot_poses
-    }
-
-    /// Pose of a link of the kitchen in the map frame.
-    pub fn furniture_pose(&self, link: LinkId) -> Pose {
-        pose_of(&self.state.kitchen_poses, link)
-    }
-
-    /// Positions of all joints of the kitchen (rad or m).
-    pub fn kitchen_joints(&self) -> &JointPositions {
-        &self.state.kitchen
-    }
-
-    /// Position of a joint of the kitchen (rad or m).
-    pub fn kitchen_joint(&self, name: &str) -> Result<f64, WorldError> {
-        let joint = self.moving_kitchen_joint(name)?;
-        Ok(self.models.kitchen.position(&self.state.kitchen, joint))
-    }
-
-    /// Makes a drawer or door move to the position (rad or m) during the next step, taking
-    /// along what is in it. The position is brought into the joint's limits and returned.
-    pub fn set_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
-        let position = self.change_kitchen_joint(name, position)?;
-        self.state.kitchen_moves = true;
-        Ok(position)
-    }
-
-    /// Puts a drawer or door at the position (rad or m) at once; what is in it stays behind.
-    /// The position is brought into the joint's limits and returned.
-    pub fn teleport_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
-        let position = self.change_kitchen_joint(name, position)?;
-        for (body, group) in self
-            .kitchen_bodies
-            .iter()
-            .zip(&self.models.kitchen_geometry.groups)
-        {
-            if let (Some(body), true) = (body, group.moves) {
-                self.physics
-                    .place(*body, &pose_of(&self.state.kitchen_poses, group.root));
-            }
-        }
-        Ok(position)
-    }
-
-    fn change_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
-        let joint = self.moving_kitchen_joint(name)?;
-        if !position.is_finite() {
-            return Err(WorldError::ImpossibleNumber {
-                quantity: "the position",
-                name: name.to_owned(),
-                value: position,
-            });
-        }
-        let limits = self.models.kitchen.joint(joint).limits;
-        let position = limits.map_or(position, |l| l.clamp(position));
-        self.state.kitchen.set(joint, position);
-        self.models.kitchen.forward_kinematics(
-            &Pose::identity(),
-            &self.state.kitchen,
-            &mut self.state.kitchen_poses,
-        );
-        self.state.furniture = Arc::new(Obstacles::new(
-            &self.models.kitchen_geometry,
-            &self.state.kitchen_poses,
-        ));
-        Ok(position)
-    }
-
-    fn moving_kitchen_joint(&self, name: &str) -> Result<JointId, WorldError> {
-        let tree: &KinematicTree = &self.models.kitchen;
-        tree.joint_named(name)
-            .filter(|j| tree.joint(*j).is_actuated())
-            .ok_or_else(|| WorldError::UnknownKitchenJoint {
-                name: name.to_owned(),
-                closest: closest_name(
-                    name,
-                    tree.joints()
-                        .filter(|(_, j)| j.is_actuated())
-                        .map(|(_, j)| j.name.as_str()),
-                )
-                .map(str::to_owned),
-            })
     }
 
     /// All objects in the order in which they appeared.
@@ -368,45 +233,14 @@ impl World {
         }
     }
 
-    /// Welds the object softly to the robot's link, where it is now. An object that was
-    /// attached elsewhere is let go there.
-    pub fn attach(&mut self, name: &str, link: LinkId) -> Result<(), WorldError> {
-        self.detach(name)?;
-        let object = self.object(name)?;
-        let (body, pose) = (object.body, self.physics.pose(object.body));
-        let link_pose = self.link_pose(link);
+    /// The body of the engine that the link is part of, and the link whose frame it has.
+    pub(super) fn body_of_link(&self, link: LinkId) -> Option<(BodyHandle, LinkId)> {
         let geometry = &self.models.robot_geometry;
-        // Every link has a group, and every group of the robot a body.
-        let group = geometry.group_of[link.index()];
-        let root = pose_of(&self.state.robot_poses, geometry.groups[group].root);
-        let weld = self
-            .physics
-            .weld(self.robot_bodies[group], &(root.inverse() * pose), body);
-        let at = link_pose.inverse() * pose;
-        if let Some(object) = self.state.objects.get_mut(name) {
-            object.attachment = Some(Attachment { link, at, weld });
-        }
-        Ok(())
-    }
-
-    /// Lets go of the object. Returns the link that held it.
-    pub fn detach(&mut self, name: &str) -> Result<Option<LinkId>, WorldError> {
-        self.object(name)?;
-        let Some(object) = self.state.objects.get_mut(name) else {
-            return Ok(None);
-        };
-        let held = object.attachment.take();
-        if let Some(attachment) = held {
-            self.physics.unweld(attachment.weld);
-            self.physics.wake(object.body);
-        }
-        Ok(held.map(|a| a.link))
-    }
-
-    /// The body of the engine that the link is part of.
-    pub(super) fn body_of_link(&self, link: LinkId) -> Option<BodyHandle> {
-        let group = *self.models.robot_geometry.group_of.get(link.index())?;
-        self.robot_bodies.get(group).copied()
+        let group = *geometry.group_of.get(link.index())?;
+        Some((
+            *self.robot_bodies.get(group)?,
+            geometry.groups.get(group)?.root,
+        ))
     }
 
     /// A judge of robot configurations for the world as it is now.
@@ -482,7 +316,7 @@ fn steps_in(seconds: f64) -> u64 {
 }
 
 /// The pose of the link; identity for a link of another tree.
-fn pose_of(poses: &[Pose], link: LinkId) -> Pose {
+pub(super) fn pose_of(poses: &[Pose], link: LinkId) -> Pose {
     poses.get(link.index()).copied().unwrap_or_default()
 }
 

@@ -1,8 +1,8 @@
 //! Putting objects into the world, moving them about and taking them out.
 //!
-//! An object that would overlap something is lifted until it is free and set down exactly on
-//! what is below; one that hovers closely is set down too. So nothing is ever thrown out of
-//! furniture by the physics engine. These are edits of the world: no time passes.
+//! An object that would overlap something is lifted until it is free, or shifted aside where
+//! that takes less, and set down exactly on what is below; one that hovers closely is set
+//! down too. So nothing is ever thrown out of furniture by the physics engine. These are edits of the world: no time passes.
 
 use std::sync::Arc;
 
@@ -18,14 +18,36 @@ use super::part_key::PartKey;
 use super::physics::BodyKind;
 use super::scene::World;
 use super::separation::{lowest_point, separation};
-use super::solid::{Solid, bounds_of, to_parry};
+use super::solid::{Solid, bounds_of, from_parry_vector, to_parry};
 use crate::spatial::Pose;
 
 /// Steps (m) in which an overlapping object is lifted while looking for free space.
 const LIFT_STEP: f64 = 0.005;
 
+/// Lift (m) up to which an object is not shifted aside.
+const NEAR_LIFT: f64 = 0.6;
+
 /// Highest lift (m): above everything in a kitchen.
 const LIFT_LIMIT: f64 = 4.0;
+
+/// Steps (m) and limit (m) of shifts to the side.
+const SHIFT_STEP: f64 = 0.02;
+const SHIFT_LIMIT: f64 = 0.3;
+
+/// Where to look for free space beside an object.
+const DIRECTIONS: [(f64, f64); 8] = {
+    const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    [
+        (1.0, 0.0),
+        (-1.0, 0.0),
+        (0.0, 1.0),
+        (0.0, -1.0),
+        (D, D),
+        (-D, D),
+        (-D, -D),
+        (D, -D),
+    ]
+};
 
 /// Gap (m) up to which a hovering object is set down instead of dropped.
 const SNAP_GAP: f64 = 0.05;
@@ -42,6 +64,8 @@ pub struct SpawnReport {
     pub pose: Pose,
     /// How much higher (m) that is than asked for; negative when it was set down.
     pub lifted: f64,
+    /// How far (m) to the side that is.
+    pub shifted: f64,
     /// What the object would have overlapped where it was asked for.
     pub blocked_by: Option<BodyName>,
     /// What the object was set down on; `None` when it is left to fall.
@@ -168,7 +192,7 @@ impl World {
         }
     }
 
-    /// The place for the solids that is nearest to the pose along the vertical.
+    /// A free place for the solids near the pose: above it, else beside it, else high above.
     fn find_place(
         &self,
         own: PartKey,
@@ -177,36 +201,66 @@ impl World {
         pose: &Pose,
     ) -> SpawnReport {
         let wanted = to_parry(pose);
-        let neighbours = self.neighbours(own, &bounds.transform_by(&wanted));
+        let bounds = bounds.transform_by(&wanted);
+        let neighbours = self.neighbours(own, &bounds.loosened(TOUCH));
         let blocked_by = first_overlap(solids, &wanted, &neighbours);
-        let mut height = 0.0;
-        let mut place = wanted;
-        let mut free = blocked_by.is_none();
-        while !free && height < LIFT_LIMIT {
-            height += LIFT_STEP;
-            place.translation.z = wanted.translation.z + height;
-            free = first_overlap(solids, &place, &neighbours).is_none();
-        }
-        let landing = drop_onto(solids, &place, &neighbours)
+        let is_free = |place: &ParryPose| first_overlap(solids, place, &neighbours).is_none();
+        let place = if blocked_by.is_none() {
+            Some(wanted)
+        } else {
+            raised(&wanted, LIFT_STEP, NEAR_LIFT, is_free)
+                .or_else(|| self.beside(own, solids, &bounds, &wanted))
+                .or_else(|| raised(&wanted, LIFT_STEP, LIFT_LIMIT, is_free))
+        };
+        // Nothing in a kitchen is as high as the last attempt.
+        let place = place.unwrap_or(wanted);
+        let around = self.neighbours(own, &bounds.loosened(SHIFT_LIMIT));
+        let landing = drop_onto(solids, &place, &around)
             .filter(|(gap, _)| blocked_by.is_some() || *gap <= SNAP_GAP);
-        let mut lifted = place.translation.z - wanted.translation.z;
-        if let Some((gap, _)) = landing {
-            lifted -= gap;
-        }
+        let fall = landing.map_or(0.0, |(gap, _)| gap);
+        let way = place.translation - wanted.translation - Vector::Z * fall;
         let mut pose = *pose;
-        pose.translation.z += lifted;
+        pose.translation.vector += from_parry_vector(way);
         SpawnReport {
             is_new: false,
             pose,
-            lifted,
+            lifted: way.z,
+            shifted: Vector::new(way.x, way.y, 0.0).length(),
             blocked_by: blocked_by.and_then(|key| self.body_name(key)),
             support: landing.and_then(|(_, key)| self.body_name(key)),
         }
     }
 
-    /// Everything above, below and around the bounds, the floor not included.
+    /// The nearest free place to the side of the wanted one, lifted a little where needed.
+    fn beside(
+        &self,
+        own: PartKey,
+        solids: &[Solid],
+        bounds: &Aabb,
+        wanted: &ParryPose,
+    ) -> Option<ParryPose> {
+        let neighbours = self.neighbours(own, &bounds.loosened(SHIFT_LIMIT));
+        let is_free = |place: &ParryPose| first_overlap(solids, place, &neighbours).is_none();
+        let mut distance = SHIFT_STEP;
+        while distance <= SHIFT_LIMIT {
+            for (x, y) in DIRECTIONS {
+                let mut place = *wanted;
+                place.translation += Vector::new(x, y, 0.0) * distance;
+                if is_free(&place) {
+                    return Some(place);
+                }
+                if let Some(place) = raised(&place, SHIFT_STEP, NEAR_LIFT, is_free) {
+                    return Some(place);
+                }
+            }
+            distance += SHIFT_STEP;
+        }
+        None
+    }
+
+    /// Everything above, below and in the bounds, the floor not included.
     fn neighbours(&self, own: PartKey, bounds: &Aabb) -> Vec<Neighbour> {
-        let mut column = bounds.loosened(TOUCH);
+        let mut column = *bounds;
         column.mins.z = f64::NEG_INFINITY;
         column.maxs.z = f64::INFINITY;
         let mut found = Vec::new();
@@ -266,6 +320,23 @@ fn check_finite(name: &str, pose: &Pose) -> Result<(), WorldError> {
             value,
         }),
     }
+}
+
+/// The lowest free place above, in steps of `step` (m) up to `limit` (m).
+fn raised(
+    from: &ParryPose,
+    step: f64,
+    limit: f64,
+    is_free: impl Fn(&ParryPose) -> bool,
+) -> Option<ParryPose> {
+    let mut place = *from;
+    while place.translation.z < from.translation.z + limit {
+        place.translation.z += step;
+        if is_free(&place) {
+            return Some(place);
+        }
+    }
+    None
 }
 
 /// The first body that the solids overlap at the pose.
