@@ -58,12 +58,9 @@ fn handles_move_into_the_room_when_something_opens() {
         let Some(limits) = joint.limits.filter(|_| !joint.name.contains("knob")) else {
             continue;
         };
-        let handle = tree
-            .link(joint.child)
-            .children
-            .iter()
-            .map(|j| tree.joint(*j).child);
-        let handle = handle.last().expect("what opens has a handle");
+        let carried = tree.link(joint.child).children.last();
+        let carried = carried.expect("what opens has a handle");
+        let handle = tree.joint(*carried).child;
         assert!(tree.link(handle).name.ends_with("_handle"));
         let mut q = tree.zero_positions();
         let closed = tree.link_pose(handle, &Pose::identity(), &q);

@@ -19,6 +19,24 @@ const PLACES: usize = 9;
 /// Steps of refinement; each narrows the stretch to 62 %.
 const REFINEMENTS: usize = 8;
 
+/// A solution with its place in the solution set.
+#[derive(Clone, Debug)]
+struct Candidate {
+    stretch: Stretch,
+    share: f64,
+    /// Sum of the squared joint differences (rad²) from the seed.
+    distance: f64,
+    positions: ArmPositions,
+}
+
+/// The nearer of two candidates, the first one when they are equally near.
+fn nearer(a: Option<Candidate>, b: Option<Candidate>) -> Option<Candidate> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.distance < a.distance { b } else { a }),
+        (a, b) => a.or(b),
+    }
+}
+
 /// Inverse kinematics of one arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArmKinematics {
@@ -79,71 +97,66 @@ impl ArmKinematics {
 
     /// A solution near `seed`: continuous joints are within half a turn of the seed.
     ///
-    /// Near means that the sum of the squared joint differences is least, up to the
-    /// width of the search on each part of the solution set. When there is no solution
-    /// at all the answer says why.
+    /// Near means that the sum of the squared joint differences is least, among places
+    /// spread over all parts of the solution set, refined around the best one. When there
+    /// is no solution at all the answer says why.
     pub fn nearest(&self, wrist: &Pose, seed: &ArmPositions) -> Result<ArmPositions, Unreachable> {
         let curve = ElbowCurve::new(&self.chain, wrist);
-        let mut best: Option<(f64, ArmPositions)> = None;
+        let mut best: Option<Candidate> = None;
         for stretch in curve.stretches() {
-            let found = self.nearest_on(&curve, &stretch, seed);
-            if let Some(found) = found.filter(|f| best.is_none_or(|b| f.0 < b.0)) {
-                best = Some(found);
+            for i in 0..PLACES {
+                let share = i as f64 / (PLACES - 1) as f64;
+                let found = self.candidate(&curve, stretch, share, seed);
+                best = nearer(best, found);
             }
         }
         match best {
-            Some((_, positions)) => Ok(positions),
+            Some(best) => Ok(self.refine(&curve, best, seed).positions),
             None => Err(Unreachable::explain(&self.chain, &curve)),
         }
     }
 
-    /// The nearest solution on one stretch, with its squared distance from the seed.
-    fn nearest_on(
+    fn candidate(
         &self,
         curve: &ElbowCurve<'_>,
-        stretch: &Stretch,
+        stretch: Stretch,
+        share: f64,
         seed: &ArmPositions,
-    ) -> Option<(f64, ArmPositions)> {
-        let at = |share: f64| -> Option<(f64, ArmPositions)> {
-            let q = curve.positions(stretch.lift_at(share), stretch.bend)?;
-            let q = self.toward_seed(self.within_limits(q)?, seed);
-            let distance = q.iter().zip(seed).map(|(a, b)| (a - b) * (a - b)).sum();
-            Some((distance, q))
-        };
-        let mut best: Option<(f64, (f64, ArmPositions))> = None;
-        for i in 0..PLACES {
-            let share = i as f64 / (PLACES - 1) as f64;
-            if let Some(found) = at(share).filter(|f| best.is_none_or(|b| f.0 < b.1.0)) {
-                best = Some((share, found));
-            }
-        }
-        let (share, mut found) = best?;
-        // Golden-section search between the neighbours of the best place.
-        let width = 1.0 / (PLACES - 1) as f64;
-        let (mut lo, mut hi) = ((share - width).max(0.0), (share + width).min(1.0));
+    ) -> Option<Candidate> {
+        let positions = curve.positions(stretch.lift_at(share), stretch.bend)?;
+        let positions = self.toward_seed(self.within_limits(positions)?, seed);
+        let differences = positions.iter().zip(seed).map(|(a, b)| a - b);
+        Some(Candidate {
+            stretch,
+            share,
+            distance: differences.map(|d| d * d).sum(),
+            positions,
+        })
+    }
+
+    /// Golden-section search between the neighbours of the best place.
+    fn refine(&self, curve: &ElbowCurve<'_>, best: Candidate, seed: &ArmPositions) -> Candidate {
         const GOLDEN: f64 = 0.618_033_988_749_894_8;
-        let distance = |p: &Option<(f64, ArmPositions)>| p.as_ref().map_or(f64::INFINITY, |p| p.0);
-        let (mut left, mut right) = (hi - GOLDEN * (hi - lo), lo + GOLDEN * (hi - lo));
-        let (mut at_left, mut at_right) = (at(left), at(right));
+        let at = |share: f64| self.candidate(curve, best.stretch, share, seed);
+        let distance = |c: &Option<Candidate>| c.as_ref().map_or(f64::INFINITY, |c| c.distance);
+        let width = 1.0 / (PLACES - 1) as f64;
+        let mut lo = (best.share - width).max(0.0);
+        let mut hi = (best.share + width).min(1.0);
+        let mut left = at(hi - GOLDEN * (hi - lo));
+        let mut right = at(lo + GOLDEN * (hi - lo));
         for _ in 0..REFINEMENTS {
-            if distance(&at_left) <= distance(&at_right) {
-                hi = right;
-                (right, at_right) = (left, at_left);
-                left = hi - GOLDEN * (hi - lo);
-                at_left = at(left);
+            if distance(&left) <= distance(&right) {
+                hi = lo + GOLDEN * (hi - lo);
+                right = left;
+                left = at(hi - GOLDEN * (hi - lo));
             } else {
-                lo = left;
-                (left, at_left) = (right, at_right);
-                right = lo + GOLDEN * (hi - lo);
-                at_right = at(right);
+                lo = hi - GOLDEN * (hi - lo);
+                left = right;
+                right = at(lo + GOLDEN * (hi - lo));
             }
         }
-        for refined in [at_left, at_right].into_iter().flatten() {
-            if refined.0 < found.0 {
-                found = refined;
-            }
-        }
-        Some(found)
+        let refined = nearer(left, right);
+        nearer(Some(best.clone()), refined).unwrap_or(best)
     }
 
     /// The positions put onto limits that they break by rounding only; `None` when they

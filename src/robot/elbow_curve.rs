@@ -301,7 +301,11 @@ impl<'a> ElbowCurve<'a> {
             let cosine = middle.map(|p| p.forearm.column(0).dot(&self.rotation.column(0)));
             let keeps = |c: f64| c >= cosines[0] - SLACK && c <= cosines[1] + SLACK;
             if to > from && cosine.is_some_and(keeps) {
-                kept.push(Stretch { from, to, ..whole });
+                match kept.last_mut() {
+                    // A cut that turned out to be none.
+                    Some(last) if last.bend == whole.bend && last.to == from => last.to = to,
+                    _ => kept.push(Stretch { from, to, ..whole }),
+                }
             }
         }
     }

@@ -84,6 +84,9 @@ pub enum UrdfProblem {
     /// An element is never closed.
     #[error("<{0}> is never closed; add </{0}>")]
     Unclosed(String),
+    /// Elements within elements without end.
+    #[error("<{0}> is nested more than {1} deep; a URDF needs five levels")]
+    TooDeep(String, usize),
     /// The file's outermost element is not a robot.
     #[error("expected <robot name=\"…\"> as the outermost element, found {0}")]
     NotARobot(String),

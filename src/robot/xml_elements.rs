@@ -32,6 +32,9 @@ impl<'a> Element<'a> {
     }
 }
 
+/// Deepest nesting of elements. A URDF needs five; the URDF reader recurses on the stack.
+const DEEPEST: usize = 64;
+
 /// All elements of `text` in the order of their start tags, or the byte offset of the
 /// first thing that is not well-formed and what it is.
 pub(super) fn elements(text: &str) -> Result<Vec<Element<'_>>, (usize, UrdfProblem)> {
@@ -151,6 +154,10 @@ impl<'a> Scanner<'a> {
                 return Ok(());
             }
             if rest.starts_with('>') {
+                if self.open.len() >= DEEPEST {
+                    let problem = UrdfProblem::TooDeep(name.to_owned(), DEEPEST);
+                    return Err((start, problem));
+                }
                 self.at += 1;
                 self.open.push(self.elements.len());
                 self.elements.push(element);

@@ -304,3 +304,170 @@ fn rotation_rows(node: Node<'_>) -> Result<[[f64; 3]; 3], DataError> {
     sound.map_err(|e| node.error(DataProblem::Invalid(e.to_string())))?;
     Ok(rotation)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spatial::pose::from_xyz_rpy;
+
+    fn library() -> GraspLibrary {
+        GraspLibrary::from_sexp(GRASPS, "grasps.sexp").expect("the built-in library is right")
+    }
+
+    fn definition(rotation: [[f64; 3]; 3]) -> GraspDefinition {
+        GraspDefinition {
+            translation: [0.0; 3],
+            rotation,
+            pregrasp: [0.0; 3],
+            second_pregrasp: [0.0; 3],
+            lift: [0.0; 3],
+            second_lift: [0.0; 3],
+        }
+    }
+
+    /// A gripper frame whose z axis is the tool's x axis, as that of the PR2.
+    fn tool_axes() -> UnitQuaternion<f64> {
+        let turn = definition([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
+        turn.orientation().expect("a rotation")
+    }
+
+    fn place(pose: &Pose) -> [f64; 3] {
+        // To the nanometre, without a negative zero.
+        let rounded = |x: f64| (x * 1e9).round() / 1e9 + 0.0;
+        [0, 1, 2].map(|i| rounded(pose.translation.vector[i]))
+    }
+
+    #[test]
+    fn grasps_are_listed_in_crams_order() {
+        let library = library();
+        assert_eq!(
+            library.grasps("bottle"),
+            ["left-side", "right-side", "back", "front"]
+        );
+        assert_eq!(
+            library.grasps("cup"),
+            ["back", "front", "left-side", "right-side"]
+        );
+        assert!(library.grasps("mug").is_empty());
+    }
+
+    #[test]
+    fn every_listed_grasp_is_defined_for_an_arm_except_that_of_the_tray() {
+        let library = library();
+        for (object_type, names) in &library.order {
+            for name in names {
+                let defined = Side::BOTH.map(|s| library.get(object_type, s, name).is_some());
+                let expected = (object_type.as_str(), name.as_str()) != ("tray", "right-side");
+                assert_eq!(defined.contains(&true), expected, "{object_type} {name}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_bottle_is_approached_from_its_left() {
+        let library = library();
+        let grasp = library
+            .get("bottle", Side::Right, "left-side")
+            .expect("defined");
+        let bottle = from_xyz_rpy([1.0, 2.0, 3.0], [0.0; 3]);
+        let poses = grasp.tool_poses(&bottle, &tool_axes()).expect("a rotation");
+        assert_eq!(place(&poses.pregrasp), [1.0, 2.13, 3.155]);
+        assert_eq!(place(&poses.second_pregrasp), [1.0, 2.13, 3.005]);
+        assert_eq!(place(&poses.grasp), [1.0, 1.98, 3.005]);
+        assert_eq!(place(&poses.lift), [1.0, 1.98, 3.155]);
+        assert_eq!(place(&poses.second_lift), [1.0, 1.98, 3.155]);
+        // The tool looks along -y, its z axis up.
+        let axes = [Vector3::x(), Vector3::z()].map(|axis| poses.grasp.rotation * axis);
+        assert!((axes[0] + Vector3::y()).norm() < 1e-12);
+        assert!((axes[1] - Vector3::z()).norm() < 1e-12);
+    }
+
+    #[test]
+    fn hands_come_from_where_their_pregrasps_are() {
+        let library = library();
+        for ((object_type, side, name), grasp) in &library.grasps {
+            let hand = grasp.orientation().expect("a rotation") * Vector3::z();
+            let offset = Vector3::from(grasp.second_pregrasp);
+            assert!(
+                hand.dot(&offset) < 0.0,
+                "{name} of {object_type} with the {side} arm"
+            );
+        }
+    }
+
+    #[test]
+    fn offsets_are_along_the_axes_of_the_object() {
+        let library = library();
+        let grasp = library
+            .get("bottle", Side::Left, "left-side")
+            .expect("defined");
+        let lying = from_xyz_rpy([0.0; 3], [std::f64::consts::FRAC_PI_2, 0.0, 0.0]);
+        let poses = grasp.tool_poses(&lying, &tool_axes()).expect("a rotation");
+        let lift = poses.lift.translation.vector - poses.grasp.translation.vector;
+        assert!((lift + Vector3::new(0.0, 0.15, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn grips_fall_back_to_the_default() {
+        let library = library();
+        let grip = |effort, opening| Grip { effort, opening };
+        assert_eq!(library.grip("bottle"), grip(60.0, 0.1));
+        assert_eq!(library.grip("fork"), grip(100.0, 0.04));
+        assert_eq!(library.grip("cube"), grip(35.0, 0.1));
+    }
+
+    #[test]
+    fn a_new_grasp_is_tried_last_and_an_old_one_is_overridden() {
+        let mut library = library();
+        // The tutorial's diagonal grasp, whose matrix is right to four digits only.
+        let s = 7071.0 / 10_000.0;
+        let diagonal = definition([[s, 0.0, -s], [-s, 0.0, -s], [0.0, 1.0, 0.0]]);
+        for _ in 0..2 {
+            let defined = library.define("bottle", Side::Left, "fl-diagonal", diagonal.clone());
+            assert_eq!(defined, Ok(()));
+        }
+        assert_eq!(library.grasps("bottle").len(), 5);
+        assert_eq!(library.grasps("bottle")[4], "fl-diagonal");
+        assert_eq!(
+            library.get("bottle", Side::Left, "fl-diagonal"),
+            Some(&diagonal)
+        );
+        assert_eq!(library.get("bottle", Side::Right, "fl-diagonal"), None);
+        let orientation = diagonal.orientation().expect("close enough to a rotation");
+        assert!((orientation.norm() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_matrix_that_mirrors_is_refused() {
+        let mirror = definition([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]);
+        let mut library = library();
+        let refused = library.define("bottle", Side::Left, "mirror", mirror.clone());
+        assert_eq!(refused, Err(NotARotation(mirror.rotation)));
+        assert_eq!(library.get("bottle", Side::Left, "mirror"), None);
+        let nothing = definition([[f64::NAN; 3]; 3]);
+        assert!(nothing.orientation().is_err());
+    }
+
+    #[test]
+    fn mistakes_are_reported_with_their_place() {
+        let error = |text: &str| match GraspLibrary::from_sexp(text, "g.sexp") {
+            Ok(_) => "no error".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        assert_eq!(
+            error(""),
+            "g.sexp:1:1: the file has no (default-grip …); add one"
+        );
+        assert_eq!(
+            error("(rotation r ((1 0 0) (0 1 0)))"),
+            "g.sexp:1:13: expected the three rows of a rotation matrix, found ((1 0 0) (0 1 0))"
+        );
+        assert_eq!(
+            error(
+                "(rotation up ((1 0 0) (0 1 0) (0 0 1)))\n(grasp g :rotation upp
+                   :translation (0 0 0) :types (a) :arms (left))"
+            ),
+            "g.sexp:2:20: there is no rotation named upp; did you mean up?"
+        );
+    }
+}
