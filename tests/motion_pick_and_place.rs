@@ -134,3 +134,19 @@ fn a_bottle_near_the_robot_is_only_reached_from_behind_with_the_torso_lowered() 
         .get(kitchen.world.models().description.torso.joint);
     assert!(torso < 0.225, "{torso}");
 }
+
+#[test]
+fn the_same_motions_end_with_the_same_bits() {
+    let hash = || {
+        let mut kitchen = Kitchen::new();
+        kitchen.checked = false;
+        kitchen.spawn_bottle(-1.6, -0.9, 0.82);
+        approach_table(&mut kitchen);
+        let bottle = look_and_detect(&mut kitchen);
+        kitchen
+            .pick(Side::Right, "left-side", "bottle-1", &bottle)
+            .unwrap();
+        kitchen.world.hash()
+    };
+    assert_eq!(hash(), hash());
+}

@@ -11,7 +11,7 @@ use super::drive_plan::{at_place, is_way_free, plan_drive};
 use super::failure::MotionFailure;
 use super::follower::Follower;
 use super::guard;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
 use super::patience::Patience;
 use super::trajectory::{AxisGroup, Corners, Trajectory};
 use crate::robot::JointId;
@@ -90,6 +90,7 @@ impl Drive {
     }
 
     fn plan(&self, world: &World) -> Result<Follower, MotionFailure> {
+        check_finite(ProcessModule::Navigation, &self.goal)?;
         let path = plan_drive(world, self.goal)?;
         let base = &world.models().description.base;
         let drive = AxisGroup {

@@ -11,6 +11,7 @@ use thiserror::Error;
 
 use super::base_path::BasePlace;
 use super::guard::StuckObject;
+use super::job::ProcessModule;
 use super::unreachable::Unreachable;
 use crate::perception::Visibility;
 use crate::robot::Side;
@@ -228,6 +229,12 @@ pub enum MotionFailure {
         /// The hand.
         side: Side,
     },
+    /// A goal has a coordinate that is infinite or no number.
+    #[error("the goal for the {module} is not a finite number")]
+    NotFinite {
+        /// The part of the robot that the goal is for.
+        module: ProcessModule,
+    },
     /// The world does not know the object, or the frame.
     #[error("{0}")]
     UnknownName(String),
@@ -258,6 +265,14 @@ impl MotionFailure {
             | Self::ArmBlocked { .. }
             | Self::HeldObjectStuck(_)
             | Self::HoldsNothing { .. } => "MANIPULATION-GOAL-NOT-REACHED",
+            Self::NotFinite { module } => match module {
+                ProcessModule::Navigation => "NAVIGATION-POSE-UNREACHABLE",
+                ProcessModule::Torso => "TORSO-GOAL-NOT-REACHED",
+                ProcessModule::Neck => "PTU-GOAL-NOT-REACHED",
+                ProcessModule::Perception => "PERCEPTION-LOW-LEVEL-FAILURE",
+                ProcessModule::Grippers => "GRIPPER-GOAL-NOT-REACHED",
+                ProcessModule::Arms => "MANIPULATION-POSE-UNREACHABLE",
+            },
             Self::UnknownName(_) => "LOW-LEVEL-FAILURE",
         }
     }

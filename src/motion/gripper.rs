@@ -2,7 +2,7 @@
 
 use super::failure::{LimitViolation, MotionFailure};
 use super::guard;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
@@ -213,6 +213,10 @@ impl Motion for MoveGripper {
     fn tick(&mut self, world: &mut World) -> MotionStatus {
         if self.ended {
             return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        if let Err(failure) = check_finite(ProcessModule::Grippers, &[self.goal(world)]) {
+            self.ended = true;
+            return MotionStatus::failed(failure);
         }
         let end = match self.command {
             GripperCommand::Grip { .. } => self.grip(world),

@@ -90,6 +90,26 @@ pub enum MotionStatus {
     Failed(Box<MotionFailure>),
 }
 
+/// Fails when one of the numbers is infinite or none.
+pub(super) fn check_finite(module: ProcessModule, goal: &[f64]) -> Result<(), MotionFailure> {
+    let finite = goal.iter().all(|v| v.is_finite());
+    if finite {
+        Ok(())
+    } else {
+        Err(MotionFailure::NotFinite { module })
+    }
+}
+
+/// Position and quaternion of a pose as numbers.
+pub(super) fn numbers_of(pose: &Pose) -> Vec<f64> {
+    pose.translation
+        .vector
+        .iter()
+        .chain(pose.rotation.coords.iter())
+        .copied()
+        .collect()
+}
+
 impl MotionStatus {
     /// The end with that failure.
     pub(super) fn failed(failure: MotionFailure) -> Self {

@@ -6,7 +6,7 @@
 use nalgebra::Point3;
 
 use super::failure::{LimitViolation, MotionFailure};
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
@@ -111,7 +111,11 @@ impl Look {
     }
 
     fn start(&mut self, world: &World) -> Result<JointFollow, MotionFailure> {
-        let wanted = match self.point(world)? {
+        let point = self.point(world)?;
+        if let Some(point) = &point {
+            check_finite(ProcessModule::Neck, point.coords.as_slice())?;
+        }
+        let wanted = match point {
             None => [0.0; 2],
             Some(point) => pan_and_tilt(world, &point),
         };

@@ -4,7 +4,7 @@ use super::arm_axes::ArmAxes;
 use super::arm_path::ArmPathEffort;
 use super::arm_way::plan_way;
 use super::failure::{LimitViolation, MotionFailure};
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::judge::Judge;
 use crate::robot::{ARM_JOINTS, Side};
@@ -61,12 +61,13 @@ impl MoveJoints {
             }
             goal.extend(given);
         }
+        check_finite(ProcessModule::Arms, &goal)?;
         let tree = &world.models().robot;
         let joints = axes.joints.iter().zip(axes.now(world));
         for ((&id, now), wanted) in joints.zip(&mut goal) {
             let joint = tree.joint(id);
             match joint.limits {
-                Some(l) if l.excess(*wanted) > 0.0 || wanted.is_nan() => {
+                Some(l) if l.excess(*wanted) > 0.0 => {
                     let violation = LimitViolation {
                         joint: joint.name.clone(),
                         wanted: *wanted,

@@ -3,7 +3,9 @@
 use super::failure::MotionFailure;
 use super::gripper::hand_names;
 use super::hold::held_objects;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::job::{
+    Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite, numbers_of,
+};
 use super::joint_follow::{FollowStep, JointFollow};
 use super::patience::Patience;
 use super::tcp_plan::TcpTask;
@@ -83,6 +85,9 @@ impl MoveTcp {
         let goals: Vec<(Side, Pose)> = goals
             .filter_map(|(side, goal)| Some((side, in_base(goal?, &base))))
             .collect();
+        for (_, goal) in &goals {
+            check_finite(ProcessModule::Arms, &numbers_of(goal))?;
+        }
         let allowed = allowed_pairs(world, &goals, self.mode);
         let task = TcpTask {
             world,

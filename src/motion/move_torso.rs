@@ -1,7 +1,7 @@
 //! Raising and lowering the torso.
 
 use super::failure::MotionFailure;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
 use super::joint_follow::{FollowStep, JointFollow};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
@@ -69,6 +69,10 @@ impl Motion for MoveTorso {
     fn tick(&mut self, world: &mut World) -> MotionStatus {
         if self.ended {
             return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        if let Err(failure) = check_finite(ProcessModule::Torso, &[self.goal]) {
+            self.ended = true;
+            return MotionStatus::failed(failure);
         }
         let mut follow = self.follow.take().unwrap_or_else(|| self.start(world));
         let step = follow.tick(world, |_| true);

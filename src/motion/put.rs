@@ -6,7 +6,9 @@
 
 use super::failure::MotionFailure;
 use super::hold::held_objects;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::job::{
+    Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite, numbers_of,
+};
 use super::joint_follow::{FollowStep, JointFollow};
 use super::move_tcp::{CollisionMode, TcpGoal, allowed_pairs, in_base};
 use super::put_plan::PutPlan;
@@ -49,6 +51,7 @@ impl Put {
         let held = held_objects(world, side).into_iter().next();
         self.object = held.ok_or(MotionFailure::HoldsNothing { side })?;
         let goal = in_base(self.goal, &world.robot_configuration().base);
+        check_finite(ProcessModule::Arms, &numbers_of(&goal))?;
         let goals = vec![(side, goal)];
         let allowed = allowed_pairs(world, &goals, CollisionMode::AllowAll);
         let task = TcpTask {
