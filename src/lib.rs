@@ -5,6 +5,7 @@ pub mod closest_name;
 pub mod command;
 pub mod dialogue;
 pub mod lisp;
+pub mod motion;
 pub mod perception;
 pub mod reader;
 pub mod repl;
