@@ -2,9 +2,11 @@
 //! Common-Lisp-like plan language.
 
 pub mod command;
+pub mod designator;
 pub mod dialogue;
 pub mod lisp;
 pub mod reader;
 pub mod repl;
 pub mod spatial;
 pub mod transcript;
+pub mod transform;
