@@ -74,12 +74,12 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
                 pending.extend(x.into_iter().zip(y));
             }
             (Value::Hash(x), Value::Hash(y)) => {
-                if x.test != y.test || x.entries.borrow().len() != y.entries.borrow().len() {
+                if x.test != y.test || x.len() != y.len() {
                     return false;
                 }
-                for (key, value) in x.entries.borrow().iter() {
-                    match y.get(&key.value) {
-                        Some(other) => pending.push((value.clone(), other)),
+                for (key, value) in x.pairs() {
+                    match y.get(&key) {
+                        Some(other) => pending.push((value, other)),
                         None => return false,
                     }
                 }

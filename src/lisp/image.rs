@@ -1,5 +1,6 @@
 //! One Lisp image: everything that global names mean.
 
+use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -50,6 +51,8 @@ pub struct Image {
     pub builtins: IndexMap<Sym, &'static Builtin>,
     /// Macros written in Rust and special operators, by the symbol that names them.
     pub operators: IndexMap<Sym, &'static Operator>,
+    /// Made-up addresses of objects that were printed.
+    pub printed: RefCell<super::print::identity::Identities>,
 }
 
 /// Standard output: text in order, and the column where the next character goes.
@@ -74,6 +77,11 @@ impl Output {
         if self.column > 0 {
             self.write("\n");
         }
+    }
+
+    /// Notes that what is written next stands at the start of a line.
+    pub fn begin_line(&mut self) {
+        self.column = 0;
     }
 
     /// Number of characters on the current line.
@@ -119,6 +127,7 @@ impl Image {
             nesting: 0,
             condition_places: VecDeque::new(),
             identities: 0,
+            printed: RefCell::default(),
             builtins: IndexMap::new(),
             operators: IndexMap::new(),
         }

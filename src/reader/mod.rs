@@ -23,6 +23,7 @@ pub use error::{ReadError, ReadErrorKind};
 pub use lexer::{Lexer, Token, TokenKind};
 pub use parser::{Outcome, Reader, read_all};
 pub use suggest::nearest;
+pub(crate) use symbol::upcase;
 
 #[cfg(test)]
 mod tests;

@@ -19,7 +19,7 @@ pub(super) struct Name {
 }
 
 /// Upcases as the reader does: only letters that have exactly one upper-case form.
-pub(super) fn upcase(c: char) -> char {
+pub(crate) fn upcase(c: char) -> char {
     if c.is_ascii() {
         return c.to_ascii_uppercase();
     }

@@ -8,13 +8,18 @@ use crate::lisp::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
 pub static FUNCTIONS: &[&[Builtin]] = &[
+    characters::COMPARISONS,
+    characters::TABLE,
+    conditions::TABLE,
     definitions::TABLE,
     evaluation::TABLE,
+    generic_functions::TABLE,
     list_search::TABLE,
     list_sets::TABLE,
     list_trees::TABLE,
     lists::TABLE,
     mapping::TABLE,
+    objects::TABLE,
     pairs::TABLE,
     property_lists::TABLE,
     sequence_access::TABLE,
@@ -25,16 +30,34 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     sequence_search::TABLE,
     signalling::TABLE,
     sort::TABLE,
+    string_compare::TABLE,
+    strings::TABLE,
     types::TABLE,
+    array_make::TABLE,
+    arrays::TABLE,
+    bits::TABLE,
+    files::TABLE,
+    fill_pointers::TABLE,
+    hash_tables::TABLE,
+    packages::TABLE,
+    streams::TABLE,
+    symbols::TABLE,
+    structures::TABLE,
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
 pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
+    generic_functions::SYSTEM_TABLE,
+    objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
+    hash_tables::SYSTEM_TABLE,
+    package_macros::SYSTEM_TABLE,
+    streams::SYSTEM_TABLE,
+    structures::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
@@ -42,11 +65,26 @@ pub static SETTERS: &[&[Builtin]] = &[
     pairs::SETTERS,
     property_lists::SETTERS,
     sequence_access::SETTERS,
+    strings::SETTERS,
+    arrays::SETTERS,
+    fill_pointers::SETTERS,
+    hash_tables::SETTERS,
+    symbols::SETTERS,
+    objects::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
-pub static OPERATORS: &[&[Operator]] =
-    &[compile::SPECIAL_FORMS, compile::OPERATORS, types::OPERATORS];
+pub static OPERATORS: &[&[Operator]] = &[
+    compile::SPECIAL_FORMS,
+    compile::OPERATORS,
+    types::OPERATORS,
+    hash_tables::OPERATORS,
+    package_macros::OPERATORS,
+    stream_macros::OPERATORS,
+    generic_functions::OPERATORS,
+    objects::OPERATORS,
+    structures::OPERATORS,
+];
 
 /// Special operators and macros of package `SYSTEM`.
 pub static SYSTEM_OPERATORS: &[&[Operator]] = &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];

@@ -172,7 +172,11 @@ fn slot(image: &mut Image, name: &str) -> SlotDefinition {
         Some(name) => (name, None),
         None => (name, Some(Initform::Value(Value::NIL))),
     };
-    let sym = image.export_symbol(PackageTable::SYSTEM, name);
+    // A name that `COMMON-LISP` has already, such as STREAM, is that symbol.
+    let sym = match image.packages.find_symbol(PackageTable::CL, name) {
+        Some((sym, _)) => sym,
+        None => image.export_symbol(PackageTable::SYSTEM, name),
+    };
     let mut slot = SlotDefinition::new(sym);
     slot.initargs.push(image.keyword(name));
     slot.initform = if sym == known::REPORT { None } else { initform };

@@ -1,41 +1,49 @@
-//! The printer.
+//! The printer: from values to text that the reader reads back, or that people read.
+//!
+//! Printing is pure: it never runs Lisp code. An object that a program prints itself (a
+//! method of `print-object`, the report of a condition class) is noted in [`Calls`]; the
+//! builtins that print make those calls first and print again with the texts.
+//! Nesting costs no Rust stack, and circular structures are recognised.
+
+mod atom;
+mod calls;
+mod circle;
+mod document;
+mod float;
+pub mod identity;
+mod layout;
+mod printer;
+pub mod report;
+mod settings;
+mod shape;
+mod symbol;
+
+#[cfg(test)]
+pub(crate) mod test_image;
+#[cfg(test)]
+mod tests;
+
+pub use calls::{Call, Calls};
+pub use identity::identity;
+pub use settings::{Case, Settings};
 
 use super::image::Image;
 use super::value::Value;
 
-/// A stand-in until the printer is here.
+/// A value as `prin1` (`escape`) or `princ` print it under the current printer variables,
+/// on a line of its own. Objects that need Lisp code print in their default form.
 pub fn to_string(image: &Image, value: &Value, escape: bool) -> String {
-    let mut out = String::new();
-    let mut rest = value.clone();
-    match value {
-        Value::Cons(_) => {
-            out.push('(');
-            while let Value::Cons(c) = &rest {
-                if out.len() > 1 {
-                    out.push(' ');
-                }
-                out.push_str(&to_string(image, &c.car(), escape));
-                let next = c.cdr();
-                rest = next;
-            }
-            if !rest.is_nil() {
-                out.push_str(" . ");
-                out.push_str(&to_string(image, &rest, escape));
-            }
-            out.push(')');
-        }
-        Value::Symbol(s) => out.push_str(image.name(*s)),
-        Value::Int(n) => out.push_str(&n.to_string()),
-        Value::Str(s) => out.push_str(&s.text()),
-        Value::Foreign(f) => out = f.object().print(image, escape),
-        Value::Instance(i) => {
-            out = super::condition::report(value)
-                .unwrap_or_else(|| image.name(i.class().name).to_owned());
-        }
-        _ => out.push_str("#<?>"),
-    }
-    out
+    let settings = Settings::of(image).with_escape(escape);
+    write(image, value, &settings, 0, &mut Calls::none())
 }
 
-#[cfg(test)]
-pub(crate) mod test_image;
+/// A value under given settings, where the line has already so many characters.
+pub fn write(
+    image: &Image,
+    value: &Value,
+    settings: &Settings,
+    column: usize,
+    calls: &mut Calls,
+) -> String {
+    printer::Printer::new(image, settings, calls).print(value, column)
+}

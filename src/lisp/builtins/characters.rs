@@ -1,0 +1,469 @@
+//! Characters: codes, names, case, digits, comparison.
+
+use super::sequence::{character, index};
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// Names of characters that print by name, the preferred one first for each code.
+const NAMES: &[(char, &str)] = &[
+    ('\0', "Nul"),
+    ('\u{1}', "Soh"),
+    ('\u{2}', "Stx"),
+    ('\u{3}', "Etx"),
+    ('\u{4}', "Eot"),
+    ('\u{5}', "Enq"),
+    ('\u{6}', "Ack"),
+    ('\u{7}', "Bel"),
+    ('\u{8}', "Backspace"),
+    ('\t', "Tab"),
+    ('\n', "Newline"),
+    ('\u{b}', "Vt"),
+    ('\u{c}', "Page"),
+    ('\r', "Return"),
+    ('\u{e}', "So"),
+    ('\u{f}', "Si"),
+    ('\u{10}', "Dle"),
+    ('\u{11}', "Dc1"),
+    ('\u{12}', "Dc2"),
+    ('\u{13}', "Dc3"),
+    ('\u{14}', "Dc4"),
+    ('\u{15}', "Nak"),
+    ('\u{16}', "Syn"),
+    ('\u{17}', "Etb"),
+    ('\u{18}', "Can"),
+    ('\u{19}', "Em"),
+    ('\u{1a}', "Sub"),
+    ('\u{1b}', "Esc"),
+    ('\u{1c}', "Fs"),
+    ('\u{1d}', "Gs"),
+    ('\u{1e}', "Rs"),
+    ('\u{1f}', "Us"),
+    (' ', "Space"),
+    ('\u{7f}', "Rubout"),
+    ('\u{a0}', "No-break_space"),
+    // Other spellings that are understood.
+    ('\0', "Null"),
+    ('\u{8}', "Bs"),
+    ('\n', "Linefeed"),
+    ('\n', "Nl"),
+    ('\n', "Lf"),
+    ('\r', "Cr"),
+    ('\u{c}', "Ff"),
+    ('\t', "Ht"),
+    ('\u{1b}', "Escape"),
+    ('\u{7f}', "Delete"),
+    ('\u{7f}', "Del"),
+    (' ', "Sp"),
+];
+
+/// The name of a character that has one.
+pub fn name_of(c: char) -> Option<String> {
+    match NAMES.iter().find(|(named, _)| *named == c) {
+        Some((_, name)) => Some((*name).to_owned()),
+        None if c.is_ascii_graphic() => LATIN
+            .get((c as usize).checked_sub(33)?)
+            .filter(|n| !n.is_empty())
+            .map(|n| (*n).to_owned())
+            .or_else(|| letter_name(c)),
+        None => Some(format!("U{:04X}", u32::from(c))),
+    }
+}
+
+/// Unicode names of the printing ASCII characters that are no letters, from `!` on.
+const LATIN: &[&str] = &[
+    "EXCLAMATION_MARK",
+    "QUOTATION_MARK",
+    "NUMBER_SIGN",
+    "DOLLAR_SIGN",
+    "PERCENT_SIGN",
+    "AMPERSAND",
+    "APOSTROPHE",
+    "LEFT_PARENTHESIS",
+    "RIGHT_PARENTHESIS",
+    "ASTERISK",
+    "PLUS_SIGN",
+    "COMMA",
+    "HYPHEN-MINUS",
+    "FULL_STOP",
+    "SOLIDUS",
+    "DIGIT_ZERO",
+    "DIGIT_ONE",
+    "DIGIT_TWO",
+    "DIGIT_THREE",
+    "DIGIT_FOUR",
+    "DIGIT_FIVE",
+    "DIGIT_SIX",
+    "DIGIT_SEVEN",
+    "DIGIT_EIGHT",
+    "DIGIT_NINE",
+    "COLON",
+    "SEMICOLON",
+    "LESS-THAN_SIGN",
+    "EQUALS_SIGN",
+    "GREATER-THAN_SIGN",
+    "QUESTION_MARK",
+    "COMMERCIAL_AT",
+];
+
+fn letter_name(c: char) -> Option<String> {
+    let rest = match c {
+        'A'..='Z' => return Some(format!("LATIN_CAPITAL_LETTER_{c}")),
+        'a'..='z' => return Some(format!("LATIN_SMALL_LETTER_{}", c.to_ascii_uppercase())),
+        '[' => "LEFT_SQUARE_BRACKET",
+        '\\' => "REVERSE_SOLIDUS",
+        ']' => "RIGHT_SQUARE_BRACKET",
+        '^' => "CIRCUMFLEX_ACCENT",
+        '_' => "LOW_LINE",
+        '`' => "GRAVE_ACCENT",
+        '{' => "LEFT_CURLY_BRACKET",
+        '|' => "VERTICAL_LINE",
+        '}' => "RIGHT_CURLY_BRACKET",
+        '~' => "TILDE",
+        _ => return None,
+    };
+    Some(rest.to_owned())
+}
+
+/// The character of a name, in any case.
+pub fn named(name: &str) -> Option<char> {
+    if let Some((c, _)) = NAMES.iter().find(|(_, n)| n.eq_ignore_ascii_case(name)) {
+        return Some(*c);
+    }
+    if let Some(code) = name.strip_prefix(['U', 'u']) {
+        let digits = code.strip_prefix('+').unwrap_or(code);
+        if digits.len() >= 4 {
+            return u32::from_str_radix(digits, 16)
+                .ok()
+                .and_then(char::from_u32);
+        }
+    }
+    ('!'..='~').find(|c| name_of(*c).is_some_and(|n| n.eq_ignore_ascii_case(name)))
+}
+
+/// The upper-case form, where that is one character.
+pub fn upcase(c: char) -> char {
+    let mut upper = c.to_uppercase();
+    match (upper.next(), upper.next()) {
+        // A letter has an upper case only if it comes back as itself.
+        (Some(u), None) if single_lower(u) == Some(c) => u,
+        _ => c,
+    }
+}
+
+/// The lower-case form, where that is one character.
+pub fn downcase(c: char) -> char {
+    match single_lower(c) {
+        Some(l) if l.to_uppercase().eq([c]) => l,
+        _ => c,
+    }
+}
+
+fn single_lower(c: char) -> Option<char> {
+    let mut lower = c.to_lowercase();
+    match (lower.next(), lower.next()) {
+        (Some(l), None) => Some(l),
+        _ => None,
+    }
+}
+
+/// The weight of a character as a digit.
+pub fn digit_weight(c: char, radix: u32) -> Option<u32> {
+    c.to_digit(radix)
+}
+
+fn radix(value: Option<&Value>) -> Result<u32, Box<Raise>> {
+    match value {
+        None => Ok(10),
+        Some(Value::Int(n @ 2..=36)) => Ok(u32::try_from(*n).unwrap_or(10)),
+        Some(other) => Err(Raise::type_error(
+            other,
+            Value::list([known::INTEGER.into(), Value::Int(2), Value::Int(36)]),
+        )),
+    }
+}
+
+/// The character that a designator means: a character, or a string or symbol of length one.
+fn designated(image: &Image, value: &Value) -> Result<char, Box<Raise>> {
+    let only = |text: &str| {
+        let mut chars = text.chars();
+        chars.next().filter(|_| chars.next().is_none())
+    };
+    let c = match value {
+        Value::Char(c) => Some(*c),
+        Value::Str(s) => only(&s.borrow()),
+        Value::Symbol(s) => only(image.name(*s)),
+        _ => None,
+    };
+    c.ok_or_else(|| Raise::type_error(value, known::CHARACTER))
+}
+
+fn to_character(image: &mut Image, args: &[Value]) -> Outcome {
+    designated(image, &args[0]).map(Value::Char)
+}
+
+fn char_code(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::Int(i64::from(u32::from(character(&args[0])?))))
+}
+
+fn code_char(_: &mut Image, args: &[Value]) -> Outcome {
+    let code = index(&args[0])?;
+    let c = u32::try_from(code).ok().and_then(char::from_u32);
+    Ok(c.map_or(Value::NIL, Value::Char))
+}
+
+fn char_name(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(name_of(character(&args[0])?).map_or(Value::NIL, Value::string))
+}
+
+fn name_char(image: &mut Image, args: &[Value]) -> Outcome {
+    let name = super::strings::designated(image, &args[0])?;
+    Ok(named(&name).map_or(Value::NIL, Value::Char))
+}
+
+fn char_upcase(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::Char(upcase(character(&args[0])?)))
+}
+
+fn char_downcase(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::Char(downcase(character(&args[0])?)))
+}
+
+fn is(args: &[Value], test: impl FnOnce(char) -> bool) -> Outcome {
+    Ok(Value::bool(test(character(&args[0])?)))
+}
+
+fn characterp(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(matches!(args[0], Value::Char(_))))
+}
+
+fn alpha_char_p(_: &mut Image, args: &[Value]) -> Outcome {
+    is(args, char::is_alphabetic)
+}
+
+fn alphanumericp(_: &mut Image, args: &[Value]) -> Outcome {
+    is(args, char::is_alphanumeric)
+}
+
+fn upper_case_p(_: &mut Image, args: &[Value]) -> Outcome {
+    is(args, |c| downcase(c) != c)
+}
+
+fn lower_case_p(_: &mut Image, args: &[Value]) -> Outcome {
+    is(args, |c| upcase(c) != c)
+}
+
+fn both_case_p(_: &mut Image, args: &[Value]) -> Outcome {
+    is(args, |c| upcase(c) != c || downcase(c) != c)
+}
+
+/// Is a character one that prints as itself?
+pub fn is_graphic(c: char) -> bool {
+    !c.is_control()
+}
+
+fn graphic_char_p(_: &mut Image, args: &[Value]) -> Outcome {
+    is(args, is_graphic)
+}
+
+fn standard_char_p(_: &mut Image, args: &[Value]) -> Outcome {
+    is(args, |c| c == '\n' || matches!(c, ' '..='~'))
+}
+
+fn digit_char_p(_: &mut Image, args: &[Value]) -> Outcome {
+    let weight = digit_weight(character(&args[0])?, radix(args.get(1))?);
+    Ok(weight.map_or(Value::NIL, |w| Value::Int(i64::from(w))))
+}
+
+fn digit_char(_: &mut Image, args: &[Value]) -> Outcome {
+    let weight = index(&args[0])?;
+    let digit = u32::try_from(weight)
+        .ok()
+        .and_then(|w| char::from_digit(w, radix(args.get(1)).ok()?));
+    radix(args.get(1))?;
+    Ok(digit.map_or(Value::NIL, |c| Value::Char(c.to_ascii_uppercase())))
+}
+
+/// Compares each character with the next, or each with each other for `/=`.
+fn compare(
+    args: &[Value],
+    fold: bool,
+    all_pairs: bool,
+    holds: impl Fn(char, char) -> bool,
+) -> Outcome {
+    let chars: Result<Vec<char>, _> = args.iter().map(character).collect();
+    let mut chars = chars?;
+    if fold {
+        chars.iter_mut().for_each(|c| *c = upcase(*c));
+    }
+    let result = if all_pairs {
+        chars
+            .iter()
+            .enumerate()
+            .all(|(i, a)| chars.iter().skip(i + 1).all(|b| holds(*a, *b)))
+    } else {
+        chars.is_sorted_by(|a, b| holds(*a, *b))
+    };
+    Ok(Value::bool(result))
+}
+
+macro_rules! comparisons {
+    ($($function:ident $name:literal $fold:literal $all_pairs:literal $op:tt $doc:literal $example:literal;)*) => {
+        $(fn $function(_: &mut Image, args: &[Value]) -> Outcome {
+            compare(args, $fold, $all_pairs, |a, b| a $op b)
+        })*
+        /// Comparison of characters.
+        pub static COMPARISONS: &[Builtin] = &[
+            $(pure($name, "character &rest more", $doc, &[$example], $function),)*
+        ];
+    };
+}
+
+comparisons! {
+    char_eq "CHAR=" false false == "Are all characters the same?" "(char= #\\a #\\a) => T";
+    char_ne "CHAR/=" false true != "Are all characters different?" "(char/= #\\a #\\b #\\a) => NIL";
+    char_lt "CHAR<" false false < "Do the characters ascend?" "(char< #\\a #\\b) => T";
+    char_gt "CHAR>" false false > "Do the characters descend?" "(char> #\\b #\\a) => T";
+    char_le "CHAR<=" false false <= "Does no character come before its neighbour to the left?" "(char<= #\\a #\\a #\\b) => T";
+    char_ge "CHAR>=" false false >= "Does no character come after its neighbour to the left?" "(char>= #\\b #\\a #\\a) => T";
+    char_equal "CHAR-EQUAL" true false == "Are all characters the same, whatever their case?" "(char-equal #\\a #\\A) => T";
+    char_not_equal "CHAR-NOT-EQUAL" true true != "Are all characters different, whatever their case?" "(char-not-equal #\\a #\\A) => NIL";
+    char_lessp "CHAR-LESSP" true false < "Like `char<`, whatever the case." "(char-lessp #\\a #\\B) => T";
+    char_greaterp "CHAR-GREATERP" true false > "Like `char>`, whatever the case." "(char-greaterp #\\a #\\B) => NIL";
+    char_not_greaterp "CHAR-NOT-GREATERP" true false <= "Like `char<=`, whatever the case." "(char-not-greaterp #\\a #\\A) => T";
+    char_not_lessp "CHAR-NOT-LESSP" true false >= "Like `char>=`, whatever the case." "(char-not-lessp #\\a #\\A) => T";
+}
+
+/// Characters.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "CHARACTERP",
+        "object",
+        "Is the object a character?",
+        &["(characterp #\\a) => T"],
+        characterp,
+    ),
+    pure(
+        "CHARACTER",
+        "designator",
+        "The character that a character, or a string or symbol of one character, means.",
+        &["(character \"a\") => #\\a"],
+        to_character,
+    ),
+    pure(
+        "CHAR-CODE",
+        "character",
+        "The code of a character.",
+        &["(char-code #\\A) => 65"],
+        char_code,
+    ),
+    pure(
+        "CHAR-INT",
+        "character",
+        "The code of a character.",
+        &["(char-int #\\A) => 65"],
+        char_code,
+    ),
+    pure(
+        "CODE-CHAR",
+        "code",
+        "The character of a code.",
+        &["(code-char 65) => #\\A"],
+        code_char,
+    ),
+    pure(
+        "CHAR-NAME",
+        "character",
+        "The name of a character.",
+        &["(char-name #\\Newline) => \"Newline\""],
+        char_name,
+    ),
+    pure(
+        "NAME-CHAR",
+        "name",
+        "The character of a name, or `NIL`.",
+        &["(name-char \"newline\") => #\\Newline"],
+        name_char,
+    ),
+    pure(
+        "CHAR-UPCASE",
+        "character",
+        "The upper-case form of a character.",
+        &["(char-upcase #\\a) => #\\A"],
+        char_upcase,
+    ),
+    pure(
+        "CHAR-DOWNCASE",
+        "character",
+        "The lower-case form of a character.",
+        &["(char-downcase #\\A) => #\\a"],
+        char_downcase,
+    ),
+    pure(
+        "ALPHA-CHAR-P",
+        "character",
+        "Is the character a letter?",
+        &["(alpha-char-p #\\a) => T"],
+        alpha_char_p,
+    ),
+    pure(
+        "ALPHANUMERICP",
+        "character",
+        "Is the character a letter or digit?",
+        &["(alphanumericp #\\_) => NIL"],
+        alphanumericp,
+    ),
+    pure(
+        "UPPER-CASE-P",
+        "character",
+        "Is the character an upper-case letter?",
+        &["(upper-case-p #\\A) => T"],
+        upper_case_p,
+    ),
+    pure(
+        "LOWER-CASE-P",
+        "character",
+        "Is the character a lower-case letter?",
+        &["(lower-case-p #\\A) => NIL"],
+        lower_case_p,
+    ),
+    pure(
+        "BOTH-CASE-P",
+        "character",
+        "Has the character forms in both cases?",
+        &["(both-case-p #\\1) => NIL"],
+        both_case_p,
+    ),
+    pure(
+        "GRAPHIC-CHAR-P",
+        "character",
+        "Does the character print as itself?",
+        &["(graphic-char-p #\\Newline) => NIL"],
+        graphic_char_p,
+    ),
+    pure(
+        "STANDARD-CHAR-P",
+        "character",
+        "Is the character one of the 96 standard ones?",
+        &["(standard-char-p #\\a) => T"],
+        standard_char_p,
+    ),
+    pure(
+        "DIGIT-CHAR-P",
+        "character &optional radix",
+        "The weight of a digit in a radix (10), or `NIL`.",
+        &["(digit-char-p #\\7) => 7", "(digit-char-p #\\f 16) => 15"],
+        digit_char_p,
+    ),
+    pure(
+        "DIGIT-CHAR",
+        "weight &optional radix",
+        "The digit of a weight in a radix (10), or `NIL`.",
+        &["(digit-char 7) => #\\7", "(digit-char 11 16) => #\\B"],
+        digit_char,
+    ),
+];

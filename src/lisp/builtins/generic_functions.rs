@@ -1,0 +1,205 @@
+//! Builtins on generic functions and methods.
+
+use std::rc::Rc;
+
+use crate::lisp::builtin::{Builtin, Operator, control, pure};
+use crate::lisp::function::Function;
+use crate::lisp::generic::{GenericFunction, Method};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::object::combine::no_next_method;
+use crate::lisp::object::dispatch::no_applicable_method_error;
+use crate::lisp::object::effective::applicable_methods;
+use crate::lisp::object::method::{
+    MethodObject, add_method, method_value, remove_method, specializer,
+};
+use crate::lisp::object::{defmethod, text};
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// The builtins.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "NO-APPLICABLE-METHOD",
+        "generic-function &rest arguments",
+        "Called when no method of a generic function applies. Add methods to do something else.",
+        &[],
+        |_, args| {
+            let function = args[0].clone();
+            Err(no_applicable_method_error(function, args[1..].to_vec()))
+        },
+    ),
+    control(
+        "NO-NEXT-METHOD",
+        "generic-function method &rest arguments",
+        "The error that CALL-NEXT-METHOD has nothing to call.",
+        &[],
+        |_, args| Err(no_next_method(&args[0])),
+    ),
+    pure(
+        "FIND-METHOD",
+        "generic-function qualifiers specializers &optional (errorp t)",
+        "The method with these qualifiers and specializers.",
+        &[
+            "(progn (defgeneric f (x)) (find-method #'f '() (list (find-class 'string)) nil)) => NIL",
+        ],
+        find_method,
+    ),
+    pure(
+        "ADD-METHOD",
+        "generic-function method",
+        "Adds a method to a generic function, which is returned.",
+        &[],
+        |image, args| {
+            let function = generic_argument(&args[0])?.clone();
+            add_method(image, &function, method_argument(&args[1])?.clone())?;
+            Ok(args[0].clone())
+        },
+    ),
+    pure(
+        "REMOVE-METHOD",
+        "generic-function method",
+        "Removes a method from a generic function, which is returned.",
+        &[],
+        |_, args| {
+            let function = generic_argument(&args[0])?;
+            if let Some(generic) = function.as_generic() {
+                remove_method(generic, method_argument(&args[1])?);
+            }
+            Ok(args[0].clone())
+        },
+    ),
+    pure(
+        "COMPUTE-APPLICABLE-METHODS",
+        "generic-function arguments",
+        "The methods that apply to the arguments, most specific first.",
+        &["(progn (defgeneric f (x)) (compute-applicable-methods #'f '(1))) => NIL"],
+        |image, args| {
+            let function = generic_argument(&args[0])?.clone();
+            let arguments: Vec<Value> = args[1].iter_list().collect();
+            let generic = as_generic(&function)?;
+            let methods = applicable_methods(image, generic, &arguments);
+            Ok(Value::list(methods.iter().map(method_value)))
+        },
+    ),
+    pure(
+        "METHOD-QUALIFIERS",
+        "method",
+        "The qualifiers of a method.",
+        &[
+            "(progn (defgeneric f (x)) (method-qualifiers (defmethod f :before (x) x))) => (:BEFORE)",
+        ],
+        |_, args| {
+            let method = method_argument(&args[0])?;
+            let qualifiers: Vec<Sym> = method.qualifiers.clone();
+            Ok(Value::list(qualifiers.into_iter().map(Value::Symbol)))
+        },
+    ),
+];
+
+/// Builtins of the package `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "%ADD-METHOD",
+        "name qualifiers specializers lambda-list takes-next documentation function",
+        "Defines a method as DEFMETHOD describes it.",
+        &[],
+        defmethod::add_method,
+    ),
+    pure(
+        "%ENSURE-GENERIC",
+        "name lambda-list combination documentation",
+        "Defines a generic function as DEFGENERIC describes it.",
+        &[],
+        defmethod::ensure_generic_function,
+    ),
+    pure(
+        "%OWN-METHOD",
+        "method",
+        "Notes that a method was made by a DEFGENERIC.",
+        &[],
+        defmethod::own_method,
+    ),
+    pure(
+        "%NO-NEXT-METHOD",
+        "name",
+        "The error that CALL-NEXT-METHOD has nothing to call.",
+        &[],
+        |_, args| Err(no_next_method(&args[0])),
+    ),
+];
+
+/// The macros.
+pub static OPERATORS: &[Operator] = &[
+    Operator {
+        name: "DEFGENERIC",
+        lambda_list: "name lambda-list &rest options",
+        doc: "Defines a generic function. Options are (:documentation text), (:method qualifiers… lambda-list body…) and (:method-combination operator).",
+        examples: &[
+            "(progn (defgeneric kind (x) (:method ((x integer)) :int) (:method (x) :other)) (list (kind 1) (kind \"s\"))) => (:INT :OTHER)",
+        ],
+        expand: Some(defmethod::expand_defgeneric),
+    },
+    Operator {
+        name: "DEFMETHOD",
+        lambda_list: "name &rest qualifiers lambda-list &body body",
+        doc: "Defines a method. Required parameters may be (name class) or (name (eql form)); qualifiers are :before, :after, :around or the operator of the method combination.",
+        examples: &["(progn (defmethod twice ((x integer)) (* 2 x)) (twice 21)) => 42"],
+        expand: Some(defmethod::expand_defmethod),
+    },
+];
+
+fn generic_argument(value: &Value) -> Result<&Rc<Function>, Box<Raise>> {
+    match value {
+        Value::Function(function) if function.as_generic().is_some() => Ok(function),
+        other => Err(Raise::type_error(
+            other,
+            Value::Symbol(known::GENERIC_FUNCTION),
+        )),
+    }
+}
+
+fn as_generic(function: &Rc<Function>) -> Result<&GenericFunction, Box<Raise>> {
+    function.as_generic().ok_or_else(|| {
+        Raise::type_error(
+            &Value::Function(function.clone()),
+            Value::Symbol(known::GENERIC_FUNCTION),
+        )
+    })
+}
+
+fn method_argument(value: &Value) -> Result<&Rc<Method>, Box<Raise>> {
+    value
+        .as_foreign::<MethodObject>()
+        .map(|object| &object.0)
+        .ok_or_else(|| Raise::type_error(value, Value::Symbol(known::METHOD)))
+}
+
+fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    let function = generic_argument(&args[0])?;
+    let qualifiers: Vec<Sym> = args[1].iter_list().filter_map(|q| q.as_symbol()).collect();
+    let specializers = args[2]
+        .iter_list()
+        .map(|s| specializer(image, &s))
+        .collect::<Result<Vec<_>, _>>()?;
+    let methods = as_generic(function)?.methods.borrow();
+    let found = methods.iter().find(|m| {
+        m.qualifiers == qualifiers
+            && m.specializers.len() == specializers.len()
+            && m.specializers
+                .iter()
+                .zip(&specializers)
+                .all(|(a, b)| a.is_same(b))
+    });
+    match found {
+        Some(method) => Ok(method_value(method)),
+        None if args.get(3).is_some_and(Value::is_nil) => Ok(Value::NIL),
+        None => Err(Raise::simple(format!(
+            "There is no method on {} with qualifiers {} and specializers {}.",
+            text(image, &args[0]),
+            text(image, &args[1]),
+            text(image, &args[2])
+        ))),
+    }
+}

@@ -1,0 +1,265 @@
+//! `defclass` and `define-condition`: their expansion, and the builtin behind it.
+
+use super::define::ClassDefinition;
+use super::form::{doc_form, form, quote};
+use super::method::{MethodDefinition, define_method};
+use super::parameters::Parameters;
+use super::slot_options::{DefinedSlot, evaluated_init, evaluated_slot, init_form, slot_form};
+use crate::lisp::class::{Class, ClassKind};
+use crate::lisp::function::Function;
+use crate::lisp::generic::{Accessor, Specializer};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use std::rc::Rc;
+
+/// `(defclass name superclasses slots options…)`.
+pub fn expand_defclass(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+    let definition = Definition::read(image, whole, "DEFCLASS")?;
+    Ok(definition.form(known::SYS_DEFINE_CLASS, Value::NIL))
+}
+
+/// `(define-condition name superclasses slots options…)`.
+pub fn expand_define_condition(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+    let definition = Definition::read(image, whole, "DEFINE-CONDITION")?;
+    let report = definition.report_form(image)?;
+    Ok(definition.form(known::SYS_DEFINE_CONDITION, report))
+}
+
+struct Definition {
+    name: Value,
+    superclasses: Value,
+    slots: Vec<Value>,
+    default_initargs: Vec<Value>,
+    report: Option<Value>,
+    doc: Option<Rc<str>>,
+}
+
+impl Definition {
+    fn read(image: &Image, whole: &Value, definer: &str) -> Result<Definition, Box<Raise>> {
+        let parts = whole.list_to_vec().unwrap_or_default();
+        let [_, name, superclasses, slots, options @ ..] = parts.as_slice() else {
+            return Err(Raise::program(format!(
+                "{definer} takes a name, a list of superclasses and a list of slots."
+            )));
+        };
+        if name.as_symbol().is_none_or(|n| n == known::NIL) {
+            return Err(Raise::program(format!(
+                "{} is not a class name.",
+                super::text(image, name)
+            )));
+        }
+        let names = superclasses.list_to_vec().unwrap_or_default();
+        if !superclasses.is_list() || names.iter().any(|n| n.as_symbol().is_none()) {
+            return Err(Raise::program(format!(
+                "{} is not a list of superclasses.",
+                super::text(image, superclasses)
+            )));
+        }
+        let Some(slots) = slots.list_to_vec() else {
+            return Err(Raise::program(format!(
+                "{} is not a list of slots.",
+                super::text(image, slots)
+            )));
+        };
+        let mut definition = Definition {
+            name: name.clone(),
+            superclasses: superclasses.clone(),
+            slots: Vec::new(),
+            default_initargs: Vec::new(),
+            report: None,
+            doc: None,
+        };
+        let mut seen: Vec<Value> = Vec::new();
+        for slot in &slots {
+            let name = match slot {
+                Value::Cons(c) => c.car(),
+                other => other.clone(),
+            };
+            if seen.iter().any(|s| s.is_eq(&name)) {
+                return Err(Raise::program(format!(
+                    "There is more than one direct slot with the name {}.",
+                    super::text(image, &name)
+                )));
+            }
+            seen.push(name);
+            definition.slots.push(slot_form(image, slot, definer)?);
+        }
+        for option in options {
+            definition.add_option(image, option, definer)?;
+        }
+        Ok(definition)
+    }
+
+    fn add_option(
+        &mut self,
+        image: &Image,
+        option: &Value,
+        definer: &str,
+    ) -> Result<(), Box<Raise>> {
+        let values = option.cdr_or_nil();
+        match option.car_or_nil().as_symbol() {
+            Some(known::K_DEFAULT_INITARGS) => {
+                let pairs = values.list_to_vec().unwrap_or_default();
+                for pair in pairs.chunks(2) {
+                    let [key, init] = pair else {
+                        return Err(Raise::program("odd number of :DEFAULT-INITARGS"));
+                    };
+                    self.default_initargs.push(form![
+                        known::CONS,
+                        quote(key.clone()),
+                        init_form(init)
+                    ]);
+                }
+            }
+            Some(known::K_DOCUMENTATION) => {
+                self.doc = values.car_or_nil().as_text().map(Into::into);
+            }
+            Some(known::K_REPORT) if definer == "DEFINE-CONDITION" => {
+                self.report = Some(values.car_or_nil());
+            }
+            Some(known::K_METACLASS) if definer == "DEFCLASS" => {}
+            _ => {
+                return Err(Raise::program(format!(
+                    "Invalid option {} of {definer}.",
+                    super::text(image, option)
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// A form for a function that writes the report of a condition to a stream.
+    fn report_form(&self, image: &mut Image) -> Result<Value, Box<Raise>> {
+        Ok(match &self.report {
+            None => Value::NIL,
+            Some(text @ Value::Str(_)) => {
+                let condition = Value::Symbol(image.gensym("CONDITION"));
+                let stream = Value::Symbol(image.gensym("STREAM"));
+                form![
+                    known::LAMBDA,
+                    form![condition.clone(), stream.clone()],
+                    form![known::DECLARE, form![known::IGNORE, condition]],
+                    form![known::WRITE_STRING, text.clone(), stream],
+                ]
+            }
+            Some(function) => form![known::FUNCTION, function.clone()],
+        })
+    }
+
+    fn form(self, definer: Sym, last: Value) -> Value {
+        form![
+            definer,
+            quote(self.name),
+            quote(self.superclasses),
+            form![known::LIST; Value::list(self.slots)],
+            form![known::LIST; Value::list(self.default_initargs)],
+            doc_form(self.doc.as_ref()),
+            last,
+        ]
+    }
+}
+
+/// The builtin behind `defclass`: returns the class.
+pub fn define_standard_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    define(image, args, ClassKind::Standard).map(Value::Class)
+}
+
+/// The builtin behind `define-condition`: returns the name.
+pub fn define_condition(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    let class = define(image, args, ClassKind::Condition)?;
+    *class.report.borrow_mut() = match args.get(5) {
+        Some(Value::Function(report)) => Some(report.clone()),
+        _ => None,
+    };
+    Ok(class.name.into())
+}
+
+fn define(image: &mut Image, args: &[Value], kind: ClassKind) -> Result<Rc<Class>, Box<Raise>> {
+    let [name, superclasses, slots, default_initargs, doc, ..] = args else {
+        return Err(Raise::program("invalid number of arguments: 0"));
+    };
+    let Some(name) = name.as_symbol() else {
+        return Err(Raise::type_error(name, Value::Symbol(known::SYMBOL)));
+    };
+    let slots: Vec<DefinedSlot> = slots
+        .iter_list()
+        .filter_map(|s| evaluated_slot(&s))
+        .collect();
+    let default_initargs = default_initargs
+        .iter_list()
+        .filter_map(|pair| {
+            let key = pair.car_or_nil().as_symbol()?;
+            Some((key, evaluated_init(&pair.cdr_or_nil())?))
+        })
+        .collect();
+    let class = image.define_class(ClassDefinition {
+        name,
+        kind,
+        superclasses: superclasses
+            .iter_list()
+            .filter_map(|s| s.as_symbol())
+            .collect(),
+        slots: slots.iter().map(|s| s.slot.clone()).collect(),
+        default_initargs,
+        doc: doc.as_text().map(Into::into),
+    })?;
+    for slot in &slots {
+        for reader in &slot.readers {
+            add_accessor(image, reader, &class, Accessor::Reader(slot.slot.name))?;
+        }
+        for writer in &slot.writers {
+            add_accessor(image, writer, &class, Accessor::Writer(slot.slot.name))?;
+        }
+    }
+    Ok(class)
+}
+
+/// Adds the method that reads or writes a slot.
+fn add_accessor(
+    image: &mut Image,
+    name: &Value,
+    class: &Rc<Class>,
+    accessor: Accessor,
+) -> Result<(), Box<Raise>> {
+    let of_class = Specializer::Class(class.clone());
+    let (specializers, function) = match accessor {
+        Accessor::Reader(slot) => {
+            let slot_name = Value::Symbol(slot);
+            let function = Function::made_control(slot, (1, Some(1)), move |machine, args| {
+                let object = args.first().cloned().unwrap_or(Value::NIL);
+                super::access::slot_value(machine, &object, &slot_name)
+            });
+            (vec![of_class], function)
+        }
+        Accessor::Writer(slot) => {
+            let slot_name = Value::Symbol(slot);
+            let function = Function::made_control(slot, (2, Some(2)), move |machine, args| {
+                let value = args.first().cloned().unwrap_or(Value::NIL);
+                let object = args.get(1).cloned().unwrap_or(Value::NIL);
+                super::access::set_slot_value(machine, value, &object, &slot_name)
+            });
+            let anything = match image.class(known::T) {
+                Some(class) => Specializer::Class(class.clone()),
+                None => of_class.clone(),
+            };
+            (vec![anything, of_class], function)
+        }
+    };
+    define_method(
+        image,
+        MethodDefinition {
+            name: name.clone(),
+            qualifiers: Vec::new(),
+            parameters: Parameters::required(specializers.len()),
+            specializers,
+            function,
+            takes_next: false,
+            accessor: Some(accessor),
+            doc: None,
+        },
+    )?;
+    Ok(())
+}

@@ -1,0 +1,358 @@
+//! `defgeneric` and `defmethod`: their expansions, and the builtins behind them.
+
+use std::rc::Rc;
+
+use super::form::{doc_form, form, quote, split_body};
+use super::method::{
+    MethodDefinition, changed, define_method, ensure_generic, method_value, specializer,
+};
+use super::parameters::Parameters;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::{FunctionCell, Sym};
+use crate::lisp::value::Value;
+
+/// Operators that a `:method-combination` may name.
+const COMBINATIONS: &[Sym] = &[
+    known::STANDARD,
+    known::PLUS,
+    known::AND,
+    known::OR,
+    known::LIST,
+    known::APPEND,
+    known::NCONC,
+    known::MAX,
+    known::MIN,
+    known::PROGN,
+];
+
+/// `(defmethod name qualifiers… lambda-list body…)`.
+pub fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+    let mut items = whole.iter_list();
+    items.next();
+    let name = items.next().unwrap_or(Value::NIL);
+    let mut qualifiers = Vec::new();
+    let lambda_list = loop {
+        match items.next() {
+            Some(list) if list.is_list() => break list,
+            Some(qualifier @ Value::Symbol(_)) => qualifiers.push(qualifier),
+            _ => {
+                return Err(Raise::program(
+                    "DEFMETHOD takes a name, qualifiers, a lambda list and a body.",
+                ));
+            }
+        }
+    };
+    let (plain, specializers) = split_lambda_list(image, &lambda_list)?;
+    let split = split_body(&items.rest);
+    let takes_next = asks_for_next(image, &split.forms);
+    let doc = doc_form(split.doc.as_ref());
+    let function = method_function(image, &name, &plain, split, takes_next);
+    Ok(form![
+        known::SYS_ADD_METHOD,
+        quote(name),
+        quote(Value::list(qualifiers)),
+        form![known::LIST; Value::list(specializers)],
+        quote(plain),
+        Value::bool(takes_next),
+        doc,
+        function,
+    ])
+}
+
+/// The lambda list without specializers, and a form for each specializer.
+fn split_lambda_list(
+    image: &Image,
+    lambda_list: &Value,
+) -> Result<(Value, Vec<Value>), Box<Raise>> {
+    let mut plain = Vec::new();
+    let mut specializers = Vec::new();
+    let mut items = lambda_list.iter_list();
+    while let Some(item) = items.next() {
+        match &item {
+            Value::Symbol(sym) if image.name(*sym).starts_with('&') => {
+                return Ok((
+                    Value::list_with_tail(plain, Value::cons(item, items.rest)),
+                    specializers,
+                ));
+            }
+            Value::Symbol(_) => {
+                plain.push(item);
+                specializers.push(Value::T);
+            }
+            Value::Cons(parameter) => {
+                plain.push(parameter.car());
+                let wanted = parameter.cdr().car_or_nil();
+                specializers.push(match wanted.car_or_nil().as_symbol() {
+                    Some(known::EQL) => {
+                        let object = wanted.cdr_or_nil().car_or_nil();
+                        form![known::LIST, quote(known::EQL), object]
+                    }
+                    _ => quote(wanted),
+                });
+            }
+            other => {
+                return Err(Raise::program(format!(
+                    "{} is not a parameter of a method.",
+                    super::text(image, other)
+                )));
+            }
+        }
+    }
+    Ok((Value::list(plain), specializers))
+}
+
+/// The function of a method: it takes the function that calls the next method, if its body
+/// asks for that, and accepts any keyword, because the generic function checks them.
+fn method_function(
+    image: &mut Image,
+    name: &Value,
+    lambda_list: &Value,
+    body: super::form::Body,
+    takes_next: bool,
+) -> Value {
+    let lambda_list = with_other_keys(lambda_list);
+    if !takes_next {
+        let forms = Value::list_with_tail(body.declarations, body.forms);
+        return form![known::NAMED_LAMBDA, name.clone(), lambda_list; forms];
+    }
+    let next = Value::Symbol(image.gensym("NEXT-METHOD"));
+    let args = Value::Symbol(image.gensym("ARGS"));
+    // (or next (%no-next-method 'name)): the function to call.
+    let callee = form![
+        known::OR,
+        next.clone(),
+        form![known::SYS_NO_NEXT_METHOD, quote(name.clone())],
+    ];
+    let is_there = form![known::IF, next.clone(), Value::T, Value::NIL];
+    let rest = form![known::L_REST, args.clone()];
+    let inner = if names_function(&body.forms) {
+        form![
+            known::FLET,
+            form![
+                form![
+                    known::CALL_NEXT_METHOD,
+                    rest,
+                    form![known::APPLY, callee, args],
+                ],
+                form![known::NEXT_METHOD_P, Value::NIL, is_there],
+            ];
+            body.forms
+        ]
+    } else {
+        form![
+            known::MACROLET,
+            form![
+                form![
+                    known::CALL_NEXT_METHOD,
+                    rest,
+                    form![known::LIST_STAR, quote(known::FUNCALL), quote(callee), args],
+                ],
+                form![known::NEXT_METHOD_P, Value::NIL, quote(is_there)],
+            ];
+            body.forms
+        ]
+    };
+    let forms = Value::list_with_tail(body.declarations, form![inner]);
+    form![known::NAMED_LAMBDA, name.clone(), form![next; lambda_list]; forms]
+}
+
+/// The lambda list with `&allow-other-keys` if it has `&key`.
+fn with_other_keys(lambda_list: &Value) -> Value {
+    let items: Vec<Value> = lambda_list.iter_list().collect();
+    let position = |sym: Sym| items.iter().position(|i| i.as_symbol() == Some(sym));
+    if position(known::L_KEY).is_none() || position(known::L_ALLOW_OTHER_KEYS).is_some() {
+        return lambda_list.clone();
+    }
+    let end = position(known::L_AUX).unwrap_or(items.len());
+    let mut all = items;
+    all.insert(end, known::L_ALLOW_OTHER_KEYS.into());
+    Value::list(all)
+}
+
+/// May the body call the next method? So it may if it names the operator, or uses a macro
+/// of the program, which may expand into that.
+fn asks_for_next(image: &Image, forms: &Value) -> bool {
+    any_part(forms, |part| match part {
+        Value::Symbol(known::CALL_NEXT_METHOD | known::NEXT_METHOD_P) => true,
+        Value::Cons(cons) => cons.car().as_symbol().is_some_and(|operator| {
+            matches!(image.symbol(operator).function, FunctionCell::Macro(_))
+        }),
+        _ => false,
+    })
+}
+
+/// Does the body use `call-next-method` as a function object?
+fn names_function(forms: &Value) -> bool {
+    any_part(forms, |part| {
+        part.car_or_nil().as_symbol() == Some(known::FUNCTION)
+            && matches!(
+                part.cdr_or_nil().car_or_nil().as_symbol(),
+                Some(known::CALL_NEXT_METHOD | known::NEXT_METHOD_P)
+            )
+    })
+}
+
+/// Does some part of a form, itself included, pass the test?
+fn any_part(form: &Value, test: impl Fn(&Value) -> bool) -> bool {
+    let mut pending = vec![form.clone()];
+    while let Some(part) = pending.pop() {
+        if test(&part) {
+            return true;
+        }
+        if let Value::Cons(cons) = &part {
+            pending.push(cons.cdr());
+            pending.push(cons.car());
+        }
+    }
+    false
+}
+
+/// The builtin behind `defmethod`: returns the method.
+pub fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    let [
+        name,
+        qualifiers,
+        specializers,
+        lambda_list,
+        takes_next,
+        doc,
+        function,
+    ] = args
+    else {
+        return Err(Raise::program("invalid number of arguments: 0"));
+    };
+    let Value::Function(function) = function else {
+        return Err(Raise::type_error(function, Value::Symbol(known::FUNCTION)));
+    };
+    let specializers = specializers
+        .iter_list()
+        .map(|s| specializer(image, &s))
+        .collect::<Result<_, _>>()?;
+    let parameters = Parameters::parse(image, lambda_list)?;
+    let method = define_method(
+        image,
+        MethodDefinition {
+            name: name.clone(),
+            qualifiers: qualifiers
+                .iter_list()
+                .filter_map(|q| q.as_symbol())
+                .collect(),
+            specializers,
+            parameters,
+            function: function.clone(),
+            takes_next: takes_next.is_true(),
+            accessor: None,
+            doc: doc.as_text().map(Into::into),
+        },
+    )?;
+    Ok(method_value(&method))
+}
+
+/// `(defgeneric name lambda-list options… methods…)`.
+pub fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+    let parts = whole.list_to_vec().unwrap_or_default();
+    let [_, name, lambda_list, options @ ..] = parts.as_slice() else {
+        return Err(Raise::program(
+            "DEFGENERIC takes a name, a lambda list and options.",
+        ));
+    };
+    let mut doc = Value::NIL;
+    let mut combination = Value::list([known::STANDARD.into()]);
+    let mut methods = Vec::new();
+    for option in options {
+        let rest = option.cdr_or_nil();
+        match option.car_or_nil().as_symbol() {
+            Some(known::K_DOCUMENTATION) => doc = rest.car_or_nil(),
+            Some(known::K_METHOD_COMBINATION) => combination = rest,
+            Some(known::K_METHOD) => methods.push(form![
+                known::SYS_OWN_METHOD,
+                form![known::DEFMETHOD, name.clone(); rest],
+            ]),
+            Some(
+                known::DECLARE
+                | known::K_GENERIC_FUNCTION_CLASS
+                | known::K_METHOD_CLASS
+                | known::K_ARGUMENT_PRECEDENCE_ORDER,
+            ) => {}
+            _ => {
+                return Err(Raise::program(format!(
+                    "Invalid option {} of DEFGENERIC.",
+                    super::text(image, option)
+                )));
+            }
+        }
+    }
+    let ensure = form![
+        known::SYS_ENSURE_GENERIC,
+        quote(name.clone()),
+        quote(lambda_list.clone()),
+        quote(combination),
+        doc,
+    ];
+    if methods.is_empty() {
+        return Ok(ensure);
+    }
+    let body = Value::list_with_tail(methods, Value::NIL);
+    Ok(form![known::PROG1, ensure; body])
+}
+
+/// The builtin behind `defgeneric`: returns the generic function.
+pub fn ensure_generic_function(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    let [name, lambda_list, combination, doc] = args else {
+        return Err(Raise::program("invalid number of arguments: 0"));
+    };
+    let parameters = Parameters::parse(image, lambda_list)?;
+    let operator = combination.car_or_nil();
+    let Some(operator) = operator.as_symbol().filter(|o| COMBINATIONS.contains(o)) else {
+        return Err(Raise::program(format!(
+            "There is no method combination named {}.",
+            super::text(image, &operator)
+        )));
+    };
+    let function = ensure_generic(image, name, &parameters)?;
+    if let Some(generic) = function.as_generic() {
+        let own = generic.own_methods.take();
+        generic
+            .methods
+            .borrow_mut()
+            .retain(|m| !own.iter().any(|o| Rc::ptr_eq(o, m)));
+        if let Some(method) = generic.methods.borrow().first()
+            && (method.parameters.required, method.parameters.optional)
+                != (parameters.required, parameters.optional)
+            && !method.is_builtin
+        {
+            return Err(Raise::program(format!(
+                "The lambda list {} does not agree with the methods of {}.",
+                super::text(image, lambda_list),
+                super::text(image, &Value::Function(function.clone()))
+            )));
+        }
+        *generic.parameters.borrow_mut() = parameters;
+        generic.is_declared.set(true);
+        generic.combination.set(operator);
+        let order = combination.cdr_or_nil().car_or_nil().as_symbol();
+        generic
+            .most_specific_last
+            .set(order == Some(known::K_MOST_SPECIFIC_LAST));
+        if let Some(text) = doc.as_text() {
+            *generic.doc.borrow_mut() = Some(text.into());
+        }
+        changed(generic);
+    }
+    Ok(Value::Function(function))
+}
+
+/// Notes that a method was made by the `defgeneric` of its function itself.
+pub fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    if let Some(object) = args
+        .first()
+        .and_then(|a| a.as_foreign::<super::method::MethodObject>())
+        && let Some(function) = super::method::named_function(image, &object.0.name)
+        && let Some(generic) = function.as_generic()
+    {
+        generic.own_methods.borrow_mut().push(object.0.clone());
+    }
+    Ok(Value::NIL)
+}

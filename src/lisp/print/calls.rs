@@ -1,0 +1,69 @@
+//! Calls of Lisp functions that a text depends on.
+//!
+//! Printing with no texts at hand collects the calls in order; printing again with their
+//! texts consumes them in the same order.
+
+use std::collections::VecDeque;
+
+use crate::lisp::value::Value;
+
+/// A call that writes a text to a stream.
+#[derive(Clone)]
+pub struct Call {
+    /// The function.
+    pub function: Value,
+    /// Arguments before the stream.
+    pub before: Vec<Value>,
+    /// Arguments after the stream.
+    pub after: Vec<Value>,
+    /// `*print-escape*` during the call; unchanged if none.
+    pub escape: Option<bool>,
+}
+
+/// Calls that are needed, or their texts.
+pub struct Calls {
+    /// Texts of calls made, in the order in which they are needed.
+    texts: VecDeque<String>,
+    /// Calls without a text.
+    needed: Vec<Call>,
+    /// Are calls made at all?
+    is_pure: bool,
+}
+
+impl Calls {
+    /// No calls are possible: objects print in their default form.
+    pub fn none() -> Calls {
+        Calls {
+            texts: VecDeque::new(),
+            needed: Vec::new(),
+            is_pure: true,
+        }
+    }
+
+    /// Calls are possible, and these texts came of the first ones.
+    pub fn with_texts(texts: impl IntoIterator<Item = String>) -> Calls {
+        Calls {
+            texts: texts.into_iter().collect(),
+            needed: Vec::new(),
+            is_pure: false,
+        }
+    }
+
+    /// The text of the next call; without one, the call is noted and the text is empty.
+    /// `None` if calls are not possible.
+    pub(crate) fn text(&mut self, call: impl FnOnce() -> Call) -> Option<String> {
+        if self.is_pure {
+            return None;
+        }
+        if let Some(text) = self.texts.pop_front() {
+            return Some(text);
+        }
+        self.needed.push(call());
+        Some(String::new())
+    }
+
+    /// The calls whose texts were missing.
+    pub fn into_needed(self) -> Vec<Call> {
+        self.needed
+    }
+}

@@ -1,0 +1,103 @@
+//! Made-up addresses: `{1001000003}`.
+//!
+//! Objects that cannot be read back are told apart by a number that they get when they
+//! are first printed. Real addresses would differ from run to run.
+
+use std::collections::HashMap;
+use std::rc::{Rc, Weak};
+
+use crate::lisp::array::{Array, Vector};
+use crate::lisp::class::Instance;
+use crate::lisp::foreign::ForeignBox;
+use crate::lisp::function::Function;
+use crate::lisp::hash_table::HashTable;
+use crate::lisp::image::Image;
+use crate::lisp::stream::Stream;
+use crate::lisp::value::Value;
+
+/// The first number.
+const FIRST: u64 = 0x10_0100_0000;
+/// Distance of two numbers.
+const STEP: u64 = 0x40;
+/// Numbers of dead objects are forgotten when this many objects have one, and when that
+/// many more have.
+const SWEEP_FROM: usize = 1024;
+
+enum Held {
+    Instance(Weak<Instance>),
+    Function(Weak<Function>),
+    Hash(Weak<HashTable>),
+    Stream(Weak<Stream>),
+    Foreign(Weak<ForeignBox>),
+    Vector(Weak<Vector>),
+    Array(Weak<Array>),
+}
+
+impl Held {
+    /// The object with its address and the low digit of its number.
+    fn of(value: &Value) -> Option<(usize, u64, Held)> {
+        Some(match value {
+            Value::Instance(r) => (address(r), 0x3, Held::Instance(Rc::downgrade(r))),
+            Value::Function(r) => (address(r), 0xB, Held::Function(Rc::downgrade(r))),
+            Value::Hash(r) => (address(r), 0x3, Held::Hash(Rc::downgrade(r))),
+            Value::Stream(r) => (address(r), 0x3, Held::Stream(Rc::downgrade(r))),
+            Value::Foreign(r) => (address(r), 0x3, Held::Foreign(Rc::downgrade(r))),
+            Value::Vector(r) => (address(r), 0xF, Held::Vector(Rc::downgrade(r))),
+            Value::Array(r) => (address(r), 0xF, Held::Array(Rc::downgrade(r))),
+            _ => return None,
+        })
+    }
+
+    fn is_alive(&self) -> bool {
+        let count = match self {
+            Held::Instance(w) => w.strong_count(),
+            Held::Function(w) => w.strong_count(),
+            Held::Hash(w) => w.strong_count(),
+            Held::Stream(w) => w.strong_count(),
+            Held::Foreign(w) => w.strong_count(),
+            Held::Vector(w) => w.strong_count(),
+            Held::Array(w) => w.strong_count(),
+        };
+        count > 0
+    }
+}
+
+fn address<T>(object: &Rc<T>) -> usize {
+    Rc::as_ptr(object).cast::<()>() as usize
+}
+
+/// The numbers that objects of an image have got.
+#[derive(Default)]
+pub struct Identities {
+    /// By address; an address may have been used again, so the object is held weakly.
+    entries: HashMap<usize, (u64, Held)>,
+    given: u64,
+    sweep_at: usize,
+}
+
+impl Identities {
+    fn number(&mut self, value: &Value) -> u64 {
+        let Some((address, tag, held)) = Held::of(value) else {
+            return FIRST;
+        };
+        if let Some((number, held)) = self.entries.get(&address)
+            && held.is_alive()
+        {
+            return *number;
+        }
+        if self.entries.len() >= self.sweep_at.max(SWEEP_FROM) {
+            self.entries.retain(|_, (_, held)| held.is_alive());
+            self.sweep_at = self.entries.len() * 2;
+        }
+        let number = FIRST + self.given * STEP + tag;
+        self.given += 1;
+        self.entries.insert(address, (number, held));
+        number
+    }
+}
+
+/// The made-up address of an object, in braces: the same one whenever it is printed.
+pub fn identity(image: &Image, value: &Value) -> String {
+    let number = image.printed.borrow_mut().number(value);
+    format!("{{{number:010X}}}")
+}

@@ -1,0 +1,194 @@
+//! Where the lines of a document break: the rules of the Common Lisp pretty printer.
+
+use super::document::{Document, Kind, Newline, Op};
+use super::settings::Settings;
+
+/// A block that does not fit on one line.
+struct Block {
+    start_column: usize,
+    indent: usize,
+    /// The line on which its current section starts.
+    section_line: usize,
+}
+
+struct Layout<'d> {
+    document: &'d Document,
+    settings: &'d Settings,
+    out: String,
+    /// Bytes of the text that are out.
+    written: usize,
+    /// Column of a position: the position plus this.
+    shift: i64,
+    line: usize,
+    blocks: Vec<Block>,
+    /// For each instruction, the index of the next unconditional newline after it.
+    next_forced: Vec<usize>,
+}
+
+/// Breaks a document into lines; the first line has so many characters already.
+pub(super) fn lay_out(document: Document, settings: &Settings, column: usize) -> String {
+    let is_flat = column + document.characters() <= settings.right_margin
+        && !document
+            .ops
+            .iter()
+            .any(|op| matches!(op.kind, Kind::Newline(n) if n.is_unconditional()));
+    if is_flat {
+        return document.into_text();
+    }
+    let mut next_forced = vec![usize::MAX; document.ops.len()];
+    let mut next = usize::MAX;
+    for (i, op) in document.ops.iter().enumerate().rev() {
+        if let Some(slot) = next_forced.get_mut(i) {
+            *slot = next;
+        }
+        if matches!(op.kind, Kind::Newline(n) if n.is_unconditional()) {
+            next = i;
+        }
+    }
+    let layout = Layout {
+        document: &document,
+        settings,
+        out: String::with_capacity(document.text.len() + 64),
+        written: 0,
+        shift: signed(column),
+        line: 0,
+        blocks: vec![Block {
+            start_column: 0,
+            indent: 0,
+            section_line: 0,
+        }],
+        next_forced,
+    };
+    layout.run()
+}
+
+/// Texts are shorter than the largest signed number.
+fn signed(n: usize) -> i64 {
+    i64::try_from(n).unwrap_or(i64::MAX / 4)
+}
+
+impl Layout<'_> {
+    fn run(mut self) -> String {
+        let mut i = 0;
+        while let Some(op) = self.document.ops.get(i) {
+            i += 1;
+            match op.kind {
+                Kind::Start => {
+                    if self.fits(i - 1, op) {
+                        // The whole block is on one line: nothing in it matters.
+                        i = i.max(op.block_end + 1);
+                    } else {
+                        let column = self.column(op.position);
+                        self.blocks.push(Block {
+                            start_column: column,
+                            indent: column,
+                            section_line: self.line,
+                        });
+                    }
+                }
+                Kind::End => {
+                    // The outermost block is not ended by any instruction.
+                    if self.blocks.len() > 1 {
+                        self.blocks.pop();
+                    }
+                }
+                Kind::IndentBlock(columns) if !self.is_squeezed() => {
+                    if let Some(block) = self.blocks.last_mut() {
+                        block.indent = offset(block.start_column, columns);
+                    }
+                }
+                Kind::IndentCurrent(columns) if !self.is_squeezed() => {
+                    let column = self.column(op.position);
+                    if let Some(block) = self.blocks.last_mut() {
+                        block.indent = offset(column, columns);
+                    }
+                }
+                Kind::IndentBlock(_) | Kind::IndentCurrent(_) => {}
+                Kind::Newline(newline) => {
+                    if self.breaks(i - 1, op, newline) && !self.break_line(op, newline) {
+                        return self.out;
+                    }
+                }
+            }
+        }
+        self.write_up_to(self.document.text.len());
+        self.out
+    }
+
+    fn column(&self, position: usize) -> usize {
+        usize::try_from(signed(position) + self.shift).unwrap_or(0)
+    }
+
+    /// Does what starts with the instruction fit on the line, up to the end of its section?
+    fn fits(&self, index: usize, op: &Op) -> bool {
+        let end = op.section_end;
+        let forced = self.next_forced.get(index).copied().unwrap_or(usize::MAX);
+        if forced < end.unwrap_or(usize::MAX) {
+            return false;
+        }
+        let position = end
+            .and_then(|end| self.document.ops.get(end))
+            .map_or(self.document.characters(), |end| end.position);
+        self.column(position) <= self.settings.right_margin
+    }
+
+    /// Is the innermost block so near to the right margin that it is printed tightly?
+    fn is_squeezed(&self) -> bool {
+        let start = self.blocks.last().map_or(0, |b| b.start_column);
+        self.settings
+            .miser_width
+            .is_some_and(|width| self.settings.right_margin.saturating_sub(start) <= width)
+    }
+
+    fn breaks(&self, index: usize, op: &Op, newline: Newline) -> bool {
+        match newline {
+            Newline::Linear | Newline::Mandatory | Newline::Literal => true,
+            Newline::Miser => self.is_squeezed(),
+            Newline::Fill => {
+                self.is_squeezed()
+                    || self
+                        .blocks
+                        .last()
+                        .is_some_and(|b| self.line > b.section_line)
+                    || !self.fits(index, op)
+            }
+        }
+    }
+
+    fn write_up_to(&mut self, byte: usize) {
+        self.out
+            .push_str(self.document.text.get(self.written..byte).unwrap_or(""));
+        self.written = self.written.max(byte);
+    }
+
+    /// Ends the line; false if no more lines may be printed.
+    fn break_line(&mut self, op: &Op, newline: Newline) -> bool {
+        self.write_up_to(op.byte);
+        if newline != Newline::Literal {
+            let kept = self.out.trim_end_matches(' ').len();
+            self.out.truncate(kept);
+        }
+        self.line += 1;
+        if self.settings.lines.is_some_and(|most| self.line >= most) {
+            self.out.push_str(" ..");
+            let open = self.blocks.len() - 1;
+            self.out.push_str(&")".repeat(open));
+            return false;
+        }
+        self.out.push('\n');
+        let mut indent = 0;
+        if newline != Newline::Literal
+            && let Some(block) = self.blocks.last_mut()
+        {
+            indent = block.indent;
+            block.section_line = self.line;
+        }
+        self.out.extend(std::iter::repeat_n(' ', indent));
+        self.shift = signed(indent) - signed(op.position);
+        true
+    }
+}
+
+fn offset(column: usize, by: i64) -> usize {
+    usize::try_from(signed(column).saturating_add(by)).unwrap_or(0)
+}

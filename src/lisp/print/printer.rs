@@ -1,0 +1,557 @@
+//! From a value to a document: an explicit stack of what is still to be printed.
+
+use std::rc::Rc;
+
+use super::atom;
+use super::calls::{Call, Calls};
+use super::circle::{Label, Labels};
+use super::document::{Document, Newline};
+use super::identity::identity;
+use super::layout::lay_out;
+use super::report;
+use super::settings::Settings;
+use super::shape::{self, Form, Layout, Shape, Style};
+use super::symbol;
+use crate::lisp::array::{Array, Vector};
+use crate::lisp::class::{ClassKind, Instance};
+use crate::lisp::generic::Specializer;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::symbol::FunctionCell;
+use crate::lisp::value::Value;
+
+/// Prints one value.
+pub(super) struct Printer<'a> {
+    image: &'a Image,
+    settings: &'a Settings,
+    calls: &'a mut Calls,
+    document: Document,
+    labels: Labels,
+    tasks: Vec<Task>,
+}
+
+enum Task {
+    /// Print a value that is so many lists and vectors deep.
+    Value(Value, Style, usize),
+    /// Print the rest of a list.
+    Rest(Rest),
+    /// Print the elements of a vector from an index on.
+    Elements {
+        items: Rc<Vec<Value>>,
+        next: usize,
+        end: usize,
+        depth: usize,
+    },
+    /// Print the sub-arrays of a dimension from an index on.
+    Rows {
+        array: Rc<Array>,
+        dimension: usize,
+        next: usize,
+        /// Index of the next element.
+        offset: usize,
+        depth: usize,
+    },
+    /// Print the slots of a structure from an index on.
+    Slots {
+        instance: Rc<Instance>,
+        next: usize,
+        depth: usize,
+    },
+    /// End a block and write what closes it.
+    Close(&'static str),
+}
+
+struct Rest {
+    list: Value,
+    /// Number of elements printed.
+    index: usize,
+    layout: ListLayout,
+    depth: usize,
+    /// Inner blocks to end with the list.
+    inner: usize,
+}
+
+#[derive(Clone, Copy)]
+enum ListLayout {
+    Shape(&'static Shape),
+    Macro(usize),
+}
+
+impl<'a> Printer<'a> {
+    pub(super) fn new(
+        image: &'a Image,
+        settings: &'a Settings,
+        calls: &'a mut Calls,
+    ) -> Printer<'a> {
+        Printer {
+            image,
+            settings,
+            calls,
+            document: Document::new(settings.pretty),
+            labels: Labels::default(),
+            tasks: Vec::new(),
+        }
+    }
+
+    /// The value's text, where the line has already so many characters.
+    pub(super) fn print(mut self, value: &Value, column: usize) -> String {
+        self.labels = Labels::of(value, self.settings.circle);
+        self.tasks.push(Task::Value(value.clone(), Style::Auto, 0));
+        while let Some(task) = self.tasks.pop() {
+            match task {
+                Task::Value(value, style, depth) => self.value(value, style, depth),
+                Task::Rest(rest) => self.rest(rest),
+                Task::Elements {
+                    items,
+                    next,
+                    end,
+                    depth,
+                } => self.elements(items, next, end, depth),
+                Task::Rows {
+                    array,
+                    dimension,
+                    next,
+                    offset,
+                    depth,
+                } => self.rows(array, dimension, next, offset, depth),
+                Task::Slots {
+                    instance,
+                    next,
+                    depth,
+                } => self.slots(instance, next, depth),
+                Task::Close(text) => {
+                    self.document.end();
+                    self.document.text(text);
+                }
+            }
+        }
+        if self.settings.pretty {
+            lay_out(self.document, self.settings, column)
+        } else {
+            self.document.into_text()
+        }
+    }
+
+    fn value(&mut self, value: Value, style: Style, depth: usize) {
+        match self.labels.next(&value) {
+            Label::None => {}
+            Label::First(number) => self.document.text(&format!("#{number}=")),
+            Label::Again(number) => {
+                self.document.text(&format!("#{number}#"));
+                return;
+            }
+        }
+        match &value {
+            Value::Cons(_) => self.list(value, style, depth),
+            Value::Symbol(known::NIL) if matches!(style, Style::List(_)) => {
+                self.document.text("()");
+            }
+            Value::Vector(vector) => self.vector(&value, vector, depth),
+            Value::Array(array) => self.array(&value, array, depth),
+            Value::Instance(instance) => self.instance(&value, instance, depth),
+            _ => {
+                let text = atom::atom(self.image, &value, self.settings);
+                self.document.text(&text);
+            }
+        }
+    }
+
+    /// Is something at this depth left out? Then `#` stands for it.
+    fn is_too_deep(&mut self, depth: usize) -> bool {
+        let is_too_deep = self.settings.level.is_some_and(|level| depth >= level);
+        if is_too_deep {
+            self.document.text("#");
+        }
+        is_too_deep
+    }
+
+    fn is_cut(&self, printed: usize) -> bool {
+        self.settings.length.is_some_and(|most| printed >= most)
+    }
+
+    fn list(&mut self, list: Value, style: Style, depth: usize) {
+        let form = match style {
+            Style::List(shape) if self.settings.pretty => Form::Shape(shape),
+            _ if self.settings.pretty => shape::form(self.image, &list),
+            _ => match shape::prefix(&list) {
+                // Backquotes have no other text than their sign.
+                Some(prefix) if !matches!(prefix, "'" | "#'") => Form::Prefix(prefix),
+                _ => Form::Shape(&shape::FILL),
+            },
+        };
+        let layout = match form {
+            Form::Prefix(prefix) => {
+                self.document.text(prefix);
+                let argument = list.cdr_or_nil().car_or_nil();
+                if prefix == ","
+                    && let Value::Symbol(sym) = argument
+                    && self.image.name(sym).starts_with(['@', '.'])
+                {
+                    self.document.text(" ");
+                }
+                self.tasks.push(Task::Value(argument, Style::Auto, depth));
+                return;
+            }
+            Form::Shape(shape) => ListLayout::Shape(shape),
+            Form::Macro(count) => ListLayout::Macro(count),
+        };
+        if self.is_too_deep(depth) {
+            return;
+        }
+        self.document.text("(");
+        self.document.start();
+        self.tasks.push(Task::Rest(Rest {
+            list,
+            index: 0,
+            layout,
+            depth,
+            inner: 0,
+        }));
+    }
+
+    /// Writes what stands before an element; returns how the element is printed.
+    fn before(&mut self, rest: &mut Rest, element: &Value) -> Style {
+        let Some(position) = rest.index.checked_sub(1) else {
+            return match rest.layout {
+                ListLayout::Shape(shape) => shape.first,
+                ListLayout::Macro(_) => Style::Auto,
+            };
+        };
+        let shape = match rest.layout {
+            ListLayout::Shape(shape) => shape,
+            ListLayout::Macro(count) => {
+                self.before_macro_argument(position, count);
+                return Style::Auto;
+            }
+        };
+        let step = shape.steps.get(position).or_else(|| {
+            let position = position - shape.steps.len();
+            shape.rest.get(position % shape.rest.len().max(1))
+        });
+        let Some(step) = step else {
+            self.document.text(" ");
+            return Style::Auto;
+        };
+        for layout in step.before {
+            match layout {
+                Layout::Space => self.document.text(" "),
+                Layout::Break(newline) => self.document.newline(*newline),
+                Layout::Block(columns) => self.document.indent_block(*columns),
+                Layout::Current => self.document.indent_current(0),
+                Layout::Inner => {
+                    self.document.start();
+                    rest.inner += 1;
+                }
+                Layout::TagIndent => {
+                    let columns = i64::from(matches!(element, Value::Cons(_)));
+                    self.document.indent_block(columns);
+                }
+                Layout::LoopBreak if shape::begins_loop_clause(self.image, element) => {
+                    self.document.newline(Newline::Mandatory);
+                }
+                Layout::LoopBreak => {}
+                Layout::ParameterBreak if shape::is_parameter_keyword(element) => {
+                    self.document.newline(Newline::Linear);
+                }
+                Layout::ParameterBreak => self.document.newline(Newline::Fill),
+            }
+        }
+        step.style
+    }
+
+    /// The first argument stands beside the macro's name, others below it, then the body.
+    fn before_macro_argument(&mut self, position: usize, count: usize) {
+        self.document.text(" ");
+        if position == 0 && count > 0 {
+            return;
+        }
+        let indent = if position < count { 3 } else { 1 };
+        self.document.indent_block(indent);
+        self.document.newline(Newline::Mandatory);
+    }
+
+    fn rest(&mut self, mut rest: Rest) {
+        let list = rest.list.clone();
+        let depth = rest.depth;
+        let is_first = rest.index == 0;
+        let cons = match &list {
+            Value::Cons(cons)
+                if is_first
+                    || !(self.labels.is_marked(&list) || shape::is_backquote_part(&list)) =>
+            {
+                cons
+            }
+            Value::Symbol(known::NIL) => {
+                self.close_list(rest.inner);
+                return;
+            }
+            tail => {
+                // A dotted tail, or one that is shared with another place.
+                self.before(&mut rest, tail);
+                self.document.text(". ");
+                self.push_close(rest.inner);
+                self.tasks
+                    .push(Task::Value(tail.clone(), Style::Auto, depth + 1));
+                return;
+            }
+        };
+        let element = cons.car();
+        let style = self.before(&mut rest, &element);
+        if self.is_cut(rest.index) {
+            self.document.text("...");
+            self.close_list(rest.inner);
+            return;
+        }
+        rest.list = cons.cdr();
+        rest.index += 1;
+        self.tasks.push(Task::Rest(rest));
+        self.tasks.push(Task::Value(element, style, depth + 1));
+    }
+
+    fn push_close(&mut self, inner: usize) {
+        self.tasks.push(Task::Close(")"));
+        for _ in 0..inner {
+            self.tasks.push(Task::Close(""));
+        }
+    }
+
+    fn close_list(&mut self, inner: usize) {
+        for _ in 0..inner {
+            self.document.end();
+        }
+        self.document.end();
+        self.document.text(")");
+    }
+
+    fn vector(&mut self, value: &Value, vector: &Rc<Vector>, depth: usize) {
+        let items = vector.to_vec();
+        if !self.settings.array {
+            let kind = if vector.element_type == known::BIT {
+                "SIMPLE-BIT-VECTOR"
+            } else {
+                "SIMPLE-VECTOR"
+            };
+            let text = format!(
+                "#<({kind} {}) {}>",
+                items.len(),
+                identity(self.image, value)
+            );
+            self.document.text(&text);
+            return;
+        }
+        if vector.element_type == known::BIT {
+            let bits = items.iter().map(|bit| {
+                if matches!(bit, Value::Int(0)) {
+                    '0'
+                } else {
+                    '1'
+                }
+            });
+            let text: String = "#*".chars().chain(bits).collect();
+            self.document.text(&text);
+            return;
+        }
+        if self.is_too_deep(depth) {
+            return;
+        }
+        self.document.text("#(");
+        self.document.start();
+        self.tasks.push(Task::Close(")"));
+        self.tasks.push(Task::Elements {
+            end: items.len(),
+            items: Rc::new(items),
+            next: 0,
+            depth,
+        });
+    }
+
+    fn elements(&mut self, items: Rc<Vec<Value>>, next: usize, end: usize, depth: usize) {
+        if next >= end {
+            return;
+        }
+        if next > 0 {
+            self.document.text(" ");
+            self.document.newline(Newline::Fill);
+        }
+        if self.is_cut(next) {
+            self.document.text("...");
+            return;
+        }
+        if let Some(item) = items.get(next).cloned() {
+            self.tasks.push(Task::Elements {
+                items,
+                next: next + 1,
+                end,
+                depth,
+            });
+            self.tasks.push(Task::Value(item, Style::Auto, depth + 1));
+        }
+    }
+
+    fn array(&mut self, value: &Value, array: &Rc<Array>, depth: usize) {
+        if !self.settings.array {
+            let text = format!("#<ARRAY {}>", identity(self.image, value));
+            self.document.text(&text);
+            return;
+        }
+        if self.is_too_deep(depth) {
+            return;
+        }
+        let rank = array.dimensions.len();
+        self.document.text(&format!("#{rank}A"));
+        self.tasks.push(Task::Rows {
+            array: array.clone(),
+            dimension: 0,
+            next: 0,
+            offset: 0,
+            depth,
+        });
+    }
+
+    fn rows(
+        &mut self,
+        array: Rc<Array>,
+        dimension: usize,
+        next: usize,
+        offset: usize,
+        depth: usize,
+    ) {
+        let Some(length) = array.dimensions.get(dimension).copied() else {
+            let item = array.items.borrow().get(offset).cloned();
+            let item = item.unwrap_or(Value::NIL);
+            self.tasks.push(Task::Value(item, Style::Auto, depth + 1));
+            return;
+        };
+        if next == 0 {
+            self.document.text("(");
+            self.document.start();
+        }
+        let is_cut = next < length && self.is_cut(next);
+        if next > 0 && next < length {
+            self.document.text(" ");
+            let is_last_dimension = dimension + 1 == array.dimensions.len();
+            self.document.newline(if is_last_dimension {
+                Newline::Fill
+            } else {
+                Newline::Linear
+            });
+        }
+        if is_cut {
+            self.document.text("...");
+        }
+        if is_cut || next >= length {
+            self.document.end();
+            self.document.text(")");
+            return;
+        }
+        let step: usize = array.dimensions.iter().skip(dimension + 1).product();
+        self.tasks.push(Task::Rows {
+            array: array.clone(),
+            dimension,
+            next: next + 1,
+            offset: offset + step,
+            depth,
+        });
+        self.tasks.push(Task::Rows {
+            array,
+            dimension: dimension + 1,
+            next: 0,
+            offset,
+            depth: depth + 1,
+        });
+    }
+
+    fn instance(&mut self, value: &Value, instance: &Rc<Instance>, depth: usize) {
+        if let Some(text) = self.text_by_program(value, instance) {
+            self.document.text(&text);
+            return;
+        }
+        match instance.class().kind {
+            ClassKind::Structure => {
+                if self.is_too_deep(depth) {
+                    return;
+                }
+                self.document.text("#S(");
+                self.document.start();
+                let settings = self.settings.clone().with_escape(true);
+                let name = symbol::symbol(self.image, instance.class().name, &settings);
+                self.document.text(&name);
+                self.tasks.push(Task::Close(")"));
+                self.tasks.push(Task::Slots {
+                    instance: instance.clone(),
+                    next: 0,
+                    depth,
+                });
+            }
+            ClassKind::Condition if !self.settings.escape => {
+                let text = report::report(self.image, value);
+                self.document.text(&text);
+            }
+            _ => {
+                let text = atom::atom(self.image, value, self.settings);
+                self.document.text(&text);
+            }
+        }
+    }
+
+    /// The text that the program's own printer makes of an instance, if it has one.
+    fn text_by_program(&mut self, value: &Value, instance: &Instance) -> Option<String> {
+        let escape = self.settings.escape;
+        let call = |function: Value| Call {
+            function,
+            before: vec![value.clone()],
+            after: Vec::new(),
+            escape: Some(escape),
+        };
+        if has_print_method(self.image, instance) {
+            return self.calls.text(|| call(known::PRINT_OBJECT.into()));
+        }
+        if escape {
+            return None;
+        }
+        let report = report::function(instance)?;
+        self.calls.text(|| call(Value::Function(report)))
+    }
+
+    fn slots(&mut self, instance: Rc<Instance>, next: usize, depth: usize) {
+        let class = instance.class();
+        let Some(name) = class.slots.borrow().get(next).map(|slot| slot.name) else {
+            return;
+        };
+        self.document.text(" ");
+        self.document.newline(Newline::Linear);
+        if self.is_cut(next) {
+            self.document.text("...");
+            return;
+        }
+        let name = symbol::name(self.image.name(name), self.settings);
+        self.document.text(&format!(":{name} "));
+        self.document.newline(Newline::Miser);
+        let value = instance.slots.borrow().get(next).cloned();
+        self.tasks.push(Task::Slots {
+            instance,
+            next: next + 1,
+            depth,
+        });
+        let value = value.unwrap_or(Value::Unbound);
+        self.tasks.push(Task::Value(value, Style::Auto, depth + 1));
+    }
+}
+
+/// Does the program define how the instance is printed?
+fn has_print_method(image: &Image, instance: &Instance) -> bool {
+    let FunctionCell::Function(function) = &image.symbol(known::PRINT_OBJECT).function else {
+        return false;
+    };
+    let Some(generic) = function.as_generic() else {
+        return false;
+    };
+    let class = instance.class();
+    generic.methods.borrow().iter().any(|method| {
+        !method.is_builtin
+            && match method.specializers.first() {
+                Some(Specializer::Class(specializer)) => class.is_subclass_of(specializer.name),
+                _ => false,
+            }
+    })
+}

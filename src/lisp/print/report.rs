@@ -1,0 +1,128 @@
+//! What conditions say.
+
+use std::rc::Rc;
+
+use super::to_string;
+use crate::lisp::class::{Class, Instance};
+use crate::lisp::function::Function;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// The `:report` function of a condition's class, inherited ones included.
+pub fn function(instance: &Instance) -> Option<Rc<Function>> {
+    let class = instance.class();
+    let own = class.report.borrow().clone();
+    own.or_else(|| {
+        let precedence = class.precedence.borrow();
+        precedence.iter().find_map(|c| c.report.borrow().clone())
+    })
+}
+
+/// A slot of the condition, by the name that the standard conditions have.
+fn slot(image: &Image, instance: &Instance, name: &str) -> Option<Value> {
+    let class = instance.class();
+    let sym = class
+        .slots
+        .borrow()
+        .iter()
+        .find(|slot| image.name(slot.name) == name)
+        .map(|slot| slot.name)?;
+    instance.slot(sym).filter(|value| !value.is_unbound())
+}
+
+/// The report of a condition as far as no Lisp code says it.
+pub fn report(image: &Image, condition: &Value) -> String {
+    let Value::Instance(instance) = condition else {
+        return to_string(image, condition, false);
+    };
+    let get = |name: &str| slot(image, instance, name).unwrap_or(Value::NIL);
+    if let Some(text) = slot(image, instance, "REPORT").and_then(|v| v.as_text()) {
+        return text;
+    }
+    // The most specific class that has a text decides.
+    let class = instance.class();
+    let own = [class.clone()];
+    let precedence = class.precedence.borrow();
+    let classes: &[Rc<Class>] = if precedence.is_empty() {
+        &own
+    } else {
+        &precedence
+    };
+    for class in classes {
+        if let Some(text) = standard(image, class.name, &get) {
+            return text;
+        }
+    }
+    format!("Condition {} was signalled.", qualified(image, class.name))
+}
+
+/// A symbol with its package, as `prin1` shows it where nothing is accessible.
+fn qualified(image: &Image, sym: Sym) -> String {
+    crate::lisp::object::qualified(image, &sym.into())
+}
+
+fn standard(image: &Image, class: Sym, get: &dyn Fn(&str) -> Value) -> Option<String> {
+    let shown = |name: &str| to_string(image, &get(name), true);
+    Some(match class {
+        known::SIMPLE_CONDITION => {
+            let control = get("FORMAT-CONTROL");
+            let arguments: Vec<Value> = get("FORMAT-ARGUMENTS").iter_list().collect();
+            match control.as_text() {
+                Some(text) => simple(image, &text, &arguments),
+                None if control.is_nil() => return None,
+                None => to_string(image, &control, false),
+            }
+        }
+        known::TYPE_ERROR => format!(
+            "The value\n  {}\nis not of type\n  {}",
+            shown("DATUM"),
+            shown("EXPECTED-TYPE")
+        ),
+        known::UNBOUND_VARIABLE => format!("The variable {} is unbound.", shown("NAME")),
+        known::UNDEFINED_FUNCTION => {
+            let name = get("NAME");
+            format!(
+                "The function {} is undefined.",
+                crate::lisp::object::qualified(image, &name)
+            )
+        }
+        known::UNBOUND_SLOT => format!(
+            "The slot {} is unbound in the object {}.",
+            crate::lisp::object::qualified(image, &get("NAME")),
+            shown("INSTANCE")
+        ),
+        known::ARITHMETIC_ERROR
+        | known::DIVISION_BY_ZERO
+        | known::FLOATING_POINT_OVERFLOW
+        | known::FLOATING_POINT_UNDERFLOW
+        | known::FLOATING_POINT_INEXACT
+        | known::FLOATING_POINT_INVALID_OPERATION => {
+            let mut text = format!("arithmetic error {} signalled", image.name(class));
+            let operation = get("OPERATION");
+            if operation.is_true() {
+                let call = Value::cons(operation, get("OPERANDS"));
+                text.push_str(&format!(
+                    "\nOperation was {}.",
+                    to_string(image, &call, true)
+                ));
+            }
+            text
+        }
+        known::END_OF_FILE => format!("end of file on {}", shown("STREAM")),
+        known::PRINT_NOT_READABLE => format!("{} cannot be printed readably.", shown("OBJECT")),
+        known::PACKAGE_ERROR => format!("error on package {}", shown("PACKAGE")),
+        known::FILE_ERROR => format!("error on file {}", shown("PATHNAME")),
+        known::CONTROL_STACK_EXHAUSTED => {
+            "Control stack exhausted (the recursion is too deep).".to_owned()
+        }
+        _ => return None,
+    })
+}
+
+/// The report of a condition with a format control.
+fn simple(image: &Image, control: &str, arguments: &[Value]) -> String {
+    let _ = (image, arguments);
+    control.to_owned()
+}

@@ -1,0 +1,103 @@
+//! The printer variables, read once per call.
+
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// `*print-case*`
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Case {
+    /// `:upcase`
+    Up,
+    /// `:downcase`
+    Down,
+    /// `:capitalize`
+    Capitalize,
+}
+
+/// How values are printed.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Settings {
+    /// `*print-escape*`: so that it can be read back?
+    pub escape: bool,
+    /// `*print-readably*`: no abbreviations?
+    pub readably: bool,
+    /// `*print-pretty*`: with line breaks?
+    pub pretty: bool,
+    /// `*print-base*`: the radix of rational numbers, 2 to 36.
+    pub base: u32,
+    /// `*print-radix*`: with the radix?
+    pub radix: bool,
+    /// `*print-case*`
+    pub case: Case,
+    /// `*print-length*`: most elements of a list or vector.
+    pub length: Option<usize>,
+    /// `*print-level*`: deepest nesting.
+    pub level: Option<usize>,
+    /// `*print-circle*`: shared parts as `#1#`?
+    pub circle: bool,
+    /// `*print-gensym*`: uninterned symbols with `#:`?
+    pub gensym: bool,
+    /// `*print-array*`: arrays with their elements?
+    pub array: bool,
+    /// `*print-lines*`: most lines of a pretty-printed value.
+    pub lines: Option<usize>,
+    /// `*print-right-margin*`: columns of a line.
+    pub right_margin: usize,
+    /// `*print-miser-width*`
+    pub miser_width: Option<usize>,
+    /// `*read-default-float-format*`: the format whose exponent marker is `e`.
+    pub float_format: Sym,
+}
+
+/// Columns of a line unless the program says otherwise.
+const RIGHT_MARGIN: usize = 80;
+
+fn count(image: &Image, variable: Sym) -> Option<usize> {
+    match image.special(variable) {
+        Value::Int(n) => usize::try_from(*n).ok(),
+        _ => None,
+    }
+}
+
+impl Settings {
+    /// The current values of the printer variables.
+    pub fn of(image: &Image) -> Settings {
+        let flag = |variable| image.special(variable).is_true();
+        Settings {
+            escape: flag(known::V_PRINT_ESCAPE),
+            readably: flag(known::V_PRINT_READABLY),
+            pretty: flag(known::V_PRINT_PRETTY),
+            base: match image.special(known::V_PRINT_BASE) {
+                Value::Int(n @ 2..=36) => u32::try_from(*n).unwrap_or(10),
+                _ => 10,
+            },
+            radix: flag(known::V_PRINT_RADIX),
+            case: match image.special(known::V_PRINT_CASE).as_symbol() {
+                Some(known::K_DOWNCASE) => Case::Down,
+                Some(known::K_CAPITALIZE) => Case::Capitalize,
+                _ => Case::Up,
+            },
+            length: count(image, known::V_PRINT_LENGTH),
+            level: count(image, known::V_PRINT_LEVEL),
+            circle: flag(known::V_PRINT_CIRCLE),
+            gensym: flag(known::V_PRINT_GENSYM),
+            array: flag(known::V_PRINT_ARRAY),
+            lines: count(image, known::V_PRINT_LINES),
+            right_margin: count(image, known::V_PRINT_RIGHT_MARGIN).unwrap_or(RIGHT_MARGIN),
+            miser_width: count(image, known::V_PRINT_MISER_WIDTH),
+            float_format: image
+                .special(known::V_READ_DEFAULT_FLOAT_FORMAT)
+                .as_symbol()
+                .unwrap_or(known::SINGLE_FLOAT),
+        }
+    }
+
+    /// The settings of `prin1` (true) or `princ`.
+    pub fn with_escape(mut self, escape: bool) -> Settings {
+        self.escape = escape;
+        self.readably &= escape;
+        self
+    }
+}

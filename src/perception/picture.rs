@@ -1,0 +1,222 @@
+//! A z-buffer of who is seen where.
+
+use nalgebra::{Point3, Vector3};
+
+use super::camera::Camera;
+use super::mesh::Mesh;
+use crate::spatial::Pose;
+use crate::world::PartKey;
+
+/// What a camera sees: for every pixel the nearest body and its distance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    camera: Camera,
+    keys: Vec<Option<PartKey>>,
+    /// Inverse of the depth (1/m), 0 where nothing is seen.
+    inverse_depth: Vec<f64>,
+}
+
+/// A corner in the camera's frame.
+type Corner = Vector3<f64>;
+
+impl Picture {
+    /// A picture of nothing.
+    pub fn new(camera: Camera) -> Self {
+        let pixels = camera.width * camera.height;
+        Self {
+            camera,
+            keys: vec![None; pixels],
+            inverse_depth: vec![0.0; pixels],
+        }
+    }
+
+    /// The camera that took it.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// The body at every pixel, row by row from the top.
+    pub fn keys(&self) -> &[Option<PartKey>] {
+        &self.keys
+    }
+
+    /// Distance (m along the camera's z) of what the pixel shows; `None` for nothing or for a
+    /// pixel outside of the picture.
+    pub fn depth(&self, column: usize, row: usize) -> Option<f64> {
+        if column >= self.camera.width {
+            return None;
+        }
+        let inverse = *self.inverse_depth.get(row * self.camera.width + column)?;
+        (inverse > 0.0).then(|| 1.0 / inverse)
+    }
+
+    /// Number of pixels that show the body.
+    pub fn count(&self, key: PartKey) -> usize {
+        self.keys.iter().filter(|k| **k == Some(key)).count()
+    }
+
+    /// Draws a surface that stands at the pose (map frame). Surfaces may be drawn in any order.
+    pub fn draw(&mut self, key: PartKey, pose: &Pose, mesh: &Mesh) {
+        let to_camera = self.camera.pose.inverse() * pose;
+        let corners: Vec<Corner> = mesh
+            .corners
+            .iter()
+            .map(|p: &Point3<f64>| (to_camera * p).coords)
+            .collect();
+        if corners.iter().all(|c| c.z < self.camera.near)
+            || corners.iter().all(|c| c.z > self.camera.far)
+        {
+            return;
+        }
+        for triangle in &mesh.triangles {
+            // Triangles of a mesh are places in its own list of corners.
+            let [a, b, c] = triangle.map(|i| corners[i as usize]);
+            let outward = (b - a).cross(&(c - a));
+            if outward.dot(&a) < 0.0 {
+                self.draw_clipped(key, [a, b, c]);
+            }
+        }
+    }
+
+    /// Draws what of the triangle lies beyond the near plane.
+    fn draw_clipped(&mut self, key: PartKey, corners: [Corner; 3]) {
+        let near = self.camera.near;
+        if corners.iter().all(|c| c.z >= near) {
+            self.draw_triangle(key, corners);
+            return;
+        }
+        // A plane cuts a triangle into at most four corners.
+        let mut kept = [Corner::zeros(); 4];
+        let mut count = 0;
+        let mut keep = |corner: Corner| {
+            kept[count] = corner;
+            count += 1;
+        };
+        for i in 0..3 {
+            let (from, to) = (corners[i], corners[(i + 1) % 3]);
+            if from.z >= near {
+                keep(from);
+            }
+            if (from.z >= near) != (to.z >= near) {
+                keep(from + (to - from) * ((near - from.z) / (to.z - from.z)));
+            }
+        }
+        for i in 2..count {
+            self.draw_triangle(key, [kept[0], kept[i - 1], kept[i]]);
+        }
+    }
+
+    /// Draws a triangle that lies beyond the near plane.
+    fn draw_triangle(&mut self, key: PartKey, corners: [Corner; 3]) {
+        let (width, height) = (self.camera.width, self.camera.height);
+        let f = self.camera.focal_length();
+        let centre = [width as f64 / 2.0, height as f64 / 2.0];
+        // Columns, rows and inverse depths: all of them are linear in the picture.
+        let [a, b, c] = corners.map(|p| {
+            [
+                centre[0] + f * p.x / p.z,
+                centre[1] + f * p.y / p.z,
+                1.0 / p.z,
+            ]
+        });
+        let area = cross(a, b, c[0], c[1]);
+        if area == 0.0 {
+            return;
+        }
+        let range = |axis: usize, end: usize| {
+            let (lo, hi) = (
+                a[axis].min(b[axis]).min(c[axis]),
+                a[axis].max(b[axis]).max(c[axis]),
+            );
+            // Pixel centres lie at halves; the casts saturate at the borders.
+            let first = (lo - 0.5).ceil().max(0.0) as usize;
+            let after = ((hi - 0.5).floor() + 1.0).max(0.0) as usize;
+            first..after.min(end)
+        };
+        let farthest = 1.0 / self.camera.far;
+        let columns = range(0, width);
+        for row in range(1, height) {
+            let y = row as f64 + 0.5;
+            for column in columns.clone() {
+                let x = column as f64 + 0.5;
+                let weights = [
+                    cross(b, c, x, y) / area,
+                    cross(c, a, x, y) / area,
+                    cross(a, b, x, y) / area,
+                ];
+                if weights.iter().any(|w| *w < 0.0) {
+                    continue;
+                }
+                let inverse = weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2];
+                // Rows and columns were cut to the picture above.
+                let pixel = row * width + column;
+                if inverse > self.inverse_depth[pixel] && inverse >= farthest {
+                    self.inverse_depth[pixel] = inverse;
+                    self.keys[pixel] = Some(key);
+                }
+            }
+        }
+    }
+}
+
+/// Twice the signed area of the triangle of `a`, `b` and the point in the picture.
+fn cross(a: [f64; 3], b: [f64; 3], x: f64, y: f64) -> f64 {
+    (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spatial::Shape;
+
+    const NEAR: PartKey = PartKey::Object(1);
+    const FAR: PartKey = PartKey::Object(2);
+
+    fn cube(size: f64) -> Mesh {
+        Mesh::of(&Shape::Box { size: [size; 3] })
+    }
+
+    #[test]
+    fn a_cube_covers_as_many_pixels_as_its_face_at_its_distance() {
+        let mut picture = Picture::new(Camera::of_head(Pose::identity()));
+        picture.draw(NEAR, &Pose::translation(0.0, 0.0, 2.5), &cube(1.0));
+        // The front face is 2 m away: 214.45 / 2 pixels wide.
+        let side = picture.camera().focal_length() / 2.0;
+        let count = picture.count(NEAR) as f64;
+        assert!((count - side * side).abs() < 2.5 * side, "{count}");
+        assert!((picture.depth(160, 100).unwrap() - 2.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_nearer_body_is_seen_whatever_is_drawn_first() {
+        let camera = Camera::of_head(Pose::identity());
+        let mut one = Picture::new(camera);
+        one.draw(NEAR, &Pose::translation(0.0, 0.0, 2.0), &cube(0.5));
+        one.draw(FAR, &Pose::translation(0.0, 0.0, 4.0), &cube(2.0));
+        let mut two = Picture::new(camera);
+        two.draw(FAR, &Pose::translation(0.0, 0.0, 4.0), &cube(2.0));
+        two.draw(NEAR, &Pose::translation(0.0, 0.0, 2.0), &cube(0.5));
+        assert_eq!(one, two);
+        assert!(one.count(NEAR) > 0 && one.count(FAR) > one.count(NEAR));
+    }
+
+    #[test]
+    fn a_body_around_the_camera_is_not_seen() {
+        let mut picture = Picture::new(Camera::of_head(Pose::identity()));
+        picture.draw(NEAR, &Pose::identity(), &cube(0.5));
+        assert_eq!(picture.count(NEAR), 0);
+    }
+
+    #[test]
+    fn what_reaches_behind_the_camera_is_cut_at_the_near_plane() {
+        let mut picture = Picture::new(Camera::of_head(Pose::identity()));
+        let board = Mesh::of(&Shape::Box {
+            size: [4.0, 0.1, 4.0],
+        });
+        picture.draw(NEAR, &Pose::translation(0.0, 0.5, 0.0), &board);
+        // The upper side of the board, 0.45 m below, ends 2 m ahead.
+        let row = (100.0 + picture.camera().focal_length() * 0.45 / 2.0).ceil() as usize;
+        assert_eq!(picture.depth(160, row - 2), None);
+        assert!((picture.depth(160, 199).unwrap() - 0.45 * 214.45 / 99.5).abs() < 0.01);
+    }
+}

@@ -1,0 +1,210 @@
+//! How much of an object the camera sees, and what is in the way.
+
+use std::fmt;
+
+use nalgebra::Point3;
+
+use super::camera::Camera;
+use super::mesh::Mesh;
+use super::picture::Picture;
+use crate::spatial::trig;
+use crate::world::{BodyName, Object, PartKey, World, WorldError};
+
+/// A side of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Border {
+    /// The left border.
+    Left,
+    /// The right border.
+    Right,
+    /// The upper border.
+    Above,
+    /// The lower border.
+    Below,
+}
+
+impl fmt::Display for Border {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Above => "upper",
+            Self::Below => "lower",
+        })
+    }
+}
+
+/// What a look at an object has shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Visibility {
+    /// The object's name.
+    pub object: String,
+    /// Pixels that show the object.
+    pub visible_pixels: usize,
+    /// Pixels that it would have alone, with the camera turned to it.
+    pub full_pixels: usize,
+    /// Bodies in front of the object with the pixels that they take away, most first.
+    pub occluders: Vec<(BodyName, usize)>,
+    /// Share of the object (0..1) that must be in sight for it to be seen.
+    pub needed_share: f64,
+    /// The border beyond which the object reaches farthest, and by how much (rad).
+    pub outside: Option<(Border, f64)>,
+}
+
+impl Visibility {
+    /// Share of the object that is in sight (0..1).
+    pub fn fraction(&self) -> f64 {
+        if self.full_pixels == 0 {
+            return 0.0;
+        }
+        (self.visible_pixels as f64 / self.full_pixels as f64).min(1.0)
+    }
+
+    /// Whether the object counts as seen.
+    pub fn is_seen(&self) -> bool {
+        self.fraction() >= self.needed_share
+    }
+}
+
+impl fmt::Display for Visibility {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let percent = (self.fraction() * 100.0).floor();
+        write!(f, "{percent} % of {} is in sight", self.object)?;
+        if let Some((border, angle)) = self.outside {
+            let degrees = angle.to_degrees();
+            write!(
+                f,
+                ", it reaches {degrees:.1} degrees beyond the {border} border of the image"
+            )?;
+        }
+        for (i, (body, pixels)) in self.occluders.iter().enumerate() {
+            let lead = if i == 0 { ", hidden by" } else { " and" };
+            write!(f, "{lead} {body} ({pixels} pixels)")?;
+        }
+        Ok(())
+    }
+}
+
+/// One look into the world.
+pub struct Sight<'w> {
+    world: &'w World,
+    picture: Picture,
+    needed_share: f64,
+}
+
+impl<'w> Sight<'w> {
+    /// Looks through the camera that the robot uses.
+    pub fn of_robot(world: &'w World) -> Self {
+        let camera = world.models().description.camera();
+        Self::through(world, camera)
+    }
+
+    /// Looks through a camera of the robot. The robot's own body may be in the way.
+    pub fn through(world: &'w World, camera: &crate::robot::description::Camera) -> Self {
+        let pose = world.link_pose(camera.frame);
+        Self::take(world, Camera::new(camera, pose), camera.visible_share)
+    }
+
+    /// Takes a picture of the world from anywhere. An object of which `needed_share` (0..1) is
+    /// in sight counts as seen.
+    pub fn take(world: &'w World, camera: Camera, needed_share: f64) -> Self {
+        let mut picture = Picture::new(camera);
+        for shape in world.shapes() {
+            picture.draw(shape.key, &shape.pose, &Mesh::of(shape.shape));
+        }
+        Self {
+            world,
+            picture,
+            needed_share,
+        }
+    }
+
+    /// The picture.
+    pub fn picture(&self) -> &Picture {
+        &self.picture
+    }
+
+    /// How much of the object is in sight.
+    pub fn visibility(&self, name: &str) -> Result<Visibility, WorldError> {
+        let object = self.world.object(name)?;
+        let pose = self.world.object_pose(name)?;
+        let camera = *self.picture.camera();
+        let key = object.key();
+        let alone = |camera: Camera| {
+            let mut picture = Picture::new(camera);
+            for placed in object.shapes() {
+                picture.draw(key, &(pose * placed.pose), &Mesh::of(&placed.shape));
+            }
+            picture
+        };
+        let origin = Point3::from(pose.translation.vector);
+        Ok(Visibility {
+            object: name.to_owned(),
+            visible_pixels: self.picture.count(key),
+            full_pixels: alone(camera.turned_to(&origin)).count(key),
+            occluders: self.occluders(key, &alone(camera)),
+            needed_share: self.needed_share,
+            outside: self.outside(object, &pose),
+        })
+    }
+
+    /// All objects that are seen, in the order in which they appeared.
+    pub fn seen_objects(&self) -> Vec<Visibility> {
+        self.world
+            .objects()
+            // Every name comes from the world itself.
+            .filter_map(|object| self.visibility(object.name()).ok())
+            .filter(Visibility::is_seen)
+            .collect()
+    }
+
+    /// Who is at the pixels that the object would have alone.
+    fn occluders(&self, key: PartKey, alone: &Picture) -> Vec<(BodyName, usize)> {
+        let mut counts: Vec<(PartKey, usize)> = Vec::new();
+        for (there, wanted) in self.picture.keys().iter().zip(alone.keys()) {
+            let (Some(there), Some(_)) = (there, wanted) else {
+                continue;
+            };
+            if *there == key {
+                continue;
+            }
+            match counts.iter_mut().find(|(k, _)| k == there) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((*there, 1)),
+            }
+        }
+        counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        counts
+            .into_iter()
+            .filter_map(|(key, count)| Some((self.world.body_name(key)?, count)))
+            .collect()
+    }
+
+    /// How far the object reaches beyond the borders of the picture.
+    fn outside(&self, object: &Object, pose: &crate::spatial::Pose) -> Option<(Border, f64)> {
+        let camera = self.picture.camera();
+        let to_camera = camera.pose.inverse() * pose;
+        let half_width = camera.horizontal_fov() / 2.0;
+        let half_height = camera.vertical_fov / 2.0;
+        let mut farthest: Option<(Border, f64)> = None;
+        let mut keep = |border: Border, excess: f64| {
+            if excess > 0.0 && farthest.is_none_or(|(_, most)| excess > most) {
+                farthest = Some((border, excess));
+            }
+        };
+        for placed in object.shapes() {
+            for corner in Mesh::of(&placed.shape).corners {
+                let p = to_camera * placed.pose * corner;
+                let across = trig::atan2(p.x, p.z);
+                keep(Border::Right, across - half_width);
+                keep(Border::Left, -across - half_width);
+                if p.z > 0.0 {
+                    let down = trig::atan2(p.y, p.z);
+                    keep(Border::Below, down - half_height);
+                    keep(Border::Above, -down - half_height);
+                }
+            }
+        }
+        farthest
+    }
+}

@@ -1,0 +1,344 @@
+//! What touches what, for any configuration of the robot.
+//!
+//! A query reads the world and changes nothing, and it does not look at where the robot
+//! is: the configuration to judge is handed in. Attached objects are carried along with the
+//! link that holds them. The pairs judged are robot or held object against furniture, floor
+//! and objects, and the robot against itself; furniture is never judged against furniture.
+//!
+//! Castors never meet the floor, which they roll on, and links that are neighbours or
+//! always overlap are left out as the robot's description says. Queries may ask for a gap.
+//! Between parts of the robot no more than 5 mm are asked for, and between the floor and
+//! anything but arms and what they hold nothing: these gaps are as the robot was built.
+
+use std::ops::ControlFlow;
+
+use nalgebra::Point3;
+
+use super::allowed_pairs::AllowedPairs;
+use super::body_name::BodyName;
+use super::collision_search::{Near, Scratch, Surroundings, Wanted};
+use super::part_key::{PartKey, index};
+use super::robot_configuration::RobotConfiguration;
+use super::solid::from_parry_vector;
+use crate::spatial::Pose;
+
+/// Two bodies that are nearer to each other than a query allows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CollisionHit {
+    /// The robot's link, or the object that the robot holds.
+    pub moving: BodyName,
+    /// The other body.
+    pub other: BodyName,
+    /// How far the two overlap (m); negative for a gap that is smaller than asked for.
+    pub depth: f64,
+    /// A point of the overlap, or between the two, in the map frame (m).
+    pub point: Point3<f64>,
+}
+
+/// The two bodies that are nearest to each other.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clearance {
+    /// The robot's link, or the object that the robot holds.
+    pub moving: BodyName,
+    /// The other body.
+    pub other: BodyName,
+    /// The gap between the two (m); negative when they overlap.
+    pub distance: f64,
+}
+
+/// Judges configurations of the robot in one state of the world.
+///
+/// Making one costs a few microseconds, a query about as much: keep it for a whole search.
+pub struct CollisionChecker<'w> {
+    surroundings: Surroundings<'w>,
+    poses: Vec<Pose>,
+    scratch: Scratch,
+}
+
+impl<'w> CollisionChecker<'w> {
+    pub(crate) fn new(surroundings: Surroundings<'w>) -> Self {
+        Self {
+            surroundings,
+            poses: Vec::new(),
+            scratch: Scratch::default(),
+        }
+    }
+
+    /// Whether nothing but allowed pairs is nearer than `margin` (m).
+    ///
+    /// With a negative margin, overlaps of up to that depth pass.
+    pub fn is_free(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> bool {
+        self.with_poses(robot, |checker, poses| {
+            checker.is_free_at(poses, allowed, margin)
+        })
+    }
+
+    /// As [`Self::is_free`], for the poses of all links as forward kinematics gives them.
+    pub fn is_free_at(&mut self, link_poses: &[Pose], allowed: &AllowedPairs, margin: f64) -> bool {
+        let mut free = true;
+        self.search(link_poses, allowed, Wanted::Whether, margin, |_, _| {
+            free = false;
+            ControlFlow::Break(())
+        });
+        free
+    }
+
+    /// Some pair that is nearer than `margin` (m) and not allowed, the first one found in a
+    /// fixed order; `None` when there is none.
+    pub fn first_hit(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<CollisionHit> {
+        self.with_poses(robot, |checker, poses| {
+            checker.first_hit_at(poses, allowed, margin)
+        })
+    }
+
+    /// As [`Self::first_hit`], for the poses of all links as forward kinematics gives them.
+    pub fn first_hit_at(
+        &mut self,
+        link_poses: &[Pose],
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<CollisionHit> {
+        let mut found = None;
+        self.search(link_poses, allowed, Wanted::HowMuch, margin, |near, _| {
+            found = Some(near);
+            ControlFlow::Break(())
+        });
+        found.and_then(|near| self.report(&near))
+    }
+
+    /// Every pair of bodies that is nearer than `margin` (m) and not allowed, the deepest first.
+    pub fn all_hits(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Vec<CollisionHit> {
+        let mut found: Vec<Near> = Vec::new();
+        self.with_poses(robot, |checker, poses| {
+            checker.search(poses, allowed, Wanted::HowMuch, margin, |near, _| {
+                let known = found
+                    .iter_mut()
+                    .find(|n| n.moving == near.moving && n.other == near.other);
+                match known {
+                    Some(n) if n.separation.distance <= near.separation.distance => {}
+                    Some(n) => *n = near,
+                    None => found.push(near),
+                }
+                ControlFlow::Continue(())
+            });
+        });
+        found.sort_by(|a, b| a.separation.distance.total_cmp(&b.separation.distance));
+        found.iter().filter_map(|near| self.report(near)).collect()
+    }
+
+    /// The pair with the smallest gap among those nearer than `reach` (m) and not allowed. Pairs
+    /// of the robot with itself do not count: how close those are is a matter of posture.
+    pub fn clearance(
+        &mut self,
+        robot: &RobotConfiguration,
+        allowed: &AllowedPairs,
+        reach: f64,
+    ) -> Option<Clearance> {
+        let mut found = None;
+        self.with_poses(robot, |checker, poses| {
+            checker.search(
+                poses,
+                allowed,
+                Wanted::HowMuchToOthers,
+                reach,
+                |near, margin| {
+                    // From here on, only what is nearer still matters.
+                    *margin = near.separation.distance;
+                    found = Some(near);
+                    ControlFlow::Continue(())
+                },
+            );
+        });
+        let nearest = self.report(&found?)?;
+        Some(Clearance {
+            moving: nearest.moving,
+            other: nearest.other,
+            distance: -nearest.depth,
+        })
+    }
+
+    fn with_poses<T>(
+        &mut self,
+        robot: &RobotConfiguration,
+        query: impl FnOnce(&mut Self, &[Pose]) -> T,
+    ) -> T {
+        let mut poses = std::mem::take(&mut self.poses);
+        let tree = &self.surroundings.models.robot;
+        tree.forward_kinematics(&robot.base, &robot.joints, &mut poses);
+        let result = query(self, &poses);
+        self.poses = poses;
+        result
+    }
+
+    fn search(
+        &mut self,
+        link_poses: &[Pose],
+        allowed: &AllowedPairs,
+        wanted: Wanted,
+        margin: f64,
+        visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
+    ) {
+        let allowed = self.allowed_keys(allowed);
+        self.surroundings.search(
+            link_poses,
+            &allowed,
+            wanted,
+            margin,
+            &mut self.scratch,
+            visit,
+        );
+    }
+
+    fn allowed_keys(&self, allowed: &AllowedPairs) -> Vec<(PartKey, PartKey)> {
+        allowed
+            .iter()
+            .filter_map(|(a, b)| Some((self.key_of(a)?, self.key_of(b)?)))
+            .collect()
+    }
+
+    fn key_of(&self, name: &BodyName) -> Option<PartKey> {
+        Some(match name {
+            BodyName::Floor => PartKey::Floor,
+            BodyName::Robot(link) => PartKey::Robot(index(link.id)),
+            BodyName::Furniture(link) => PartKey::Furniture(index(link.id)),
+            BodyName::Object(name) => {
+                let lying = self.surroundings.objects.iter().map(|o| (o.name, o.key));
+                let held = self.surroundings.held.iter().map(|o| (o.name, o.key));
+                lying.chain(held).find(|(n, _)| n == name)?.1
+            }
+        })
+    }
+
+    fn name_of(&self, key: PartKey) -> Option<BodyName> {
+        Some(match key {
+            PartKey::Floor => BodyName::Floor,
+            PartKey::Robot(i) => {
+                BodyName::Robot(self.surroundings.models.robot_geometry.name(i)?.clone())
+            }
+            PartKey::Furniture(i) => {
+                BodyName::Furniture(self.surroundings.models.kitchen_geometry.name(i)?.clone())
+            }
+            PartKey::Object(_) => {
+                let lying = self.surroundings.objects.iter().map(|o| (o.name, o.key));
+                let held = self.surroundings.held.iter().map(|o| (o.name, o.key));
+                let (name, _) = lying.chain(held).find(|(_, k)| *k == key)?;
+                BodyName::Object(name.to_owned())
+            }
+        })
+    }
+
+    fn report(&self, near: &Near) -> Option<CollisionHit> {
+        Some(CollisionHit {
+            moving: self.name_of(near.moving)?,
+            other: self.name_of(near.other)?,
+            depth: -near.separation.distance,
+            point: from_parry_vector(near.separation.point).into(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use parry3d_f64::query;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::robot::Side;
+    use crate::spatial::pose::from_xy_yaw;
+    use crate::world::solid::to_parry;
+    use crate::world::{Models, World};
+
+    fn world() -> World {
+        let models = Arc::new(Models::pr2_in_kitchen().unwrap());
+        let joints = models.description.start_positions(&models.robot);
+        let base = Pose::identity();
+        World::new(models, RobotConfiguration { base, joints })
+    }
+
+    /// The smallest distance (m) between the robot and the furniture, by looking at all pairs.
+    fn distance_by_brute_force(world: &World, robot: &RobotConfiguration) -> f64 {
+        let models = world.models();
+        let mut poses = Vec::new();
+        models
+            .robot
+            .forward_kinematics(&robot.base, &robot.joints, &mut poses);
+        let mut nearest = f64::INFINITY;
+        for link in &models.robot_geometry.solid_links {
+            let link_pose = to_parry(&poses[link.link.index()]);
+            for solid in &link.solids {
+                let pose = link_pose * solid.pose;
+                for other in world.state.furniture.all() {
+                    // The library's own distance of two boxes is off by centimetres.
+                    let (one, two) = (&*solid.shape, &*other.solid.shape);
+                    let near = query::contact(&pose, one, &other.pose, two, 1.0).unwrap();
+                    nearest = near.map_or(nearest, |c| nearest.min(c.dist));
+                }
+            }
+        }
+        nearest
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        #[test]
+        fn the_search_finds_what_looking_at_all_pairs_finds(
+            x in -3.5f64..1.5,
+            y in -1.8f64..2.9,
+            yaw in -3.1f64..3.1,
+            torso in 0.0f64..0.33,
+            pan in -0.7f64..0.7,
+            elbow in -2.1f64..0.0,
+        ) {
+            let world = world();
+            let models = world.models();
+            let mut robot = world.robot_configuration().clone();
+            robot.base = from_xy_yaw(x, y, yaw);
+            robot.joints.set(models.description.torso.joint, torso);
+            let arm = models.description.arm(Side::Right);
+            robot.joints.set(arm.joints()[0], pan);
+            robot.joints.set(arm.joints()[3], elbow);
+
+            let floor = models.robot.links().map(|(link, _)| models.robot_body(link));
+            let allowed = AllowedPairs::none().and_all(floor, &BodyName::Floor);
+            let expected = distance_by_brute_force(&world, &robot);
+            let mut checker = world.collision_checker();
+            let found = checker.clearance(&robot, &allowed, 0.5);
+            match &found {
+                None => prop_assert!(expected >= 0.5),
+                Some(near) => prop_assert!(
+                    (near.distance - expected).abs() < 1e-6,
+                    "{near:?} instead of {expected}"
+                ),
+            }
+            if expected < 0.0 {
+                prop_assert!(!checker.is_free(&robot, &allowed, 0.0));
+                prop_assert!(checker.first_hit(&robot, &allowed, 0.0).is_some());
+            }
+        }
+    }
+
+    #[test]
+    fn a_world_can_be_handed_to_another_thread() {
+        fn needs_send<T: Send + Sync>(_: &T) {}
+        needs_send(&world());
+        needs_send(&world().snapshot());
+    }
+}

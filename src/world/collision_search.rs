@@ -1,0 +1,339 @@
+//! The search behind collision queries: which primitives come near each other.
+//!
+//! Bounds are compared first, from links down to primitives, and everything that moves is
+//! placed only when it is looked at: a robot that stands in a wall is found out by its base.
+
+use std::ops::ControlFlow;
+
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
+use parry3d_f64::math::Pose as ParryPose;
+
+use super::models::{Footing, Models};
+use super::obstacles::Obstacles;
+use super::part_key::{PartKey, index};
+use super::separation::{Separation, below_floor, overlap, separation};
+use super::solid::{Solid, to_parry};
+use crate::robot::LinkId;
+use crate::spatial::Pose;
+
+/// Greatest gap (m) that is asked for between parts of the robot, which are made to pass each
+/// other closely.
+const SELF_MARGIN: f64 = 0.005;
+
+/// An object where it lies.
+pub(crate) struct ObjectAt<'w> {
+    pub(crate) key: PartKey,
+    pub(crate) name: &'w str,
+    pub(crate) solids: &'w [Solid],
+    pub(crate) pose: ParryPose,
+    pub(crate) bounds: Aabb,
+}
+
+/// An object that moves with a link.
+pub(crate) struct HeldObject<'w> {
+    pub(crate) key: PartKey,
+    pub(crate) name: &'w str,
+    pub(crate) solids: &'w [Solid],
+    /// Bounds in the object's frame (m).
+    pub(crate) bounds: Aabb,
+    /// The link that carries the object.
+    pub(crate) link: LinkId,
+    /// Pose of the object in the link's frame.
+    pub(crate) at: Pose,
+}
+
+/// Everything that a robot may meet.
+pub(crate) struct Surroundings<'w> {
+    pub(crate) models: &'w Models,
+    pub(crate) furniture: &'w Obstacles,
+    pub(crate) objects: Vec<ObjectAt<'w>>,
+    pub(crate) held: Vec<HeldObject<'w>>,
+}
+
+/// One pair that is near.
+pub(crate) struct Near {
+    pub(crate) moving: PartKey,
+    pub(crate) other: PartKey,
+    pub(crate) separation: Separation,
+}
+
+/// What a query wants to know of a pair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Only that it is nearer than the margin; distance and point mean nothing then.
+    Whether,
+    /// How near it is, and where.
+    HowMuch,
+    /// As [`Wanted::HowMuch`], without the pairs of the robot with itself.
+    HowMuchToOthers,
+}
+
+/// Memory that queries use again.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    movers: Vec<Mover>,
+    solids: Vec<PlacedSolid>,
+}
+
+/// A link or a held object, placed for one query.
+struct Mover {
+    key: PartKey,
+    pose: ParryPose,
+    /// Bounds in the map frame (m).
+    bounds: Aabb,
+    /// Where its solids begin in the scratch memory, once they were needed.
+    placed: Option<usize>,
+}
+
+struct PlacedSolid {
+    pose: ParryPose,
+    bounds: Aabb,
+}
+
+/// One query on its way.
+struct Search<'s, 'w, V> {
+    around: &'s Surroundings<'w>,
+    link_poses: &'s [Pose],
+    allowed: &'s [(PartKey, PartKey)],
+    wanted: Wanted,
+    margin: f64,
+    scratch: &'s mut Scratch,
+    visit: V,
+}
+
+impl<'w> Surroundings<'w> {
+    /// Visits the pairs that are nearer than the margin (m) and not allowed, in a fixed order,
+    /// until told to stop. The visitor may lower the margin.
+    pub(crate) fn search(
+        &self,
+        link_poses: &[Pose],
+        allowed: &[(PartKey, PartKey)],
+        wanted: Wanted,
+        margin: f64,
+        scratch: &mut Scratch,
+        visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
+    ) {
+        scratch.movers.clear();
+        scratch.solids.clear();
+        let mut search = Search {
+            around: self,
+            link_poses,
+            allowed,
+            wanted,
+            margin,
+            scratch,
+            visit,
+        };
+        // Whether the visitor stopped the search is of no interest to the caller.
+        let _stopped = search.run();
+    }
+
+    /// The solids of the mover at that place: first come the links, then the held objects.
+    fn solids(&self, mover: usize) -> &[Solid] {
+        let links = &self.models.robot_geometry.solid_links;
+        match links.get(mover) {
+            Some(link) => &link.solids,
+            None => self.held.get(mover - links.len()).map_or(&[], |h| h.solids),
+        }
+    }
+}
+
+impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
+    fn run(&mut self) -> ControlFlow<()> {
+        let around = self.around;
+        let links = &around.models.robot_geometry.solid_links;
+        for (place, link) in links.iter().enumerate() {
+            // A pose for every link is the contract of the query; a link without one is taken
+            // to be at the origin.
+            let pose = self
+                .link_poses
+                .get(link.link.index())
+                .map_or(ParryPose::IDENTITY, to_parry);
+            self.add_mover(PartKey::Robot(index(link.link)), pose, &link.bounds);
+            self.against_world(place)?;
+        }
+        for (place, held) in around.held.iter().enumerate() {
+            let link = self
+                .link_poses
+                .get(held.link.index())
+                .copied()
+                .unwrap_or_default();
+            self.add_mover(held.key, to_parry(&(link * held.at)), &held.bounds);
+            self.against_world(links.len() + place)?;
+        }
+        if self.wanted == Wanted::HowMuchToOthers {
+            return ControlFlow::Continue(());
+        }
+        for &(a, b) in &around.models.self_pairs {
+            self.against_each_other(a, b)?;
+        }
+        for (i, held) in around.held.iter().enumerate() {
+            let place = links.len() + i;
+            for (other, link) in links.iter().enumerate() {
+                if !around.models.belong_to_same_hand(held.link, link.link) {
+                    self.against_each_other(place, other)?;
+                }
+            }
+            for other in (place + 1)..(links.len() + around.held.len()) {
+                self.against_each_other(place, other)?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn add_mover(&mut self, key: PartKey, pose: ParryPose, bounds: &Aabb) {
+        let bounds = bounds.transform_by(&pose);
+        self.scratch.movers.push(Mover {
+            key,
+            pose,
+            bounds,
+            placed: None,
+        });
+    }
+
+    /// Judges one mover against furniture, objects and floor.
+    fn against_world(&mut self, place: usize) -> ControlFlow<()> {
+        let around = self.around;
+        let Some(mover) = self.scratch.movers.get(place) else {
+            return ControlFlow::Continue(());
+        };
+        let (key, lowest) = (mover.key, mover.bounds.mins.z);
+        let (bounds, margin) = (with_slack(&mover.bounds, self.margin), self.margin);
+        for obstacle in around.furniture.near(&bounds) {
+            if self.is_allowed(key, obstacle.key) {
+                continue;
+            }
+            let (pose, solid) = (&obstacle.pose, &obstacle.solid);
+            self.solids_against(place, obstacle.key, pose, solid, &obstacle.bounds, margin)?;
+        }
+        for object in &around.objects {
+            if !object.bounds.intersects(&bounds) || self.is_allowed(key, object.key) {
+                continue;
+            }
+            for solid in object.solids {
+                let pose = object.pose * solid.pose;
+                let bounds = solid.bounds.transform_by(&object.pose);
+                self.solids_against(place, object.key, &pose, solid, &bounds, margin)?;
+            }
+        }
+        let margin = match around.models.footing(key) {
+            Footing::Rolls => return ControlFlow::Continue(()),
+            Footing::Rides => self.margin.min(0.0),
+            Footing::Reaches => self.margin,
+        };
+        if lowest < margin && !self.is_allowed(key, PartKey::Floor) {
+            let first = self.place_solids(place);
+            for (i, solid) in around.solids(place).iter().enumerate() {
+                // The solids were placed from `first` on by the line above.
+                let pose = self.scratch.solids[first + i].pose;
+                if let Some(separation) = below_floor(&pose, solid, margin.min(self.margin)) {
+                    self.report(Near {
+                        moving: key,
+                        other: PartKey::Floor,
+                        separation,
+                    })?;
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Judges two movers.
+    fn against_each_other(&mut self, a: usize, b: usize) -> ControlFlow<()> {
+        let around = self.around;
+        let movers = &self.scratch.movers;
+        let (Some(one), Some(two)) = (movers.get(a), movers.get(b)) else {
+            return ControlFlow::Continue(());
+        };
+        let margin = self.margin.min(SELF_MARGIN);
+        let bounds = with_slack(&one.bounds, margin);
+        if !bounds.intersects(&two.bounds) || self.is_allowed(one.key, two.key) {
+            return ControlFlow::Continue(());
+        }
+        let other = two.key;
+        let first = self.place_solids(b);
+        for (i, solid) in around.solids(b).iter().enumerate() {
+            // The solids were placed from `first` on by the line above.
+            let placed = &self.scratch.solids[first + i];
+            if placed.bounds.intersects(&bounds) {
+                let (pose, bounds) = (placed.pose, placed.bounds);
+                self.solids_against(a, other, &pose, solid, &bounds, margin)?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Judges the solids of a mover against one solid.
+    fn solids_against(
+        &mut self,
+        place: usize,
+        other: PartKey,
+        other_pose: &ParryPose,
+        other_solid: &Solid,
+        other_bounds: &Aabb,
+        margin: f64,
+    ) -> ControlFlow<()> {
+        let around = self.around;
+        let first = self.place_solids(place);
+        for (i, solid) in around.solids(place).iter().enumerate() {
+            // The solids were placed from `first` on by the line above.
+            // The visitor may have lowered the margin since.
+            let margin = margin.min(self.margin);
+            let placed = &self.scratch.solids[first + i];
+            if !with_slack(&placed.bounds, margin).intersects(other_bounds) {
+                continue;
+            }
+            let near = if self.wanted == Wanted::Whether && margin == 0.0 {
+                overlap(&placed.pose, solid, other_pose, other_solid)
+            } else {
+                separation(&placed.pose, solid, other_pose, other_solid, margin)
+            };
+            if let Some(separation) = near {
+                // The mover exists: its solids were placed.
+                let moving = self.scratch.movers[place].key;
+                self.report(Near {
+                    moving,
+                    other,
+                    separation,
+                })?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Places the solids of the mover unless that was done, and returns where they begin.
+    fn place_solids(&mut self, place: usize) -> usize {
+        let Scratch { movers, solids } = &mut *self.scratch;
+        // Callers have looked the mover up before.
+        let mover = &mut movers[place];
+        *mover.placed.get_or_insert_with(|| {
+            let first = solids.len();
+            solids.extend(self.around.solids(place).iter().map(|solid| {
+                // Somewhat larger than the bounds of the turned solid, but cheap.
+                let bounds = solid.bounds.transform_by(&mover.pose);
+                let pose = mover.pose * solid.pose;
+                PlacedSolid { pose, bounds }
+            }));
+            first
+        })
+    }
+
+    fn is_allowed(&self, a: PartKey, b: PartKey) -> bool {
+        self.allowed
+            .iter()
+            .any(|&(x, y)| (x == a && y == b) || (x == b && y == a))
+    }
+
+    fn report(&mut self, near: Near) -> ControlFlow<()> {
+        (self.visit)(near, &mut self.margin)
+    }
+}
+
+/// The bounds, grown by the margin (m) unless it is negative.
+fn with_slack(bounds: &Aabb, margin: f64) -> Aabb {
+    if margin > 0.0 {
+        bounds.loosened(margin)
+    } else {
+        *bounds
+    }
+}

@@ -1,0 +1,121 @@
+//! Who presses on whom, as the last physics step found out.
+
+use super::body_name::BodyName;
+use super::error::WorldError;
+use super::part_key::PartKey;
+use super::physics::{BodyHandle, RawContact};
+use super::scene::World;
+use crate::robot::Side;
+use crate::spatial::pose::{angle_between, distance_between};
+
+/// The force that one body exerts on another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactForce {
+    /// The other body.
+    pub body: BodyName,
+    /// Sum of the normal forces (N), averaged over the last step.
+    pub force: f64,
+}
+
+/// How far a held object lags behind the link that carries it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WeldError {
+    /// Distance (m) between where the object is and where it was gripped.
+    pub distance: f64,
+    /// Angle (rad) between the two orientations.
+    pub angle: f64,
+    /// Force (N) that the hold exerts.
+    pub force: f64,
+}
+
+impl World {
+    /// What presses on the object, in a fixed order.
+    pub fn object_contacts(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
+        let body = self.object(name)?.body;
+        Ok(self.forces_on(body, |_| true))
+    }
+
+    /// Sum of the forces (N) on the object by anything but the robot: its support and what it
+    /// bumps into.
+    pub fn support_force(&self, name: &str) -> Result<f64, WorldError> {
+        let mut sum = 0.0;
+        self.physics
+            .visit_contacts(self.object(name)?.body, |contact| {
+                if !matches!(PartKey::from_code(contact.other), PartKey::Robot(_)) {
+                    sum += contact.force;
+                }
+            });
+        Ok(sum)
+    }
+
+    /// What carries or stops the object, the robot excepted.
+    pub fn supports(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
+        let mut forces = self.object_contacts(name)?;
+        forces.retain(|f| f.body.robot_link().is_none());
+        Ok(forces)
+    }
+
+    /// What each of the two fingers of a hand touches: first the one that closes from the
+    /// left, then the one from the right.
+    pub fn finger_contacts(&self, side: Side) -> [Vec<ContactForce>; 2] {
+        let [left, right] = &self.models.description.arm(side).gripper.fingers;
+        [left, right].map(|finger| {
+            let mut forces: Vec<ContactForce> = Vec::new();
+            for &link in finger {
+                let own = PartKey::Robot(super::part_key::index(link)).code();
+                let Some((body, _)) = self.body_of_link(link) else {
+                    continue;
+                };
+                for one in self.forces_on(body, |contact| contact.own == own) {
+                    add(&mut forces, one);
+                }
+            }
+            forces
+        })
+    }
+
+    /// How far the held object lags behind its hold; `None` when nothing holds it.
+    pub fn weld_error(&self, name: &str) -> Result<Option<WeldError>, WorldError> {
+        let object = self.object(name)?;
+        let Some(attachment) = object.attachment else {
+            return Ok(None);
+        };
+        let wanted = self.link_pose(attachment.link) * attachment.at;
+        let real = self.physics.pose(object.body);
+        Ok(Some(WeldError {
+            distance: distance_between(&wanted, &real),
+            angle: angle_between(&wanted, &real),
+            force: self.physics.weld_force(attachment.weld),
+        }))
+    }
+
+    fn forces_on(
+        &self,
+        body: BodyHandle,
+        counts: impl Fn(&RawContact) -> bool,
+    ) -> Vec<ContactForce> {
+        let mut forces = Vec::new();
+        self.physics.visit_contacts(body, |contact| {
+            if !counts(&contact) {
+                return;
+            }
+            if let Some(body) = self.body_name(PartKey::from_code(contact.other)) {
+                add(
+                    &mut forces,
+                    ContactForce {
+                        body,
+                        force: contact.force,
+                    },
+                );
+            }
+        });
+        forces
+    }
+}
+
+fn add(forces: &mut Vec<ContactForce>, one: ContactForce) {
+    match forces.iter_mut().find(|f| f.body == one.body) {
+        Some(known) => known.force += one.force,
+        None => forces.push(one),
+    }
+}

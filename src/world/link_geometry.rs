@@ -1,0 +1,116 @@
+//! The solids of a tree's links, prepared for physics and for collision queries.
+//!
+//! Made once per tree; nothing here depends on where joints stand.
+
+use std::sync::Arc;
+
+use parry3d_f64::bounding_volume::Aabb;
+
+use super::body_name::LinkName;
+use super::solid::{Solid, bounds_of};
+use crate::robot::{JointId, KinematicTree, LinkId};
+
+/// A link that can touch something.
+pub(crate) struct LinkSolids {
+    /// The link.
+    pub(crate) link: LinkId,
+    /// Its solids in its own frame; not empty.
+    pub(crate) solids: Vec<Solid>,
+    /// Bounds (m) of the solids in the link's frame.
+    pub(crate) bounds: Aabb,
+}
+
+/// Links that never move against each other, hence one body of the physics engine.
+pub(crate) struct RigidGroup {
+    /// The link whose frame is the body's frame.
+    pub(crate) root: LinkId,
+    /// All links of the group that have solids, as places in [`TreeGeometry::solid_links`],
+    /// with the pose of each in the root's frame.
+    pub(crate) members: Vec<(usize, crate::spatial::Pose)>,
+    /// Whether the body's frame can move against the root of the tree.
+    pub(crate) moves: bool,
+}
+
+/// The solids of a tree.
+pub(crate) struct TreeGeometry {
+    /// Names of all links, at [`LinkId::index`].
+    pub(crate) names: Vec<LinkName>,
+    /// The links that have solids, in the order of the tree.
+    pub(crate) solid_links: Vec<LinkSolids>,
+    /// For each link at [`LinkId::index`]: the group that it belongs to.
+    pub(crate) group_of: Vec<usize>,
+    /// The groups; those without solids are kept so that things can be welded to them.
+    pub(crate) groups: Vec<RigidGroup>,
+}
+
+impl TreeGeometry {
+    /// Prepares the tree. `is_idle` tells joints that can move but never do, such as those of
+    /// castors: they count as fixed.
+    pub(crate) fn new(tree: &KinematicTree, is_idle: impl Fn(JointId) -> bool) -> Self {
+        let zero = tree.zero_positions();
+        let names: Vec<_> = tree
+            .links()
+            .map(|(id, link)| LinkName {
+                id,
+                name: Arc::from(link.name.as_str()),
+            })
+            .collect();
+        let solid_links: Vec<_> = tree
+            .links()
+            .filter_map(|(link, l)| {
+                let solids = Solid::all(&l.collisions);
+                let bounds = bounds_of(&solids)?;
+                Some(LinkSolids {
+                    link,
+                    solids,
+                    bounds,
+                })
+            })
+            .collect();
+
+        let group_root = |mut link: LinkId| loop {
+            let Some(id) = tree.link(link).parent_joint else {
+                return link;
+            };
+            let joint = tree.joint(id);
+            let moves = joint.kind != crate::robot::JointKind::Fixed && !is_idle(id);
+            if moves {
+                return link;
+            }
+            link = joint.parent;
+        };
+        let mut groups: Vec<RigidGroup> = Vec::new();
+        let mut group_of = Vec::with_capacity(names.len());
+        for (link, _) in tree.links() {
+            let root = group_root(link);
+            let place = groups.iter().position(|g| g.root == root);
+            group_of.push(place.unwrap_or_else(|| {
+                let moves = root != tree.root();
+                groups.push(RigidGroup {
+                    root,
+                    members: Vec::new(),
+                    moves,
+                });
+                groups.len() - 1
+            }));
+        }
+        for (place, solid_link) in solid_links.iter().enumerate() {
+            // Every link has a group: the loop above ran over all of them.
+            let group = &mut groups[group_of[solid_link.link.index()]];
+            if let Some(pose) = tree.relative_pose(group.root, solid_link.link, &zero) {
+                group.members.push((place, pose));
+            }
+        }
+        Self {
+            names,
+            solid_links,
+            group_of,
+            groups,
+        }
+    }
+
+    /// The name of the link at that place of the tree.
+    pub(crate) fn name(&self, index: u32) -> Option<&LinkName> {
+        self.names.get(usize::try_from(index).ok()?)
+    }
+}

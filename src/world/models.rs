@@ -1,0 +1,159 @@
+//! Everything about a world that never changes: the trees of robot and kitchen and what
+//! the robot's links are for and the kinds of objects, with the geometry prepared for queries.
+
+use super::body_name::BodyName;
+use super::link_geometry::TreeGeometry;
+use super::object_library::{OBJECTS, ObjectLibrary};
+use super::part_key::PartKey;
+use crate::robot::description::Arm;
+use crate::robot::{
+    KITCHEN_URDF, KinematicTree, LinkId, PR2_DESCRIPTION, PR2_URDF, RobotDescription, Side,
+    UrdfError,
+};
+use crate::sexp::DataError;
+use thiserror::Error;
+
+/// The models that worlds are built from; shared by a world and its copies.
+pub struct Models {
+    /// The robot's body.
+    pub robot: KinematicTree,
+    /// What the robot's links and joints are for.
+    pub description: RobotDescription,
+    /// The furniture.
+    pub kitchen: KinematicTree,
+    /// The kinds of objects that can be spawned.
+    pub objects: ObjectLibrary,
+    pub(crate) robot_geometry: TreeGeometry,
+    pub(crate) kitchen_geometry: TreeGeometry,
+    /// Pairs of places in the robot's solid links that must not touch.
+    pub(crate) self_pairs: Vec<(usize, usize)>,
+    /// For each link of the robot: the hand that it belongs to.
+    hand_of: Vec<Option<Side>>,
+    /// For each link of the robot: how it stands to the floor.
+    footing: Vec<Footing>,
+}
+
+/// How a link stands to the floor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Footing {
+    /// It rolls on the floor.
+    Rolls,
+    /// It is carried over the floor at its own height.
+    Rides,
+    /// It may reach for the floor.
+    Reaches,
+}
+
+/// A file about the world that cannot be read.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ModelsError {
+    /// It is a tree of links and joints.
+    #[error(transparent)]
+    Urdf(#[from] UrdfError),
+    /// It is data of our own format.
+    #[error(transparent)]
+    Data(#[from] DataError),
+}
+
+impl Models {
+    /// The PR2 in the kitchen, which are built in.
+    pub fn pr2_in_kitchen() -> Result<Self, ModelsError> {
+        let robot = KinematicTree::from_urdf(PR2_URDF, "pr2.urdf")?;
+        let description = RobotDescription::from_sexp(PR2_DESCRIPTION, "pr2.sexp", &robot)?;
+        let kitchen = KinematicTree::from_urdf(KITCHEN_URDF, "kitchen.urdf")?;
+        let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp")?;
+        Ok(Self::new(robot, description, kitchen, objects))
+    }
+
+    /// Prepares the models; the description must be one of that robot.
+    pub fn new(
+        robot: KinematicTree,
+        description: RobotDescription,
+        kitchen: KinematicTree,
+        objects: ObjectLibrary,
+    ) -> Self {
+        let idle = &description.idle_joints;
+        let robot_geometry = TreeGeometry::new(&robot, |joint| idle.contains(&joint));
+        let kitchen_geometry = TreeGeometry::new(&kitchen, |_| false);
+        let links = &robot_geometry.solid_links;
+        let mut self_pairs = Vec::new();
+        for (a, one) in links.iter().enumerate() {
+            for (b, two) in links.iter().enumerate().skip(a + 1) {
+                if !may_touch(&description, one.link, two.link) {
+                    self_pairs.push((a, b));
+                }
+            }
+        }
+        let hand_of = |link| {
+            let palm = |side: &Side| description.arm(*side).gripper.palm;
+            Side::BOTH
+                .into_iter()
+                .find(|side| robot.carries(palm(side), link))
+        };
+        let hand_of = robot.links().map(|(link, _)| hand_of(link)).collect();
+        let is_of_arm = |link| {
+            let shoulder = |arm: &Arm| robot.joint(arm.joints()[0]).child;
+            description
+                .arms
+                .iter()
+                .any(|arm| robot.carries(shoulder(arm), link))
+        };
+        let footing = |link| {
+            if description.wheels.contains(&link) {
+                Footing::Rolls
+            } else if is_of_arm(link) {
+                Footing::Reaches
+            } else {
+                Footing::Rides
+            }
+        };
+        let footing = robot.links().map(|(link, _)| footing(link)).collect();
+        Self {
+            robot,
+            description,
+            kitchen,
+            objects,
+            robot_geometry,
+            kitchen_geometry,
+            self_pairs,
+            hand_of,
+            footing,
+        }
+    }
+
+    /// The name of a link of the robot; the floor for a link of another tree.
+    pub fn robot_body(&self, link: LinkId) -> BodyName {
+        let name = self.robot_geometry.names.get(link.index());
+        name.map_or(BodyName::Floor, |name| BodyName::Robot(name.clone()))
+    }
+
+    /// The name of a link of the kitchen; the floor for a link of another tree.
+    pub fn furniture_body(&self, link: LinkId) -> BodyName {
+        let name = self.kitchen_geometry.names.get(link.index());
+        name.map_or(BodyName::Floor, |name| BodyName::Furniture(name.clone()))
+    }
+
+    /// Whether both links are part of the same hand.
+    pub(crate) fn belong_to_same_hand(&self, a: LinkId, b: LinkId) -> bool {
+        match (self.hand_of.get(a.index()), self.hand_of.get(b.index())) {
+            (Some(Some(x)), Some(Some(y))) => x == y,
+            _ => false,
+        }
+    }
+
+    /// How the part stands to the floor; held objects may reach for it.
+    pub(crate) fn footing(&self, key: PartKey) -> Footing {
+        let PartKey::Robot(i) = key else {
+            return Footing::Reaches;
+        };
+        let place = usize::try_from(i).unwrap_or(usize::MAX);
+        self.footing.get(place).copied().unwrap_or(Footing::Reaches)
+    }
+}
+
+/// Whether two links of the robot are never judged against each other.
+fn may_touch(description: &RobotDescription, a: LinkId, b: LinkId) -> bool {
+    let rolls = |link| description.wheels.contains(&link);
+    let together = |group: &Vec<LinkId>| group.contains(&a) && group.contains(&b);
+    rolls(a) || rolls(b) || description.touching.iter().any(together)
+}

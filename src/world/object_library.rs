@@ -1,0 +1,342 @@
+//! The kinds of objects that can be spawned: their shapes, masses, colours, and which type
+//! is a kind of which other.
+//!
+//! Names are lower-case and without a colon: `bottle`. The built-in library is
+//! `world/objects.sexp`.
+
+use indexmap::IndexMap;
+
+use crate::closest_name::closest_name;
+use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
+use crate::spatial::pose::from_xyz_rpy;
+use crate::spatial::{PlacedShape, Shape};
+
+/// The text of the built-in library, `world/objects.sexp`.
+pub const OBJECTS: &str = include_str!("../../world/objects.sexp");
+
+/// One kind of object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectType {
+    /// Name of the type, such as `bottle`.
+    pub name: String,
+    /// Its solids, in the object's frame; never empty.
+    pub shapes: Vec<PlacedShape>,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Linear colour, red green blue alpha in 0..1.
+    pub color: [f32; 4],
+}
+
+/// The kinds of objects, in the order of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectLibrary {
+    objects: IndexMap<String, ObjectType>,
+    /// Names of the listed types, in their order.
+    available: Vec<String>,
+    /// The type that each type is a kind of.
+    kind_of: IndexMap<String, String>,
+}
+
+/// Records that a library consists of, each with its keys.
+const RECORDS: &[(&str, &[&str])] = &[
+    ("available", &[]),
+    ("kinds", &[]),
+    ("object", &["mass", "color", "shapes"]),
+];
+
+impl ObjectLibrary {
+    /// Reads a library; `file_name` is only used in errors.
+    pub fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
+        let file = DataFile::read(text, file_name)?;
+        let mut library = Self {
+            objects: IndexMap::new(),
+            available: Vec::new(),
+            kind_of: IndexMap::new(),
+        };
+        let mut listed = Vec::new();
+        for node in file.nodes() {
+            let head = node.head()?;
+            let Some((_, keys)) = RECORDS.iter().find(|(name, _)| *name == head) else {
+                let closest = closest_name(head, RECORDS.iter().map(|r| r.0));
+                return Err(node.unknown("record", head, closest));
+            };
+            let record = node.record(keys)?;
+            match head {
+                "available" => listed.extend_from_slice(record.things()),
+                "kinds" => library.add_kinds(&record)?,
+                _ => library.add_object(&record)?,
+            }
+        }
+        for node in listed {
+            let name = node.symbol()?;
+            if library.get(name).is_none() {
+                return Err(node.unknown("object", name, library.closest_name(name)));
+            }
+            library.available.push(name.to_owned());
+        }
+        Ok(library)
+    }
+
+    /// The types that are listed to the user, in their order.
+    pub fn types(&self) -> impl ExactSizeIterator<Item = &ObjectType> {
+        // The reader has checked that every listed name is an object.
+        self.available.iter().map(|name| &self.objects[name])
+    }
+
+    /// The type of that name, listed or not.
+    pub fn get(&self, name: &str) -> Option<&ObjectType> {
+        self.objects.get(name)
+    }
+
+    /// The name that is nearest to a mistyped one.
+    pub fn closest_name(&self, wanted: &str) -> Option<&str> {
+        closest_name(wanted, self.objects.keys().map(String::as_str))
+    }
+
+    /// The type itself, then the type that it is a kind of, and so on.
+    pub fn lineage<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
+        let parent = |name: &&'a str| self.kind_of.get(*name).map(String::as_str);
+        std::iter::successors(Some(name), parent)
+    }
+
+    /// Whether the type is `other` or a kind of it.
+    pub fn is_kind_of(&self, name: &str, other: &str) -> bool {
+        self.lineage(name).any(|n| n == other)
+    }
+
+    /// The direct kinds of a type, in the order of the file.
+    pub fn kinds<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
+        let kinds = self.kind_of.iter().filter(move |(_, of)| *of == name);
+        kinds.map(|(kind, _)| kind.as_str())
+    }
+
+    fn add_kinds(&mut self, record: &Record<'_>) -> Result<(), DataError> {
+        let Some((of, kinds)) = record.things().split_first() else {
+            return Err(record.node().expected("(kinds type kind …)"));
+        };
+        let of = of.symbol()?;
+        for node in kinds {
+            let kind = node.symbol()?;
+            if self.is_kind_of(of, kind) {
+                let problem = format!("{of} is a kind of {kind} already, or the same");
+                return Err(node.error(DataProblem::Invalid(problem)));
+            }
+            if self
+                .kind_of
+                .insert(kind.to_owned(), of.to_owned())
+                .is_some()
+            {
+                return Err(node.error(DataProblem::Repeated(format!("the type of {kind}"))));
+            }
+        }
+        Ok(())
+    }
+
+    fn add_object(&mut self, record: &Record<'_>) -> Result<(), DataError> {
+        let node = record.thing("name")?;
+        let name = node.symbol()?.to_owned();
+        let shapes = record.required("shapes")?;
+        let mut solids = Vec::new();
+        for shape in shapes.list()? {
+            add_shape(shape, &mut solids)?;
+        }
+        if solids.is_empty() {
+            return Err(shapes.expected("at least one shape"));
+        }
+        let object = ObjectType {
+            name: name.clone(),
+            shapes: solids,
+            mass: record.required("mass")?.positive()?,
+            color: color(record.required("color")?)?,
+        };
+        match self.objects.insert(name, object) {
+            None => Ok(()),
+            Some(object) => {
+                let what = format!("the object {}", object.name);
+                Err(node.error(DataProblem::Repeated(what)))
+            }
+        }
+    }
+}
+
+/// Red, green, blue and optionally alpha.
+fn color(node: Node<'_>) -> Result<[f32; 4], DataError> {
+    let wrong = || node.expected("three or four numbers from 0 to 1 (red green blue alpha)");
+    let parts = node.list().map_err(|_| wrong())?;
+    let mut color = [1.0; 4];
+    if parts.len() < 3 || parts.len() > 4 {
+        return Err(wrong());
+    }
+    for (channel, part) in color.iter_mut().zip(parts) {
+        let value = part.number()?;
+        if !(0.0..=1.0).contains(&value) {
+            return Err(part.expected("a number from 0 to 1"));
+        }
+        *channel = value as f32;
+    }
+    Ok(color)
+}
+
+/// Shapes, each with its keys besides `at` and `rpy`.
+const SHAPES: &[(&str, &[&str])] = &[
+    ("box", &["at", "rpy", "size"]),
+    ("cylinder", &["at", "rpy", "radius", "length"]),
+    ("sphere", &["at", "rpy", "radius"]),
+    ("ring", &["at", "rpy", "count", "radius", "stave"]),
+];
+
+fn add_shape(node: Node<'_>, solids: &mut Vec<PlacedShape>) -> Result<(), DataError> {
+    let head = node.head()?;
+    let Some((_, keys)) = SHAPES.iter().find(|(name, _)| *name == head) else {
+        let closest = closest_name(head, SHAPES.iter().map(|s| s.0));
+        return Err(node.unknown("shape", head, closest));
+    };
+    let record = node.record(keys)?;
+    let numbers = |key: &str| {
+        record
+            .optional(key)
+            .map_or(Ok([0.0; 3]), |n| n.numbers::<3>())
+    };
+    let size = |key: &str| {
+        let node = record.required(key)?;
+        let size = node.numbers::<3>()?;
+        match size.iter().all(|s| *s > 0.0) {
+            true => Ok(size),
+            false => Err(node.expected("three numbers above 0")),
+        }
+    };
+    let pose = from_xyz_rpy(numbers("at")?, numbers("rpy")?);
+    let shape = match head {
+        "box" => Shape::Box {
+            size: size("size")?,
+        },
+        "cylinder" => Shape::Cylinder {
+            radius: record.required("radius")?.positive()?,
+            length: record.required("length")?.positive()?,
+        },
+        "sphere" => Shape::Sphere {
+            radius: record.required("radius")?.positive()?,
+        },
+        _ => {
+            let count_node = record.required("count")?;
+            let count = count_node.count()?;
+            if !(3..=64).contains(&count) {
+                return Err(count_node.expected("a whole number from 3 to 64"));
+            }
+            let radius = record.required("radius")?.positive()?;
+            let stave = Shape::Box {
+                size: size("stave")?,
+            };
+            solids.extend((0..count).map(|i| {
+                let turn = std::f64::consts::TAU * i as f64 / count as f64;
+                let turned = from_xyz_rpy([0.0; 3], [0.0, 0.0, turn]);
+                let out = from_xyz_rpy([radius, 0.0, 0.0], [0.0; 3]);
+                PlacedShape {
+                    shape: stave.clone(),
+                    pose: pose * turned * out,
+                    color: None,
+                }
+            }));
+            return Ok(());
+        }
+    };
+    solids.push(PlacedShape {
+        shape,
+        pose,
+        color: None,
+    });
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn library() -> ObjectLibrary {
+        ObjectLibrary::from_sexp(OBJECTS, "objects.sexp").expect("the built-in library is right")
+    }
+
+    fn error(text: &str) -> String {
+        match ObjectLibrary::from_sexp(text, "o.sexp") {
+            Ok(_) => "no error".to_owned(),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    #[test]
+    fn lists_types_in_crams_order() {
+        let library = library();
+        let names: Vec<&str> = library.types().map(|t| t.name.as_str()).collect();
+        assert_eq!(names.len(), 25);
+        assert_eq!(names[..3], ["tray", "tray-base", "spoon"]);
+        assert_eq!(names[10], "bottle");
+        assert_eq!(names[24], "shoe");
+    }
+
+    #[test]
+    fn the_bottle_stands_10_cm_above_its_bottom() {
+        let library = library();
+        let bottle = library.get("bottle").expect("there are bottles");
+        let bottoms = bottle.shapes.iter().map(|s| match s.shape {
+            Shape::Cylinder { length, .. } => s.pose.translation.z - length / 2.0,
+            _ => f64::NAN,
+        });
+        let lowest = bottoms.fold(f64::INFINITY, f64::min);
+        assert!((lowest + 0.1008).abs() < 1e-12, "{lowest}");
+        assert_eq!(bottle.mass, 0.2);
+    }
+
+    #[test]
+    fn a_ring_is_a_circle_of_boxes() {
+        let library = ObjectLibrary::from_sexp(
+            "(object o :mass 1 :color (0 0 0)
+              :shapes ((ring :count 4 :radius 2 :stave (0.1 1 1) :at (1 0 0))))",
+            "o.sexp",
+        );
+        let library = library.expect("the text is right");
+        let centres: Vec<[f64; 2]> = library.objects["o"]
+            .shapes
+            .iter()
+            .map(|s| [s.pose.translation.x, s.pose.translation.y])
+            .collect();
+        let expected = [[3.0, 0.0], [1.0, 2.0], [-1.0, 0.0], [1.0, -2.0]];
+        for (centre, expected) in centres.iter().zip(expected) {
+            assert!((centre[0] - expected[0]).abs() < 1e-12, "{centres:?}");
+            assert!((centre[1] - expected[1]).abs() < 1e-12, "{centres:?}");
+        }
+    }
+
+    #[test]
+    fn a_mug_is_a_kitchen_item() {
+        let library = library();
+        let lineage: Vec<&str> = library.lineage("mug").collect();
+        assert_eq!(lineage, ["mug", "cup", "kitchen-item", "household-item"]);
+        assert!(library.is_kind_of("spoon", "cutlery"));
+        assert!(!library.is_kind_of("cutlery", "spoon"));
+    }
+
+    #[test]
+    fn a_mistyped_name_finds_its_nearest() {
+        assert_eq!(library().closest_name("botle"), Some("bottle"));
+    }
+
+    #[test]
+    fn mistakes_are_reported_with_their_place() {
+        assert_eq!(
+            error("(object o :mass 1 :color (0 0 0)\n :shapes ((bax :size (1 1 1))))"),
+            "o.sexp:2:11: there is no shape named bax; did you mean box?"
+        );
+        assert_eq!(
+            error("(object o :mass -1 :color (0 0 0) :shapes ((sphere :radius 1)))"),
+            "o.sexp:1:17: expected a number above 0, found -1"
+        );
+        assert_eq!(
+            error("(available o)"),
+            "o.sexp:1:12: there is no object named o"
+        );
+        assert_eq!(
+            error("(kinds a b) (kinds b a)"),
+            "o.sexp:1:22: b is a kind of a already, or the same"
+        );
+    }
+}

@@ -1,0 +1,68 @@
+//! The furniture where it stands, ready to be bumped into.
+
+use std::ops::Range;
+
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
+use parry3d_f64::math::Pose as ParryPose;
+
+use super::link_geometry::TreeGeometry;
+use super::part_key::{PartKey, index};
+use super::solid::{Solid, to_parry};
+use crate::spatial::Pose;
+
+/// A piece of furniture, placed in the map frame.
+pub(crate) struct Obstacle {
+    pub(crate) key: PartKey,
+    pub(crate) solid: Solid,
+    /// Pose of the solid in the map frame.
+    pub(crate) pose: ParryPose,
+    /// Bounds in the map frame (m).
+    pub(crate) bounds: Aabb,
+}
+
+/// All furniture, link by link.
+pub(crate) struct Obstacles {
+    all: Vec<Obstacle>,
+    links: Vec<(Aabb, Range<usize>)>,
+}
+
+impl Obstacles {
+    /// The furniture for the poses of its links.
+    pub(crate) fn new(geometry: &TreeGeometry, poses: &[Pose]) -> Self {
+        let mut all = Vec::new();
+        let mut links = Vec::new();
+        for link in &geometry.solid_links {
+            let link_pose = to_parry(&poses.get(link.link.index()).copied().unwrap_or_default());
+            let first = all.len();
+            let mut bounds = Aabb::new_invalid();
+            for solid in &link.solids {
+                let pose = link_pose * solid.pose;
+                let obstacle = Obstacle {
+                    key: PartKey::Furniture(index(link.link)),
+                    bounds: solid.shape.compute_aabb(&pose),
+                    solid: solid.clone(),
+                    pose,
+                };
+                bounds.merge(&obstacle.bounds);
+                all.push(obstacle);
+            }
+            links.push((bounds, first..all.len()));
+        }
+        Self { all, links }
+    }
+
+    /// Every solid.
+    pub(crate) fn all(&self) -> &[Obstacle] {
+        &self.all
+    }
+
+    /// The solids whose bounds meet the given ones (m).
+    pub(crate) fn near<'a>(&'a self, bounds: &'a Aabb) -> impl Iterator<Item = &'a Obstacle> {
+        self.links
+            .iter()
+            .filter(|(link, _)| link.intersects(bounds))
+            // The ranges were taken from this very list.
+            .flat_map(|(_, range)| &self.all[range.clone()])
+            .filter(|obstacle| obstacle.bounds.intersects(bounds))
+    }
+}

@@ -1,0 +1,43 @@
+//! The check on the world as it really is: no link may stick in anything.
+
+use super::allowed_pairs::AllowedPairs;
+use super::collision::{CollisionChecker, CollisionHit};
+use super::collision_search::{HeldObject, Surroundings};
+use super::scene::World;
+
+impl World {
+    /// The deepest overlap, deeper than `tolerance` (m), of the robot or of an object in its
+    /// hand with anything, where they are now. Allowed pairs and a hand with what it holds do
+    /// not count.
+    pub fn deepest_penetration(
+        &self,
+        allowed: &AllowedPairs,
+        tolerance: f64,
+    ) -> Option<CollisionHit> {
+        let mut objects = Vec::new();
+        let mut held = Vec::new();
+        for object in self.objects() {
+            let lying = self.object_at(object);
+            match object.attachment() {
+                // Where the object is, not where its hold wants it to be.
+                Some(hold) => held.push(HeldObject {
+                    key: lying.key,
+                    name: lying.name,
+                    solids: lying.solids,
+                    bounds: object.bounds,
+                    link: hold.link,
+                    at: self.link_pose(hold.link).inverse() * self.physics.pose(object.body),
+                }),
+                None => objects.push(lying),
+            }
+        }
+        let mut checker = CollisionChecker::new(Surroundings {
+            models: &self.models,
+            furniture: &self.state.furniture,
+            objects,
+            held,
+        });
+        let hits = checker.all_hits(&self.state.robot, allowed, -tolerance);
+        hits.into_iter().next()
+    }
+}

@@ -1,0 +1,411 @@
+//! The rigid-body engine behind a small door: bodies, welds, contact forces, steps,
+//! snapshots.
+//!
+//! This is the only file that names rapier. Poses that cross its border are nalgebra,
+//! forces are newtons. It knows bodies and the keys of their parts, but neither names nor
+//! what a robot is.
+//!
+//! Held true here:
+//! - The settings are those that were measured to hold and place objects exactly (see
+//!   [`Physics::new`]); contact recycling in particular stays off, because it keeps stale
+//!   contact points of things as small as a bottle.
+//! - The engine runs on one thread with portable floating point: the same calls give the
+//!   same bits.
+//! - A snapshot holds every set of the engine. Poses and velocities alone are not enough to
+//!   continue with the same bits, since warm-start impulses and sleep belong to the state.
+//! - Reading changes nothing. In particular no collision detection is run outside of a step.
+
+use nalgebra::Vector3;
+use rapier3d_f64::dynamics::{
+    CCDSolver, CoefficientCombineRule, FixedJointBuilder, FrictionModel, ImpulseJointHandle,
+    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBodyBuilder,
+    RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
+};
+use rapier3d_f64::geometry::{
+    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, ContactPair, Group,
+    InteractionGroups, InteractionTestMode, NarrowPhase, SharedShape,
+};
+use rapier3d_f64::math::Vector;
+use rapier3d_f64::pipeline::PhysicsPipeline;
+
+use super::hash::Hasher;
+use super::solid::{Solid, from_parry, from_parry_vector, to_parry};
+use crate::spatial::Pose;
+
+/// Simulated time of one step (s).
+pub const STEP_SECONDS: f64 = 1.0 / 240.0;
+
+/// Acceleration of free fall (m/s²), towards -z.
+pub const GRAVITY: f64 = 9.81;
+
+/// Parts into which the solver divides a step.
+const SOLVER_ITERATIONS: usize = 4;
+
+/// Friction of furniture, objects and the robot's body.
+const FRICTION: f64 = 0.6;
+
+/// Friction of what is made to grip; the larger of two coefficients counts there.
+const GRIP_FRICTION: f64 = 1.0;
+
+/// Natural frequency (Hz) and damping ratio of a weld: soft enough that a wall wins, stiff
+/// enough that gravity bends it by less than 1 mm.
+const WELD_FREQUENCY: f64 = 30.0;
+const WELD_DAMPING: f64 = 1.0;
+
+/// Stands in for rolling friction, which the engine lacks (1/s).
+const ANGULAR_DAMPING: f64 = 1.0;
+
+const FURNITURE: Group = Group::GROUP_1;
+const OBJECT: Group = Group::GROUP_2;
+const ROBOT: Group = Group::GROUP_3;
+
+/// A body of the engine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct BodyHandle(RigidBodyHandle);
+
+/// A soft weld between two bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct WeldHandle(ImpulseJointHandle);
+
+/// What a body is to the others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum BodyKind {
+    /// Furniture that never moves.
+    Static,
+    /// Furniture that follows its joint.
+    MovingFurniture,
+    /// A part of the robot, which follows its joints.
+    Robot,
+    /// A thing with a mass (kg) that falls, slides and is gripped.
+    Object {
+        /// Mass (kg).
+        mass: f64,
+    },
+}
+
+/// A contact of a body that carries load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RawContact {
+    /// Key of the body's own part.
+    pub(crate) own: u64,
+    /// Key of the other body's part.
+    pub(crate) other: u64,
+    /// Normal force (N), averaged over the last step.
+    pub(crate) force: f64,
+}
+
+/// The engine with everything that is in it.
+pub(crate) struct Physics {
+    sets: Sets,
+    parameters: IntegrationParameters,
+    pipeline: PhysicsPipeline,
+}
+
+/// The state of the engine. Shapes are shared, so that a clone costs some 25 µs.
+#[derive(Clone)]
+pub(crate) struct Sets {
+    bodies: RigidBodySet,
+    colliders: ColliderSet,
+    islands: IslandManager,
+    broad_phase: BroadPhaseBvh,
+    narrow_phase: NarrowPhase,
+    impulse_joints: ImpulseJointSet,
+    multibody_joints: MultibodyJointSet,
+    soft_bodies: SoftBodySet,
+    ccd_solver: CCDSolver,
+}
+
+impl Clone for Physics {
+    fn clone(&self) -> Self {
+        Self {
+            sets: self.sets.clone(),
+            parameters: self.parameters,
+            pipeline: PhysicsPipeline::new(),
+        }
+    }
+}
+
+impl Physics {
+    /// An empty space with gravity along -z.
+    pub(crate) fn new() -> Self {
+        let parameters = IntegrationParameters {
+            dt: STEP_SECONDS,
+            num_solver_iterations: SOLVER_ITERATIONS,
+            friction_model: FrictionModel::Simplified,
+            friction_in_bias_pass: false,
+            contact_recycling: false,
+            ..IntegrationParameters::default()
+        };
+        Self {
+            sets: Sets {
+                bodies: RigidBodySet::new(),
+                colliders: ColliderSet::new(),
+                islands: IslandManager::new(),
+                broad_phase: BroadPhaseBvh::new(),
+                narrow_phase: NarrowPhase::new(),
+                impulse_joints: ImpulseJointSet::new(),
+                multibody_joints: MultibodyJointSet::new(),
+                soft_bodies: SoftBodySet::new(),
+                ccd_solver: CCDSolver::new(),
+            },
+            parameters,
+            pipeline: PhysicsPipeline::new(),
+        }
+    }
+
+    /// Adds the floor, the half-space below z = 0.
+    pub(crate) fn add_floor(&mut self, key: u64) {
+        let floor = ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
+            .friction(FRICTION)
+            .collision_groups(groups(BodyKind::Static))
+            .user_data(u128::from(key));
+        self.sets.colliders.insert(floor);
+    }
+
+    /// Adds a body of the solids, each with the key of its part and whether it is made to grip.
+    ///
+    /// The mass of an object is spread over its solids by volume.
+    pub(crate) fn add_body(
+        &mut self,
+        kind: BodyKind,
+        pose: &Pose,
+        parts: &[(Solid, u64, bool)],
+    ) -> BodyHandle {
+        let builder = match kind {
+            BodyKind::Static => RigidBodyBuilder::fixed(),
+            BodyKind::MovingFurniture | BodyKind::Robot => {
+                RigidBodyBuilder::kinematic_position_based()
+            }
+            BodyKind::Object { .. } => RigidBodyBuilder::dynamic().angular_damping(ANGULAR_DAMPING),
+        };
+        let handle = self.sets.bodies.insert(builder.pose(to_parry(pose)));
+        let volume: f64 = parts.iter().map(|(solid, ..)| solid.volume).sum();
+        for (solid, key, grips) in parts {
+            let (friction, rule) = if *grips {
+                (GRIP_FRICTION, CoefficientCombineRule::Max)
+            } else {
+                (FRICTION, CoefficientCombineRule::Average)
+            };
+            let mut collider = ColliderBuilder::new(solid.shape.clone())
+                .position(solid.pose)
+                .friction(friction)
+                .friction_combine_rule(rule)
+                .collision_groups(groups(kind))
+                .user_data(u128::from(*key));
+            if let BodyKind::Object { mass } = kind {
+                collider = collider.mass(mass * solid.volume / volume);
+            }
+            self.sets
+                .colliders
+                .insert_with_parent(collider, handle, &mut self.sets.bodies);
+        }
+        BodyHandle(handle)
+    }
+
+    /// Removes the body with its welds; what rested on it wakes up.
+    pub(crate) fn remove_body(&mut self, body: BodyHandle) {
+        let s = &mut self.sets;
+        s.bodies.remove(
+            body.0,
+            &mut s.islands,
+            &mut s.colliders,
+            &mut s.impulse_joints,
+            &mut s.multibody_joints,
+            &mut s.soft_bodies,
+            true,
+        );
+    }
+
+    /// Pose of the body, identity for one that was removed.
+    pub(crate) fn pose(&self, body: BodyHandle) -> Pose {
+        self.sets
+            .bodies
+            .get(body.0)
+            .map_or_else(Pose::identity, |b| from_parry(b.position()))
+    }
+
+    /// Linear (m/s) and angular (rad/s) velocity of the body.
+    pub(crate) fn velocity(&self, body: BodyHandle) -> (Vector3<f64>, Vector3<f64>) {
+        self.sets
+            .bodies
+            .get(body.0)
+            .map_or((Vector3::zeros(), Vector3::zeros()), |b| {
+                (from_parry_vector(b.linvel()), from_parry_vector(b.angvel()))
+            })
+    }
+
+    /// Puts the body somewhere else, at rest. An edit of the world, not a motion.
+    pub(crate) fn place(&mut self, body: BodyHandle, pose: &Pose) {
+        if let Some(b) = self.sets.bodies.get_mut(body.0) {
+            b.set_position(to_parry(pose), true);
+            if b.is_dynamic() {
+                b.set_linvel(Vector::ZERO, true);
+                b.set_angvel(Vector::ZERO, true);
+            }
+        }
+    }
+
+    /// Lets a kinematic body move to the pose during the next step.
+    pub(crate) fn move_to(&mut self, body: BodyHandle, pose: &Pose) {
+        if let Some(b) = self.sets.bodies.get_mut(body.0) {
+            b.set_next_kinematic_position(to_parry(pose));
+        }
+    }
+
+    /// Wakes the body up.
+    pub(crate) fn wake(&mut self, body: BodyHandle) {
+        self.sets
+            .islands
+            .wake_up(&mut self.sets.bodies, body.0, true);
+    }
+
+    /// Keeps a body from falling asleep, for measurements.
+    pub(crate) fn keep_awake(&mut self, body: BodyHandle) {
+        if let Some(b) = self.sets.bodies.get_mut(body.0) {
+            b.activation_mut().normalized_linear_threshold = -1.0;
+            b.wake_up(true);
+        }
+    }
+
+    /// Welds `carried` softly to `carrier` so that its origin stays at `at` in the carrier's
+    /// frame. The two no longer collide with each other.
+    pub(crate) fn weld(
+        &mut self,
+        carrier: BodyHandle,
+        at: &Pose,
+        carried: BodyHandle,
+    ) -> WeldHandle {
+        let joint = FixedJointBuilder::new()
+            .local_frame1(to_parry(at))
+            .contacts_enabled(false)
+            .softness(SpringCoefficients::new(WELD_FREQUENCY, WELD_DAMPING));
+        WeldHandle(
+            self.sets
+                .impulse_joints
+                .insert(carrier.0, carried.0, joint, true),
+        )
+    }
+
+    /// Removes the weld.
+    pub(crate) fn unweld(&mut self, weld: WeldHandle) {
+        self.sets.impulse_joints.remove(weld.0, true);
+    }
+
+    /// Force (N) that the weld has exerted during the last step.
+    pub(crate) fn weld_force(&self, weld: WeldHandle) -> f64 {
+        self.sets.impulse_joints.get(weld.0).map_or(0.0, |joint| {
+            let [x, y, z, ..] = joint.impulses;
+            // Impulses of joints are those of the last of the solver's equal parts of a step.
+            (x * x + y * y + z * z).sqrt() * SOLVER_ITERATIONS as f64 / STEP_SECONDS
+        })
+    }
+
+    /// Calls `visit` for every contact of the body that carried load in the last step, in the
+    /// order of the body's parts.
+    pub(crate) fn visit_contacts(&self, body: BodyHandle, mut visit: impl FnMut(RawContact)) {
+        let Some(body) = self.sets.bodies.get(body.0) else {
+            return;
+        };
+        for &collider in body.colliders() {
+            for pair in self.sets.narrow_phase.contact_pairs_with(collider) {
+                if let Some(contact) = self.raw_contact(collider, pair) {
+                    visit(contact);
+                }
+            }
+        }
+    }
+
+    fn raw_contact(&self, own: ColliderHandle, pair: &ContactPair) -> Option<RawContact> {
+        // Pairs exist from 2 cm of distance on; only an active one touches.
+        if !pair.has_any_active_contact() {
+            return None;
+        }
+        let force = normal_impulse(pair) / STEP_SECONDS;
+        let other = if pair.collider1 == own {
+            pair.collider2
+        } else {
+            pair.collider1
+        };
+        let key = |c: ColliderHandle| {
+            let data = self.sets.colliders.get(c)?.user_data;
+            u64::try_from(data).ok()
+        };
+        (force > 0.0).then_some(RawContact {
+            own: key(own)?,
+            other: key(other)?,
+            force,
+        })
+    }
+
+    /// Advances by [`STEP_SECONDS`].
+    pub(crate) fn step(&mut self) {
+        let s = &mut self.sets;
+        self.pipeline.step(
+            Vector::new(0.0, 0.0, -GRAVITY),
+            &self.parameters,
+            &mut s.islands,
+            &mut s.broad_phase,
+            &mut s.narrow_phase,
+            &mut s.bodies,
+            &mut s.colliders,
+            &mut s.impulse_joints,
+            &mut s.multibody_joints,
+            &mut s.soft_bodies,
+            &mut s.ccd_solver,
+            &(),
+            &(),
+        );
+    }
+
+    /// A copy of the state.
+    pub(crate) fn save(&self) -> Sets {
+        self.sets.clone()
+    }
+
+    /// Goes back to the state.
+    pub(crate) fn load(&mut self, sets: &Sets) {
+        self.sets.clone_from(sets);
+    }
+
+    /// Feeds the bits of all poses and velocities.
+    pub(crate) fn hash_into(&self, hasher: &mut Hasher) {
+        for (_, body) in self.sets.bodies.iter() {
+            let (t, q) = (body.translation(), body.rotation());
+            let (v, w) = (body.linvel(), body.angvel());
+            for number in [
+                t.x, t.y, t.z, q.x, q.y, q.z, q.w, v.x, v.y, v.z, w.x, w.y, w.z,
+            ] {
+                hasher.number(number);
+            }
+        }
+    }
+}
+
+/// Sum of the normal impulses (N s) of the last step.
+///
+/// The engine's own sum counts every point of a manifold; points that the solver did not
+/// use keep the impulse of an earlier step, which would make a bottle of 2 N weigh 3 N.
+fn normal_impulse(pair: &ContactPair) -> f64 {
+    let mut sum = 0.0;
+    for manifold in pair.solver_manifolds() {
+        for contact in &manifold.data.solver_contacts {
+            for index in contact.contact_indices() {
+                let place = usize::try_from(index).ok();
+                let point = place.and_then(|i| manifold.points.get(i));
+                sum += point.map_or(0.0, |p| p.data.impulse);
+            }
+        }
+    }
+    sum
+}
+
+/// Furniture never meets furniture, and the robot meets only objects: where a kinematic
+/// body goes is checked by geometry before and during a motion.
+fn groups(kind: BodyKind) -> InteractionGroups {
+    let (own, others) = match kind {
+        BodyKind::Static | BodyKind::MovingFurniture => (FURNITURE, OBJECT),
+        BodyKind::Robot => (ROBOT, OBJECT),
+        BodyKind::Object { .. } => (OBJECT, FURNITURE.union(OBJECT).union(ROBOT)),
+    };
+    InteractionGroups::new(own, others, InteractionTestMode::And)
+}

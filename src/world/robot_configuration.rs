@@ -1,0 +1,13 @@
+//! Where a robot stands and how its joints are set.
+
+use crate::robot::JointPositions;
+use crate::spatial::Pose;
+
+/// Everything that decides where the robot's links are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotConfiguration {
+    /// Pose of the robot's root link in the map frame.
+    pub base: Pose,
+    /// Position of every joint (rad or m).
+    pub joints: JointPositions,
+}

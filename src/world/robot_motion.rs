@@ -1,0 +1,62 @@
+//! Where the robot is in the world, and how it gets elsewhere.
+
+use super::robot_configuration::RobotConfiguration;
+use super::scene::{World, pose_of};
+use crate::robot::LinkId;
+use crate::spatial::Pose;
+
+impl World {
+    /// Where the robot stands and how its joints are set.
+    pub fn robot_configuration(&self) -> &RobotConfiguration {
+        &self.state.robot
+    }
+
+    /// Makes the robot move to the configuration during the next step. Meant for one tick of
+    /// a smooth motion: the way there is not checked.
+    pub fn set_robot_configuration(&mut self, configuration: &RobotConfiguration) {
+        if self.state.robot != *configuration {
+            self.place_robot_links(configuration);
+            self.state.robot_moves = true;
+        }
+    }
+
+    /// Puts the robot into the configuration at once, with what it holds. An edit of the
+    /// world, not a motion.
+    pub fn teleport_robot(&mut self, configuration: &RobotConfiguration) {
+        self.place_robot_links(configuration);
+        self.state.robot_moves = false;
+        for (body, group) in self
+            .robot_bodies
+            .iter()
+            .zip(&self.models.robot_geometry.groups)
+        {
+            self.physics
+                .place(*body, &pose_of(&self.state.robot_poses, group.root));
+        }
+        for object in self.state.objects.values() {
+            if let Some(attachment) = &object.attachment {
+                let link = pose_of(&self.state.robot_poses, attachment.link);
+                self.physics.place(object.body, &(link * attachment.at));
+            }
+        }
+    }
+
+    fn place_robot_links(&mut self, configuration: &RobotConfiguration) {
+        self.state.robot.clone_from(configuration);
+        self.models.robot.forward_kinematics(
+            &configuration.base,
+            &configuration.joints,
+            &mut self.state.robot_poses,
+        );
+    }
+
+    /// Pose of a link of the robot in the map frame.
+    pub fn link_pose(&self, link: LinkId) -> Pose {
+        pose_of(&self.state.robot_poses, link)
+    }
+
+    /// Poses of all links of the robot in the map frame, at [`LinkId::index`].
+    pub fn link_poses(&self) -> &[Pose] {
+        &self.state.robot_poses
+    }
+}

@@ -1,0 +1,345 @@
+//! The world: robot, kitchen, objects, and the time that has passed.
+//!
+//! Held true here:
+//! - Time passes in [`World::step`] only, and there by exactly one physics step.
+//! - The robot and the kitchen follow their joint vectors exactly. `set_…` makes them move
+//!   there during the next step, pushing what is in the way; `teleport_…` puts them there,
+//!   which is an edit of the world and no motion.
+//! - An object that is attached to a link is welded to it softly until it is detached.
+//! - Objects are kept in the order in which they appeared.
+
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+
+use super::collision::CollisionChecker;
+use super::collision_search::{HeldObject, ObjectAt, Surroundings};
+use super::error::WorldError;
+use super::hash::Hasher;
+use super::link_geometry::TreeGeometry;
+use super::models::Models;
+use super::object::Object;
+use super::obstacles::Obstacles;
+use super::part_key::{PartKey, index};
+use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS};
+use super::robot_configuration::RobotConfiguration;
+use super::solid::to_parry;
+use crate::closest_name::closest_name;
+use crate::robot::{JointPositions, LinkId};
+use crate::spatial::Pose;
+
+/// A kitchen with a robot and objects in it.
+///
+/// A clone is a world of its own that goes on from the same state with the same bits.
+#[derive(Clone)]
+pub struct World {
+    pub(super) models: Arc<Models>,
+    pub(super) physics: Physics,
+    pub(super) state: State,
+    pub(super) robot_bodies: Arc<[BodyHandle]>,
+    pub(super) kitchen_bodies: Arc<[Option<BodyHandle>]>,
+}
+
+/// What a world knows besides the state of the physics engine.
+#[derive(Clone)]
+pub(super) struct State {
+    pub(super) robot: RobotConfiguration,
+    pub(super) robot_poses: Vec<Pose>,
+    pub(super) robot_moves: bool,
+    pub(super) kitchen: JointPositions,
+    pub(super) kitchen_poses: Vec<Pose>,
+    pub(super) kitchen_moves: bool,
+    pub(super) furniture: Arc<Obstacles>,
+    pub(super) objects: IndexMap<String, Object>,
+    pub(super) next_number: u32,
+    pub(super) steps: u64,
+}
+
+impl World {
+    /// A world without objects, the kitchen closed and the robot as given.
+    pub fn new(models: Arc<Models>, robot: RobotConfiguration) -> Self {
+        let mut physics = Physics::new();
+        physics.add_floor(PartKey::Floor.code());
+
+        let kitchen = models.kitchen.zero_positions();
+        let mut kitchen_poses = Vec::new();
+        models
+            .kitchen
+            .forward_kinematics(&Pose::identity(), &kitchen, &mut kitchen_poses);
+        let kitchen_bodies = models
+            .kitchen_geometry
+            .groups
+            .iter()
+            .enumerate()
+            .map(|(i, group)| {
+                let kind = if group.moves {
+                    BodyKind::MovingFurniture
+                } else {
+                    BodyKind::Static
+                };
+                let parts = group_parts(&models.kitchen_geometry, i, PartKey::Furniture, &[]);
+                let pose = pose_of(&kitchen_poses, group.root);
+                (!parts.is_empty()).then(|| physics.add_body(kind, &pose, &parts))
+            })
+            .collect();
+
+        let mut robot_poses = Vec::new();
+        models
+            .robot
+            .forward_kinematics(&robot.base, &robot.joints, &mut robot_poses);
+        let arms = &models.description.arms;
+        let fingers = arms
+            .iter()
+            .flat_map(|arm| arm.gripper.fingers.iter().flatten());
+        let fingers: Vec<LinkId> = fingers.copied().collect();
+        let robot_bodies = models
+            .robot_geometry
+            .groups
+            .iter()
+            .enumerate()
+            .map(|(i, group)| {
+                let parts = group_parts(&models.robot_geometry, i, PartKey::Robot, &fingers);
+                physics.add_body(BodyKind::Robot, &pose_of(&robot_poses, group.root), &parts)
+            })
+            .collect();
+
+        let furniture = Arc::new(Obstacles::new(&models.kitchen_geometry, &kitchen_poses));
+        Self {
+            models,
+            physics,
+            state: State {
+                robot,
+                robot_poses,
+                robot_moves: false,
+                kitchen,
+                kitchen_poses,
+                kitchen_moves: false,
+                furniture,
+                objects: IndexMap::new(),
+                next_number: 0,
+                steps: 0,
+            },
+            robot_bodies,
+            kitchen_bodies,
+        }
+    }
+
+    /// The models that the world is built from.
+    pub fn models(&self) -> &Arc<Models> {
+        &self.models
+    }
+
+    /// Lets one physics step pass: robot and kitchen move to where they were set, objects
+    /// fall, slide and are carried.
+    pub fn step(&mut self) {
+        if self.state.robot_moves {
+            for (body, group) in self
+                .robot_bodies
+                .iter()
+                .zip(&self.models.robot_geometry.groups)
+            {
+                self.physics
+                    .move_to(*body, &pose_of(&self.state.robot_poses, group.root));
+            }
+            for object in self
+                .state
+                .objects
+                .values()
+                .filter(|o| o.attachment.is_some())
+            {
+                self.physics.wake(object.body);
+            }
+            self.state.robot_moves = false;
+        }
+        if self.state.kitchen_moves {
+            for (body, group) in self
+                .kitchen_bodies
+                .iter()
+                .zip(&self.models.kitchen_geometry.groups)
+            {
+                if let (Some(body), true) = (body, group.moves) {
+                    self.physics
+                        .move_to(*body, &pose_of(&self.state.kitchen_poses, group.root));
+                }
+            }
+            self.state.kitchen_moves = false;
+        }
+        self.physics.step();
+        self.state.steps += 1;
+    }
+
+    /// Lets time pass until every object is at rest, at most `seconds` (s). Returns whether
+    /// all came to rest.
+    pub fn settle(&mut self, seconds: f64) -> bool {
+        let mut quiet = 0;
+        let mut left = steps_in(seconds);
+        while left > 0 {
+            self.step();
+            left -= 1;
+            quiet = if self.is_at_rest() { quiet + 1 } else { 0 };
+            if quiet >= QUIET_STEPS {
+                return true;
+            }
+        }
+        self.is_at_rest()
+    }
+
+    /// Whether no object moves faster than 2 mm/s or turns faster than 0.02 rad/s.
+    pub fn is_at_rest(&self) -> bool {
+        self.state.objects.values().all(|object| {
+            let (linear, angular) = self.physics.velocity(object.body);
+            linear.norm() < REST_SPEED && angular.norm() < REST_TURN
+        })
+    }
+
+    /// Number of steps since the world began.
+    pub fn steps(&self) -> u64 {
+        self.state.steps
+    }
+
+    /// Simulated time since the world began (s).
+    pub fn time(&self) -> f64 {
+        // Exact for any number of steps that can be simulated.
+        self.state.steps as f64 * STEP_SECONDS
+    }
+
+    /// All objects in the order in which they appeared.
+    pub fn objects(&self) -> impl ExactSizeIterator<Item = &Object> {
+        self.state.objects.values()
+    }
+
+    /// The object of that name.
+    pub fn object(&self, name: &str) -> Result<&Object, WorldError> {
+        self.state
+            .objects
+            .get(name)
+            .ok_or_else(|| WorldError::UnknownObject {
+                name: name.to_owned(),
+                closest: closest_name(name, self.state.objects.keys().map(String::as_str))
+                    .map(str::to_owned),
+            })
+    }
+
+    /// Pose of the object in the map frame.
+    pub fn object_pose(&self, name: &str) -> Result<Pose, WorldError> {
+        Ok(self.physics.pose(self.object(name)?.body))
+    }
+
+    /// Keeps all objects of now from falling asleep, which makes every step cost what it costs
+    /// while things move. For measurements.
+    pub fn keep_objects_awake(&mut self) {
+        for object in self.state.objects.values() {
+            self.physics.keep_awake(object.body);
+        }
+    }
+
+    /// The body of the engine that the link is part of, and the link whose frame it has.
+    pub(super) fn body_of_link(&self, link: LinkId) -> Option<(BodyHandle, LinkId)> {
+        let geometry = &self.models.robot_geometry;
+        let group = *geometry.group_of.get(link.index())?;
+        Some((
+            *self.robot_bodies.get(group)?,
+            geometry.groups.get(group)?.root,
+        ))
+    }
+
+    /// A judge of robot configurations for the world as it is now.
+    pub fn collision_checker(&self) -> CollisionChecker<'_> {
+        let mut lying = Vec::new();
+        let mut held = Vec::new();
+        for object in self.state.objects.values() {
+            match &object.attachment {
+                Some(attachment) => held.push(HeldObject {
+                    key: object.key(),
+                    name: &object.name,
+                    solids: &object.solids,
+                    bounds: object.bounds,
+                    link: attachment.link,
+                    at: attachment.at,
+                }),
+                None => lying.push(self.object_at(object)),
+            }
+        }
+        CollisionChecker::new(Surroundings {
+            models: &self.models,
+            furniture: &self.state.furniture,
+            objects: lying,
+            held,
+        })
+    }
+
+    pub(super) fn object_at<'w>(&self, object: &'w Object) -> ObjectAt<'w> {
+        let pose = to_parry(&self.physics.pose(object.body));
+        ObjectAt {
+            key: object.key(),
+            name: &object.name,
+            solids: &object.solids,
+            pose,
+            bounds: object.bounds.transform_by(&pose),
+        }
+    }
+
+    /// A hash of the bits of the whole state.
+    pub fn hash(&self) -> u64 {
+        let mut hasher = Hasher::default();
+        self.physics.hash_into(&mut hasher);
+        hasher.integer(self.state.steps);
+        hasher.pose(&self.state.robot.base);
+        let joints = self.state.robot.joints.as_slice();
+        for position in joints.iter().chain(self.state.kitchen.as_slice()) {
+            hasher.number(*position);
+        }
+        for object in self.state.objects.values() {
+            hasher.text(&object.name);
+            hasher.text(&object.type_name);
+            hasher.integer(object.key().code());
+            if let Some(attachment) = &object.attachment {
+                hasher.integer(u64::from(index(attachment.link)));
+                hasher.pose(&attachment.at);
+            }
+        }
+        hasher.finish()
+    }
+}
+
+/// Steps of quiet that count as rest: a tenth of a second.
+const QUIET_STEPS: u32 = 24;
+
+/// Speeds (m/s, rad/s) below which an object counts as resting.
+const REST_SPEED: f64 = 0.002;
+const REST_TURN: f64 = 0.02;
+
+/// Number of steps that cover the time (s), at least one; nothing for a negative time.
+fn steps_in(seconds: f64) -> u64 {
+    // The cast saturates.
+    (seconds / STEP_SECONDS).ceil() as u64
+}
+
+/// The pose of the link; identity for a link of another tree.
+pub(super) fn pose_of(poses: &[Pose], link: LinkId) -> Pose {
+    poses.get(link.index()).copied().unwrap_or_default()
+}
+
+/// The solids of a group in its root's frame, with their keys and whether they grip.
+fn group_parts(
+    geometry: &TreeGeometry,
+    group: usize,
+    key: fn(u32) -> PartKey,
+    grips: &[LinkId],
+) -> Vec<(super::solid::Solid, u64, bool)> {
+    let mut parts = Vec::new();
+    for (place, pose) in &geometry.groups[group].members {
+        // Members are places in this very list.
+        let link = &geometry.solid_links[*place];
+        for solid in &link.solids {
+            let mut solid = solid.clone();
+            solid.pose = to_parry(pose) * solid.pose;
+            parts.push((
+                solid,
+                key(index(link.link)).code(),
+                grips.contains(&link.link),
+            ));
+        }
+    }
+    parts
+}

@@ -1,0 +1,28 @@
+//! Going back to an earlier state.
+
+use super::physics::Sets;
+use super::scene::{State, World};
+
+/// The whole state of a world at one moment. A world that goes back to it goes on with the
+/// same bits as before.
+#[derive(Clone)]
+pub struct Snapshot {
+    physics: Sets,
+    state: State,
+}
+
+impl World {
+    /// The state now.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            physics: self.physics.save(),
+            state: self.state.clone(),
+        }
+    }
+
+    /// Goes back to a state of this world, or of one that was cloned from it.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        self.physics.load(&snapshot.physics);
+        self.state.clone_from(&snapshot.state);
+    }
+}

@@ -1,0 +1,102 @@
+//! A convex primitive in the form that geometric queries need, and the conversion of
+//! poses between nalgebra (ours) and the query library.
+//!
+//! A solid keeps the axis fix-up that the library wants (its cylinders lie along y), so
+//! nobody else has to think of it. Shapes are shared: a clone costs a reference count.
+
+use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
+use parry3d_f64::shape::SharedShape;
+
+use crate::spatial::{PlacedShape, Pose, Shape};
+
+/// The library's pose for ours.
+pub(crate) fn to_parry(pose: &Pose) -> ParryPose {
+    let t = &pose.translation.vector;
+    let q = pose.rotation.quaternion();
+    ParryPose::from_parts(
+        Vector::new(t.x, t.y, t.z),
+        Rotation::from_xyzw(q.i, q.j, q.k, q.w),
+    )
+}
+
+/// Our pose for the library's.
+pub(crate) fn from_parry(pose: &ParryPose) -> Pose {
+    let (t, q) = (pose.translation, pose.rotation);
+    Pose::from_parts(
+        Translation3::new(t.x, t.y, t.z),
+        UnitQuaternion::new_unchecked(Quaternion::new(q.w, q.x, q.y, q.z)),
+    )
+}
+
+/// Our vector for the library's.
+pub(crate) fn from_parry_vector(v: Vector) -> Vector3<f64> {
+    Vector3::new(v.x, v.y, v.z)
+}
+
+/// A convex primitive placed in the frame of the link or object that owns it.
+#[derive(Clone)]
+pub(crate) struct Solid {
+    /// The primitive.
+    pub(crate) shape: SharedShape,
+    /// Pose of the primitive, axis fix-up included, in the owner's frame.
+    pub(crate) pose: ParryPose,
+    /// Bounds in the owner's frame (m).
+    pub(crate) bounds: Aabb,
+    /// Volume (m³), the weight of this part in the mass of its owner.
+    pub(crate) volume: f64,
+}
+
+impl Solid {
+    /// The solid of a placed shape; `None` when its size is not positive and finite or a
+    /// hull has no volume.
+    pub(crate) fn new(placed: &PlacedShape) -> Option<Self> {
+        let place = to_parry(&placed.pose);
+        let positive = |values: &[f64]| values.iter().all(|v| v.is_finite() && *v > 0.0);
+        let (shape, pose) = match &placed.shape {
+            Shape::Box { size } if positive(size) => {
+                let [x, y, z] = size.map(|s| s / 2.0);
+                (SharedShape::cuboid(x, y, z), place)
+            }
+            Shape::Cylinder { radius, length } if positive(&[*radius, *length]) => {
+                // A quarter turn about x takes the library's axis y to our axis z.
+                let half = std::f64::consts::FRAC_1_SQRT_2;
+                let turn = ParryPose::from_rotation(Rotation::from_xyzw(half, 0.0, 0.0, half));
+                (SharedShape::cylinder(length / 2.0, *radius), place * turn)
+            }
+            Shape::Sphere { radius } if positive(&[*radius]) => (SharedShape::ball(*radius), place),
+            Shape::Hull { points } if points.iter().flatten().all(|v| v.is_finite()) => {
+                let points: Vec<_> = points
+                    .iter()
+                    .map(|&[x, y, z]| Vector::new(x, y, z))
+                    .collect();
+                (SharedShape::convex_hull(&points)?, place)
+            }
+            _ => return None,
+        };
+        let bounds = shape.compute_aabb(&pose);
+        let volume = shape.mass_properties(1.0).mass();
+        (volume > 0.0).then_some(Self {
+            shape,
+            pose,
+            bounds,
+            volume,
+        })
+    }
+
+    /// The solids of all shapes that have a volume.
+    pub(crate) fn all(placed: &[PlacedShape]) -> Vec<Self> {
+        placed.iter().filter_map(Self::new).collect()
+    }
+}
+
+/// Bounds (m) of all solids in their owner's frame, `None` without solids.
+pub(crate) fn bounds_of(solids: &[Solid]) -> Option<Aabb> {
+    let mut points = solids
+        .iter()
+        .flat_map(|s| [s.bounds.mins, s.bounds.maxs])
+        .peekable();
+    points.peek()?;
+    Some(Aabb::from_points(points))
+}

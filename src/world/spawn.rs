@@ -1,0 +1,391 @@
+//! Putting objects into the world, moving them about and taking them out.
+//!
+//! An object that would overlap something is lifted until it is free, or shifted aside where
+//! that takes less, and set down exactly on what is below; one that hovers closely is set
+//! down too. So nothing is ever thrown out of furniture by the physics engine. These are edits of the world: no time passes.
+
+use std::sync::Arc;
+
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
+use parry3d_f64::math::{Pose as ParryPose, Vector};
+use parry3d_f64::query::{ShapeCastOptions, cast_shapes};
+
+use super::body_name::BodyName;
+use super::error::WorldError;
+use super::object::Object;
+use super::object_library::ObjectType;
+use super::part_key::PartKey;
+use super::physics::BodyKind;
+use super::scene::World;
+use super::separation::{lowest_point, separation};
+use super::solid::{Solid, bounds_of, from_parry_vector, to_parry};
+use crate::spatial::Pose;
+
+/// Steps (m) in which an overlapping object is lifted while looking for free space.
+const LIFT_STEP: f64 = 0.005;
+
+/// Lift (m) up to which an object is not shifted aside.
+const NEAR_LIFT: f64 = 0.6;
+
+/// Highest lift (m): above everything in a kitchen.
+const LIFT_LIMIT: f64 = 4.0;
+
+/// Steps (m) and limit (m) of shifts to the side.
+const SHIFT_STEP: f64 = 0.02;
+const SHIFT_LIMIT: f64 = 0.3;
+
+/// Where to look for free space beside an object.
+const DIRECTIONS: [(f64, f64); 8] = {
+    const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    [
+        (1.0, 0.0),
+        (-1.0, 0.0),
+        (0.0, 1.0),
+        (0.0, -1.0),
+        (D, D),
+        (-D, D),
+        (-D, -D),
+        (D, -D),
+    ]
+};
+
+/// Gap (m) up to which a hovering object is set down instead of dropped.
+const SNAP_GAP: f64 = 0.05;
+
+/// Overlap (m) that counts as touching.
+const TOUCH: f64 = 1e-6;
+
+/// What became of an order to put an object somewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpawnReport {
+    /// Whether the object is new; otherwise it was only moved.
+    pub is_new: bool,
+    /// Where the object is now, in the map frame.
+    pub pose: Pose,
+    /// How much higher (m) that is than asked for; negative when it was set down.
+    pub lifted: f64,
+    /// How far (m) to the side that is.
+    pub shifted: f64,
+    /// What the object would have overlapped where it was asked for.
+    pub blocked_by: Option<BodyName>,
+    /// What the object was set down on; `None` when it is left to fall.
+    pub support: Option<BodyName>,
+}
+
+/// A body near the place of a new object.
+struct Neighbour {
+    key: PartKey,
+    pose: ParryPose,
+    bounds: Aabb,
+    solid: Solid,
+}
+
+impl World {
+    /// Puts a new object of a type of the library at the pose, with the type's colour and mass
+    /// (kg) unless others are given, or moves the object that has the name already (its type,
+    /// colour and mass stay then).
+    pub fn spawn(
+        &mut self,
+        name: &str,
+        type_name: &str,
+        pose: &Pose,
+        color: Option<[f32; 4]>,
+        mass: Option<f64>,
+    ) -> Result<SpawnReport, WorldError> {
+        if self.state.objects.contains_key(name) {
+            return self.move_object(name, pose);
+        }
+        let library = &self.models.objects;
+        let Some(known) = library.get(type_name) else {
+            return Err(WorldError::UnknownType {
+                name: type_name.to_owned(),
+                closest: library.closest_name(type_name).map(str::to_owned),
+            });
+        };
+        let mut object = known.clone();
+        object.color = color.unwrap_or(object.color);
+        object.mass = mass.unwrap_or(object.mass);
+        self.spawn_kind(name, &object, pose)
+    }
+
+    /// As [`World::spawn`], for an object that need not be in the library.
+    pub fn spawn_kind(
+        &mut self,
+        name: &str,
+        kind: &ObjectType,
+        pose: &Pose,
+    ) -> Result<SpawnReport, WorldError> {
+        if self.state.objects.contains_key(name) {
+            return self.move_object(name, pose);
+        }
+        check_finite(name, pose)?;
+        let mass = kind.mass;
+        if !(mass.is_finite() && mass > 0.0) {
+            return Err(WorldError::ImpossibleNumber {
+                quantity: "the mass",
+                name: name.to_owned(),
+                value: mass,
+            });
+        }
+        let solids = Solid::all(&kind.shapes);
+        let Some(bounds) = bounds_of(&solids) else {
+            return Err(WorldError::NoSolid {
+                type_name: kind.name.clone(),
+            });
+        };
+        let number = self.state.next_number;
+        self.state.next_number += 1;
+        let key = PartKey::Object(number);
+        let mut report = self.find_place(key, &solids, &bounds, pose);
+        report.is_new = true;
+        let parts: Vec<_> = solids
+            .iter()
+            .map(|s| (s.clone(), key.code(), false))
+            .collect();
+        let body = self
+            .physics
+            .add_body(BodyKind::Object { mass }, &report.pose, &parts);
+        self.state.objects.insert(
+            name.to_owned(),
+            Object {
+                name: name.to_owned(),
+                type_name: kind.name.clone(),
+                color: kind.color,
+                mass,
+                shapes: Arc::from(kind.shapes.as_slice()),
+                solids: Arc::from(solids),
+                bounds,
+                number,
+                body,
+                attachment: None,
+            },
+        );
+        Ok(report)
+    }
+
+    /// Puts the object somewhere else, let go and at rest.
+    pub fn move_object(&mut self, name: &str, pose: &Pose) -> Result<SpawnReport, WorldError> {
+        check_finite(name, pose)?;
+        self.detach(name)?;
+        let object = self.object(name)?;
+        let (key, body) = (object.key(), object.body);
+        let (solids, bounds) = (Arc::clone(&object.solids), object.bounds);
+        let report = self.find_place(key, &solids, &bounds, pose);
+        self.physics.place(body, &report.pose);
+        Ok(report)
+    }
+
+    /// Takes the object out of the world.
+    pub fn remove(&mut self, name: &str) -> Result<(), WorldError> {
+        self.detach(name)?;
+        // The line above has found it. Later objects keep their order.
+        if let Some(object) = self.state.objects.shift_remove(name) {
+            self.physics.remove_body(object.body);
+        }
+        Ok(())
+    }
+
+    /// Takes all objects out of the world.
+    pub fn remove_all(&mut self) {
+        for (_, object) in std::mem::take(&mut self.state.objects) {
+            self.physics.remove_body(object.body);
+        }
+    }
+
+    /// A free place for the solids near the pose: above it, else beside it, else high above.
+    fn find_place(
+        &self,
+        own: PartKey,
+        solids: &[Solid],
+        bounds: &Aabb,
+        pose: &Pose,
+    ) -> SpawnReport {
+        let wanted = to_parry(pose);
+        let bounds = bounds.transform_by(&wanted);
+        let neighbours = self.neighbours(own, &bounds.loosened(TOUCH));
+        let blocked_by = first_overlap(solids, &wanted, &neighbours);
+        let is_free = |place: &ParryPose| first_overlap(solids, place, &neighbours).is_none();
+        let place = if blocked_by.is_none() {
+            Some(wanted)
+        } else {
+            raised(&wanted, LIFT_STEP, NEAR_LIFT, is_free)
+                .or_else(|| self.beside(own, solids, &bounds, &wanted))
+                .or_else(|| raised(&wanted, LIFT_STEP, LIFT_LIMIT, is_free))
+        };
+        // Nothing in a kitchen is as high as the last attempt.
+        let place = place.unwrap_or(wanted);
+        let around = self.neighbours(own, &bounds.loosened(SHIFT_LIMIT));
+        let landing = drop_onto(solids, &place, &around)
+            .filter(|(gap, _)| blocked_by.is_some() || *gap <= SNAP_GAP);
+        let fall = landing.map_or(0.0, |(gap, _)| gap);
+        let way = place.translation - wanted.translation - Vector::Z * fall;
+        let mut pose = *pose;
+        pose.translation.vector += from_parry_vector(way);
+        SpawnReport {
+            is_new: false,
+            pose,
+            lifted: way.z,
+            shifted: Vector::new(way.x, way.y, 0.0).length(),
+            blocked_by: blocked_by.and_then(|key| self.body_name(key)),
+            support: landing.and_then(|(_, key)| self.body_name(key)),
+        }
+    }
+
+    /// The nearest free place to the side of the wanted one, lifted a little where needed.
+    fn beside(
+        &self,
+        own: PartKey,
+        solids: &[Solid],
+        bounds: &Aabb,
+        wanted: &ParryPose,
+    ) -> Option<ParryPose> {
+        let neighbours = self.neighbours(own, &bounds.loosened(SHIFT_LIMIT));
+        let is_free = |place: &ParryPose| first_overlap(solids, place, &neighbours).is_none();
+        let mut distance = SHIFT_STEP;
+        while distance <= SHIFT_LIMIT {
+            for (x, y) in DIRECTIONS {
+                let mut place = *wanted;
+                place.translation += Vector::new(x, y, 0.0) * distance;
+                if is_free(&place) {
+                    return Some(place);
+                }
+                if let Some(place) = raised(&place, SHIFT_STEP, NEAR_LIFT, is_free) {
+                    return Some(place);
+                }
+            }
+            distance += SHIFT_STEP;
+        }
+        None
+    }
+
+    /// Everything above, below and in the bounds, the floor not included.
+    fn neighbours(&self, own: PartKey, bounds: &Aabb) -> Vec<Neighbour> {
+        let mut column = *bounds;
+        column.mins.z = f64::NEG_INFINITY;
+        column.maxs.z = f64::INFINITY;
+        let mut found = Vec::new();
+        let mut add = |key, pose: ParryPose, solid: &Solid| {
+            let bounds = solid.shape.compute_aabb(&pose);
+            if bounds.intersects(&column) {
+                found.push(Neighbour {
+                    key,
+                    pose,
+                    bounds,
+                    solid: solid.clone(),
+                });
+            }
+        };
+        for obstacle in self.state.furniture.all() {
+            add(obstacle.key, obstacle.pose, &obstacle.solid);
+        }
+        for link in &self.models.robot_geometry.solid_links {
+            let pose = to_parry(&self.link_pose(link.link));
+            let key = PartKey::Robot(super::part_key::index(link.link));
+            link.solids.iter().for_each(|s| add(key, pose * s.pose, s));
+        }
+        for object in self.state.objects.values().filter(|o| o.key() != own) {
+            let pose = to_parry(&self.physics.pose(object.body));
+            object
+                .solids
+                .iter()
+                .for_each(|s| add(object.key(), pose * s.pose, s));
+        }
+        found
+    }
+
+    /// The name of the body that has the key.
+    pub fn body_name(&self, key: PartKey) -> Option<BodyName> {
+        Some(match key {
+            PartKey::Floor => BodyName::Floor,
+            PartKey::Robot(i) => BodyName::Robot(self.models.robot_geometry.name(i)?.clone()),
+            PartKey::Furniture(i) => {
+                BodyName::Furniture(self.models.kitchen_geometry.name(i)?.clone())
+            }
+            PartKey::Object(_) => {
+                let object = self.state.objects.values().find(|o| o.key() == key)?;
+                BodyName::Object(object.name.clone())
+            }
+        })
+    }
+}
+
+fn check_finite(name: &str, pose: &Pose) -> Result<(), WorldError> {
+    let q = pose.rotation.quaternion();
+    let numbers = pose.translation.vector.iter().chain(q.coords.iter());
+    match numbers.copied().find(|v| !v.is_finite()) {
+        None => Ok(()),
+        Some(value) => Err(WorldError::ImpossibleNumber {
+            quantity: "a coordinate",
+            name: name.to_owned(),
+            value,
+        }),
+    }
+}
+
+/// The lowest free place above, in steps of `step` (m) up to `limit` (m).
+fn raised(
+    from: &ParryPose,
+    step: f64,
+    limit: f64,
+    is_free: impl Fn(&ParryPose) -> bool,
+) -> Option<ParryPose> {
+    let mut place = *from;
+    while place.translation.z < from.translation.z + limit {
+        place.translation.z += step;
+        if is_free(&place) {
+            return Some(place);
+        }
+    }
+    None
+}
+
+/// The first body that the solids overlap at the pose.
+fn first_overlap(solids: &[Solid], at: &ParryPose, neighbours: &[Neighbour]) -> Option<PartKey> {
+    for solid in solids {
+        let pose = at * solid.pose;
+        if lowest_point(&pose, solid).z < -TOUCH {
+            return Some(PartKey::Floor);
+        }
+        let bounds = solid.shape.compute_aabb(&pose);
+        for other in neighbours {
+            if !bounds.intersects(&other.bounds) {
+                continue;
+            }
+            if separation(&pose, solid, &other.pose, &other.solid, -TOUCH).is_some() {
+                return Some(other.key);
+            }
+        }
+    }
+    None
+}
+
+/// How far (m) the solids can fall from the pose, and onto what.
+fn drop_onto(solids: &[Solid], at: &ParryPose, neighbours: &[Neighbour]) -> Option<(f64, PartKey)> {
+    let mut nearest: Option<(f64, PartKey)> = None;
+    let mut keep = |gap: f64, key| {
+        if nearest.is_none_or(|(best, _)| gap < best) {
+            nearest = Some((gap, key));
+        }
+    };
+    for solid in solids {
+        let pose = at * solid.pose;
+        keep(lowest_point(&pose, solid).z.max(0.0), PartKey::Floor);
+        for other in neighbours {
+            let options = ShapeCastOptions::with_max_time_of_impact(LIFT_LIMIT);
+            let hit = cast_shapes(
+                &pose,
+                -Vector::Z,
+                &*solid.shape,
+                &other.pose,
+                Vector::ZERO,
+                &*other.solid.shape,
+                options,
+            );
+            // All shapes are convex, so that the cast is supported.
+            if let Ok(Some(hit)) = hit {
+                keep(hit.time_of_impact, other.key);
+            }
+        }
+    }
+    nearest
+}
