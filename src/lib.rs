@@ -3,6 +3,7 @@
 
 pub mod closest_name;
 pub mod command;
+pub mod designator;
 pub mod dialogue;
 pub mod lisp;
 pub mod motion;
@@ -14,4 +15,5 @@ pub mod session;
 pub mod sexp;
 pub mod spatial;
 pub mod transcript;
+pub mod transform;
 pub mod world;
