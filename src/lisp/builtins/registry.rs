@@ -43,6 +43,12 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     packages::TABLE,
     streams::TABLE,
     symbols::TABLE,
+    format::TABLE,
+    number_theory::TABLE,
+    numbers::TABLE,
+    printing::TABLE,
+    reading::TABLE,
+    transcendental::TABLE,
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
@@ -58,6 +64,7 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     hash_tables::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,
     streams::SYSTEM_TABLE,
+    printing::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
@@ -85,6 +92,8 @@ pub static OPERATORS: &[&[Operator]] = &[
     hash_tables::OPERATORS,
     package_macros::OPERATORS,
     stream_macros::OPERATORS,
+    format::OPERATORS,
+    printing::OPERATORS,
 ];
 
 /// Special operators and macros of package `SYSTEM`.
