@@ -496,3 +496,17 @@ fn programs_define_method_combinations_of_their_own() {
         "((:integer :any) (:any))",
     );
 }
+
+#[test]
+fn accessors_of_slots_that_are_gone_are_removed() {
+    let mut image = image();
+    let text = "(defclass a () ((x :initform 1 :reader x)))
+                (defparameter *a* (make-instance 'a))
+                (defclass a () ((y :initform 1 :reader y)))";
+    eval_values(&mut image, text).expect("defined");
+    assert_value(&mut image, "(y *a*)", "1");
+    assert_eq!(
+        error_class(&mut image, "(x *a*)"),
+        "NO-APPLICABLE-METHOD-ERROR"
+    );
+}
