@@ -5,6 +5,7 @@
 
 pub mod call;
 mod frames;
+mod functions;
 mod held;
 mod motions;
 mod names;
@@ -46,6 +47,9 @@ pub struct Axes {
     pub size: f64,
 }
 
+/// Looks at the world after every step of a motion.
+pub type Observer = Box<dyn FnMut(&World)>;
+
 /// The robot in its world.
 pub struct Simulation {
     models: Arc<Models>,
@@ -61,6 +65,9 @@ pub struct Simulation {
     next_ticket: u64,
     axes: Option<Axes>,
     log_level: LogLevel,
+    /// The exit status, once somebody has asked to leave.
+    pub(super) quit: Option<u8>,
+    observer: Option<Observer>,
     /// Simulated time (s) that passed without a step: nothing moved.
     idle_time: f64,
 }
@@ -95,6 +102,8 @@ impl Simulation {
             next_ticket: 0,
             axes: None,
             log_level,
+            quit: None,
+            observer: None,
             idle_time: 0.0,
         })
     }
@@ -118,6 +127,17 @@ impl Simulation {
     /// The world.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// Has a function look at the world after every step that a motion takes.
+    pub fn set_observer(&mut self, observer: Observer) {
+        self.observer = Some(observer);
+    }
+
+    fn observe(&mut self) {
+        if let Some(observer) = &mut self.observer {
+            observer(&self.world);
+        }
     }
 
     /// The coordinate axes to be shown, if any.
