@@ -11,7 +11,7 @@ mod define_macros;
 pub mod destructure;
 mod emit;
 mod expand;
-mod form;
+pub(crate) mod form;
 pub mod lambda_list;
 mod node;
 mod operators;
