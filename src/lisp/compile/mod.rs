@@ -12,7 +12,7 @@ pub mod destructure;
 mod emit;
 mod environment;
 mod expand;
-mod form;
+pub(crate) mod form;
 pub mod lambda_list;
 mod node;
 mod operators;
