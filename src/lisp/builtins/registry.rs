@@ -103,4 +103,5 @@ pub fn install(image: &mut Image) {
     for table in SYSTEM_OPERATORS {
         image.install_operators(PackageTable::SYSTEM, table);
     }
+    alexandria::install(image);
 }

@@ -104,10 +104,7 @@ impl<'a> Parser<'a> {
                 "LOOP ends after {after}, where {expected} is wanted."
             ));
         };
-        let hint = match self
-            .word()
-            .and_then(|w| nearest(w, words.iter().copied()))
-        {
+        let hint = match self.word().and_then(|w| nearest(w, words.iter().copied())) {
             Some(near) => format!(" Did you mean {near}?"),
             None => String::new(),
         };
