@@ -25,6 +25,7 @@ mod setup;
 pub mod slot;
 pub mod stream;
 pub mod string;
+pub mod structure;
 pub mod symbol;
 pub mod types;
 pub mod value;

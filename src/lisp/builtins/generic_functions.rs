@@ -25,9 +25,10 @@ pub static TABLE: &[Builtin] = &[
         "generic-function &rest arguments",
         "Called when no method of a generic function applies. Add methods to do something else.",
         &[],
-        |_, args| {
+        |machine, args| {
             let function = args[0].clone();
-            Err(no_applicable_method_error(function, args[1..].to_vec()))
+            let rest = args[1..].to_vec();
+            Err(no_applicable_method_error(machine.image, function, rest))
         },
     ),
     control(
@@ -35,7 +36,7 @@ pub static TABLE: &[Builtin] = &[
         "generic-function method &rest arguments",
         "The error that CALL-NEXT-METHOD has nothing to call.",
         &[],
-        |_, args| Err(no_next_method(&args[0])),
+        |machine, args| Err(no_next_method(machine.image, &args[0])),
     ),
     pure(
         "FIND-METHOD",
@@ -126,7 +127,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
         "name",
         "The error that CALL-NEXT-METHOD has nothing to call.",
         &[],
-        |_, args| Err(no_next_method(&args[0])),
+        |image, args| Err(no_next_method(image, &args[0])),
     ),
 ];
 

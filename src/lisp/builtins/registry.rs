@@ -13,6 +13,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     characters::TABLE,
     conditions::TABLE,
     definitions::TABLE,
+    documentation::TABLE,
     evaluation::TABLE,
     generic_functions::TABLE,
     list_search::TABLE,
@@ -20,6 +21,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     list_trees::TABLE,
     lists::TABLE,
     mapping::TABLE,
+    object_printing::TABLE,
     objects::TABLE,
     pairs::TABLE,
     property_lists::TABLE,
@@ -43,6 +45,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     packages::TABLE,
     streams::TABLE,
     symbols::TABLE,
+    structures::TABLE,
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
@@ -50,6 +53,7 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
     generic_functions::SYSTEM_TABLE,
+    object_printing::SYSTEM_TABLE,
     objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
@@ -58,6 +62,7 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     loop_macro::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,
     streams::SYSTEM_TABLE,
+    structures::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
@@ -70,6 +75,8 @@ pub static SETTERS: &[&[Builtin]] = &[
     fill_pointers::SETTERS,
     hash_tables::SETTERS,
     symbols::SETTERS,
+    documentation::SETTERS,
+    objects::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
@@ -81,6 +88,10 @@ pub static OPERATORS: &[&[Operator]] = &[
     loop_macro::OPERATORS,
     package_macros::OPERATORS,
     stream_macros::OPERATORS,
+    generic_functions::OPERATORS,
+    object_printing::OPERATORS,
+    objects::OPERATORS,
+    structures::OPERATORS,
 ];
 
 /// Special operators and macros of package `SYSTEM`.

@@ -15,8 +15,6 @@ use crate::lisp::value::Value;
 
 /// The methods of a call in the order in which they run.
 pub struct Effective {
-    /// The generic function's name, for messages.
-    pub name: Value,
     /// The shape of the call.
     pub shape: Shape,
     /// Keywords that some applicable method accepts; none if they need no check.
@@ -68,7 +66,6 @@ impl Effective {
         let methods = applicable_methods(image, generic, args);
         let (keys, keys_from) = accepted_keys(generic, &methods);
         Ok(Effective {
-            name: generic.name.clone(),
             shape: shape(image, generic, methods, args)?,
             keys,
             keys_from,

@@ -10,6 +10,7 @@ mod calls;
 mod circle;
 mod document;
 mod float;
+pub mod format;
 pub mod identity;
 mod layout;
 mod printer;

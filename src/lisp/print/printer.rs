@@ -95,6 +95,22 @@ impl<'a> Printer<'a> {
 
     /// The value's text, where the line has already so many characters.
     pub(super) fn print(mut self, value: &Value, column: usize) -> String {
+        self.run(value);
+        if self.settings.pretty {
+            lay_out(self.document, self.settings, column)
+        } else {
+            self.document.into_text()
+        }
+    }
+
+    /// Prints the value as a part of a document.
+    pub(super) fn print_into(mut self, document: &mut Document, value: &Value) {
+        std::mem::swap(document, &mut self.document);
+        self.run(value);
+        std::mem::swap(document, &mut self.document);
+    }
+
+    fn run(&mut self, value: &Value) {
         self.labels = Labels::of(value, self.settings.circle);
         self.tasks.push(Task::Value(value.clone(), Style::Auto, 0));
         while let Some(task) = self.tasks.pop() {
@@ -124,11 +140,6 @@ impl<'a> Printer<'a> {
                     self.document.text(text);
                 }
             }
-        }
-        if self.settings.pretty {
-            lay_out(self.document, self.settings, column)
-        } else {
-            self.document.into_text()
         }
     }
 

@@ -1,0 +1,58 @@
+//! Designators: actions, motions, objects and locations described by properties.
+//!
+//! This folder knows their syntax, their types and keys, and how they are resolved; it
+//! moves nothing. A motion becomes a request to whoever runs the plan.
+
+pub mod access;
+pub mod names;
+pub mod object;
+pub mod packages;
+pub mod request;
+pub mod syntax;
+pub mod value;
+
+pub use request::MotionRequest;
+
+use crate::lisp::class::ClassKind;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::object::define::ClassDefinition;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// Makes the packages, classes, variables, functions and macros.
+pub fn install(image: &mut Image) {
+    packages::install(image);
+    let desig = packages::ensure(image, "CRAM-DESIGNATORS", &["DESIG"]);
+    let root = image.export_symbol(desig, "DESIGNATOR");
+    define_class(image, root, known::T);
+    for class in value::Class::ALL {
+        let name = image.export_symbol(desig, class.class_name());
+        define_class(image, name, root);
+    }
+    let pprint = image.export_symbol(desig, "*DESIGNATOR-PPRINT-DESCRIPTION*");
+    image.define_special(pprint, Value::T);
+    image.install_operators(desig, syntax::OPERATORS);
+    image.install_operators(desig, access::OPERATORS);
+    image.install(desig, access::TABLE);
+    image.install(desig, object::TABLE);
+    let data = image.export_symbol(desig, "OBJECT-DESIGNATOR-DATA");
+    define_class(image, data, known::T);
+    let names = packages::ensure(image, "ROSLISP-UTILITIES", &[]);
+    image.install(names, names::TABLE);
+}
+
+fn define_class(image: &mut Image, name: Sym, superclass: Sym) {
+    // The superclass is defined already.
+    let _ = image.define_unchecked(ClassDefinition {
+        name,
+        kind: ClassKind::Builtin,
+        superclasses: vec![superclass],
+        slots: Vec::new(),
+        default_initargs: Vec::new(),
+        doc: None,
+    });
+}
+
+#[cfg(test)]
+mod tests;
