@@ -1,5 +1,7 @@
 //! The builtin functions: one table per topic.
 
+pub mod alexandria;
+pub mod alexandria_macros;
 pub mod arguments;
 pub mod array_index;
 pub mod array_make;

@@ -4,6 +4,7 @@ use super::*;
 use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::compile;
 use crate::lisp::image::Image;
+use crate::lisp::loop_macro;
 use crate::lisp::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
@@ -64,6 +65,7 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     signalling::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
     hash_tables::SYSTEM_TABLE,
+    loop_macro::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,
     streams::SYSTEM_TABLE,
     structures::SYSTEM_TABLE,
@@ -90,6 +92,7 @@ pub static OPERATORS: &[&[Operator]] = &[
     compile::OPERATORS,
     types::OPERATORS,
     hash_tables::OPERATORS,
+    loop_macro::OPERATORS,
     package_macros::OPERATORS,
     stream_macros::OPERATORS,
     generic_functions::OPERATORS,
@@ -120,4 +123,5 @@ pub fn install(image: &mut Image) {
     for table in SYSTEM_OPERATORS {
         image.install_operators(PackageTable::SYSTEM, table);
     }
+    alexandria::install(image);
 }
