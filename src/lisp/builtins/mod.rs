@@ -1,5 +1,7 @@
 //! The builtin functions: one table per topic.
 
+pub mod alexandria;
+pub mod alexandria_macros;
 pub mod arguments;
 pub mod array_index;
 pub mod array_make;
@@ -11,6 +13,7 @@ mod composing;
 pub mod conditions;
 pub mod criterion;
 pub mod definitions;
+pub mod documentation;
 pub mod evaluation;
 pub mod files;
 pub mod fill_pointers;
@@ -26,6 +29,7 @@ pub mod lists;
 pub mod mapping;
 pub mod number_theory;
 pub mod numbers;
+pub mod object_printing;
 pub mod objects;
 pub mod package_macros;
 pub mod packages;

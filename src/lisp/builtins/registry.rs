@@ -4,6 +4,7 @@ use super::*;
 use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::compile;
 use crate::lisp::image::Image;
+use crate::lisp::loop_macro;
 use crate::lisp::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
@@ -12,6 +13,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     characters::TABLE,
     conditions::TABLE,
     definitions::TABLE,
+    documentation::TABLE,
     evaluation::TABLE,
     generic_functions::TABLE,
     list_search::TABLE,
@@ -19,6 +21,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     list_trees::TABLE,
     lists::TABLE,
     mapping::TABLE,
+    object_printing::TABLE,
     objects::TABLE,
     pairs::TABLE,
     property_lists::TABLE,
@@ -30,7 +33,6 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     sequence_search::TABLE,
     signalling::TABLE,
     sort::TABLE,
-    structures::TABLE,
     string_compare::TABLE,
     strings::TABLE,
     types::TABLE,
@@ -43,6 +45,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     packages::TABLE,
     streams::TABLE,
     symbols::TABLE,
+    structures::TABLE,
     format::TABLE,
     number_theory::TABLE,
     numbers::TABLE,
@@ -56,20 +59,21 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
     generic_functions::SYSTEM_TABLE,
+    object_printing::SYSTEM_TABLE,
     objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
-    structures::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
     hash_tables::SYSTEM_TABLE,
+    loop_macro::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,
     streams::SYSTEM_TABLE,
+    structures::SYSTEM_TABLE,
     printing::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
 pub static SETTERS: &[&[Builtin]] = &[
-    objects::SETTERS,
     pairs::SETTERS,
     property_lists::SETTERS,
     sequence_access::SETTERS,
@@ -78,20 +82,23 @@ pub static SETTERS: &[&[Builtin]] = &[
     fill_pointers::SETTERS,
     hash_tables::SETTERS,
     symbols::SETTERS,
+    documentation::SETTERS,
+    objects::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
 pub static OPERATORS: &[&[Operator]] = &[
     compile::SPECIAL_FORMS,
     compile::OPERATORS,
-    generic_functions::OPERATORS,
-    objects::OPERATORS,
-    structures::OPERATORS,
-    types::OPERATORS,
     types::OPERATORS,
     hash_tables::OPERATORS,
+    loop_macro::OPERATORS,
     package_macros::OPERATORS,
     stream_macros::OPERATORS,
+    generic_functions::OPERATORS,
+    object_printing::OPERATORS,
+    objects::OPERATORS,
+    structures::OPERATORS,
     format::OPERATORS,
     printing::OPERATORS,
 ];
@@ -116,4 +123,5 @@ pub fn install(image: &mut Image) {
     for table in SYSTEM_OPERATORS {
         image.install_operators(PackageTable::SYSTEM, table);
     }
+    alexandria::install(image);
 }

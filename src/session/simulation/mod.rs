@@ -5,10 +5,12 @@
 
 pub mod call;
 mod frames;
+mod functions;
 mod held;
 mod motions;
 mod names;
 mod pose_argument;
+mod properties;
 mod raising;
 pub mod request;
 mod tables;
@@ -46,6 +48,9 @@ pub struct Axes {
     pub size: f64,
 }
 
+/// Looks at the world after every step of a motion.
+pub type Observer = Box<dyn FnMut(&World)>;
+
 /// The robot in its world.
 pub struct Simulation {
     models: Arc<Models>,
@@ -61,8 +66,11 @@ pub struct Simulation {
     next_ticket: u64,
     axes: Option<Axes>,
     log_level: LogLevel,
-    /// Simulated time (s) that passed without a step: nothing moved.
-    idle_time: f64,
+    /// The exit status, once somebody has asked to leave.
+    pub(super) quit: Option<u8>,
+    observer: Option<Observer>,
+    /// Simulated time (s) as the scheduler told it last.
+    now: f64,
 }
 
 /// Severity of log lines.
@@ -95,16 +103,16 @@ impl Simulation {
             next_ticket: 0,
             axes: None,
             log_level,
-            idle_time: 0.0,
+            quit: None,
+            observer: None,
+            now: 0.0,
         })
     }
 
     /// Takes the world back to the start: no objects, the robot at the origin. Simulated
     /// time goes on.
     fn restart(&mut self) {
-        let now = self.now();
         self.world = starting_world(&self.models);
-        self.idle_time = now - self.world.time();
         self.names.clear();
         self.held.clear();
         self.axes = None;
@@ -112,12 +120,23 @@ impl Simulation {
 
     /// Simulated time (s).
     pub fn now(&self) -> f64 {
-        self.world.time() + self.idle_time
+        self.now
     }
 
     /// The world.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// Has a function look at the world after every step that a motion takes.
+    pub fn set_observer(&mut self, observer: Observer) {
+        self.observer = Some(observer);
+    }
+
+    fn observe(&mut self) {
+        if let Some(observer) = &mut self.observer {
+            observer(&self.world);
+        }
     }
 
     /// The coordinate axes to be shown, if any.
