@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::function::Function;
+use super::generic::Method;
 use super::slot::Slot;
 use super::symbol::Sym;
 use super::value::Value;
@@ -106,6 +107,8 @@ pub struct Class {
     pub direct_default_initargs: RefCell<Vec<(Sym, Initform)>>,
     /// `:default-initargs` of this class and its superclasses, most specific first.
     pub default_initargs: RefCell<Vec<(Sym, Initform)>>,
+    /// The methods that read and write its slots; a redefinition replaces them.
+    pub accessors: RefCell<Vec<Rc<Method>>>,
     /// The report of a condition class: a function of condition and stream.
     pub report: RefCell<Option<Rc<Function>>>,
     /// What `defstruct` remembers of a structure.
@@ -133,6 +136,7 @@ impl Class {
             slots: RefCell::default(),
             direct_default_initargs: RefCell::default(),
             default_initargs: RefCell::default(),
+            accessors: RefCell::default(),
             report: RefCell::default(),
             structure: RefCell::default(),
             doc: RefCell::default(),

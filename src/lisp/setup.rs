@@ -1,6 +1,6 @@
 //! A new image: standard packages, classes, variables, functions and macros.
 
-use super::builtins::registry;
+use super::builtins::{number_theory, numbers, reading, registry};
 use super::image::Image;
 use super::known;
 use super::package::PackageTable;
@@ -18,6 +18,9 @@ impl Image {
         image.define_standard_classes();
         registry::install(&mut image);
         define_variables(&mut image);
+        numbers::define_constants(&mut image);
+        number_theory::define_constants(&mut image);
+        reading::define_variables(&mut image);
         image
     }
 }

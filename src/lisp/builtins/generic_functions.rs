@@ -7,6 +7,7 @@ use crate::lisp::function::Function;
 use crate::lisp::generic::{GenericFunction, Method};
 use crate::lisp::image::Image;
 use crate::lisp::known;
+use crate::lisp::object::combination::{define_combination, expand_define_method_combination};
 use crate::lisp::object::combine::no_next_method;
 use crate::lisp::object::dispatch::no_applicable_method_error;
 use crate::lisp::object::effective::applicable_methods;
@@ -123,6 +124,13 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
         defmethod::own_method,
     ),
     pure(
+        "%DEFINE-COMBINATION",
+        "name operator identity-with-one-argument",
+        "Defines a method combination as DEFINE-METHOD-COMBINATION describes it.",
+        &[],
+        define_combination,
+    ),
+    pure(
         "%NO-NEXT-METHOD",
         "name",
         "The error that CALL-NEXT-METHOD has nothing to call.",
@@ -148,6 +156,13 @@ pub static OPERATORS: &[Operator] = &[
         doc: "Defines a method. Required parameters may be (name class) or (name (eql form)); qualifiers are :before, :after, :around or the operator of the method combination.",
         examples: &["(progn (defmethod twice ((x integer)) (* 2 x)) (twice 21)) => 42"],
         expand: Some(defmethod::expand_defmethod),
+    },
+    Operator {
+        name: "DEFINE-METHOD-COMBINATION",
+        lambda_list: "name &key operator identity-with-one-argument documentation",
+        doc: "Defines a method combination that gives the values of all applicable methods to an operator.",
+        examples: &["(define-method-combination join :operator append) => JOIN"],
+        expand: Some(expand_define_method_combination),
     },
 ];
 

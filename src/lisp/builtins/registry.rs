@@ -46,6 +46,12 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     streams::TABLE,
     symbols::TABLE,
     structures::TABLE,
+    format::TABLE,
+    number_theory::TABLE,
+    numbers::TABLE,
+    printing::TABLE,
+    reading::TABLE,
+    transcendental::TABLE,
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
@@ -63,6 +69,7 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     package_macros::SYSTEM_TABLE,
     streams::SYSTEM_TABLE,
     structures::SYSTEM_TABLE,
+    printing::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
@@ -92,6 +99,8 @@ pub static OPERATORS: &[&[Operator]] = &[
     object_printing::OPERATORS,
     objects::OPERATORS,
     structures::OPERATORS,
+    format::OPERATORS,
+    printing::OPERATORS,
 ];
 
 /// Special operators and macros of package `SYSTEM`.

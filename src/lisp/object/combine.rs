@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::effective::{Effective, Shape};
 use crate::lisp::function::Function;
-use crate::lisp::generic::Method;
+use crate::lisp::generic::{Combination, Method};
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::raise::Raise;
@@ -27,14 +27,14 @@ pub const START: Stage = Stage::Around(0);
 
 /// Runs a call from a stage on.
 pub fn run(effective: &Rc<Effective>, stage: Stage, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let (around, before, primary, after, operator) = match &effective.shape {
+    let (around, before, primary, after, combination) = match &effective.shape {
         Shape::Combined {
             around,
             before,
             primary,
             after,
-            operator,
-        } => (around, before, primary, after, *operator),
+            combination,
+        } => (around, before, primary, after, *combination),
         Shape::Single(method) | Shape::Read(_, method) | Shape::Write(_, method) => {
             return Ok(call(method, || Value::NIL, args));
         }
@@ -47,8 +47,8 @@ pub fn run(effective: &Rc<Effective>, stage: Stage, args: Vec<Value>) -> Result<
                 let next = Stage::Around(i + 1);
                 return Ok(invoke(effective, method, Some(next), args));
             }
-            if operator != known::STANDARD {
-                return operate(effective, operator, primary, args);
+            if !combination.is_standard() {
+                return operate(effective, combination, primary, args);
             }
             if before.is_empty() && after.is_empty() {
                 return run(effective, Stage::Primary(0), args);
@@ -201,18 +201,18 @@ fn then(step: Step, all_values: bool, next: Box<dyn Resume>) -> Step {
 /// Runs all methods of an operator combination and combines their values.
 fn operate(
     effective: &Rc<Effective>,
-    operator: Sym,
+    combination: Combination,
     methods: &[Rc<Method>],
     args: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
     if let [only] = methods
-        && operator != known::LIST
+        && combination.is_identity
     {
         return Ok(invoke(effective, only, None, args));
     }
     Box::new(Operation {
         effective: effective.clone(),
-        operator,
+        operator: combination.operator,
         args,
         values: Vec::new(),
     })

@@ -483,3 +483,30 @@ fn coercion_goes_between_numbers_sequences_and_characters() {
     let text = "(coerce \"abc\" 'integer)";
     assert_eq!(error_class(&mut image, text), "SIMPLE-TYPE-ERROR");
 }
+
+#[test]
+fn programs_define_method_combinations_of_their_own() {
+    let mut image = image();
+    assert_value(
+        &mut image,
+        "(define-method-combination join :operator append :identity-with-one-argument t)
+         (defgeneric parts (x) (:method-combination join)
+           (:method join ((x integer)) (list :integer)) (:method join (x) (list :any)))
+         (list (parts 1) (parts 'a))",
+        "((:integer :any) (:any))",
+    );
+}
+
+#[test]
+fn accessors_of_slots_that_are_gone_are_removed() {
+    let mut image = image();
+    let text = "(defclass a () ((x :initform 1 :reader x)))
+                (defparameter *a* (make-instance 'a))
+                (defclass a () ((y :initform 1 :reader y)))";
+    eval_values(&mut image, text).expect("defined");
+    assert_value(&mut image, "(y *a*)", "1");
+    assert_eq!(
+        error_class(&mut image, "(x *a*)"),
+        "NO-APPLICABLE-METHOD-ERROR"
+    );
+}
