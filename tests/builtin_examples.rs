@@ -36,5 +36,10 @@ fn examples_print_what_they_say() {
         }
     }
     assert!(count > 500, "only {count} examples were found");
-    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(
+        wrong.is_empty(),
+        "{} wrong:\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
 }
