@@ -51,6 +51,7 @@ pub mod sequence_types;
 pub mod shown;
 pub mod signalling;
 pub mod sort;
+pub mod standard_names;
 pub mod stream_macros;
 pub mod streams;
 pub mod string_compare;

@@ -125,5 +125,6 @@ pub fn install(image: &mut Image) {
     for table in SYSTEM_OPERATORS {
         image.install_operators(PackageTable::SYSTEM, table);
     }
+    standard_names::install(image);
     alexandria::install(image);
 }

@@ -51,6 +51,15 @@ impl Sequence {
         }
     }
 
+    /// Is there no element?
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Sequence::List(list) => list.is_nil(),
+            Sequence::Vector(vector) => vector.is_empty(),
+            Sequence::Str(string) => string.is_empty(),
+        }
+    }
+
     /// Walks the elements from `start` to `end` (`None`: to the end).
     pub fn walk(&self, bounds: Bounds) -> Walk {
         let state = match self {
