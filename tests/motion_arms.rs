@@ -9,6 +9,7 @@ use planwright::motion::{
     TcpGoal, TcpPath, UnreachableReason,
 };
 use planwright::robot::Side;
+use planwright::spatial::Pose;
 use planwright::spatial::pose::{angle_between, distance_between, from_xyz_rpy};
 
 const ARRIVED: Result<MotionOutcome, MotionFailure> = Ok(MotionOutcome::Arrived);
@@ -65,7 +66,7 @@ fn a_goal_beyond_a_hard_limit_names_the_joint_and_its_range() {
         .unwrap_err();
     assert_eq!(
         failure.to_string(),
-        "r_elbow_flex_joint would be at 0.5000, its range is -2.3213 to 0.0000"
+        "r_elbow_flex_joint would have to be at 0.500 rad, 0.500 rad outside of its limits -2.321..0.000"
     );
 }
 
@@ -255,4 +256,67 @@ fn a_hand_without_an_object_cannot_put_it_down() {
     let goal = TcpGoal::InBase(from_xyz_rpy([0.6, -0.1, 1.0], [0.0; 3]));
     let failure = kitchen.run_one(Put::new(Side::Right, goal)).unwrap_err();
     assert_eq!(failure, MotionFailure::HoldsNothing { side: Side::Right });
+}
+
+#[test]
+fn a_lifted_object_may_be_set_back_where_it_stood() {
+    let mut kitchen = bottle_in_hand();
+    let hand = tcp_in_base(&kitchen.world, Side::Right);
+    let low = Pose::translation(0.0, 0.0, -0.15) * hand;
+    let back = kitchen.tcp(
+        Side::Right,
+        low,
+        TcpPath::Straight,
+        CollisionMode::AllowHand,
+    );
+    assert_eq!(kitchen.run_one(back), ARRIVED);
+}
+
+#[test]
+fn an_object_that_is_pressed_into_the_table_stops_the_motion() {
+    let mut kitchen = bottle_in_hand();
+    let hand = tcp_in_base(&kitchen.world, Side::Right);
+    let low = Pose::translation(0.0, 0.0, -0.18) * hand;
+    let press = kitchen.tcp(Side::Right, low, TcpPath::Straight, CollisionMode::AllowAll);
+    kitchen.checked = false;
+    let failure = kitchen.run_one(press).unwrap_err();
+    let MotionFailure::HeldObjectStuck(stuck) = &failure else {
+        panic!("{failure}")
+    };
+    assert_eq!(stuck.object, "bottle-1");
+    assert_eq!(
+        stuck.against.as_ref().map(ToString::to_string).as_deref(),
+        Some("table_area_main")
+    );
+    assert!(stuck.lag < 0.015, "{failure}");
+}
+
+#[test]
+fn a_hand_goal_holds_although_the_torso_moves_at_the_same_time() {
+    let mut kitchen = Kitchen::parked(0.0, 0.5, 0.0, 0.05);
+    let goal = from_xyz_rpy([0.7, -0.2, 1.0], [0.0; 3]);
+    let mut reach = kitchen.tcp(Side::Right, goal, TcpPath::Free, CollisionMode::AvoidAll);
+    let mut torso = kitchen.torso(0.3);
+    for end in kitchen.run(&mut [&mut torso, &mut reach]) {
+        assert_eq!(end, ARRIVED);
+    }
+    assert!(distance_between(&tcp_in_base(&kitchen.world, Side::Right), &goal) < 1e-3);
+}
+
+#[test]
+fn a_torso_goal_beyond_the_limits_is_cropped_and_then_reported() {
+    let mut kitchen = Kitchen::parked(0.0, 0.5, 0.0, 0.2);
+    for (goal, reached) in [(0.5, 0.33), (-0.1, 0.0)] {
+        let torso = kitchen.torso(goal);
+        let failure = kitchen.run_one(torso).unwrap_err();
+        assert_eq!(
+            failure.to_string(),
+            format!("Torso goal {goal} was out of joint limits\nthe torso goes from 0 to 0.33 m")
+        );
+        let joint = kitchen.world.models().description.torso.joint;
+        let height = kitchen.world.robot_configuration().joints.get(joint);
+        assert!((height - reached).abs() < 1e-12);
+    }
+    let torso = kitchen.torso(0.33);
+    assert_eq!(kitchen.run_one(torso), ARRIVED);
 }

@@ -6,10 +6,13 @@ mod motion_support;
 use std::time::Instant;
 
 use motion_support::{Kitchen, Outcome};
-use planwright::motion::{Detect, DetectQuery, Look, LookTarget, MotionOutcome};
+use planwright::motion::{
+    CollisionMode, Detect, DetectQuery, Look, LookTarget, MotionOutcome, TcpPath,
+};
 use planwright::robot::Side;
 use planwright::spatial::Pose;
 use planwright::spatial::pose::{from_xyz_rpy, yaw};
+use planwright::world::grasp_library::GraspDefinition;
 
 /// Drives to the table, raises the torso and parks the arms, all at once.
 fn approach_table(kitchen: &mut Kitchen) {
@@ -149,4 +152,51 @@ fn the_same_motions_end_with_the_same_bits() {
         kitchen.world.hash()
     };
     assert_eq!(hash(), hash());
+}
+
+/// The tutorial's grasp from the front left: its second pregrasp is the grasp itself.
+fn diagonal() -> GraspDefinition {
+    let s = 0.7071;
+    GraspDefinition {
+        translation: [-0.02, -0.02, 0.005],
+        rotation: [[s, 0.0, -s], [-s, 0.0, -s], [0.0, 1.0, 0.0]],
+        pregrasp: [0.02, 0.15, 0.15],
+        second_pregrasp: [0.0; 3],
+        lift: [0.0, 0.0, 0.15],
+        second_lift: [0.0; 3],
+    }
+}
+
+#[test]
+fn a_grasp_without_a_second_pregrasp_works_too() {
+    let mut kitchen = Kitchen::parked(-1.447, -0.15, -90.0, 0.3);
+    kitchen.spawn_bottle(-1.6, -0.9, 0.82);
+    let bottle = kitchen.in_base("bottle-1");
+    let axes = kitchen
+        .world
+        .models()
+        .description
+        .arm(Side::Right)
+        .tool_axes;
+    let poses = diagonal().tool_poses(&bottle, &axes).unwrap();
+    let end = kitchen.pick_at(Side::Right, &poses, "bottle-1");
+    assert!(end.is_ok(), "{end:?}");
+    let down = kitchen.tcp(
+        Side::Right,
+        poses.grasp,
+        TcpPath::Straight,
+        CollisionMode::AllowHand,
+    );
+    assert_eq!(kitchen.run_one(down), Ok(MotionOutcome::Arrived));
+}
+
+#[test]
+fn the_left_arm_carries_a_bottle_as_well() {
+    let mut kitchen = Kitchen::parked(-1.447, -0.15, -90.0, 0.3);
+    kitchen.spawn_bottle(-1.0, -0.75, 0.86);
+    let bottle = kitchen.in_base("bottle-1");
+    let end = kitchen.pick(Side::Left, "left-side", "bottle-1", &bottle);
+    assert!(end.is_ok(), "{end:?}");
+    let park = kitchen.park(true, false);
+    assert_eq!(kitchen.run_one(park), Ok(MotionOutcome::Arrived));
 }

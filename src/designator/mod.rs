@@ -4,14 +4,21 @@
 //! moves nothing. A motion becomes a request to whoever runs the plan.
 
 pub mod access;
+pub mod check;
+pub mod failure;
+pub mod ground;
 pub mod names;
 pub mod object;
 pub mod packages;
+pub mod perform;
 pub mod request;
+pub mod schema;
 pub mod syntax;
 pub mod value;
 
+pub use failure::no_process_module;
 pub use request::MotionRequest;
+pub use value::current;
 
 use crate::lisp::class::ClassKind;
 use crate::lisp::image::Image;
@@ -38,8 +45,24 @@ pub fn install(image: &mut Image) {
     image.install(desig, object::TABLE);
     let data = image.export_symbol(desig, "OBJECT-DESIGNATOR-DATA");
     define_class(image, data, known::T);
+    failure::define(image);
+    let executive = packages::ensure(image, "CRAM-EXECUTIVE", &["EXE"]);
+    image.install(executive, perform::TABLE);
     let names = packages::ensure(image, "ROSLISP-UTILITIES", &[]);
     image.install(names, names::TABLE);
+}
+
+/// The first value of a property, by the key's name in upper case; `None` if it is absent,
+/// `NIL`, or the value is no designator.
+pub fn property(image: &Image, designator: &Value, key: &str) -> Option<Value> {
+    value::as_designator(designator)?
+        .property_named(image, key)
+        .filter(Value::is_true)
+}
+
+/// Does a designator ask for all things that fit?
+pub fn asks_for_all(_: &Image, designator: &Value) -> bool {
+    value::as_designator(designator).is_some_and(value::Designator::is_all)
 }
 
 fn define_class(image: &mut Image, name: Sym, superclass: Sym) {

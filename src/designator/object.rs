@@ -61,39 +61,29 @@ fn object_data<'a>(image: &mut Image, argument: &'a Value) -> Result<&'a ObjectD
     }
 }
 
-/// What perception says about one object.
-pub struct Percept {
-    /// Its name in the world, as it was given when it was spawned.
-    pub name: Value,
-    /// Its type, a keyword.
-    pub object_type: Value,
-    /// Its pose in the frame "base_footprint".
-    pub pose_in_base: Pose,
-    /// Its pose in the frame "map".
-    pub pose_in_map: Pose,
-    /// Simulated time of the detection (s).
-    pub stamp: f64,
-    /// More properties to add: keyword name and value.
-    pub more: Vec<(&'static str, Value)>,
-}
-
-/// A designator of the perceived object: type, name and poses, and the other properties
-/// of the query. It is not equated with the query.
-pub fn perceived(image: &mut Image, query: &Value, percept: Percept) -> Value {
-    let frame = names::name_text(image, &percept.name).unwrap_or_default();
+/// A designator of a perceived object: type, name and poses, and the other properties of
+/// the query. `name` is the name as it was given when the object was spawned, `kind` the
+/// keyword of its type; the poses are in the frames "base_footprint" and "map". It is not
+/// equated with the query.
+pub fn perceived(
+    image: &mut Image,
+    query: &Value,
+    name: Value,
+    kind: Value,
+    pose_in_base: &Pose,
+    pose_in_map: &Pose,
+) -> Value {
+    let frame = names::name_text(image, &name).unwrap_or_default();
     let frame = names::rosify(&frame);
     let base = "base_footprint";
-    let pose = pose_stamped(base, &percept.pose_in_base);
+    let pose = pose_stamped(base, pose_in_base);
     let poses = [
         ("POSE", pose.clone()),
-        (
-            "TRANSFORM",
-            transform_stamped(base, &frame, &percept.pose_in_base),
-        ),
-        ("POSE-IN-MAP", pose_stamped("map", &percept.pose_in_map)),
+        ("TRANSFORM", transform_stamped(base, &frame, pose_in_base)),
+        ("POSE-IN-MAP", pose_stamped("map", pose_in_map)),
         (
             "TRANSFORM-IN-MAP",
-            transform_stamped("map", &frame, &percept.pose_in_map),
+            transform_stamped("map", &frame, pose_in_map),
         ),
     ];
     let poses: Vec<Value> = poses
@@ -101,13 +91,10 @@ pub fn perceived(image: &mut Image, query: &Value, percept: Percept) -> Value {
         .map(|(key, value)| property(image, key, value))
         .collect();
     let mut properties = vec![
-        property(image, "TYPE", percept.object_type),
-        property(image, "NAME", percept.name.clone()),
+        property(image, "TYPE", kind),
+        property(image, "NAME", name.clone()),
         property(image, "POSE", Value::list(poses)),
     ];
-    for (key, value) in percept.more {
-        properties.push(property(image, key, value));
-    }
     if let Some(query) = value::as_designator(query) {
         for old in query.description.borrow().iter_list() {
             let key = old.car_or_nil();
@@ -119,7 +106,7 @@ pub fn perceived(image: &mut Image, query: &Value, percept: Percept) -> Value {
     let class_symbol = packages::symbol(image, "CRAM-DESIGNATORS", "OBJECT-DESIGNATOR-DATA");
     let designator = Designator::new(image, Class::Object, Quantifier::A, Value::list(properties));
     *designator.data.borrow_mut() = Some(Value::foreign(ObjectData {
-        identifier: percept.name,
+        identifier: name,
         pose,
         class_symbol,
     }));

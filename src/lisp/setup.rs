@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::builtins::registry;
+use super::builtins::{number_theory, numbers, reading, registry};
 use super::image::Image;
 use super::known;
 use super::package::PackageTable;
@@ -20,6 +20,9 @@ impl Image {
         image.define_standard_classes();
         registry::install(&mut image);
         define_variables(&mut image);
+        numbers::define_constants(&mut image);
+        number_theory::define_constants(&mut image);
+        reading::define_variables(&mut image);
         image
     }
 }

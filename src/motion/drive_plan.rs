@@ -1,6 +1,7 @@
 //! Planning a drive: the path of the base for the robot as it stands.
 
 use super::base_path::{BasePathFailure, BasePlace, FloorArea, MARGIN, find_base_path};
+use super::expected_contacts::ExpectedContacts;
 use super::failure::MotionFailure;
 use super::touching::TouchingPairs;
 use super::trajectory::Trajectory;
@@ -55,7 +56,11 @@ impl<'w> BaseJudge<'w> {
             .fold(AllowedPairs::none(), |all, hit| {
                 all.and(hit.moving, hit.other)
             });
-        let touching = TouchingPairs::new(&mut checker, &robot, &own, 0.0, 0.0);
+        let contacts = ExpectedContacts {
+            allowed: own,
+            ..ExpectedContacts::default()
+        };
+        let touching = TouchingPairs::new(&mut checker, &robot, &contacts, 0.0, 0.0);
         let mut in_base = Vec::new();
         let tree = &world.models().robot;
         tree.forward_kinematics(&Pose::identity(), &robot.joints, &mut in_base);

@@ -5,45 +5,15 @@
 //! `Display` alone: a first line as CRAM has it, or a sentence that says what and why, and
 //! where it can be computed a second one that says what would work.
 
-use std::fmt;
-
 use thiserror::Error;
 
 use super::base_path::BasePlace;
 use super::guard::StuckObject;
 use super::job::ProcessModule;
-use super::unreachable::Unreachable;
+use super::unreachable::UnreachablePose;
 use crate::perception::Visibility;
-use crate::robot::Side;
+use crate::robot::{LimitViolation, Side};
 use crate::world::{BodyName, CollisionHit};
-
-/// A range of a joint (rad or m) and where in it a joint was wanted.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LimitViolation {
-    /// Name of the joint.
-    pub joint: String,
-    /// Position that was wanted (rad or m).
-    pub wanted: f64,
-    /// Least position (rad or m).
-    pub lower: f64,
-    /// Greatest position (rad or m).
-    pub upper: f64,
-}
-
-impl fmt::Display for LimitViolation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            joint,
-            wanted,
-            lower,
-            upper,
-        } = self;
-        write!(
-            f,
-            "{joint} would be at {wanted:.4}, its range is {lower:.4} to {upper:.4}"
-        )
-    }
-}
 
 /// Why a motion did not reach its goal.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -179,7 +149,7 @@ pub enum MotionFailure {
     },
     /// No posture of the arm brings the hand to the pose.
     #[error("{0}")]
-    PoseUnreachable(Box<Unreachable>),
+    PoseUnreachable(Box<UnreachablePose>),
     /// The goals of both hands need different heights of the torso.
     #[error(
         "In MOVE-TCP goals for the two arms require different torso angles).\n\
@@ -216,6 +186,19 @@ pub enum MotionFailure {
     ArmBlocked {
         /// What would touch.
         hit: Box<CollisionHit>,
+    },
+    /// A hand ended beside its goal, because something else moved the robot meanwhile.
+    #[error(
+        "the {side} hand ended {:.1} mm and {:.1} degrees beside its goal, because torso or \
+         base were moved at the same time", .distance * 1e3, .angle.to_degrees()
+    )]
+    HandGoalMissed {
+        /// The hand.
+        side: Side,
+        /// Distance (m) from the goal.
+        distance: f64,
+        /// Angle (rad) from the goal.
+        angle: f64,
     },
     /// A held object does not follow the hand.
     #[error(
@@ -263,6 +246,7 @@ impl MotionFailure {
             | Self::ArmStartInCollision { .. }
             | Self::ArmPathNotFound { .. }
             | Self::ArmBlocked { .. }
+            | Self::HandGoalMissed { .. }
             | Self::HeldObjectStuck(_)
             | Self::HoldsNothing { .. } => "MANIPULATION-GOAL-NOT-REACHED",
             Self::NotFinite { module } => match module {

@@ -1,9 +1,10 @@
 //! Opening, closing and positioning the fingers, gripping, and the hold on an object.
 
-use super::failure::{LimitViolation, MotionFailure};
+use super::failure::MotionFailure;
 use super::guard;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
+use super::joint_limit::violation;
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
 use crate::robot::Side;
@@ -133,15 +134,11 @@ impl MoveGripper {
         if gripper.limits.excess(goal) <= CROPPED {
             return MotionStatus::Done(MotionOutcome::Arrived);
         }
+        let joint = world.models().robot.joint(gripper.joint);
         MotionStatus::failed(MotionFailure::GripperLimit {
             side: self.side,
             goal: goal / gripper.joint_per_metre,
-            violation: LimitViolation {
-                joint: world.models().robot.joint(gripper.joint).name.clone(),
-                wanted: goal,
-                lower: gripper.limits.lower,
-                upper: gripper.limits.upper,
-            },
+            violation: violation(joint, gripper.limits, goal),
         })
     }
 

@@ -1,9 +1,10 @@
 //! Judging postures of some joints while everything else stays as it is.
 
+use super::expected_contacts::ExpectedContacts;
 use super::guard::GUARD_DEPTH;
 use super::touching::TouchingPairs;
 use crate::robot::JointId;
-use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration, World};
+use crate::world::{CollisionChecker, CollisionHit, RobotConfiguration, World};
 
 /// Gap (m) that planned postures keep to everything.
 pub(super) const PLAN_MARGIN: f64 = 0.004;
@@ -20,10 +21,10 @@ pub(super) struct Judge<'w> {
 }
 
 impl<'w> Judge<'w> {
-    pub(super) fn new(world: &'w World, joints: Vec<JointId>, allowed: &AllowedPairs) -> Self {
+    pub(super) fn new(world: &'w World, joints: Vec<JointId>, contacts: &ExpectedContacts) -> Self {
         let mut checker = world.collision_checker();
         let robot = world.robot_configuration().clone();
-        let touching = TouchingPairs::new(&mut checker, &robot, allowed, PLAN_MARGIN, TOUCH_DEPTH);
+        let touching = TouchingPairs::new(&mut checker, &robot, contacts, PLAN_MARGIN, TOUCH_DEPTH);
         Self {
             checker,
             robot,

@@ -5,12 +5,13 @@
 
 use nalgebra::Point3;
 
-use super::failure::{LimitViolation, MotionFailure};
+use super::failure::MotionFailure;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
+use super::joint_limit::violation;
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
-use crate::robot::{JointId, RobotDescription};
+use crate::robot::{JointId, LimitViolation, RobotDescription};
 use crate::spatial::{Pose, trig};
 use crate::world::{AllowedPairs, World};
 
@@ -129,12 +130,7 @@ impl Look {
             let cropped = joint.limits.map_or(wanted, |l| l.clamp(wanted));
             goal.push(cropped);
             if let Some(l) = joint.limits.filter(|l| l.excess(wanted) > CROPPED) {
-                self.violation = Some(LimitViolation {
-                    joint: joint.name.clone(),
-                    wanted,
-                    lower: l.lower,
-                    upper: l.upper,
-                });
+                self.violation = Some(violation(joint, l, wanted));
             }
         }
         let joints = neck_joints(&world.models().description).to_vec();

@@ -3,9 +3,11 @@
 use super::arm_axes::ArmAxes;
 use super::arm_path::ArmPathEffort;
 use super::arm_way::plan_way;
-use super::failure::{LimitViolation, MotionFailure};
+use super::expected_contacts::ExpectedContacts;
+use super::failure::MotionFailure;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
+use super::joint_limit::violation;
 use super::judge::Judge;
 use crate::robot::{ARM_JOINTS, Side};
 use crate::spatial::trig;
@@ -68,12 +70,7 @@ impl MoveJoints {
             let joint = tree.joint(id);
             match joint.limits {
                 Some(l) if l.excess(*wanted) > 0.0 => {
-                    let violation = LimitViolation {
-                        joint: joint.name.clone(),
-                        wanted: *wanted,
-                        lower: l.lower,
-                        upper: l.upper,
-                    };
+                    let violation = violation(joint, l, *wanted);
                     return Err(MotionFailure::JointLimit { violation });
                 }
                 Some(_) => {}
@@ -87,7 +84,8 @@ impl MoveJoints {
         let axes = ArmAxes::new(world, false, &self.sides());
         let goal = self.goal(world, &axes)?;
         let none = AllowedPairs::none();
-        let mut judge = Judge::new(world, axes.joints.clone(), &none);
+        let contacts = ExpectedContacts::default();
+        let mut judge = Judge::new(world, axes.joints.clone(), &contacts);
         let way = plan_way(world, &axes, &goal, &mut judge, ArmPathEffort::default())?;
         Ok(JointFollow::new(axes.joints, way, none))
     }

@@ -1,20 +1,23 @@
 //! Bringing one or both hands to poses.
 
+use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::failure::MotionFailure;
-use super::gripper::hand_names;
-use super::hold::held_objects;
 use super::job::{
     Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite, numbers_of,
 };
 use super::joint_follow::{FollowStep, JointFollow};
 use super::patience::Patience;
+use super::tcp_line::tcp_in_base;
 use super::tcp_plan::TcpTask;
 use crate::robot::Side;
 use crate::spatial::Pose;
-use crate::world::{AllowedPairs, BodyName, World};
+use crate::spatial::pose::{angle_between, distance_between};
+use crate::world::World;
 
 /// How long (s) a plan or the way may be blocked while nothing moves.
 const PATIENCE: f64 = 0.3;
+/// A hand that ends farther from its goal than this (m, rad) has missed it.
+const MISSED: (f64, f64) = (0.001, 0.01);
 /// How often a path is searched before giving up.
 const MOST_PLANS: u32 = 4;
 
@@ -34,18 +37,6 @@ pub enum TcpPath {
     Free,
     /// Straight, as for approaching and lifting; any way where there is no straight one.
     Straight,
-}
-
-/// What a motion of the hands may touch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CollisionMode {
-    /// Nothing.
-    AvoidAll,
-    /// The hand may touch objects.
-    AllowHand,
-    /// The hand may touch objects, and what it holds may touch anything. Arms and hands
-    /// never go through furniture.
-    AllowAll,
 }
 
 /// Moves one or both hands to poses, with the torso's help where that is needed.
@@ -88,11 +79,12 @@ impl MoveTcp {
         for (_, goal) in &goals {
             check_finite(ProcessModule::Arms, &numbers_of(goal))?;
         }
-        let allowed = allowed_pairs(world, &goals, self.mode);
+        let sides = goals.iter().map(|(side, _)| *side);
+        let contacts = ExpectedContacts::of(world, sides, self.mode);
         let task = TcpTask {
             world,
             goals,
-            allowed,
+            contacts,
         };
         let straight = (self.path == TcpPath::Straight)
             .then(|| task.plan_line())
@@ -115,6 +107,29 @@ impl MoveTcp {
             }
             Err(failure) => Some(MotionStatus::failed(failure)),
         }
+    }
+
+    /// Another job may have moved the torso, or the base under a goal in the map.
+    fn arrived(&mut self, world: &World) -> Option<MotionStatus> {
+        let base = world.robot_configuration().base;
+        for (side, goal) in Side::BOTH.into_iter().zip(self.goals) {
+            let Some(goal) = goal else { continue };
+            let hand = tcp_in_base(world, side);
+            let goal = in_base(goal, &base);
+            let distance = distance_between(&hand, &goal);
+            let angle = angle_between(&hand, &goal);
+            if distance <= MISSED.0 && angle <= MISSED.1 {
+                continue;
+            }
+            self.follow = None;
+            let failure = MotionFailure::HandGoalMissed {
+                side,
+                distance,
+                angle,
+            };
+            return (self.plans >= MOST_PLANS).then(|| MotionStatus::failed(failure));
+        }
+        Some(MotionStatus::Done(MotionOutcome::Arrived))
     }
 
     fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
@@ -143,7 +158,7 @@ impl MoveTcp {
             FollowStep::Stuck(stuck) => Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(
                 Box::new(stuck),
             ))),
-            FollowStep::Arrived => Some(MotionStatus::Done(MotionOutcome::Arrived)),
+            FollowStep::Arrived => self.arrived(world),
         }
     }
 }
@@ -154,47 +169,6 @@ pub(super) fn in_base(goal: TcpGoal, base: &Pose) -> Pose {
         TcpGoal::InBase(pose) => pose,
         TcpGoal::InMap(pose) => base.inverse() * pose,
     }
-}
-
-/// The pairs that a motion of those hands declares.
-pub(super) fn allowed_pairs(
-    world: &World,
-    goals: &[(Side, Pose)],
-    mode: CollisionMode,
-) -> AllowedPairs {
-    let mut allowed = AllowedPairs::none();
-    if mode == CollisionMode::AvoidAll {
-        return allowed;
-    }
-    let object_names = || {
-        world
-            .objects()
-            .map(|o| BodyName::Object(o.name().to_owned()))
-    };
-    for (side, _) in goals {
-        let hand = hand_names(world, *side);
-        for object in object_names() {
-            allowed = allowed.and_all(hand.iter().cloned(), &object);
-        }
-        if mode == CollisionMode::AllowAll {
-            for held in held_objects(world, *side).into_iter().map(BodyName::Object) {
-                allowed = allowed.and_all(object_names().filter(|o| *o != held), &held);
-                allowed = allowed.and_all(furniture(world), &held);
-            }
-        }
-    }
-    allowed
-}
-
-/// All pieces of furniture that can be touched, and the floor.
-fn furniture(world: &World) -> Vec<BodyName> {
-    let models = world.models();
-    let links = models
-        .kitchen
-        .links()
-        .filter(|(_, link)| !link.collisions.is_empty());
-    let names = links.map(|(id, _)| models.furniture_body(id));
-    names.chain([BodyName::Floor]).collect()
 }
 
 impl Motion for MoveTcp {

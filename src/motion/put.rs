@@ -4,13 +4,14 @@
 //! object: earlier than the goal when the surface is higher, below the goal when it is lower.
 //! Without any surface within reach below the goal it ends in the goal.
 
+use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::failure::MotionFailure;
 use super::hold::held_objects;
 use super::job::{
     Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite, numbers_of,
 };
 use super::joint_follow::{FollowStep, JointFollow};
-use super::move_tcp::{CollisionMode, TcpGoal, allowed_pairs, in_base};
+use super::move_tcp::{TcpGoal, in_base};
 use super::put_plan::PutPlan;
 use super::tcp_line::tcp_in_base;
 use super::tcp_plan::TcpTask;
@@ -53,11 +54,11 @@ impl Put {
         let goal = in_base(self.goal, &world.robot_configuration().base);
         check_finite(ProcessModule::Arms, &numbers_of(&goal))?;
         let goals = vec![(side, goal)];
-        let allowed = allowed_pairs(world, &goals, CollisionMode::AllowAll);
+        let contacts = ExpectedContacts::of(world, [side].into_iter(), CollisionMode::AllowAll);
         let task = TcpTask {
             world,
             goals,
-            allowed,
+            contacts,
         };
         let object = BodyName::Object(self.object.clone());
         PutPlan {

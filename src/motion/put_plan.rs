@@ -50,7 +50,7 @@ impl PutPlan<'_> {
         if postures.is_empty() {
             return None;
         }
-        let mut judge = Judge::new(self.task.world, axes.joints.clone(), &self.task.allowed);
+        let mut judge = Judge::new(self.task.world, axes.joints.clone(), &self.task.contacts);
         let start = axes.now(self.task.world);
         let ends = postures
             .iter()
@@ -70,7 +70,7 @@ impl PutPlan<'_> {
             return Some(JointFollow::new(
                 axes.joints,
                 way,
-                self.task.allowed.clone(),
+                self.task.contacts.allowed.clone(),
             ));
         }
         None

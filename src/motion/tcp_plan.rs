@@ -8,6 +8,7 @@
 use super::arm_axes::ArmAxes;
 use super::arm_path::{ArmPathEffort, blocked_between};
 use super::arm_way::{plan_way, smooth};
+use super::expected_contacts::ExpectedContacts;
 use super::failure::MotionFailure;
 use super::hold::held_objects;
 use super::joint_follow::{JointFollow, with_joints};
@@ -15,11 +16,11 @@ use super::judge::Judge;
 use super::speeds;
 use super::tcp_line::{LineEnd, LinePath, LineTask, TcpLine, tcp_in_base, wrist_in_torso};
 use super::trajectory::{AxisGroup, Corners, Trajectory};
-use super::unreachable::{Unreachable, UnreachableReason};
+use super::unreachable::{UnreachablePose, UnreachableReason};
 use crate::robot::description::Speed;
 use crate::robot::{self, JointId, Limits, RobotDescription, Side};
 use crate::spatial::{Pose, trig};
-use crate::world::{AllowedPairs, CollisionHit, World};
+use crate::world::{CollisionHit, World};
 
 /// Distance of neighbouring postures over the free angle (rad).
 const POSTURE_STEP: f64 = 0.15;
@@ -46,7 +47,7 @@ const MOST_HEIGHTS: usize = 4;
 pub(super) struct TcpTask<'a> {
     pub(super) world: &'a World,
     pub(super) goals: Vec<(Side, Pose)>,
-    pub(super) allowed: AllowedPairs,
+    pub(super) contacts: ExpectedContacts,
 }
 
 /// A posture that reaches the goals.
@@ -196,7 +197,7 @@ impl TcpTask<'_> {
             if postures.is_empty() {
                 continue;
             }
-            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.allowed);
+            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.contacts);
             let free = match self.free_postures(postures, &mut judge) {
                 Ok(free) => free,
                 Err((count, hit)) => {
@@ -206,7 +207,13 @@ impl TcpTask<'_> {
                 }
             };
             match self.plan_to_one_of(&free, &axes, &mut judge) {
-                Ok(way) => return Ok(JointFollow::new(axes.joints, way, self.allowed.clone())),
+                Ok(way) => {
+                    return Ok(JointFollow::new(
+                        axes.joints,
+                        way,
+                        self.contacts.allowed.clone(),
+                    ));
+                }
                 Err(failure @ MotionFailure::ArmStartInCollision { .. }) => return Err(failure),
                 Err(failure) => last_failure = Some(failure),
             }
@@ -278,7 +285,7 @@ impl TcpTask<'_> {
             if postures.is_empty() {
                 continue;
             }
-            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.allowed);
+            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.contacts);
             let task = self.line_task(height, &axes);
             let start = axes.now(self.world);
             let ends = postures
@@ -289,7 +296,11 @@ impl TcpTask<'_> {
                 let (path, met) = task.follow(&start, end, Some(&mut judge));
                 if matches!(met, LineEnd::Complete) {
                     let way = self.line_way(&path, &axes, speeds::HAND, &mut judge);
-                    return Some(JointFollow::new(axes.joints, way, self.allowed.clone()));
+                    return Some(JointFollow::new(
+                        axes.joints,
+                        way,
+                        self.contacts.allowed.clone(),
+                    ));
                 }
             }
         }
@@ -326,7 +337,7 @@ impl TcpTask<'_> {
         let now = self.torso_now();
         let tree = &self.world.models().robot;
         let report = |side: Side, tcp: &Pose, reason| {
-            let unreachable = Unreachable {
+            let unreachable = UnreachablePose {
                 side,
                 frame: tree.link(self.body().torso.link).name.clone(),
                 wrist: self.wrist(side, tcp, now),

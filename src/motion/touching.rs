@@ -3,6 +3,7 @@
 //! Such pairs must be able to part, wherever the contact came from, but a motion must not
 //! press them together any further.
 
+use super::expected_contacts::ExpectedContacts;
 use super::guard::GREATEST_LAG;
 use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration};
 
@@ -15,7 +16,7 @@ pub(super) struct TouchingPairs {
     hits: Vec<CollisionHit>,
     /// Pairs that the motion declares.
     allowed: AllowedPairs,
-    /// Those, and the near pairs.
+    /// Those, the pairs that are expected to touch, and the near pairs.
     relaxed: AllowedPairs,
     /// Overlap (m) that any near pair may have.
     depth: f64,
@@ -27,26 +28,28 @@ impl TouchingPairs {
     pub(super) fn new(
         checker: &mut CollisionChecker<'_>,
         robot: &RobotConfiguration,
-        allowed: &AllowedPairs,
+        contacts: &ExpectedContacts,
         margin: f64,
         depth: f64,
     ) -> Self {
-        let mut hits = checker.all_hits(robot, allowed, margin);
+        let mut hits = checker.all_hits(robot, &contacts.allowed, margin);
         hits.retain(|hit| hit.depth < GREATEST_LAG);
-        let relaxed = hits.iter().fold(allowed.clone(), |all, hit| {
+        let relaxed = hits.iter().fold(contacts.allowed.clone(), |all, hit| {
             all.and(hit.moving.clone(), hit.other.clone())
         });
+        let expected = contacts.touching.iter().cloned();
+        let relaxed = expected.fold(relaxed, |all, (a, b)| all.and(a, b));
         Self {
             hits,
-            allowed: allowed.clone(),
+            allowed: contacts.allowed.clone(),
             relaxed,
             depth,
         }
     }
 
-    /// Whether nothing is near in the beginning.
+    /// Whether nothing is near in the beginning, nor expected to touch.
     pub(super) fn is_empty(&self) -> bool {
-        self.hits.is_empty()
+        self.relaxed == self.allowed
     }
 
     /// The pairs that were near, and those that are declared.
@@ -62,7 +65,7 @@ impl TouchingPairs {
         margin: f64,
     ) -> Option<CollisionHit> {
         let near = checker.first_hit(robot, &self.relaxed, margin);
-        if near.is_some() || self.hits.is_empty() {
+        if near.is_some() || self.is_empty() {
             return near;
         }
         let deep = checker.all_hits(robot, &self.allowed, -self.depth);

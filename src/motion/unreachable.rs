@@ -8,7 +8,7 @@ use crate::world::CollisionHit;
 
 /// A pose that the arm cannot bring its hand to, at any height of the torso.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unreachable {
+pub struct UnreachablePose {
     /// The arm.
     pub side: Side,
     /// Frame of the pose.
@@ -40,7 +40,7 @@ pub enum UnreachableReason {
     },
 }
 
-impl fmt::Display for Unreachable {
+impl fmt::Display for UnreachablePose {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             side,

@@ -44,7 +44,7 @@ impl Session {
 
     /// Evaluates one form at top level.
     fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
-        self.shift_forms(form);
+        self.image.set_special(known::MINUS, form.clone());
         let mut fiber = Fiber::default();
         let mut machine = Machine::new(&mut self.image, &mut fiber);
         let event = machine.start(known::EVAL.into(), vec![form.clone()]);
@@ -68,6 +68,7 @@ impl Session {
             machine::Event::Unwound => Ended::Values(Vec::new()),
         };
         self.flush(sink);
+        self.shift_forms(form);
         if let Ended::Values(values) = &ended {
             self.shift_values(values);
         }
@@ -82,7 +83,7 @@ impl Session {
         }
     }
 
-    /// `+`, `++`, `+++` and `-`.
+    /// `+`, `++` and `+++`: the forms evaluated last.
     fn shift_forms(&mut self, form: &Value) {
         let image = &mut self.image;
         let (one, two) = (
@@ -92,7 +93,6 @@ impl Session {
         image.set_special(known::V_PLUS3, two);
         image.set_special(known::V_PLUS2, one);
         image.set_special(known::PLUS, form.clone());
-        image.set_special(known::MINUS, form.clone());
     }
 
     /// `*`, `**`, `***` and `/`, `//`, `///`.

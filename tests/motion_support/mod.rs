@@ -159,9 +159,14 @@ impl Kitchen {
         definition.tool_poses(bottle, &axes).unwrap()
     }
 
-    /// The flow of CRAM's picking-up. Stops at the first failure that matters.
+    /// The flow of CRAM's picking-up with a grasp of the library.
     pub fn pick(&mut self, side: Side, grasp: &str, object: &str, in_base: &Pose) -> Outcome {
         let poses = self.grasp_poses(side, grasp, in_base);
+        self.pick_at(side, &poses, object)
+    }
+
+    /// The flow of CRAM's picking-up; stops at the first failure that matters.
+    pub fn pick_at(&mut self, side: Side, poses: &ToolPoses, object: &str) -> Outcome {
         let mut open = self.gripper(side, GripperCommand::Position(0.10));
         let mut reach = self.tcp(side, poses.pregrasp, TcpPath::Free, CollisionMode::AvoidAll);
         let ends = self.run(&mut [&mut open, &mut reach]);

@@ -4,6 +4,7 @@ use super::*;
 use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::compile;
 use crate::lisp::image::Image;
+use crate::lisp::loop_macro;
 use crate::lisp::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
@@ -45,6 +46,12 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     streams::TABLE,
     symbols::TABLE,
     structures::TABLE,
+    format::TABLE,
+    number_theory::TABLE,
+    numbers::TABLE,
+    printing::TABLE,
+    reading::TABLE,
+    transcendental::TABLE,
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
@@ -58,9 +65,11 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     signalling::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
     hash_tables::SYSTEM_TABLE,
+    loop_macro::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,
     streams::SYSTEM_TABLE,
     structures::SYSTEM_TABLE,
+    printing::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
@@ -83,12 +92,15 @@ pub static OPERATORS: &[&[Operator]] = &[
     compile::OPERATORS,
     types::OPERATORS,
     hash_tables::OPERATORS,
+    loop_macro::OPERATORS,
     package_macros::OPERATORS,
     stream_macros::OPERATORS,
     generic_functions::OPERATORS,
     object_printing::OPERATORS,
     objects::OPERATORS,
     structures::OPERATORS,
+    format::OPERATORS,
+    printing::OPERATORS,
 ];
 
 /// Special operators and macros of package `SYSTEM`.
@@ -111,4 +123,5 @@ pub fn install(image: &mut Image) {
     for table in SYSTEM_OPERATORS {
         image.install_operators(PackageTable::SYSTEM, table);
     }
+    alexandria::install(image);
 }

@@ -103,6 +103,10 @@ pub(super) fn defconstant(image: &mut Image, form: &Value) -> Expansion {
     ])
 }
 
+pub(super) fn define_compiler_macro(image: &mut Image, form: &Value) -> Expansion {
+    Ok(quote(name_argument(image, form, "a function")?))
+}
+
 pub(super) fn define_symbol_macro(image: &mut Image, form: &Value) -> Expansion {
     let name = name_argument(image, form, "a symbol macro")?;
     Ok(form![

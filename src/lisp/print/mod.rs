@@ -48,3 +48,17 @@ pub fn write(
 ) -> String {
     printer::Printer::new(image, settings, calls).print(value, column)
 }
+
+/// Like [`write`], but a method of `print-object` for the value itself is not heard: what
+/// the method for everything prints.
+pub fn write_default(
+    image: &Image,
+    value: &Value,
+    settings: &Settings,
+    column: usize,
+    calls: &mut Calls,
+) -> String {
+    printer::Printer::new(image, settings, calls)
+        .without_own_method()
+        .print(value, column)
+}

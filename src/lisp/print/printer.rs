@@ -28,6 +28,8 @@ pub(super) struct Printer<'a> {
     document: Document,
     labels: Labels,
     tasks: Vec<Task>,
+    /// Is the next instance to be printed without its `print-object` method?
+    skips_method: bool,
 }
 
 enum Task {
@@ -90,6 +92,15 @@ impl<'a> Printer<'a> {
             document: Document::new(settings.pretty),
             labels: Labels::default(),
             tasks: Vec::new(),
+            skips_method: false,
+        }
+    }
+
+    /// The value itself is printed as if it had no `print-object` method.
+    pub(super) fn without_own_method(self) -> Printer<'a> {
+        Printer {
+            skips_method: true,
+            ..self
         }
     }
 
@@ -144,6 +155,7 @@ impl<'a> Printer<'a> {
     }
 
     fn value(&mut self, value: Value, style: Style, depth: usize) {
+        self.skips_method &= matches!(value, Value::Instance(_));
         match self.labels.next(&value) {
             Label::None => {}
             Label::First(number) => self.document.text(&format!("#{number}=")),
@@ -514,7 +526,8 @@ impl<'a> Printer<'a> {
             after: Vec::new(),
             escape: Some(escape),
         };
-        if has_print_method(self.image, instance) {
+        let skips_method = std::mem::take(&mut self.skips_method);
+        if !skips_method && has_print_method(self.image, instance) {
             return self.calls.text(|| call(known::PRINT_OBJECT.into()));
         }
         if escape {

@@ -10,6 +10,7 @@ mod held;
 mod motions;
 mod names;
 mod pose_argument;
+mod properties;
 mod raising;
 pub mod request;
 mod tables;
@@ -68,8 +69,8 @@ pub struct Simulation {
     /// The exit status, once somebody has asked to leave.
     pub(super) quit: Option<u8>,
     observer: Option<Observer>,
-    /// Simulated time (s) that passed without a step: nothing moved.
-    idle_time: f64,
+    /// Simulated time (s) as the scheduler told it last.
+    now: f64,
 }
 
 /// Severity of log lines.
@@ -104,16 +105,14 @@ impl Simulation {
             log_level,
             quit: None,
             observer: None,
-            idle_time: 0.0,
+            now: 0.0,
         })
     }
 
     /// Takes the world back to the start: no objects, the robot at the origin. Simulated
     /// time goes on.
     fn restart(&mut self) {
-        let now = self.now();
         self.world = starting_world(&self.models);
-        self.idle_time = now - self.world.time();
         self.names.clear();
         self.held.clear();
         self.axes = None;
@@ -121,7 +120,7 @@ impl Simulation {
 
     /// Simulated time (s).
     pub fn now(&self) -> f64 {
-        self.world.time() + self.idle_time
+        self.now
     }
 
     /// The world.

@@ -1,9 +1,14 @@
 //! Motion designators as motions.
 
+use crate::session::simulation::properties::property;
+use crate::designator::value::current;
+use crate::designator::failure::no_process_module;
+use crate::designator::value::as_designator;
+use crate::designator::object;
 use super::Simulation;
 use super::frames::BASE;
 use super::names::{name_text, type_text};
-use crate::designator::{self, MotionRequest};
+use crate::designator::MotionRequest;
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::number;
@@ -118,9 +123,9 @@ impl Simulation {
         request: &MotionRequest,
     ) -> Result<(Box<dyn Motion>, Value)> {
         let designator = &request.designator;
-        let get = |image: &mut Image, key: &str| designator::property(image, designator, key);
+        let get = |image: &mut Image, key: &str| property(image, designator, key);
         let required = |image: &mut Image, key: &str| {
-            designator::property(image, designator, key).ok_or_else(|| {
+            property(image, designator, key).ok_or_else(|| {
                 Raise::simple(format!(
                     "{} lacks ({} …).",
                     print::to_string(image, designator, false),
@@ -160,8 +165,8 @@ impl Simulation {
                 self.gripper(image, designator, |_| Ok(GripperCommand::Position(position)))?
             }
             "GRIPPING" => {
-                let object = get(image, "OBJECT").map(|o| designator::current(&o));
-                let name = object.and_then(|o| designator::property(image, &o, "NAME"));
+                let object = get(image, "OBJECT").map(|o| current(&o));
+                let name = object.and_then(|o| property(image, &o, "NAME"));
                 let object = match name {
                     Some(name) => Some(self.object_named(image, &name)?),
                     None => None,
@@ -219,7 +224,7 @@ impl Simulation {
             }
             _ => {
                 let shown = print::to_string(image, designator, false);
-                return Err(designator::no_process_module(image, &shown));
+                return Err(no_process_module(image, &shown));
             }
         };
         Ok((motion, designator.clone()))
@@ -239,9 +244,9 @@ impl Simulation {
         designator: &Value,
         command: impl Fn(Side) -> Result<GripperCommand>,
     ) -> Result<Box<dyn Motion>> {
-        let Some(gripper) = designator::property(image, designator, "GRIPPER") else {
+        let Some(gripper) = property(image, designator, "GRIPPER") else {
             let shown = print::to_string(image, designator, false);
-            return Err(designator::no_process_module(image, &shown));
+            return Err(no_process_module(image, &shown));
         };
         let mut motions: Vec<Option<Box<dyn Motion>>> = Vec::new();
         for side in sides(image, &gripper)? {
@@ -258,7 +263,7 @@ impl Simulation {
         image: &mut Image,
         designator: &Value,
     ) -> Result<(Box<dyn Motion>, Value)> {
-        let get = |image: &mut Image, key: &str| designator::property(image, designator, key);
+        let get = |image: &mut Image, key: &str| property(image, designator, key);
         let target = get(image, "TARGET").or_else(|| get(image, "POSE"));
         if let Some(target) = target {
             let pose = Simulation::location_pose(image, &target)?;
@@ -274,14 +279,14 @@ impl Simulation {
             return Ok((Box::new(Look::new(LookTarget::Frame(name))), frame));
         }
         if let Some(object) = get(image, "OBJECT") {
-            let current = designator::current(&object);
-            let name = designator::property(image, &current, "NAME").unwrap_or(Value::NIL);
+            let current = current(&object);
+            let name = property(image, &current, "NAME").unwrap_or(Value::NIL);
             let name = self.object_named(image, &name)?;
             return Ok((Box::new(Look::new(LookTarget::Frame(name))), object));
         }
         let Some(direction) = get(image, "DIRECTION") else {
             let shown = print::to_string(image, designator, false);
-            return Err(designator::no_process_module(image, &shown));
+            return Err(no_process_module(image, &shown));
         };
         let text = name_text(image, &direction).unwrap_or_default();
         let target = match text.as_str() {
@@ -304,8 +309,8 @@ impl Simulation {
     }
 
     fn detecting(&self, image: &mut Image, object: &Value) -> Detect {
-        let name = designator::property(image, object, "NAME");
-        let types = designator::property(image, object, "TYPE");
+        let name = property(image, object, "NAME");
+        let types = property(image, object, "TYPE");
         Detect::new(DetectQuery {
             name: name.and_then(|n| name_text(image, &n)),
             types: types.and_then(|t| type_text(image, &t)).into_iter().collect(),
@@ -326,7 +331,7 @@ impl Simulation {
             .map(|object| {
                 let kind = super::names::type_keyword(image, &object.type_name);
                 let name = self.symbol_of(&object.name);
-                designator::object::perceived(
+                object::perceived(
                     image,
                     query,
                     name,
@@ -336,7 +341,7 @@ impl Simulation {
                 )
             })
             .collect();
-        if designator::asks_for_all(image, query) {
+        if as_designator(query).is_some_and(|d| d.is_all()) {
             return Value::list(found);
         }
         found.into_iter().next().unwrap_or(Value::NIL)

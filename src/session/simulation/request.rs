@@ -11,6 +11,7 @@ use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
 use crate::motion::{Motion, MotionOutcome, MotionStatus};
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
+use crate::world::physics::STEP_SECONDS;
 
 type Completion = (Ticket, Result<Value, Box<Raise>>);
 
@@ -32,28 +33,40 @@ impl Host for Simulation {
         }
     }
 
-    fn advance(&mut self, image: &mut Image, until: Option<f64>) -> Advance {
-        let mut completions = Vec::new();
-        loop {
-            if until.is_some_and(|until| self.now() >= until) || self.is_interrupted(image) {
-                break;
-            }
+    fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
+        self.now = now;
+        let mut done = Vec::new();
+        let mut steps = 0u32;
+        while done.is_empty()
+            && until.is_none_or(|until| self.now < until)
+            && !self.is_interrupted(image)
+        {
             self.admit_waiting();
-            if self.active.is_empty() {
-                self.pass_time(until);
-                break;
-            }
-            self.tick(image, &mut completions);
-            self.world.step();
-            self.observe();
-            if !completions.is_empty() {
-                break;
-            }
+            self.tick(image, &mut done);
+            self.step();
+            steps += 1;
+            self.now = now + f64::from(steps) * STEP_SECONDS;
         }
         Advance {
-            now: self.now(),
-            completions,
+            now: self.now,
+            done,
         }
+    }
+
+    fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
+        let mut steps = 0u32;
+        self.now = now;
+        // A world at rest need not be stepped.
+        while self.now < until && !self.world.is_at_rest() {
+            if self.is_interrupted(image) {
+                return self.now;
+            }
+            self.step();
+            steps += 1;
+            self.now = now + f64::from(steps) * STEP_SECONDS;
+        }
+        self.now = until;
+        until
     }
 
     fn cancel(&mut self, _: &mut Image, ticket: Ticket) {
@@ -66,12 +79,12 @@ impl Host for Simulation {
         self.waiting.retain(|job| job.ticket != ticket);
     }
 
-    fn pause(&mut self, _: &mut Image, ticket: Ticket, paused: bool) {
-        for job in self.active.iter_mut().chain(&mut self.waiting) {
-            if job.ticket == ticket {
-                job.is_paused = paused;
-            }
-        }
+    fn pause(&mut self, _: &mut Image, ticket: Ticket) {
+        self.set_paused(ticket, true);
+    }
+
+    fn wake(&mut self, _: &mut Image, ticket: Ticket) {
+        self.set_paused(ticket, false);
     }
 }
 
@@ -141,16 +154,16 @@ impl Simulation {
         }
     }
 
-    /// Time passes while no motion is under way. A world at rest need not be stepped.
-    fn pass_time(&mut self, until: Option<f64>) {
-        let Some(until) = until else { return };
-        while self.now() < until {
-            if self.world.is_at_rest() {
-                self.idle_time += until - self.now();
-                return;
+    fn step(&mut self) {
+        self.world.step();
+        self.observe();
+    }
+
+    fn set_paused(&mut self, ticket: Ticket, paused: bool) {
+        for job in self.active.iter_mut().chain(&mut self.waiting) {
+            if job.ticket == ticket {
+                job.is_paused = paused;
             }
-            self.world.step();
-            self.observe();
         }
     }
 

@@ -1,8 +1,9 @@
 //! What the plans of picking up and placing ask of the world and of the grasp library.
 
+use crate::session::simulation::properties::property;
+use crate::designator::value::current;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use crate::designator;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
 use crate::lisp::number;
@@ -58,10 +59,10 @@ struct Perceived {
 impl Simulation {
     /// Reads the designator of a perceived object.
     fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
-        let current = designator::current(object);
-        let name = designator::property(image, &current, "NAME");
-        let kind = designator::property(image, &current, "TYPE");
-        let pose = designator::property(image, &current, "POSE");
+        let current = current(object);
+        let name = property(image, &current, "NAME");
+        let kind = property(image, &current, "TYPE");
+        let pose = property(image, &current, "POSE");
         let (Some(name), Some(kind), Some(pose)) = (name, kind, pose) else {
             return Err(Raise::simple(format!(
                 "{} has not been perceived: perform an action of type detecting first and use its result.",
@@ -264,8 +265,8 @@ fn object_to_place(
     image: &mut Image,
     args: &[Value],
 ) -> Result<Reply> {
-    let object = designator::current(&args[0]);
-    let name = designator::property(image, &object, "NAME");
+    let object = current(&args[0]);
+    let name = property(image, &object, "NAME");
     let name = match name {
         Some(name) => Some(simulation.object_named(image, &name)?),
         None => None,

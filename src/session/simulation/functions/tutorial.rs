@@ -1,7 +1,8 @@
 //! The functions of the tutorial's package that look at the world or change it.
 
+use crate::session::simulation::properties::property;
+use crate::designator::value::current;
 use super::objects::Spawning;
-use crate::designator;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
 use crate::lisp::foreign::Foreign;
@@ -225,8 +226,8 @@ fn get_current_pose(
 }
 
 fn get_object_name(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let current = designator::current(&args[0]);
-    match designator::property(image, &current, "NAME") {
+    let current = current(&args[0]);
+    match property(image, &current, "NAME") {
         Some(name) => done(name),
         None => {
             simulation.log(
