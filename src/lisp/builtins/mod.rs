@@ -15,6 +15,8 @@ pub mod criterion;
 pub mod definitions;
 pub mod documentation;
 pub mod evaluation;
+#[cfg(test)]
+mod examples;
 pub mod files;
 pub mod fill_pointers;
 pub mod format;
