@@ -86,6 +86,7 @@ impl MoveJoints {
         let none = AllowedPairs::none();
         let contacts = ExpectedContacts::default();
         let mut judge = Judge::new(world, axes.joints.clone(), &contacts);
+        judge.accept_goal(&goal);
         let way = plan_way(world, &axes, &goal, &mut judge, ArmPathEffort::default())?;
         Ok(JointFollow::new(axes.joints, way, none))
     }
