@@ -15,8 +15,6 @@ pub mod criterion;
 pub mod definitions;
 pub mod documentation;
 pub mod evaluation;
-#[cfg(test)]
-mod examples;
 pub mod files;
 pub mod fill_pointers;
 pub mod format;
