@@ -6,6 +6,7 @@ pub mod command;
 pub mod dialogue;
 pub mod lisp;
 pub mod perception;
+pub mod plan;
 pub mod reader;
 pub mod repl;
 pub mod robot;
