@@ -15,8 +15,9 @@ pub(crate) fn image() -> Image {
     super::install(&mut image);
     crate::transform::install(&mut image);
     let prelude = "(defpackage :d (:use :common-lisp :desig :exe :prolog :cut))
-                   (in-package :d)
-                   (defparameter cram-language-implementation::*current-task* t)";
+                   (in-package :d)";
+    let task = super::packages::symbol(&mut image, "CRAM-LANGUAGE-IMPLEMENTATION", "*CURRENT-TASK*");
+    image.define_special(task, Value::T);
     evaluate_in(&mut image, prelude);
     image
 }
@@ -207,7 +208,7 @@ fn property_values_of_wrong_types_are_named() {
         ),
         (
             "(perform (a motion (type going) (target (a location (pose '((0 1 0) (0 0 0 1)))))))",
-            "!! [LOCATION SPEC:PROPERTY]: (:QUOTE ((0 1 0) (0 0 0 1))) had to be of type CL-TRANSFORMS-STAMPED:POSE-STAMPED\nNothing is quoted or called inside a designator: bind a variable such as ?pose and write (pose ?pose).",
+            "!! [LOCATION SPEC:PROPERTY]: (:QUOTE ((0 1 0) (0 0 0 1))) had to be of type POSE-STAMPED\nNothing is quoted or called inside a designator: bind a variable such as ?pose and write (pose ?pose).",
         ),
         (
             "(perform (a motion (type moving-torso) (joint-angle up)))",
