@@ -15,6 +15,7 @@ pub mod generic;
 pub mod hash_table;
 pub mod image;
 pub mod known;
+pub mod loop_macro;
 pub mod number;
 pub mod object;
 pub mod package;

@@ -34,7 +34,7 @@ const TESTS: &[(HashTest, Sym)] = &[
     (HashTest::Equalp, known::EQUALP),
 ];
 
-fn make_hash_table(image: &mut Image, args: &[Value]) -> Outcome {
+pub(super) fn make(image: &mut Image, args: &[Value]) -> Outcome {
     let [test, wanted_size, ..] = keywords::parse(
         image,
         args,
@@ -250,7 +250,7 @@ pub static TABLE: &[Builtin] = &[
         "&key test size rehash-size rehash-threshold",
         "An empty hash table; the test is `eq`, `eql` (the default), `equal` or `equalp`.",
         &["(hash-table-count (make-hash-table :test 'equal)) => 0"],
-        make_hash_table,
+        make,
     ),
     pure(
         "HASH-TABLE-P",

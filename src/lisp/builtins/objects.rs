@@ -263,7 +263,7 @@ fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     match image.class(name) {
         Some(class) if class.is_defined.get() => Ok(Value::Class(class.clone())),
         _ if args.get(1).is_some_and(Value::is_nil) => Ok(Value::NIL),
-        _ => Err(no_class(name)),
+        _ => Err(no_class(image, name)),
     }
 }
 
@@ -294,7 +294,7 @@ fn instance_argument(value: &Value) -> Result<&Rc<Instance>, Box<Raise>> {
 }
 
 fn change_class(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let class = instance::designated_class(machine.image, &args[1])?;
+    let class = instance::instantiable_class(machine.image, &args[1])?;
     let instance = instance_argument(&args[0])?;
     let initargs = args[2..].to_vec();
     if !initargs.len().is_multiple_of(2) {

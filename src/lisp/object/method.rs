@@ -373,5 +373,5 @@ fn class_named(image: &Image, name: Sym) -> Result<Rc<Class>, Box<Raise>> {
     image
         .class(name)
         .cloned()
-        .ok_or_else(|| super::define::no_class(name))
+        .ok_or_else(|| super::define::no_class(image, name))
 }

@@ -6,6 +6,7 @@
 pub mod access;
 pub mod builtin_classes;
 pub mod class_of;
+pub mod combination;
 pub mod combine;
 pub mod defclass;
 pub mod define;

@@ -6,7 +6,6 @@ use super::define::{check_slot_type, copy_structure};
 use crate::lisp::class::{Class, Instance, StructureSlot};
 use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
@@ -92,7 +91,7 @@ pub fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
     let of = class.clone();
     let function = Function::made(copier, (1, Some(1)), move |_, args| {
         if instance_of(&args[0], &of).is_none() {
-            return Err(Raise::type_error(&args[0], known::STRUCTURE_OBJECT));
+            return Err(wrong_type(&args[0], &of));
         }
         copy_structure(&args[0])
     });

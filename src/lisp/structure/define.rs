@@ -102,7 +102,10 @@ pub fn make_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Ra
     let Some((Value::Symbol(name), values)) = args.split_first() else {
         return Err(Raise::program("invalid number of arguments: 0"));
     };
-    let class = image.class(*name).cloned().ok_or_else(|| no_class(*name))?;
+    let class = image
+        .class(*name)
+        .cloned()
+        .ok_or_else(|| no_class(image, *name))?;
     for (slot, value) in class.slots.borrow().iter().zip(values) {
         check_slot_type(image, &slot.slot_type, value)?;
     }

@@ -47,7 +47,7 @@ fn all_slots(
         .class(*parent)
         .filter(|class| class.kind == ClassKind::Structure)
         .and_then(|class| class.structure.borrow().clone())
-        .ok_or_else(|| no_class(*parent))?;
+        .ok_or_else(|| no_class(image, *parent))?;
     let mut slots = layout.slots.clone();
     override_slots(image, &mut slots, overrides, *parent)?;
     for slot in &definition.slots {

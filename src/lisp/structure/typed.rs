@@ -114,7 +114,7 @@ fn layout(image: &Image, definition: &StructureDefinition) -> Result<Vec<Element
     if let Some((parent, overrides)) = &definition.include {
         let plist = image.symbol(*parent).plist.clone();
         let kept = property(&plist, known::SYS_DEFINE_TYPED_STRUCTURE);
-        let kept = kept.ok_or_else(|| no_class(*parent))?;
+        let kept = kept.ok_or_else(|| no_class(image, *parent))?;
         elements.extend(kept.iter_list().map(|e| Element::from_value(&e)));
         let mut slots: Vec<StructureSlot> = Vec::new();
         for element in &elements {

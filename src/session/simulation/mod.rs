@@ -5,10 +5,13 @@
 
 pub mod call;
 mod frames;
+mod functions;
 mod held;
 mod motions;
 mod names;
+mod pace;
 mod pose_argument;
+mod properties;
 mod raising;
 pub mod request;
 mod tables;
@@ -18,6 +21,7 @@ use std::sync::Arc;
 
 use indexmap::IndexMap;
 
+use super::{SessionError, SessionOptions};
 use crate::lisp::value::Value;
 use crate::motion::{Motion, ProcessModule};
 use crate::plan::Ticket;
@@ -25,6 +29,7 @@ use crate::spatial::Pose;
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::{Models, RobotConfiguration, World};
 
+use pace::Pace;
 pub use tables::install;
 
 /// A motion that a task waits for.
@@ -46,6 +51,9 @@ pub struct Axes {
     pub size: f64,
 }
 
+/// Looks at the world after every step of a motion.
+pub type Observer = Box<dyn FnMut(&World)>;
+
 /// The robot in its world.
 pub struct Simulation {
     models: Arc<Models>,
@@ -61,8 +69,12 @@ pub struct Simulation {
     next_ticket: u64,
     axes: Option<Axes>,
     log_level: LogLevel,
-    /// Simulated time (s) that passed without a step: nothing moved.
-    idle_time: f64,
+    pace: Option<Pace>,
+    /// The exit status, once somebody has asked to leave.
+    pub(super) quit: Option<u8>,
+    observer: Option<Observer>,
+    /// Simulated time (s) as the scheduler told it last.
+    now: f64,
 }
 
 /// Severity of log lines.
@@ -82,8 +94,12 @@ pub enum LogLevel {
 
 impl Simulation {
     /// The robot as after start-up: at the origin of the map, its arms tucked.
-    pub fn new(models: Arc<Models>, log_level: LogLevel) -> Result<Simulation, String> {
-        let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp").map_err(|e| e.to_string())?;
+    pub(super) fn new(
+        models: Arc<Models>,
+        options: &SessionOptions,
+    ) -> Result<Simulation, SessionError> {
+        let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp")
+            .map_err(|error| SessionError::Models(error.to_string()))?;
         Ok(Simulation {
             world: starting_world(&models),
             models,
@@ -94,17 +110,18 @@ impl Simulation {
             waiting: VecDeque::new(),
             next_ticket: 0,
             axes: None,
-            log_level,
-            idle_time: 0.0,
+            log_level: options.log_level,
+            pace: options.realtime.map(Pace::new),
+            quit: None,
+            observer: None,
+            now: 0.0,
         })
     }
 
     /// Takes the world back to the start: no objects, the robot at the origin. Simulated
     /// time goes on.
     fn restart(&mut self) {
-        let now = self.now();
         self.world = starting_world(&self.models);
-        self.idle_time = now - self.world.time();
         self.names.clear();
         self.held.clear();
         self.axes = None;
@@ -112,12 +129,23 @@ impl Simulation {
 
     /// Simulated time (s).
     pub fn now(&self) -> f64 {
-        self.world.time() + self.idle_time
+        self.now
     }
 
     /// The world.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// Has a function look at the world after every step that a motion takes.
+    pub fn set_observer(&mut self, observer: Observer) {
+        self.observer = Some(observer);
+    }
+
+    fn observe(&mut self) {
+        if let Some(observer) = &mut self.observer {
+            observer(&self.world);
+        }
     }
 
     /// The coordinate axes to be shown, if any.

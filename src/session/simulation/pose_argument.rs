@@ -1,10 +1,10 @@
 //! Poses as arguments: lists, poses, stamped poses, location designators.
 
 use super::Simulation;
-use crate::designator;
 use crate::lisp::image::Image;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::session::simulation::properties::property;
 use crate::spatial::Pose;
 use crate::transform::argument;
 use crate::transform::value::{as_placement, frame_of};
@@ -38,7 +38,7 @@ impl Simulation {
         if as_placement(location).is_some() {
             return Ok(location.clone());
         }
-        match designator::property(image, location, "POSE") {
+        match property(image, location, "POSE") {
             Some(pose) => Ok(pose),
             None => Err(Raise::simple(format!(
                 "{} has no pose: write (a location (pose ?pose)).",
