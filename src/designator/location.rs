@@ -371,7 +371,10 @@ impl Search {
         let image = &mut *machine.image;
         let reason = match self.rejections {
             0 => "Nothing generates such a location: write (a location (pose ?pose)).".to_owned(),
-            n => format!("{n} candidate{} rejected.", if n == 1 { " was" } else { "s were" }),
+            n => format!(
+                "{n} candidate{} rejected.",
+                if n == 1 { " was" } else { "s were" }
+            ),
         };
         match self.missing {
             Missing::Nil => Ok(Step::Return(Value::NIL)),
@@ -384,7 +387,12 @@ impl Search {
                 let shown = print::to_string(image, &self.designator, false);
                 let text = format!("Unable to resolve designator `{shown}'");
                 let why = Unresolved::new(reason);
-                Err(failure::designator_error(image, &self.designator, &text, &why))
+                Err(failure::designator_error(
+                    image,
+                    &self.designator,
+                    &text,
+                    &why,
+                ))
             }
         }
     }

@@ -241,7 +241,10 @@ fn request_motion(machine: &mut Machine<'_>, designator: &Value) -> Result<Step>
         Err(Refusal::UnknownType(why)) => return Err(no_module(image, designator, &why)),
         Err(Refusal::Incomplete(why)) => {
             // Modules of the grippers accept only motions that name a gripper.
-            if matches!(motion.type_name(image).as_deref(), Some("OPENING" | "CLOSING")) {
+            if matches!(
+                motion.type_name(image).as_deref(),
+                Some("OPENING" | "CLOSING")
+            ) {
                 return Err(no_module(image, designator, &why));
             }
             let why = Unresolved {

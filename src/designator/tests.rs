@@ -16,7 +16,8 @@ pub(crate) fn image() -> Image {
     crate::transform::install(&mut image);
     let prelude = "(defpackage :d (:use :common-lisp :desig :exe :prolog :cut))
                    (in-package :d)";
-    let task = super::packages::symbol(&mut image, "CRAM-LANGUAGE-IMPLEMENTATION", "*CURRENT-TASK*");
+    let task =
+        super::packages::symbol(&mut image, "CRAM-LANGUAGE-IMPLEMENTATION", "*CURRENT-TASK*");
     image.define_special(task, Value::T);
     evaluate_in(&mut image, prelude);
     image
@@ -84,7 +85,10 @@ fn a_designator_prints_its_properties_line_by_line() {
             "(let ((?arm :left)) (an action (type picking-up) (arm ?arm) (object (an object (type bottle)))))",
             "#<A ACTION\n    (TYPE PICKING-UP)\n    (ARM LEFT)\n    (OBJECT #<A OBJECT\n    (TYPE BOTTLE)>)>",
         ),
-        ("(all objects (type bottle))", "#<ALL OBJECT\n    (TYPE BOTTLE)>"),
+        (
+            "(all objects (type bottle))",
+            "#<ALL OBJECT\n    (TYPE BOTTLE)>",
+        ),
         ("(an action (l (1 2 a)))", "#<A ACTION\n    (L (1 2 :A))>"),
         ("(a motion (x 1.5d0))", "#<A MOTION\n    (X 1.5d0)>"),
         ("(an action)", "#<A ACTION>"),
@@ -103,11 +107,17 @@ fn values_are_parsed_and_never_called() {
             "(defparameter bottle :cup) (desig-prop-value (an object (type bottle)) :type)",
             ":CUP",
         ),
-        ("(desig-prop-value (an object (x (list a 2))) :x)", "(:LIST :A 2)"),
+        (
+            "(desig-prop-value (an object (x (list a 2))) :x)",
+            "(:LIST :A 2)",
+        ),
         ("(desig-prop-value (an object (x '(1))) :x)", "(:QUOTE (1))"),
         ("(desig-prop-value (an object (x nil)) :x)", "NIL"),
         ("(desig-prop-value (an object (x (1 . a))) :x)", "(1 . :A)"),
-        ("(an object (x ?unknown))", "!! The variable ?UNKNOWN is unbound."),
+        (
+            "(an object (x ?unknown))",
+            "!! The variable ?UNKNOWN is unbound.",
+        ),
         (
             "(desig-prop-value (desig-prop-value (an action (x (some object (type a)))) :x) :type)",
             ":A",
@@ -116,7 +126,10 @@ fn values_are_parsed_and_never_called() {
             "(properties (let ((?a nil) (?b 2)) (an action (when ?a (x ?a)) (desig:when ?b (y ?b)))))",
             "((:Y 2))",
         ),
-        ("(properties (an action (k 1 2) (\"s\" 3)))", "((:K 1 2) (\"s\" 3))"),
+        (
+            "(properties (an action (k 1 2) (\"s\" 3)))",
+            "((:K 1 2) (\"s\" 3))",
+        ),
     ]);
 }
 
@@ -368,14 +381,8 @@ fn perceived_objects_keep_what_was_asked_for() {
     );
     let (name, kind) = (image.keyword("BOTTLE-1"), image.keyword("BOTTLE"));
     let pose = crate::spatial::Pose::translation(1.0, 0.0, 0.5);
-    let found = super::object::perceived(
-        &mut image,
-        &query,
-        name.into(),
-        kind.into(),
-        &pose,
-        &pose,
-    );
+    let found =
+        super::object::perceived(&mut image, &query, name.into(), kind.into(), &pose, &pose);
     let sym = image.make_symbol("FOUND");
     image.define_special(sym, found);
     let package = image.current_package();
@@ -389,7 +396,10 @@ fn perceived_objects_keep_what_was_asked_for() {
         ":BOTTLE-1"
     );
     assert_eq!(
-        evaluate_in(&mut image, "(second (assoc :transform (desig-prop-value found :pose)))"),
+        evaluate_in(
+            &mut image,
+            "(second (assoc :transform (desig-prop-value found :pose)))"
+        ),
         "#<\"base_footprint\" \"bottle_1\" ((1.00000 0.00000 0.50000) (0.00000 0.00000 0.00000 1.00000))>"
     );
 }

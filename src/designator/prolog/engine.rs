@@ -259,7 +259,14 @@ impl Engine {
             Some(Awaited::OneOfBindings(variables)) => {
                 let items = value
                     .iter_list()
-                    .map(|pairs| Value::list(variables.iter().map(|v| bound_by(v, &pairs)).collect::<Vec<_>>()))
+                    .map(|pairs| {
+                        Value::list(
+                            variables
+                                .iter()
+                                .map(|v| bound_by(v, &pairs))
+                                .collect::<Vec<_>>(),
+                        )
+                    })
                     .collect();
                 self.choose_item(Value::list(variables.clone()), items)
             }
@@ -277,7 +284,9 @@ impl Engine {
             if budget == 0 {
                 budget = INTERRUPT_INTERVAL;
                 if image.interrupt.load(std::sync::atomic::Ordering::Relaxed) {
-                    image.interrupt.store(false, std::sync::atomic::Ordering::Relaxed);
+                    image
+                        .interrupt
+                        .store(false, std::sync::atomic::Ordering::Relaxed);
                     return Err(Raise::new(known::INTERACTIVE_INTERRUPT, "Interrupted."));
                 }
             }

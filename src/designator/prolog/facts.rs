@@ -83,26 +83,29 @@ pub fn of(image: &mut Image) -> Rc<Facts> {
 }
 
 /// Functions of package `CRAM-PROLOG` that its macros expand into.
-pub static TABLE: &[Builtin] = &[pure(
-    "DEFINE-FACT-GROUP",
-    "name rules",
-    "What DEF-FACT-GROUP expands into.",
-    &[],
-    define_group,
-), pure(
-    "DEFINE-HANDLER",
-    "name function",
-    "What DEF-PROLOG-HANDLER expands into.",
-    &[],
-    |image, args| {
-        let Some(name) = args[0].as_symbol() else {
-            return Err(Raise::type_error(&args[0], known::SYMBOL));
-        };
-        let facts = of(image);
-        facts.handlers.borrow_mut().insert(name, args[1].clone());
-        Ok(args[0].clone())
-    },
-)];
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "DEFINE-FACT-GROUP",
+        "name rules",
+        "What DEF-FACT-GROUP expands into.",
+        &[],
+        define_group,
+    ),
+    pure(
+        "DEFINE-HANDLER",
+        "name function",
+        "What DEF-PROLOG-HANDLER expands into.",
+        &[],
+        |image, args| {
+            let Some(name) = args[0].as_symbol() else {
+                return Err(Raise::type_error(&args[0], known::SYMBOL));
+            };
+            let facts = of(image);
+            facts.handlers.borrow_mut().insert(name, args[1].clone());
+            Ok(args[0].clone())
+        },
+    ),
+];
 
 /// Macros of package `CRAM-PROLOG`.
 pub static OPERATORS: &[Operator] = &[

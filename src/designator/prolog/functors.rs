@@ -43,13 +43,17 @@ pub(super) fn apply(
         ),
         ("->", [condition, then, otherwise @ ..]) => Action::Either(
             vec![prove(condition), Goal::Cut(barrier), prove(then)],
-            otherwise.first().map_or(vec![Goal::Fail], |e| vec![prove(e)]),
+            otherwise
+                .first()
+                .map_or(vec![Goal::Fail], |e| vec![prove(e)]),
         ),
         ("*->", [condition, then, otherwise @ ..]) => {
             let number = engine.next_number();
             Action::Either(
                 vec![prove(condition), Goal::Forget(number), prove(then)],
-                otherwise.first().map_or(vec![Goal::Fail], |e| vec![prove(e)]),
+                otherwise
+                    .first()
+                    .map_or(vec![Goal::Fail], |e| vec![prove(e)]),
             )
         }
         ("!", []) => Action::Then(vec![Goal::Cut(clause)]),
@@ -73,17 +77,19 @@ pub(super) fn apply(
                 Vec::new(),
             )
         }
-        ("FINDALL", [template, goal, result]) => {
-            collect(template, goal, result, Collection::All)
-        }
+        ("FINDALL", [template, goal, result]) => collect(template, goal, result, Collection::All),
         ("BAGOF", [template, goal, result]) => collect(template, goal, result, Collection::Some),
         ("SETOF", [template, goal, result]) => {
             collect(template, goal, result, Collection::Distinct)
         }
         ("==" | "EQUAL", [a, b]) => holds(engine.bindings.unify(a, b)),
-        ("BOUND", [term]) => {
-            holds(engine.bindings.walk(term).as_foreign::<Variable>().is_none())
-        }
+        ("BOUND", [term]) => holds(
+            engine
+                .bindings
+                .walk(term)
+                .as_foreign::<Variable>()
+                .is_none(),
+        ),
         ("GROUND", [term]) => holds(engine.bindings.is_ground(term)?),
         ("MEMBER", [item, list]) => {
             let list = engine.bindings.resolve(list)?;
@@ -102,7 +108,13 @@ pub(super) fn apply(
         ("SORT", [list, predicate, result]) => Action::CallFor {
             function: image.intern(PackageTable::CL, "SORT").into(),
             args: vec![
-                Value::list(engine.bindings.resolve(list)?.iter_list().collect::<Vec<_>>()),
+                Value::list(
+                    engine
+                        .bindings
+                        .resolve(list)?
+                        .iter_list()
+                        .collect::<Vec<_>>(),
+                ),
                 function(engine, predicate)?,
             ],
             result: result.clone(),
@@ -122,7 +134,11 @@ pub(super) fn apply(
             args: shown(engine, args)?,
         },
         ("LISP-TYPE" | "INSTANCE-OF" | "ASSERT-TYPE", [a, b, ..]) => {
-            let (object, kind) = if name == "INSTANCE-OF" { (b, a) } else { (a, b) };
+            let (object, kind) = if name == "INSTANCE-OF" {
+                (b, a)
+            } else {
+                (a, b)
+            };
             Action::CallTest {
                 function: known::TYPEP.into(),
                 args: vec![engine.shown(object)?, engine.shown(kind)?],
@@ -152,7 +168,12 @@ pub(super) fn apply(
             }
         }
         ("WARN" | "ERROR", args) => Action::CallOnly {
-            function: if name == "WARN" { known::WARN } else { known::ERROR }.into(),
+            function: if name == "WARN" {
+                known::WARN
+            } else {
+                known::ERROR
+            }
+            .into(),
             args: shown(engine, args)?,
         },
         ("PROPERTY" | "PROPERTY-MEMBER" | "DESIG-PROP", [designator, property]) => {
@@ -267,10 +288,36 @@ fn handler(
 ) -> Result<Option<Action>> {
     let Some(function) = super::facts::of(image).handler(functor) else {
         let known = [
-            "NOT", "->", "*->", "!", "TRUE", "FAIL", "CALL", "FORALL", "FINDALL", "BAGOF", "SETOF",
-            "==", "EQUAL", "BOUND", "GROUND", "MEMBER", "LENGTH", "APPEND", "MAX", "SORT",
-            "REDUCE", "LISP-FUN", "LISP-TYPE", "INSTANCE-OF", "ASSERT-TYPE", "SYMBOL-VALUE",
-            "SLOT-VALUE", "PROPERTY", "DESIG-PROP", "CURRENT-DESIGNATOR",
+            "NOT",
+            "->",
+            "*->",
+            "!",
+            "TRUE",
+            "FAIL",
+            "CALL",
+            "FORALL",
+            "FINDALL",
+            "BAGOF",
+            "SETOF",
+            "==",
+            "EQUAL",
+            "BOUND",
+            "GROUND",
+            "MEMBER",
+            "LENGTH",
+            "APPEND",
+            "MAX",
+            "SORT",
+            "REDUCE",
+            "LISP-FUN",
+            "LISP-TYPE",
+            "INSTANCE-OF",
+            "ASSERT-TYPE",
+            "SYMBOL-VALUE",
+            "SLOT-VALUE",
+            "PROPERTY",
+            "DESIG-PROP",
+            "CURRENT-DESIGNATOR",
         ];
         let name = image.name(functor);
         if known.contains(&name) {
