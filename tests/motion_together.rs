@@ -15,7 +15,7 @@ fn any_motions_together_keep_the_robot_out_of_everything() {
     let mut rng = Pcg64::seed_from_u64(7);
     let mut random = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
     let mut reached = 0;
-    for _ in 0..20 {
+    for _ in 0..12 {
         let (x, y) = (-3.4 + random() * 4.2, -0.6 + random() * 3.3);
         let yaw = random() * 360.0 - 180.0;
         let height = random() * 0.33;
@@ -33,5 +33,5 @@ fn any_motions_together_keep_the_robot_out_of_everything() {
             Err(other) => panic!("to ({x:.2} {y:.2} {yaw:.0}): {other}"),
         }
     }
-    assert!(reached > 8, "{reached}");
+    assert!(reached > 5, "{reached}");
 }

@@ -199,8 +199,7 @@ fn nearby(goal: &BasePlace) -> Vec<BasePlace> {
     let mut places = Vec::new();
     for ring in 1..=rings {
         for turn in 0..16 {
-            let (s, c) =
-                crate::spatial::trig::sin_cos(f64::from(turn) * std::f64::consts::FRAC_PI_8);
+            let (s, c) = trig::sin_cos(f64::from(turn) * FRAC_PI_8);
             let r = f64::from(ring) * spacing;
             places.push([goal[0] + r * c, goal[1] + r * s, goal[2]]);
         }
