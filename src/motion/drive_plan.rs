@@ -1,12 +1,12 @@
 //! Planning a drive: the path of the base for the robot as it stands.
 
+use std::f64::consts::FRAC_PI_8;
+
 use super::base_path::{BasePathFailure, BasePlace, FloorArea, MARGIN, find_base_path};
 use super::expected_contacts::ExpectedContacts;
 use super::failure::MotionFailure;
 use super::touching::TouchingPairs;
 use super::trajectory::Trajectory;
-use std::f64::consts::FRAC_PI_8;
-
 use crate::spatial::{Pose, pose, trig};
 use crate::world::{
     AllowedPairs, BodyName, CollisionChecker, CollisionHit, RobotConfiguration, World,
