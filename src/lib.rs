@@ -3,8 +3,10 @@
 
 pub mod closest_name;
 pub mod command;
+pub mod designator;
 pub mod dialogue;
 pub mod lisp;
+pub mod motion;
 pub mod perception;
 pub mod plan;
 pub mod reader;
@@ -14,4 +16,5 @@ pub mod session;
 pub mod sexp;
 pub mod spatial;
 pub mod transcript;
+pub mod transform;
 pub mod world;

@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::function::Function;
+use super::generic::Method;
 use super::slot::Slot;
 use super::symbol::Sym;
 use super::value::Value;
@@ -106,6 +107,8 @@ pub struct Class {
     pub direct_default_initargs: RefCell<Vec<(Sym, Initform)>>,
     /// `:default-initargs` of this class and its superclasses, most specific first.
     pub default_initargs: RefCell<Vec<(Sym, Initform)>>,
+    /// The methods that read and write its slots; a redefinition replaces them.
+    pub accessors: RefCell<Vec<Rc<Method>>>,
     /// The report of a condition class: a function of condition and stream.
     pub report: RefCell<Option<Rc<Function>>>,
     /// What `defstruct` remembers of a structure.
@@ -133,6 +136,7 @@ impl Class {
             slots: RefCell::default(),
             direct_default_initargs: RefCell::default(),
             default_initargs: RefCell::default(),
+            accessors: RefCell::default(),
             report: RefCell::default(),
             structure: RefCell::default(),
             doc: RefCell::default(),
@@ -226,5 +230,67 @@ impl Instance {
             }
             None => false,
         }
+    }
+}
+
+thread_local! {
+    /// Slot values of dropped instances that wait to be dropped themselves.
+    static DROPPED: RefCell<Vec<Value>> = const { RefCell::new(Vec::new()) };
+    /// Is the queue being emptied?
+    static IS_DROPPING: Cell<bool> = const { Cell::new(false) };
+}
+
+/// A chain of a million instances is freed without recursion: while an instance's slots are
+/// dropped, those of the instances that go with it only join a queue.
+impl Drop for Instance {
+    fn drop(&mut self) {
+        let slots = self.slots.take();
+        if !slots.iter().any(may_own_instances) {
+            return;
+        }
+        // At the end of the thread the queue is gone; then the slots are dropped directly.
+        let _ = DROPPED.try_with(|queue| queue.borrow_mut().extend(slots));
+        let Ok(false) = IS_DROPPING.try_with(|dropping| dropping.replace(true)) else {
+            return;
+        };
+        while let Ok(Some(value)) = DROPPED.try_with(|queue| queue.borrow_mut().pop()) {
+            drop(value);
+        }
+        let _ = IS_DROPPING.try_with(|dropping| dropping.set(false));
+    }
+}
+
+/// Could dropping the value drop an instance?
+fn may_own_instances(value: &Value) -> bool {
+    matches!(
+        value,
+        Value::Instance(_)
+            | Value::Cons(_)
+            | Value::Vector(_)
+            | Value::Array(_)
+            | Value::Hash(_)
+            | Value::Function(_)
+            | Value::Foreign(_)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lisp::symbol::known;
+
+    #[test]
+    fn a_chain_of_a_million_instances_is_freed_without_recursion() {
+        let class = Rc::new(Class::new(known::T, ClassKind::Structure));
+        let mut chain = Value::NIL;
+        for i in 0..1_000_000 {
+            let mut next = chain;
+            if i % 3 == 0 {
+                next = Value::list([next]);
+            }
+            let instance = Instance::with_slots(class.clone(), vec![Value::Int(i), next]);
+            chain = Value::Instance(Rc::new(instance));
+        }
+        drop(chain);
     }
 }

@@ -8,7 +8,7 @@ use super::foreign::ForeignBox;
 use super::function::Function;
 use super::object::dispatch::Dispatch;
 use super::object::parameters::Parameters;
-use super::symbol::Sym;
+use super::symbol::{Sym, known};
 use super::value::Value;
 
 /// What an argument must be for a method to apply.
@@ -28,6 +28,31 @@ impl Specializer {
             (Specializer::Eql(a), Specializer::Eql(b)) => a.is_eql(b),
             _ => false,
         }
+    }
+}
+
+/// How a generic function combines its methods.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Combination {
+    /// The name, which is also the qualifier of methods unless it is `STANDARD`.
+    pub name: Sym,
+    /// The operator that the values of all methods are given to.
+    pub operator: Sym,
+    /// Is the value of a single method the value of the call?
+    pub is_identity: bool,
+}
+
+impl Combination {
+    /// Before, after and around methods, `call-next-method`.
+    pub const STANDARD: Combination = Combination {
+        name: known::STANDARD,
+        operator: known::STANDARD,
+        is_identity: true,
+    };
+
+    /// Is this the standard one?
+    pub fn is_standard(self) -> bool {
+        self.name == known::STANDARD
     }
 }
 
@@ -79,8 +104,8 @@ pub struct GenericFunction {
     pub own_methods: RefCell<Vec<Rc<Method>>>,
     /// Documentation.
     pub doc: RefCell<Option<Rc<str>>>,
-    /// `STANDARD`, or the operator of another combination (`+`, `AND`, `LIST`, …).
-    pub combination: Cell<Sym>,
+    /// How the values of methods are combined.
+    pub combination: Cell<Combination>,
     /// Does the combination run the most specific method last?
     pub most_specific_last: Cell<bool>,
     /// Which arguments decide, and what they decided so far.
@@ -97,7 +122,7 @@ impl GenericFunction {
             methods: RefCell::default(),
             own_methods: RefCell::default(),
             doc: RefCell::default(),
-            combination: Cell::new(super::known::STANDARD),
+            combination: Cell::new(Combination::STANDARD),
             most_specific_last: Cell::new(false),
             dispatch: RefCell::default(),
         }

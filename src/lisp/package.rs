@@ -178,4 +178,68 @@ impl PackageTable {
             uses.push(used);
         }
     }
+
+    /// Takes a package out of those that another uses.
+    pub fn unuse_package(&mut self, package: PackageId, used: PackageId) {
+        self.get_mut(package).uses.retain(|id| *id != used);
+    }
+
+    /// Makes an exported symbol internal again.
+    pub fn unexport(&mut self, symbols: &SymbolTable, package: PackageId, sym: Sym) {
+        let name = symbols.get(sym).name.clone();
+        if let Some(entry) = self.get_mut(package).symbols.get_mut(&name)
+            && entry.0 == sym
+        {
+            entry.1 = false;
+        }
+    }
+
+    /// Takes a symbol out of a package; was it present?
+    pub fn unintern(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) -> bool {
+        let name = symbols.get(sym).name.clone();
+        let this = self.get_mut(package);
+        if this.symbols.get(&name).is_none_or(|(s, _)| *s != sym) {
+            return false;
+        }
+        this.symbols.remove(&name);
+        this.shadowing.retain(|n| *n != name);
+        let data = symbols.get_mut(sym);
+        if data.package == Some(package) {
+            data.package = None;
+        }
+        true
+    }
+
+    /// Makes a symbol present in place of any other of its name, and shadowing.
+    pub fn shadowing_import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+        let name = symbols.get(sym).name.clone();
+        self.get_mut(package).symbols.remove(&name);
+        self.import(symbols, package, sym);
+        let shadowing = &mut self.get_mut(package).shadowing;
+        if !shadowing.contains(&name) {
+            shadowing.push(name);
+        }
+    }
+
+    /// Gives a package a new name and nicknames; false if one is taken.
+    pub fn rename(&mut self, id: PackageId, name: &str, nicknames: &[Rc<str>]) -> bool {
+        let taken = |n: &str| self.find(n).is_some_and(|found| found != id);
+        if taken(name) || nicknames.iter().any(|n| taken(n)) {
+            return false;
+        }
+        self.by_name.retain(|_, found| *found != id);
+        self.by_name.insert(name.into(), id);
+        let this = self.get_mut(id);
+        this.name = name.into();
+        this.nicknames.clear();
+        for nickname in nicknames {
+            self.add_nickname(id, nickname);
+        }
+        true
+    }
+
+    /// Has the package been deleted?
+    pub fn is_deleted(&self, id: PackageId) -> bool {
+        self.find(&self.get(id).name) != Some(id)
+    }
 }

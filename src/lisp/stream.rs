@@ -59,13 +59,6 @@ pub enum StreamKind {
         /// Number of bytes written.
         position: u64,
     },
-    /// Reads and writes the bytes of a file.
-    FileBytes {
-        /// All bytes, for input.
-        bytes: Rc<[u8]>,
-        /// Index of the next byte.
-        position: usize,
-    },
     /// Writes to several streams.
     Broadcast {
         /// The streams.
@@ -149,7 +142,6 @@ impl Stream {
             &*self.kind.borrow(),
             StreamKind::StandardInput
                 | StreamKind::StringInput { .. }
-                | StreamKind::FileBytes { .. }
                 | StreamKind::Concatenated { .. }
                 | StreamKind::TwoWay { .. }
                 | StreamKind::Synonym { .. }

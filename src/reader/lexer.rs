@@ -67,6 +67,8 @@ pub struct Token {
 pub struct Lexer<'t> {
     text: &'t str,
     position: usize,
+    /// Further characters that end a token.
+    terminators: &'t [char],
 }
 
 /// Is the character blank space between tokens? Pasted text may hold exotic ones.
@@ -92,7 +94,19 @@ impl<'t> Lexer<'t> {
         } else {
             text.len()
         };
-        Lexer { text, position }
+        Lexer {
+            text,
+            position,
+            terminators: &[],
+        }
+    }
+
+    /// Lets further characters end a token.
+    pub fn with_terminators(self, terminators: &'t [char]) -> Lexer<'t> {
+        Lexer {
+            terminators,
+            ..self
+        }
     }
 
     /// The byte where the next token is looked for.
@@ -150,7 +164,7 @@ impl<'t> Lexer<'t> {
                         return false;
                     }
                 }
-                c if is_terminating(c) => return true,
+                c if is_terminating(c) || self.terminators.contains(&c) => return true,
                 c => self.position += c.len_utf8(),
             }
         }

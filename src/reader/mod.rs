@@ -14,6 +14,7 @@ pub mod lexer;
 mod literal;
 pub mod numeric;
 mod parser;
+pub mod readtable;
 pub mod source;
 mod suggest;
 mod symbol;

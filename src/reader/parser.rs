@@ -8,10 +8,12 @@ use super::label::Labels;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::literal;
 use super::numeric::parse_number;
+use super::readtable::Readtable;
 use super::source::{Place, SourceId};
 use super::symbol;
 use crate::lisp::image::Image;
 use crate::lisp::known;
+use crate::lisp::stream::{Stream, StreamKind};
 use crate::lisp::symbol::{Sym, VariableKind};
 use crate::lisp::value::Value;
 
@@ -44,6 +46,10 @@ pub struct Reader {
     skips: usize,
     /// How many feature expressions enclose the position.
     features: usize,
+    /// The text as the function of a macro character sees it, while that runs.
+    macro_input: Option<Rc<Stream>>,
+    /// A further character that ends tokens.
+    terminator: Option<char>,
 }
 
 /// A form that is not finished.
@@ -138,7 +144,14 @@ impl Reader {
             backquotes: 0,
             skips: 0,
             features: 0,
+            macro_input: None,
+            terminator: None,
         }
+    }
+
+    /// Goes on at a byte of the text.
+    pub fn at(self, position: usize) -> Reader {
+        Reader { position, ..self }
     }
 
     /// The byte up to which the text has been read.
@@ -149,6 +162,17 @@ impl Reader {
     /// The text.
     pub fn text(&self) -> &Rc<str> {
         &self.text
+    }
+
+    /// The text that has not been read.
+    pub fn rest(&self) -> &str {
+        self.text.get(self.position..).unwrap_or("")
+    }
+
+    /// Lets a further character end tokens.
+    pub fn with_terminator(mut self, c: char) -> Reader {
+        self.terminator = Some(c);
+        self
     }
 
     /// Moves past one blank character, as `read` does after a form.
@@ -180,13 +204,33 @@ impl Reader {
     /// After an error the reader stands behind the wrong text, outside all forms.
     pub fn next(&mut self, image: &mut Image) -> Result<Outcome, ReadError> {
         let text = self.text.clone();
-        let mut lexer = Lexer::at(&text, self.position);
+        let readtable = image.special(known::V_READTABLE).clone();
+        let readtable = readtable.as_foreign::<Readtable>();
+        let mut terminators = readtable.map(Readtable::terminators).unwrap_or_default();
+        terminators.extend(self.terminator);
+        let mut lexer = Lexer::at(&text, self.position).with_terminators(&terminators);
         loop {
+            if let Some(readtable) = readtable {
+                lexer.skip_blanks();
+                let c = lexer.peek();
+                if let Some((c, function)) = c.and_then(|c| Some((c, readtable.macro_of(c)?))) {
+                    let position = lexer.position() + c.len_utf8();
+                    return Ok(self.call_macro(position, function, &[Value::Char(c)]));
+                }
+            }
             let Some(token) = lexer.next() else {
                 self.position = text.len();
                 return self.at_end(image);
             };
             self.position = token.end;
+            if let (Some(readtable), TokenKind::Dispatch { argument, letter }) =
+                (readtable, token.kind)
+                && let Some(function) = readtable.dispatch_of(letter)
+            {
+                let number = argument.map_or(Value::NIL, |n| Value::Int(n.into()));
+                let arguments = [Value::Char(letter), number];
+                return Ok(self.call_macro(token.end, function, &arguments));
+            }
             match self.token(image, &text, token) {
                 Ok(None) => {}
                 Ok(Some(outcome)) => return Ok(outcome),
@@ -195,8 +239,39 @@ impl Reader {
         }
     }
 
-    /// Hands over the value of the form after `#.` and reads on.
+    /// Asks for a call of the function of a macro character: it reads from a stream that
+    /// begins at the position. The form's value is the list of the values it returns.
+    fn call_macro(&mut self, position: usize, function: Value, arguments: &[Value]) -> Outcome {
+        let stream = Rc::new(Stream::new(StreamKind::StringInput {
+            text: self.text.clone(),
+            position,
+        }));
+        self.macro_input = Some(stream.clone());
+        let quote = |value: Value| Value::list([known::QUOTE.into(), value]);
+        let call: Vec<Value> = [known::FUNCALL.into(), quote(function)]
+            .into_iter()
+            .chain([quote(Value::Stream(stream))])
+            .chain(arguments.iter().cloned())
+            .collect();
+        Outcome::Evaluate(Value::list([
+            known::MULTIPLE_VALUE_LIST.into(),
+            Value::list(call),
+        ]))
+    }
+
+    /// Hands over the value of the form to evaluate and reads on.
     pub fn supply(&mut self, image: &mut Image, value: Value) -> Result<Outcome, ReadError> {
+        let mut value = value;
+        if let Some(stream) = self.macro_input.take() {
+            if let StreamKind::StringInput { position, .. } = &*stream.kind.borrow() {
+                self.position = *position;
+            }
+            // A macro character may mean nothing, as a comment does.
+            let Value::Cons(values) = &value else {
+                return self.next(image);
+            };
+            value = values.car();
+        }
         let end = self.position;
         match self.deliver(image, value, end, end) {
             Ok(None) => self.next(image),

@@ -54,3 +54,35 @@ pub fn angle_between(a: &Pose, b: &Pose) -> f64 {
 pub fn distance_between(a: &Pose, b: &Pose) -> f64 {
     (a.translation.vector - b.translation.vector).norm()
 }
+
+/// The pose at `fraction` (0..1) of the way from `a` to `b`: the origin along the straight
+/// line, the orientation turning evenly about one axis, the shorter way.
+pub fn between(a: &Pose, b: &Pose, fraction: f64) -> Pose {
+    let origin = a.translation.vector + (b.translation.vector - a.translation.vector) * fraction;
+    let turn = a.rotation.inverse() * b.rotation;
+    let (imag, w) = (turn.imag(), turn.w);
+    let sine = imag.norm();
+    let rotation = if sine < 1e-12 {
+        a.rotation
+    } else {
+        let half = trig::atan2(sine, w.abs()) * fraction;
+        let (s, c) = trig::sin_cos(half);
+        let axis = imag * (w.signum() * s / sine);
+        a.rotation * UnitQuaternion::from_quaternion(Quaternion::from_parts(c, axis))
+    };
+    Pose::from_parts(Translation3::from(origin), rotation)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halfway_between_two_poses_is_half_the_way_and_half_the_turn() {
+        let b = from_xyz_rpy([1.0, 2.0, 0.0], [0.0, 0.0, 1.0]);
+        let middle = between(&Pose::identity(), &b, 0.5);
+        assert!((yaw(&middle) - 0.5).abs() < 1e-12);
+        assert_eq!(middle.translation.vector.as_slice(), [0.5, 1.0, 0.0]);
+        assert!(angle_between(&between(&Pose::identity(), &b, 1.0), &b) < 1e-12);
+    }
+}

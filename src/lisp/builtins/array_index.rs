@@ -35,7 +35,7 @@ pub fn invalid_on_axis(
         .map(|axis| format!("axis {axis} of "))
         .unwrap_or_default();
     Raise::new(
-        known::INVALID_ARRAY_INDEX_ERROR,
+        known::TYPE_ERROR,
         format!(
             "Invalid index {shown} for {axis}{}, should be a non-negative integer below {bound}.",
             type_name(array)

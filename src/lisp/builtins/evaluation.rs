@@ -294,12 +294,13 @@ fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
 }
 
 fn macroexpand(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let (form, expanded) = compile::macroexpand(image, &args[0])?;
+    let (form, expanded) =
+        compile::macroexpand_in(image, &args[0], args.get(1).unwrap_or(&Value::NIL))?;
     Ok(Value::values(vec![form, expanded.into()]))
 }
 
 fn macroexpand_1(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let expansion = compile::macroexpand_1(image, &args[0])?;
+    let expansion = compile::macroexpand_1_in(image, &args[0], args.get(1).unwrap_or(&Value::NIL))?;
     let expanded = expansion.is_some();
     let form = expansion.unwrap_or_else(|| args[0].clone());
     Ok(Value::values(vec![form, expanded.into()]))

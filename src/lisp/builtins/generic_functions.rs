@@ -7,6 +7,7 @@ use crate::lisp::function::Function;
 use crate::lisp::generic::{GenericFunction, Method};
 use crate::lisp::image::Image;
 use crate::lisp::known;
+use crate::lisp::object::combination::{define_combination, expand_define_method_combination};
 use crate::lisp::object::combine::no_next_method;
 use crate::lisp::object::dispatch::no_applicable_method_error;
 use crate::lisp::object::effective::applicable_methods;
@@ -25,9 +26,10 @@ pub static TABLE: &[Builtin] = &[
         "generic-function &rest arguments",
         "Called when no method of a generic function applies. Add methods to do something else.",
         &[],
-        |_, args| {
+        |machine, args| {
             let function = args[0].clone();
-            Err(no_applicable_method_error(function, args[1..].to_vec()))
+            let rest = args[1..].to_vec();
+            Err(no_applicable_method_error(machine.image, function, rest))
         },
     ),
     control(
@@ -35,7 +37,7 @@ pub static TABLE: &[Builtin] = &[
         "generic-function method &rest arguments",
         "The error that CALL-NEXT-METHOD has nothing to call.",
         &[],
-        |_, args| Err(no_next_method(&args[0])),
+        |machine, args| Err(no_next_method(machine.image, &args[0])),
     ),
     pure(
         "FIND-METHOD",
@@ -122,11 +124,18 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
         defmethod::own_method,
     ),
     pure(
+        "%DEFINE-COMBINATION",
+        "name operator identity-with-one-argument",
+        "Defines a method combination as DEFINE-METHOD-COMBINATION describes it.",
+        &[],
+        define_combination,
+    ),
+    pure(
         "%NO-NEXT-METHOD",
         "name",
         "The error that CALL-NEXT-METHOD has nothing to call.",
         &[],
-        |_, args| Err(no_next_method(&args[0])),
+        |image, args| Err(no_next_method(image, &args[0])),
     ),
 ];
 
@@ -147,6 +156,13 @@ pub static OPERATORS: &[Operator] = &[
         doc: "Defines a method. Required parameters may be (name class) or (name (eql form)); qualifiers are :before, :after, :around or the operator of the method combination.",
         examples: &["(progn (defmethod twice ((x integer)) (* 2 x)) (twice 21)) => 42"],
         expand: Some(defmethod::expand_defmethod),
+    },
+    Operator {
+        name: "DEFINE-METHOD-COMBINATION",
+        lambda_list: "name &key operator identity-with-one-argument documentation",
+        doc: "Defines a method combination that gives the values of all applicable methods to an operator.",
+        examples: &["(define-method-combination join :operator append) => JOIN"],
+        expand: Some(expand_define_method_combination),
     },
 ];
 

@@ -4,14 +4,12 @@ use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, Operator, control, pure};
 use crate::lisp::class::Instance;
-use crate::lisp::function::{Function, NativeCall};
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::object::define::no_class;
 use crate::lisp::object::form::{form, quote};
 use crate::lisp::object::{access, class_of, defclass, instance, update};
 use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
@@ -218,21 +216,23 @@ pub static OPERATORS: &[Operator] = &[
     },
 ];
 
-/// Defines the functions of `(setf slot-value)` and `(setf find-class)`.
-pub fn install(image: &mut Image) {
-    let control = |name: Sym, arity: u16, call| {
-        Rc::new(Function::native(
-            name,
-            arity,
-            Some(arity),
-            NativeCall::Control(call),
-        ))
-    };
-    let set_slot = control(known::SET_SLOT_VALUE, 3, set_slot_value);
-    image.symbols.get_mut(known::SLOT_VALUE).setf_function = Some(set_slot);
-    let set_class = Function::made(known::FIND_CLASS, (2, Some(4)), set_find_class);
-    image.symbols.get_mut(known::FIND_CLASS).setf_function = Some(set_class);
-}
+/// What `setf` of the functions here calls: the new value comes first.
+pub static SETTERS: &[Builtin] = &[
+    control(
+        "SLOT-VALUE",
+        "value object slot-name",
+        "Stores a value in a slot.",
+        &[],
+        set_slot_value,
+    ),
+    pure(
+        "FIND-CLASS",
+        "class symbol &optional errorp environment",
+        "Gives a class a name.",
+        &[],
+        set_find_class,
+    ),
+];
 
 fn set_slot_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     access::set_slot_value(machine, args[0].clone(), &args[1], &args[2])
@@ -263,7 +263,7 @@ fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     match image.class(name) {
         Some(class) if class.is_defined.get() => Ok(Value::Class(class.clone())),
         _ if args.get(1).is_some_and(Value::is_nil) => Ok(Value::NIL),
-        _ => Err(no_class(name)),
+        _ => Err(no_class(image, name)),
     }
 }
 
@@ -294,7 +294,7 @@ fn instance_argument(value: &Value) -> Result<&Rc<Instance>, Box<Raise>> {
 }
 
 fn change_class(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let class = instance::designated_class(machine.image, &args[1])?;
+    let class = instance::instantiable_class(machine.image, &args[1])?;
     let instance = instance_argument(&args[0])?;
     let initargs = args[2..].to_vec();
     if !initargs.len().is_multiple_of(2) {

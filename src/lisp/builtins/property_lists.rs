@@ -184,17 +184,17 @@ pub static TABLE: &[Builtin] = &[
 /// What `setf` and `remf` of `getf` are made of; in `SYSTEM`.
 pub static SYSTEM_TABLE: &[Builtin] = &[
     pure(
-        "%PUTF",
+        "PUTF",
         "plist indicator value",
         "The property list with a value for an indicator; an existing entry is changed.",
-        &["(system::%putf '(:a 1) :b 2) => (:B 2 :A 1)"],
+        &["(system::putf '(:a 1) :b 2) => (:B 2 :A 1)"],
         putf,
     ),
     pure(
-        "%REMF",
+        "REMOVE-PROPERTY",
         "plist indicator",
         "The property list without an indicator, and whether it was there.",
-        &["(system::%remf (list :a 1 :b 2) :b) => (:A 1) ; T"],
+        &["(system::remove-property (list :a 1 :b 2) :b) => (:A 1) ; T"],
         removef,
     ),
 ];

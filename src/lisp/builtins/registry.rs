@@ -4,6 +4,7 @@ use super::*;
 use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::compile;
 use crate::lisp::image::Image;
+use crate::lisp::loop_macro;
 use crate::lisp::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
@@ -12,13 +13,17 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     characters::TABLE,
     conditions::TABLE,
     definitions::TABLE,
+    documentation::TABLE,
     evaluation::TABLE,
     generic_functions::TABLE,
     list_search::TABLE,
     list_sets::TABLE,
     list_trees::TABLE,
     lists::TABLE,
+    implementation::TABLE,
+    loading::TABLE,
     mapping::TABLE,
+    object_printing::TABLE,
     objects::TABLE,
     pairs::TABLE,
     property_lists::TABLE,
@@ -33,6 +38,22 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     string_compare::TABLE,
     strings::TABLE,
     types::TABLE,
+    array_make::TABLE,
+    arrays::TABLE,
+    bits::TABLE,
+    files::TABLE,
+    fill_pointers::TABLE,
+    hash_tables::TABLE,
+    packages::TABLE,
+    streams::TABLE,
+    symbols::TABLE,
+    structures::TABLE,
+    format::TABLE,
+    number_theory::TABLE,
+    numbers::TABLE,
+    printing::TABLE,
+    reading::TABLE,
+    transcendental::TABLE,
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
@@ -40,10 +61,17 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
     generic_functions::SYSTEM_TABLE,
+    object_printing::SYSTEM_TABLE,
     objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,
     types::SYSTEM_TABLE,
+    hash_tables::SYSTEM_TABLE,
+    loop_macro::SYSTEM_TABLE,
+    package_macros::SYSTEM_TABLE,
+    streams::SYSTEM_TABLE,
+    structures::SYSTEM_TABLE,
+    printing::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
@@ -52,11 +80,30 @@ pub static SETTERS: &[&[Builtin]] = &[
     property_lists::SETTERS,
     sequence_access::SETTERS,
     strings::SETTERS,
+    arrays::SETTERS,
+    fill_pointers::SETTERS,
+    hash_tables::SETTERS,
+    symbols::SETTERS,
+    documentation::SETTERS,
+    objects::SETTERS,
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
-pub static OPERATORS: &[&[Operator]] =
-    &[compile::SPECIAL_FORMS, compile::OPERATORS, types::OPERATORS];
+pub static OPERATORS: &[&[Operator]] = &[
+    compile::SPECIAL_FORMS,
+    compile::OPERATORS,
+    types::OPERATORS,
+    hash_tables::OPERATORS,
+    loop_macro::OPERATORS,
+    package_macros::OPERATORS,
+    stream_macros::OPERATORS,
+    generic_functions::OPERATORS,
+    object_printing::OPERATORS,
+    objects::OPERATORS,
+    structures::OPERATORS,
+    format::OPERATORS,
+    printing::OPERATORS,
+];
 
 /// Special operators and macros of package `SYSTEM`.
 pub static SYSTEM_OPERATORS: &[&[Operator]] = &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];
@@ -78,4 +125,6 @@ pub fn install(image: &mut Image) {
     for table in SYSTEM_OPERATORS {
         image.install_operators(PackageTable::SYSTEM, table);
     }
+    standard_names::install(image);
+    alexandria::install(image);
 }

@@ -42,11 +42,21 @@ impl Sequence {
     }
 
     /// Number of elements.
+    #[expect(clippy::len_without_is_empty, reason = "counting may fail")]
     pub fn len(&self) -> Result<usize, Box<Raise>> {
         match self {
             Sequence::List(list) => list_length(list),
             Sequence::Vector(vector) => Ok(vector.len()),
             Sequence::Str(string) => Ok(string.len()),
+        }
+    }
+
+    /// Is there no element?
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Sequence::List(list) => list.is_nil(),
+            Sequence::Vector(vector) => vector.is_empty(),
+            Sequence::Str(string) => string.is_empty(),
         }
     }
 
@@ -187,7 +197,7 @@ impl Sequence {
 /// "The index 5 is too large for a list of length 2."
 pub fn index_too_large(index: usize, what: &str, length: usize) -> Box<Raise> {
     Raise::new(
-        known::INDEX_TOO_LARGE_ERROR,
+        known::TYPE_ERROR,
         format!("The index {index} is too large for a {what} of length {length}."),
     )
     .with(known::K_DATUM, index.into())
@@ -335,7 +345,7 @@ fn bad_bounds(start: Option<&Value>, end: Option<&Value>, length: usize) -> Box<
         end.cloned().unwrap_or(Value::NIL),
     );
     Raise::new(
-        known::BOUNDING_INDICES_BAD_ERROR,
+        known::TYPE_ERROR,
         format!(
             "The bounding indices {} and {} are bad for a sequence of length {length}.",
             show(start, "0"),

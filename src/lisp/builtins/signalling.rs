@@ -122,17 +122,17 @@ pub static TABLE: &[Builtin] = &[
         &["(restart-case (store-value 1) (store-value (v) v)) => 1"],
         |m, args| invoke_named(m, known::STORE_VALUE, args[..1].to_vec(), false),
     ),
-    control(
-        "THROW",
-        "tag value",
-        "Leaves the innermost CATCH of the tag with the value.",
-        &["(catch 'x (throw 'x 1)) => 1"],
-        |m, args| m.throw(&args[0], args[1].clone()),
-    ),
 ];
 
 /// Builtins of package `SYSTEM`.
 pub static SYSTEM_TABLE: &[Builtin] = &[
+    control(
+        "THROW-VALUES",
+        "tag &rest values",
+        "Leaves the innermost CATCH of the tag with the values.",
+        &["(catch 'x (system:throw-values 'x 1 2)) => 1 ; 2"],
+        |m, args| m.throw(&args[0], Value::values(args[1..].to_vec())),
+    ),
     pure(
         "MAKE-RESTART",
         "name function report interactive",
@@ -438,7 +438,7 @@ fn case_failed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         show(&args[2])
     );
     let expected = Value::cons(known::MEMBER.into(), args[2].clone());
-    Err(Raise::new(known::CASE_FAILURE, report)
+    Err(Raise::new(known::TYPE_ERROR, report)
         .with(known::K_DATUM, args[0].clone())
         .with(known::K_EXPECTED_TYPE, expected))
 }

@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::emit;
+use super::environment::Environment;
 use super::node::{Binding, LambdaNode, Node, Target};
 use super::scope::{
     DynamicKind, Entry, FunctionContext, FunctionMeaning, Scope, Var, VariableMeaning,
@@ -319,9 +320,9 @@ impl<'a> Compiler<'a> {
         &mut self,
         function: &Rc<Function>,
         form: &Value,
-        _scope: &Scope,
+        scope: &Scope,
     ) -> Compiled<Value> {
-        let args = vec![form.clone(), Value::NIL];
+        let args = vec![form.clone(), Environment::value(scope)];
         let expansion = machine::call_nested(self.image, Value::Function(function.clone()), args)
             .map_err(|r| r.at(self.place))?;
         keep_place(form, &expansion);

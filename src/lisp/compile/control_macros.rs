@@ -10,7 +10,13 @@ use crate::lisp::value::Value;
 
 type Expansion = Result<Value, Box<Raise>>;
 
+/// The forms as one: a single form is itself.
 fn progn(forms: Value) -> Value {
+    if let Value::Cons(cons) = &forms
+        && cons.cdr().is_nil()
+    {
+        return cons.car();
+    }
     Value::cons(known::PROGN.into(), forms)
 }
 
@@ -145,6 +151,17 @@ fn case_form(image: &mut Image, form: &Value, otherwise: Otherwise, by_type: boo
     }
     let body = Value::cons(known::COND.into(), Value::list(cond_clauses));
     Ok(form![known::LET, form![form![key, key_form]], body])
+}
+
+/// All values of the form reach the catch.
+pub(super) fn throw(_: &mut Image, form: &Value) -> Expansion {
+    let (tag, rest) = first_rest(form);
+    Ok(form![
+        known::MULTIPLE_VALUE_CALL,
+        form![known::FUNCTION, known::THROW_VALUES],
+        form![known::VALUES, tag],
+        rest.car_or_nil()
+    ])
 }
 
 pub(super) fn prog2(_: &mut Image, form: &Value) -> Expansion {

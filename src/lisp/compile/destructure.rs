@@ -15,6 +15,8 @@ struct Bindings<'a> {
     context: Value,
     /// The whole lambda list, for messages.
     lambda_list: Value,
+    /// The form for an `&environment` parameter.
+    environment: Value,
 }
 
 impl Bindings<'_> {
@@ -66,7 +68,7 @@ impl Bindings<'_> {
             self.bind_pattern(name, whole.clone())?;
         }
         if let Some(name) = parsed.environment {
-            self.bind(name, Value::NIL);
+            self.bind(name, self.environment.clone());
         }
         let rest = self.gensym("REST");
         let mut start = whole.clone();
@@ -171,6 +173,7 @@ pub(super) fn expand_destructuring_bind(
         list: vec![Value::list([whole.clone(), rest.car_or_nil()])],
         context: known::DESTRUCTURING_BIND.into(),
         lambda_list,
+        environment: Value::NIL,
     };
     bindings.take_apart(&parsed, &whole, 0)?;
     Ok(Value::list_with_tail(
@@ -194,6 +197,7 @@ pub fn macro_function(
         list: Vec::new(),
         context: name.into(),
         lambda_list: lambda_list.clone(),
+        environment: environment.clone(),
     };
     bindings.take_apart(&parsed, &whole, 1)?;
     let parts = super::body::split_declarations(body);

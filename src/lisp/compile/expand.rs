@@ -1,6 +1,7 @@
 //! Macro expansion as a service: `macroexpand` and `macroexpand-1`.
 
 use super::analyze::keep_place;
+use super::environment;
 use crate::lisp::image::Image;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::FunctionCell;
@@ -9,6 +10,18 @@ use crate::lisp::vm::machine;
 
 /// Expands a form once with global macros; `None` if it is no macro call.
 pub fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, Box<Raise>> {
+    macroexpand_1_in(image, form, &Value::NIL)
+}
+
+/// Expands a form once with the macros of an environment, as a macro function gets it.
+pub fn macroexpand_1_in(
+    image: &mut Image,
+    form: &Value,
+    environment: &Value,
+) -> Result<Option<Value>, Box<Raise>> {
+    if let Some(expansion) = environment::expand_locally(image, form, environment)? {
+        return Ok(expansion);
+    }
     match form {
         Value::Symbol(name) => Ok(image.symbol(*name).symbol_macro.clone()),
         Value::Cons(cons) => {
@@ -18,7 +31,7 @@ pub fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, B
             let expansion = match &image.symbol(name).function {
                 FunctionCell::Macro(function) => {
                     let function = Value::Function(function.clone());
-                    let args = vec![form.clone(), Value::NIL];
+                    let args = vec![form.clone(), environment.clone()];
                     machine::call_nested(image, function, args)?
                 }
                 FunctionCell::Builtin => match image.operators.get(&name).and_then(|o| o.expand) {
@@ -36,9 +49,18 @@ pub fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, B
 
 /// Expands a form until it is no macro call; was it one?
 pub fn macroexpand(image: &mut Image, form: &Value) -> Result<(Value, bool), Box<Raise>> {
+    macroexpand_in(image, form, &Value::NIL)
+}
+
+/// Expands a form until it is no macro call, with the macros of an environment; was it one?
+pub fn macroexpand_in(
+    image: &mut Image,
+    form: &Value,
+    environment: &Value,
+) -> Result<(Value, bool), Box<Raise>> {
     let mut form = form.clone();
     let mut expanded = false;
-    while let Some(expansion) = macroexpand_1(image, &form)? {
+    while let Some(expansion) = macroexpand_1_in(image, &form, environment)? {
         form = expansion;
         expanded = true;
     }

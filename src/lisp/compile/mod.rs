@@ -10,8 +10,9 @@ mod control_macros;
 mod define_macros;
 pub mod destructure;
 mod emit;
+mod environment;
 mod expand;
-mod form;
+pub(crate) mod form;
 pub mod lambda_list;
 mod node;
 mod operators;
@@ -28,7 +29,7 @@ use super::raise::Raise;
 use super::value::Value;
 use super::vm::code::Code;
 
-pub use expand::{macroexpand, macroexpand_1};
+pub use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};
 pub use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
 pub use quasiquote::expand_quasiquote;
 

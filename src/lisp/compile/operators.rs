@@ -253,6 +253,20 @@ pub static SYSTEM_OPERATORS: &[Operator] = &[macro_(
 /// Macros of package `COMMON-LISP`.
 pub static OPERATORS: &[Operator] = &[
     macro_(
+        "THROW",
+        "tag form",
+        "Leaves the innermost CATCH of the tag with the values of the form.",
+        &["(catch 'x (throw 'x 1)) => 1"],
+        control_macros::throw,
+    ),
+    macro_(
+        "DEFINE-COMPILER-MACRO",
+        "name lambda-list &body body",
+        "Has no effect: there are no compiler macros.",
+        &["(define-compiler-macro nothing (x) x) => NOTHING"],
+        define_macros::define_compiler_macro,
+    ),
+    macro_(
         "WHEN",
         "test &body body",
         "The body if the test is true, else NIL.",

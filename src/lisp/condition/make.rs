@@ -87,7 +87,7 @@ fn condition_class(image: &Image, name: Sym) -> Result<Rc<Class>, Box<Raise>> {
             &Value::Symbol(name),
             Value::Symbol(known::CONDITION),
         )),
-        None => Err(no_class(name)),
+        None => Err(no_class(image, name)),
     }
 }
 

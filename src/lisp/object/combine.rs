@@ -4,7 +4,8 @@ use std::rc::Rc;
 
 use super::effective::{Effective, Shape};
 use crate::lisp::function::Function;
-use crate::lisp::generic::Method;
+use crate::lisp::generic::{Combination, Method};
+use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::Sym;
@@ -26,19 +27,19 @@ pub const START: Stage = Stage::Around(0);
 
 /// Runs a call from a stage on.
 pub fn run(effective: &Rc<Effective>, stage: Stage, args: Vec<Value>) -> Result<Step, Box<Raise>> {
-    let (around, before, primary, after, operator) = match &effective.shape {
+    let (around, before, primary, after, combination) = match &effective.shape {
         Shape::Combined {
             around,
             before,
             primary,
             after,
-            operator,
-        } => (around, before, primary, after, *operator),
+            combination,
+        } => (around, before, primary, after, *combination),
         Shape::Single(method) | Shape::Read(_, method) | Shape::Write(_, method) => {
             return Ok(call(method, || Value::NIL, args));
         }
         // Callers deal with it.
-        Shape::NotApplicable => return Err(no_next_method(&effective.name)),
+        Shape::NotApplicable => return Err(nothing_to_run()),
     };
     match stage {
         Stage::Around(i) => {
@@ -46,8 +47,8 @@ pub fn run(effective: &Rc<Effective>, stage: Stage, args: Vec<Value>) -> Result<
                 let next = Stage::Around(i + 1);
                 return Ok(invoke(effective, method, Some(next), args));
             }
-            if operator != known::STANDARD {
-                return operate(effective, operator, primary, args);
+            if !combination.is_standard() {
+                return operate(effective, combination, primary, args);
             }
             if before.is_empty() && after.is_empty() {
                 return run(effective, Stage::Primary(0), args);
@@ -65,19 +66,21 @@ pub fn run(effective: &Rc<Effective>, stage: Stage, args: Vec<Value>) -> Result<
                 let next = (i + 1 < primary.len()).then_some(Stage::Primary(i + 1));
                 Ok(invoke(effective, method, next, args))
             }
-            None => Err(no_next_method(&effective.name)),
+            None => Err(nothing_to_run()),
         },
     }
 }
 
 /// The error that `call-next-method` has nothing to call.
-pub fn no_next_method(name: &Value) -> Box<Raise> {
-    Box::new(Raise::Make {
-        place: crate::reader::source::Place::NONE,
-        class: known::NO_NEXT_METHOD_ERROR,
-        report: None,
-        initargs: vec![(known::K_METHOD, name.clone())],
-    })
+pub fn no_next_method(image: &Image, name: &Value) -> Box<Raise> {
+    let shown = super::qualified(image, name);
+    let report = format!("There is no next method for the generic function {shown}.");
+    Raise::new(known::NO_NEXT_METHOD_ERROR, report).with(known::K_METHOD, name.clone())
+}
+
+/// The error that an effective method has no method to run, which callers rule out.
+fn nothing_to_run() -> Box<Raise> {
+    Raise::new(known::NO_NEXT_METHOD_ERROR, "There is no next method.")
 }
 
 /// The call of one method; `next` is the stage that `call-next-method` goes on with.
@@ -137,7 +140,7 @@ impl Standard {
     fn next(mut self: Box<Self>) -> Result<Step, Box<Raise>> {
         let effective = self.effective.clone();
         let Shape::Combined { before, after, .. } = &effective.shape else {
-            return Err(no_next_method(&effective.name));
+            return Err(nothing_to_run());
         };
         let index = self.done;
         self.done += 1;
@@ -198,18 +201,18 @@ fn then(step: Step, all_values: bool, next: Box<dyn Resume>) -> Step {
 /// Runs all methods of an operator combination and combines their values.
 fn operate(
     effective: &Rc<Effective>,
-    operator: Sym,
+    combination: Combination,
     methods: &[Rc<Method>],
     args: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
     if let [only] = methods
-        && operator != known::LIST
+        && combination.is_identity
     {
         return Ok(invoke(effective, only, None, args));
     }
     Box::new(Operation {
         effective: effective.clone(),
-        operator,
+        operator: combination.operator,
         args,
         values: Vec::new(),
     })
@@ -226,7 +229,7 @@ struct Operation {
 impl Operation {
     fn next(self: Box<Self>) -> Result<Step, Box<Raise>> {
         let Shape::Combined { primary, .. } = &self.effective.shape else {
-            return Err(no_next_method(&self.effective.name));
+            return Err(nothing_to_run());
         };
         let Some(method) = primary.get(self.values.len()) else {
             return Ok(match self.operator {

@@ -2,7 +2,7 @@
 
 use super::define::ClassDefinition;
 use super::form::{doc_form, form, quote};
-use super::method::{MethodDefinition, define_method};
+use super::method::{MethodDefinition, define_method, named_function, remove_method};
 use super::parameters::Parameters;
 use super::slot_options::{DefinedSlot, evaluated_init, evaluated_slot, init_form, slot_form};
 use crate::lisp::class::{Class, ClassKind};
@@ -206,6 +206,7 @@ fn define(image: &mut Image, args: &[Value], kind: ClassKind) -> Result<Rc<Class
         default_initargs,
         doc: doc.as_text().map(Into::into),
     })?;
+    remove_accessors(image, &class);
     for slot in &slots {
         for reader in &slot.readers {
             add_accessor(image, reader, &class, Accessor::Reader(slot.slot.name))?;
@@ -248,7 +249,7 @@ fn add_accessor(
             (vec![anything, of_class], function)
         }
     };
-    define_method(
+    let method = define_method(
         image,
         MethodDefinition {
             name: name.clone(),
@@ -261,5 +262,16 @@ fn add_accessor(
             doc: None,
         },
     )?;
+    class.accessors.borrow_mut().push(method);
     Ok(())
+}
+
+/// Removes the accessors of an earlier definition of the class.
+fn remove_accessors(image: &Image, class: &Class) {
+    for method in class.accessors.take() {
+        let function = named_function(image, &method.name);
+        if let Some(generic) = function.as_ref().and_then(|f| f.as_generic()) {
+            remove_method(generic, &method);
+        }
+    }
 }

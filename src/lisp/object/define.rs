@@ -75,7 +75,7 @@ impl Image {
         let allowed = match self.classes.get(&name) {
             Some(class) => class.kind == definition.kind || class.name == known::T,
             None if definition.kind == ClassKind::Standard => true,
-            None => return Err(no_class(name)),
+            None => return Err(no_class(self, name)),
         };
         if allowed {
             return Ok(());
@@ -114,13 +114,10 @@ impl Image {
 }
 
 /// The error that there is no class of a name.
-pub fn no_class(name: Sym) -> Box<Raise> {
-    Box::new(Raise::Make {
-        place: crate::reader::source::Place::NONE,
-        class: known::CLASS_NOT_FOUND_ERROR,
-        report: None,
-        initargs: vec![(known::K_NAME, name.into())],
-    })
+pub fn no_class(image: &Image, name: Sym) -> Box<Raise> {
+    let shown = super::qualified(image, &name.into());
+    let report = format!("There is no class named {shown}.");
+    Raise::new(known::CLASS_NOT_FOUND_ERROR, report).with(known::K_NAME, name.into())
 }
 
 /// Is `other` the class itself or, directly or not, among its superclasses?

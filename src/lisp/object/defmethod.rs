@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::combination::combination_named;
 use super::form::{doc_form, form, quote, split_body};
 use super::method::{
     MethodDefinition, changed, define_method, ensure_generic, method_value, specializer,
@@ -12,20 +13,6 @@ use crate::lisp::known;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::value::Value;
-
-/// Operators that a `:method-combination` may name.
-const COMBINATIONS: &[Sym] = &[
-    known::STANDARD,
-    known::PLUS,
-    known::AND,
-    known::OR,
-    known::LIST,
-    known::APPEND,
-    known::NCONC,
-    known::MAX,
-    known::MIN,
-    known::PROGN,
-];
 
 /// `(defmethod name qualifiers… lambda-list body…)`.
 pub fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
@@ -304,13 +291,7 @@ pub fn ensure_generic_function(image: &mut Image, args: &[Value]) -> Result<Valu
         return Err(Raise::program("invalid number of arguments: 0"));
     };
     let parameters = Parameters::parse(image, lambda_list)?;
-    let operator = combination.car_or_nil();
-    let Some(operator) = operator.as_symbol().filter(|o| COMBINATIONS.contains(o)) else {
-        return Err(Raise::program(format!(
-            "There is no method combination named {}.",
-            super::text(image, &operator)
-        )));
-    };
+    let found = combination_named(image, &combination.car_or_nil())?;
     let function = ensure_generic(image, name, &parameters)?;
     if let Some(generic) = function.as_generic() {
         let own = generic.own_methods.take();
@@ -331,7 +312,7 @@ pub fn ensure_generic_function(image: &mut Image, args: &[Value]) -> Result<Valu
         }
         *generic.parameters.borrow_mut() = parameters;
         generic.is_declared.set(true);
-        generic.combination.set(operator);
+        generic.combination.set(found);
         let order = combination.cdr_or_nil().car_or_nil().as_symbol();
         generic
             .most_specific_last

@@ -271,20 +271,21 @@ fn no_applicable_method(
         });
     }
     Err(no_applicable_method_error(
+        image,
         Value::Function(function.clone()),
         args,
     ))
 }
 
 /// The error that no method of a generic function applies.
-pub fn no_applicable_method_error(function: Value, args: Vec<Value>) -> Box<Raise> {
-    Box::new(Raise::Make {
-        place: crate::reader::source::Place::NONE,
-        class: known::NO_APPLICABLE_METHOD_ERROR,
-        report: None,
-        initargs: vec![
-            (known::K_GENERIC_FUNCTION, function),
-            (known::K_ARGUMENTS, Value::list(args)),
-        ],
-    })
+pub fn no_applicable_method_error(image: &Image, function: Value, args: Vec<Value>) -> Box<Raise> {
+    let args = Value::list(args);
+    let report = format!(
+        "There is no applicable method for the generic function\n  {}\nwhen called with arguments\n  {}.",
+        super::text(image, &function),
+        super::text(image, &args)
+    );
+    Raise::new(known::NO_APPLICABLE_METHOD_ERROR, report)
+        .with(known::K_GENERIC_FUNCTION, function)
+        .with(known::K_ARGUMENTS, args)
 }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::class_of::class_of;
 use crate::lisp::class::Class;
-use crate::lisp::generic::{Accessor, GenericFunction, Method, Specializer};
+use crate::lisp::generic::{Accessor, Combination, GenericFunction, Method, Specializer};
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::raise::Raise;
@@ -15,8 +15,6 @@ use crate::lisp::value::Value;
 
 /// The methods of a call in the order in which they run.
 pub struct Effective {
-    /// The generic function's name, for messages.
-    pub name: Value,
     /// The shape of the call.
     pub shape: Shape,
     /// Keywords that some applicable method accepts; none if they need no check.
@@ -45,8 +43,8 @@ pub enum Shape {
         primary: Vec<Rc<Method>>,
         /// `:after` methods in the order in which they run: most specific last.
         after: Vec<Rc<Method>>,
-        /// `STANDARD`, or the operator.
-        operator: Sym,
+        /// The combination.
+        combination: Combination,
     },
 }
 
@@ -68,7 +66,6 @@ impl Effective {
         let methods = applicable_methods(image, generic, args);
         let (keys, keys_from) = accepted_keys(generic, &methods);
         Ok(Effective {
-            name: generic.name.clone(),
             shape: shape(image, generic, methods, args)?,
             keys,
             keys_from,
@@ -166,7 +163,8 @@ fn shape(
     methods: Vec<Rc<Method>>,
     args: &[Value],
 ) -> Result<Shape, Box<Raise>> {
-    let operator = generic.combination.get();
+    let combination = generic.combination.get();
+    let is_standard = combination.is_standard();
     let mut around = Vec::new();
     let mut before = Vec::new();
     let mut primary = Vec::new();
@@ -174,10 +172,10 @@ fn shape(
     for method in methods {
         match method.qualifiers.as_slice() {
             [known::K_AROUND] => around.push(method),
-            [] if operator == known::STANDARD => primary.push(method),
-            [known::K_BEFORE] if operator == known::STANDARD => before.push(method),
-            [known::K_AFTER] if operator == known::STANDARD => after.push(method),
-            [qualifier] if *qualifier == operator && operator != known::STANDARD => {
+            [] if is_standard => primary.push(method),
+            [known::K_BEFORE] if is_standard => before.push(method),
+            [known::K_AFTER] if is_standard => after.push(method),
+            [qualifier] if *qualifier == combination.name && !is_standard => {
                 primary.push(method);
             }
             _ => return Err(bad_qualifiers(image, generic, &method)),
@@ -190,7 +188,7 @@ fn shape(
     if primary.is_empty() {
         return Ok(Shape::NotApplicable);
     }
-    if operator == known::STANDARD && around.is_empty() && before.is_empty() && after.is_empty() {
+    if is_standard && around.is_empty() && before.is_empty() && after.is_empty() {
         let first = primary[0].clone();
         if let Some(place) = accessor_place(&first, args) {
             return Ok(place);
@@ -204,7 +202,7 @@ fn shape(
         before,
         primary,
         after,
-        operator,
+        combination,
     })
 }
 
@@ -231,7 +229,7 @@ fn accessor_place(method: &Rc<Method>, args: &[Value]) -> Option<Shape> {
 
 fn bad_qualifiers(image: &Image, generic: &GenericFunction, method: &Method) -> Box<Raise> {
     let qualifiers: Vec<&str> = method.qualifiers.iter().map(|q| image.name(*q)).collect();
-    let combination = image.name(generic.combination.get());
+    let combination = image.name(generic.combination.get().name);
     Raise::program(format!(
         "A method with qualifiers ({}) cannot be used with the method combination type {combination}.",
         qualifiers.join(" "),

@@ -5,19 +5,7 @@ use std::rc::Rc;
 use crate::lisp::known;
 use crate::lisp::value::Value;
 
-/// A list of the items; after a semicolon, a tail that the list ends in.
-macro_rules! form {
-    ($($item:expr),* $(,)?) => {
-        $crate::lisp::value::Value::list([$($crate::lisp::value::Value::from($item)),*])
-    };
-    ($($item:expr),* ; $tail:expr) => {
-        $crate::lisp::value::Value::list_with_tail(
-            [$($crate::lisp::value::Value::from($item)),*],
-            $tail,
-        )
-    };
-}
-pub(crate) use form;
+pub(crate) use crate::lisp::compile::form::form;
 
 /// `(quote value)`; values that evaluate to themselves stay as they are.
 pub fn quote(value: impl Into<Value>) -> Value {

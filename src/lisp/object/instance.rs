@@ -20,8 +20,7 @@ use crate::lisp::vm::step::{Resume, Step};
 pub fn make_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let mut args = args.into_iter();
     let designator = args.next().unwrap_or(Value::NIL);
-    let class = designated_class(machine.image, &designator)?;
-    check_instantiable(machine.image, &class)?;
+    let class = instantiable_class(machine.image, &designator)?;
     let initargs: Vec<Value> = args.collect();
     if !initargs.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
@@ -37,9 +36,16 @@ pub fn designated_class(image: &Image, designator: &Value) -> Result<Rc<Class>, 
             .class(*name)
             .filter(|class| class.is_defined.get())
             .cloned()
-            .ok_or_else(|| no_class(*name)),
+            .ok_or_else(|| no_class(image, *name)),
         other => Err(Raise::type_error(other, Value::Symbol(known::CLASS))),
     }
+}
+
+/// Like [`designated_class`], and instances of the class can be made.
+pub fn instantiable_class(image: &Image, designator: &Value) -> Result<Rc<Class>, Box<Raise>> {
+    let class = designated_class(image, designator)?;
+    check_instantiable(image, &class)?;
+    Ok(class)
 }
 
 fn check_instantiable(image: &Image, class: &Class) -> Result<(), Box<Raise>> {
@@ -292,7 +298,6 @@ pub fn shared_initialize(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, 
 /// `(allocate-instance class …)`: an instance whose slots are unbound.
 pub fn allocate_instance(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let designator = args.first().cloned().unwrap_or(Value::NIL);
-    let class = designated_class(machine.image, &designator)?;
-    check_instantiable(machine.image, &class)?;
+    let class = instantiable_class(machine.image, &designator)?;
     Ok(Step::Return(Value::Instance(Rc::new(Instance::new(class)))))
 }

@@ -126,7 +126,7 @@ pub fn ensure_generic(
         Some(function) if function.as_generic().is_some() => return Ok(function),
         Some(function) => match (&function.body, name.as_symbol()) {
             (Body::Native(native), Some(sym)) if EXTENSIBLE.contains(&sym) => {
-                extended(name, native.min, native.max, function.clone())
+                extended(image, name, native.min, native.max, function.clone())
             }
             _ => return Err(names_ordinary_function(image, name)),
         },
@@ -148,7 +148,13 @@ fn new_generic(name: &Value, parameters: Parameters) -> Rc<Function> {
 }
 
 /// A generic function whose method for everything is a plain function.
-fn extended(name: &Value, min: u16, max: Option<u16>, plain: Rc<Function>) -> Rc<Function> {
+fn extended(
+    image: &Image,
+    name: &Value,
+    min: u16,
+    max: Option<u16>,
+    plain: Rc<Function>,
+) -> Rc<Function> {
     let required = usize::from(min);
     let parameters = match max {
         Some(max) => Parameters {
@@ -157,8 +163,10 @@ fn extended(name: &Value, min: u16, max: Option<u16>, plain: Rc<Function>) -> Rc
         },
         None => Parameters::required_and_rest(required),
     };
+    let anything = image.class(known::T).cloned().map(Specializer::Class);
     let method = Method {
         is_builtin: true,
+        specializers: anything.into_iter().cycle().take(required).collect(),
         ..plain_method(name, parameters.clone(), plain)
     };
     let generic = GenericFunction::new(name.clone(), parameters);
@@ -365,5 +373,5 @@ fn class_named(image: &Image, name: Sym) -> Result<Rc<Class>, Box<Raise>> {
     image
         .class(name)
         .cloned()
-        .ok_or_else(|| super::define::no_class(name))
+        .ok_or_else(|| super::define::no_class(image, name))
 }

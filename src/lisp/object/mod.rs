@@ -6,6 +6,7 @@
 pub mod access;
 pub mod builtin_classes;
 pub mod class_of;
+pub mod combination;
 pub mod combine;
 pub mod defclass;
 pub mod define;
@@ -28,11 +29,7 @@ use super::value::Value;
 
 /// A value as `prin1` prints it, for messages.
 pub(crate) fn text(image: &Image, value: &Value) -> String {
-    match value {
-        Value::Symbol(sym) if image.is_keyword(*sym) => format!(":{}", image.name(*sym)),
-        Value::Symbol(sym) => image.name(*sym).to_owned(),
-        _ => String::from("?"),
-    }
+    super::print::to_string(image, value, true)
 }
 
 /// A function name with the package of its symbol, as the printer shows generic functions.
@@ -64,3 +61,5 @@ pub(crate) fn qualified(image: &Image, name: &Value) -> String {
 
 #[cfg(test)]
 pub(crate) mod testing;
+#[cfg(test)]
+mod tests;

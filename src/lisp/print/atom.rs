@@ -43,7 +43,7 @@ pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String 
                 HashTest::Equal => "EQUAL",
                 HashTest::Equalp => "EQUALP",
             };
-            let count = table.entries.borrow().len();
+            let count = table.len();
             format!(
                 "#<HASH-TABLE :TEST {test} :COUNT {count} {}>",
                 identity(image, value)

@@ -10,6 +10,7 @@ mod calls;
 mod circle;
 mod document;
 mod float;
+pub mod format;
 pub mod identity;
 mod layout;
 mod printer;
@@ -46,4 +47,18 @@ pub fn write(
     calls: &mut Calls,
 ) -> String {
     printer::Printer::new(image, settings, calls).print(value, column)
+}
+
+/// Like [`write`], but a method of `print-object` for the value itself is not heard: what
+/// the method for everything prints.
+pub fn write_default(
+    image: &Image,
+    value: &Value,
+    settings: &Settings,
+    column: usize,
+    calls: &mut Calls,
+) -> String {
+    printer::Printer::new(image, settings, calls)
+        .without_own_method()
+        .print(value, column)
 }

@@ -28,6 +28,8 @@ pub(super) struct Printer<'a> {
     document: Document,
     labels: Labels,
     tasks: Vec<Task>,
+    /// Is the next instance to be printed without its `print-object` method?
+    skips_method: bool,
 }
 
 enum Task {
@@ -90,11 +92,36 @@ impl<'a> Printer<'a> {
             document: Document::new(settings.pretty),
             labels: Labels::default(),
             tasks: Vec::new(),
+            skips_method: false,
+        }
+    }
+
+    /// The value itself is printed as if it had no `print-object` method.
+    pub(super) fn without_own_method(self) -> Printer<'a> {
+        Printer {
+            skips_method: true,
+            ..self
         }
     }
 
     /// The value's text, where the line has already so many characters.
     pub(super) fn print(mut self, value: &Value, column: usize) -> String {
+        self.run(value);
+        if self.settings.pretty {
+            lay_out(self.document, self.settings, column)
+        } else {
+            self.document.into_text()
+        }
+    }
+
+    /// Prints the value as a part of a document.
+    pub(super) fn print_into(mut self, document: &mut Document, value: &Value) {
+        std::mem::swap(document, &mut self.document);
+        self.run(value);
+        std::mem::swap(document, &mut self.document);
+    }
+
+    fn run(&mut self, value: &Value) {
         self.labels = Labels::of(value, self.settings.circle);
         self.tasks.push(Task::Value(value.clone(), Style::Auto, 0));
         while let Some(task) = self.tasks.pop() {
@@ -125,14 +152,10 @@ impl<'a> Printer<'a> {
                 }
             }
         }
-        if self.settings.pretty {
-            lay_out(self.document, self.settings, column)
-        } else {
-            self.document.into_text()
-        }
     }
 
     fn value(&mut self, value: Value, style: Style, depth: usize) {
+        self.skips_method &= matches!(value, Value::Instance(_));
         match self.labels.next(&value) {
             Label::None => {}
             Label::First(number) => self.document.text(&format!("#{number}=")),
@@ -503,7 +526,8 @@ impl<'a> Printer<'a> {
             after: Vec::new(),
             escape: Some(escape),
         };
-        if has_print_method(self.image, instance) {
+        let skips_method = std::mem::take(&mut self.skips_method);
+        if !skips_method && has_print_method(self.image, instance) {
             return self.calls.text(|| call(known::PRINT_OBJECT.into()));
         }
         if escape {

@@ -121,8 +121,8 @@ fn standard(image: &Image, class: Sym, get: &dyn Fn(&str) -> Value) -> Option<St
     })
 }
 
-/// The report of a condition with a format control.
+/// The report of a condition with a format control; the control itself if it is wrong.
 fn simple(image: &Image, control: &str, arguments: &[Value]) -> String {
-    let _ = (image, arguments);
-    control.to_owned()
+    super::format::format_to_string(image, control, arguments)
+        .unwrap_or_else(|_| control.to_owned())
 }

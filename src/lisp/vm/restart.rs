@@ -1,10 +1,12 @@
 //! Restarts: named ways to go on that a condition's handler, or a person, may choose.
 
-use super::fiber::Dynamic;
+use super::fiber::{Dynamic, Frame, FrameKind};
 use super::machine::Machine;
 use crate::lisp::foreign::Foreign;
+use crate::lisp::function::Function;
 use crate::lisp::image::Image;
 use crate::lisp::known;
+use crate::lisp::raise::Raise;
 use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
 
@@ -37,7 +39,100 @@ impl Foreign for Restart {
     }
 }
 
+/// The tag under which a failed operation gets the value that it lacked.
+struct FailedOperation;
+
+impl Foreign for FailedOperation {
+    fn type_symbol(&self) -> Sym {
+        known::CATCH
+    }
+
+    fn print(&self, _: &Image, _: bool) -> String {
+        "#<FAILED-OPERATION>".to_owned()
+    }
+}
+
 impl Machine<'_> {
+    /// Establishes the restarts of an error about an unbound variable or an undefined
+    /// function: they give the value that the failed operation lacks.
+    pub(super) fn offer_restarts(&mut self, raise: &Raise) {
+        let Raise::Make {
+            class, initargs, ..
+        } = raise
+        else {
+            return;
+        };
+        let name = initargs
+            .iter()
+            .find(|(key, _)| *key == known::K_NAME)
+            .and_then(|(_, name)| name.as_symbol());
+        let (
+            Some(name),
+            Some(Frame {
+                kind: FrameKind::Code { pc, .. },
+                ..
+            }),
+        ) = (name, self.fiber.frames.last())
+        else {
+            return;
+        };
+        let is_variable = match *class {
+            known::UNBOUND_VARIABLE => true,
+            known::UNDEFINED_FUNCTION => false,
+            _ => return,
+        };
+        let tag = Value::foreign(FailedOperation);
+        self.fiber.dynamic.push(Dynamic::Catch {
+            tag: tag.clone(),
+            frame: self.fiber.frames.len() - 1,
+            height: self.fiber.stack.len(),
+            target: u32::try_from(*pc).unwrap_or(u32::MAX),
+            multi: false,
+        });
+        let give = move |how: fn(&mut Machine<'_>, Sym, Value)| {
+            let tag = tag.clone();
+            Function::made_control(known::USE_VALUE, (0, Some(1)), move |machine, args| {
+                let value = match args.into_iter().next() {
+                    Some(value) => value,
+                    None => machine.image.special(name).clone(),
+                };
+                if value.is_unbound() {
+                    return Err(Raise::unbound_variable(name));
+                }
+                how(machine, name, value.clone());
+                machine.throw(&tag, value)
+            })
+        };
+        let restart = |name, report: &str, function| {
+            Value::foreign(Restart {
+                name,
+                function: Value::Function(function),
+                report: report.into(),
+                interactive: Value::NIL,
+            })
+        };
+        let shown = self.image.name(name).to_owned();
+        let mut restarts = Vec::new();
+        if is_variable {
+            let report = format!("Retry using {shown}.");
+            restarts.push(restart(known::CONTINUE, &report, give(|_, _, _| {})));
+        }
+        restarts.push(restart(
+            known::USE_VALUE,
+            "Use specified value.",
+            give(|_, _, _| {}),
+        ));
+        if is_variable {
+            restarts.push(restart(
+                known::STORE_VALUE,
+                "Set specified value and use it.",
+                give(|machine, name, value| machine.image.set_special(name, value)),
+            ));
+        }
+        let list = Value::list(restarts);
+        self.fiber.dynamic.push(Dynamic::Restarts(list));
+    }
+
     /// The restarts in force, innermost first.
     pub fn restarts(&self) -> Vec<Value> {
         self.fiber

@@ -37,6 +37,7 @@ impl Machine<'_> {
             Ok(condition) => {
                 let place = if place.is_some() { place } else { self.place() };
                 self.note_place(&condition, place);
+                self.offer_restarts(&raise);
                 match self.signal(condition, Declined::Stop) {
                     Ok(step) => self.take_step(step, false),
                     Err(raise) => self.raise_again(&raise),
@@ -128,7 +129,7 @@ impl Signalling {
         Ok(None)
     }
 
-    fn decline(self: Box<Self>) -> Step {
+    fn decline(self) -> Step {
         match self.declined {
             Declined::Return => Step::Return(Value::NIL),
             Declined::Stop => Step::Unhandled(self.condition),

@@ -93,7 +93,7 @@ fn special_forms_evaluate() {
         ),
         ("(mapcar (lambda (x) (* x x)) '(1 2 3))", "(1 4 9)"),
         ("(sort (list 3 1 2) (lambda (a b) (< a b)))", "(1 2 3)"),
-        ("(handler-case (car 5) (type-error () :type))", "TYPE"),
+        ("(handler-case (car 5) (type-error () :type))", ":TYPE"),
         (
             "(handler-case (error 'simple-error :format-control \"x\") (warning () 1) (error () 2))",
             "2",
@@ -110,9 +110,9 @@ fn special_forms_evaluate() {
         ("(do ((i 0 (1+ i)) (s 0 (+ s i))) ((= i 4) s))", "6"),
         (
             "(dolist (x '(1 2 3) :end) (when (= x 9) (return x)))",
-            "END",
+            ":END",
         ),
-        ("(case 3 (1 :a) ((2 3) :b))", "B"),
+        ("(case 3 (1 :a) ((2 3) :b))", ":B"),
         (
             "(destructuring-bind (a (b c) &key d) '(1 (2 3) :d 4) (list a b c d))",
             "(1 2 3 4)",
@@ -161,11 +161,11 @@ fn special_forms_evaluate() {
 fn a_recursion_without_end_is_a_condition() {
     let got =
         evaluate("(defun f (x) (+ 1 (f x))) (handler-case (f 1) (storage-condition () :deep))");
-    assert_eq!(got, "DEEP");
+    assert_eq!(got, ":DEEP");
 }
 
 #[test]
 fn a_tail_recursion_of_a_hundred_thousand_calls_is_fine() {
     let got = evaluate("(labels ((down (n) (if (= n 0) :done (down (- n 1))))) (down 100000))");
-    assert_eq!(got, "DONE");
+    assert_eq!(got, ":DONE");
 }

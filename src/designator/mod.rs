@@ -1,0 +1,81 @@
+//! Designators: actions, motions, objects and locations described by properties.
+//!
+//! This folder knows their syntax, their types and keys, and how they are resolved; it
+//! moves nothing. A motion becomes a request to whoever runs the plan.
+
+pub mod access;
+pub mod check;
+pub mod failure;
+pub mod ground;
+pub mod names;
+pub mod object;
+pub mod packages;
+pub mod perform;
+pub mod request;
+pub mod schema;
+pub mod syntax;
+pub mod value;
+
+pub use failure::no_process_module;
+pub use request::MotionRequest;
+pub use value::current;
+
+use crate::lisp::class::ClassKind;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::object::define::ClassDefinition;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// Makes the packages, classes, variables, functions and macros.
+pub fn install(image: &mut Image) {
+    packages::install(image);
+    let desig = packages::ensure(image, "CRAM-DESIGNATORS", &["DESIG"]);
+    let root = image.export_symbol(desig, "DESIGNATOR");
+    define_class(image, root, known::T);
+    for class in value::Class::ALL {
+        let name = image.export_symbol(desig, class.class_name());
+        define_class(image, name, root);
+    }
+    let pprint = image.export_symbol(desig, "*DESIGNATOR-PPRINT-DESCRIPTION*");
+    image.define_special(pprint, Value::T);
+    image.install_operators(desig, syntax::OPERATORS);
+    image.install_operators(desig, access::OPERATORS);
+    image.install(desig, access::TABLE);
+    image.install(desig, object::TABLE);
+    let data = image.export_symbol(desig, "OBJECT-DESIGNATOR-DATA");
+    define_class(image, data, known::T);
+    failure::define(image);
+    let executive = packages::ensure(image, "CRAM-EXECUTIVE", &["EXE"]);
+    image.install(executive, perform::TABLE);
+    let names = packages::ensure(image, "ROSLISP-UTILITIES", &[]);
+    image.install(names, names::TABLE);
+}
+
+/// The first value of a property, by the key's name in upper case; `None` if it is absent,
+/// `NIL`, or the value is no designator.
+pub fn property(image: &Image, designator: &Value, key: &str) -> Option<Value> {
+    value::as_designator(designator)?
+        .property_named(image, key)
+        .filter(Value::is_true)
+}
+
+/// Does a designator ask for all things that fit?
+pub fn asks_for_all(_: &Image, designator: &Value) -> bool {
+    value::as_designator(designator).is_some_and(value::Designator::is_all)
+}
+
+fn define_class(image: &mut Image, name: Sym, superclass: Sym) {
+    // The superclass is defined already.
+    let _ = image.define_unchecked(ClassDefinition {
+        name,
+        kind: ClassKind::Builtin,
+        superclasses: vec![superclass],
+        slots: Vec::new(),
+        default_initargs: Vec::new(),
+        doc: None,
+    });
+}
+
+#[cfg(test)]
+mod tests;

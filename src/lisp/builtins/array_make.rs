@@ -1,0 +1,228 @@
+//! Making arrays.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use super::keywords;
+use super::lists::{MAX_LENGTH, size};
+use super::sequence::Kind;
+use super::sequence::{Sequence, checked_element, index, list_items, text_of};
+use super::sequence_access::default_element;
+use super::sequence_types::{upgraded, vector_kind};
+use crate::lisp::array::{Array, Vector};
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::string::LispString;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// The largest rank of an array.
+const MAX_RANK: usize = 128;
+
+/// Keyword arguments of `make-array` and `adjust-array`.
+pub struct Options {
+    /// The value of all elements.
+    pub element: Option<Value>,
+    /// Nested sequences of the elements.
+    pub contents: Option<Value>,
+    /// The type of the elements, as it is stored.
+    pub element_type: Sym,
+    /// May the array be adjusted?
+    pub adjustable: bool,
+    fill_pointer: Option<Value>,
+}
+
+impl Options {
+    /// From keyword arguments.
+    pub fn parse(image: &Image, args: &[Value]) -> Result<Options, Box<Raise>> {
+        let [
+            element,
+            contents,
+            element_type,
+            fill_pointer,
+            adjustable,
+            displaced_to,
+            _,
+        ] = keywords::parse(
+            image,
+            args,
+            [
+                known::K_INITIAL_ELEMENT,
+                known::K_INITIAL_CONTENTS,
+                known::K_ELEMENT_TYPE,
+                known::K_FILL_POINTER,
+                known::K_ADJUSTABLE,
+                known::K_DISPLACED_TO,
+                known::K_DISPLACED_INDEX_OFFSET,
+            ],
+        )?;
+        if displaced_to.is_some_and(|v| v.is_true()) {
+            return Err(Raise::simple(
+                "Displaced arrays are not available; copy the part with SUBSEQ or REPLACE.",
+            ));
+        }
+        if element.is_some() && contents.is_some() {
+            return Err(Raise::simple(
+                "Only one of :INITIAL-ELEMENT and :INITIAL-CONTENTS can be given.",
+            ));
+        }
+        Ok(Options {
+            element,
+            contents,
+            element_type: upgraded(image, &element_type.unwrap_or(Value::T)),
+            adjustable: adjustable.is_some_and(|v| v.is_true()),
+            fill_pointer,
+        })
+    }
+
+    /// The fill pointer of a vector of a size, if it is to have one.
+    pub fn fill_pointer(&self, size: usize) -> Result<Option<usize>, Box<Raise>> {
+        match &self.fill_pointer {
+            None | Some(Value::Symbol(known::NIL)) => Ok(None),
+            Some(Value::Symbol(known::T)) => Ok(Some(size)),
+            Some(value) => {
+                let pointer = index(value)?;
+                if pointer > size {
+                    return Err(Raise::simple(format!(
+                        "The fill pointer {pointer} is beyond the vector's size {size}."
+                    )));
+                }
+                Ok(Some(pointer))
+            }
+        }
+    }
+}
+
+/// The dimensions that an argument says: an integer or a list of integers.
+pub fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
+    let shape: Vec<usize> = if value.is_list() {
+        list_items(value)?
+            .iter()
+            .map(size)
+            .collect::<Result<_, _>>()?
+    } else {
+        vec![size(value)?]
+    };
+    let total = shape
+        .iter()
+        .try_fold(1_usize, |total, size| total.checked_mul(*size));
+    if total.is_none_or(|total| total > MAX_LENGTH) {
+        return Err(Raise::new(
+            known::HEAP_EXHAUSTED_ERROR,
+            "An array of that size does not fit in memory.",
+        ));
+    }
+    if shape.len() > MAX_RANK {
+        return Err(Raise::simple(format!(
+            "An array has at most {MAX_RANK} dimensions."
+        )));
+    }
+    Ok(shape)
+}
+
+/// The elements of nested sequences in row-major order; the shape must fit.
+pub fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Raise>> {
+    let mut level = vec![contents.clone()];
+    for size in shape {
+        let mut next = Vec::new();
+        for part in level {
+            let items = Sequence::of(&part)?.all()?;
+            if items.len() != *size {
+                return Err(Raise::simple(format!(
+                    "There are {} elements in the :INITIAL-CONTENTS, but the dimension is {size}.",
+                    items.len()
+                )));
+            }
+            next.extend(items);
+        }
+        level = next;
+    }
+    Ok(level)
+}
+
+/// What elements hold that nothing was said about.
+pub fn filler(element_type: Sym) -> Value {
+    match element_type {
+        known::CHARACTER => default_element(Kind::Str),
+        other => default_element(Kind::Vector(other)),
+    }
+}
+
+/// A vector or string of items.
+pub fn vector(
+    element_type: Sym,
+    items: Vec<Value>,
+    fill_pointer: Option<usize>,
+    adjustable: bool,
+) -> Outcome {
+    if element_type == known::CHARACTER {
+        let text = text_of(&items)?;
+        let Some(count) = fill_pointer else {
+            let string = LispString::new(text);
+            string.adjustable.set(adjustable);
+            return Ok(Value::Str(Rc::new(string)));
+        };
+        let string = LispString::with_fill_pointer(text, items.len(), adjustable);
+        string.set_fill_pointer(count);
+        return Ok(Value::Str(Rc::new(string)));
+    }
+    Ok(Value::Vector(Rc::new(Vector {
+        items: RefCell::new(items),
+        fill_pointer: Cell::new(fill_pointer),
+        adjustable,
+        element_type,
+    })))
+}
+
+fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
+    let shape = shape(&args[0])?;
+    let options = Options::parse(image, &args[1..])?;
+    let total: usize = shape.iter().product();
+    let of_type = options.element_type;
+    let items = match &options.contents {
+        Some(contents) => {
+            let items = flatten(contents, &shape)?;
+            for item in &items {
+                checked_element(of_type, item.clone())?;
+            }
+            items
+        }
+        None => {
+            let element = options.element.clone().unwrap_or_else(|| filler(of_type));
+            vec![checked_element(of_type, element)?; total]
+        }
+    };
+    if shape.len() == 1 {
+        let pointer = options.fill_pointer(total)?;
+        return vector(of_type, items, pointer, options.adjustable);
+    }
+    if options.fill_pointer.as_ref().is_some_and(Value::is_true) {
+        return Err(Raise::simple("Only vectors can have fill pointers."));
+    }
+    Ok(Value::Array(Rc::new(Array {
+        dimensions: shape,
+        items: RefCell::new(items),
+        element_type: of_type,
+    })))
+}
+
+/// A vector of the kind that fits an element type, for callers in Rust.
+pub fn vector_of(image: &Image, element_type: &Value, items: Vec<Value>) -> Outcome {
+    vector_kind(image, element_type).make(items)
+}
+
+/// Making arrays.
+pub static TABLE: &[Builtin] = &[pure(
+    "MAKE-ARRAY",
+    "dimensions &key element-type initial-element initial-contents adjustable fill-pointer",
+    "An array; the dimensions are a list of sizes, or one size for a vector.",
+    &[
+        "(make-array 3 :initial-element 'x) => #(X X X)",
+        "(make-array '(2 2) :initial-contents '((1 2) (3 4))) => #2A((1 2) (3 4))",
+    ],
+    make_array,
+)];

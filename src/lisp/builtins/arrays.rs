@@ -1,0 +1,525 @@
+//! Arrays of any rank: access, shape, adjustment.
+
+use std::rc::Rc;
+
+use super::array_index;
+use super::array_make;
+use super::sequence::{checked_element, index};
+use crate::lisp::array::Array;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// Sizes of an array's dimensions; a fill pointer does not count.
+pub fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
+    match array {
+        Value::Vector(v) => Ok(vec![v.items.borrow().len()]),
+        Value::Str(s) => Ok(vec![s.capacity()]),
+        Value::Array(a) => Ok(a.dimensions.clone()),
+        _ => Err(Raise::type_error(array, known::ARRAY)),
+    }
+}
+
+/// The element type that an array has.
+pub fn element_type(array: &Value) -> Result<Sym, Box<Raise>> {
+    match array {
+        Value::Vector(v) => Ok(v.element_type),
+        Value::Str(_) => Ok(known::CHARACTER),
+        Value::Array(a) => Ok(a.element_type),
+        _ => Err(Raise::type_error(array, known::ARRAY)),
+    }
+}
+
+/// Index in row-major order of the element with these subscripts.
+fn row_major_index(array: &Value, subscripts: &[Value]) -> Result<usize, Box<Raise>> {
+    if let ([subscript], Value::Vector(v)) = (subscripts, array) {
+        let size = v.items.borrow().len();
+        return match subscript {
+            Value::Int(n) if usize::try_from(*n).is_ok_and(|n| n < size) => index(subscript),
+            _ => Err(array_index::invalid(array, subscript, size)),
+        };
+    }
+    let dimensions = dimensions(array)?;
+    if dimensions.len() != subscripts.len() {
+        return Err(Raise::program(format!(
+            "Wrong number of subscripts, {}, for an array of rank {}.",
+            subscripts.len(),
+            dimensions.len()
+        )));
+    }
+    let mut at = 0;
+    for (axis, (subscript, size)) in subscripts.iter().zip(&dimensions).enumerate() {
+        let i = match subscript {
+            Value::Int(n) => usize::try_from(*n).ok().filter(|i| i < size),
+            _ => None,
+        };
+        let Some(i) = i else {
+            let axis = (dimensions.len() > 1).then_some(axis);
+            return Err(array_index::invalid_on_axis(array, subscript, axis, *size));
+        };
+        at = at * size + i;
+    }
+    Ok(at)
+}
+
+/// The element at an index in row-major order.
+fn row_major(array: &Value, at: usize) -> Option<Value> {
+    match array {
+        Value::Vector(v) => v.get(at),
+        Value::Str(s) => s.char_at(at).map(Value::Char),
+        Value::Array(a) => a.items.borrow().get(at).cloned(),
+        _ => None,
+    }
+}
+
+fn set_row_major(array: &Value, at: usize, value: &Value) -> Outcome {
+    let value = checked_element(element_type(array)?, value.clone())?;
+    let done = match (array, &value) {
+        (Value::Vector(v), _) => v.set(at, value.clone()),
+        (Value::Str(s), Value::Char(c)) => s.set_char(at, *c),
+        (Value::Array(a), _) => match a.items.borrow_mut().get_mut(at) {
+            Some(place) => {
+                *place = value.clone();
+                true
+            }
+            None => false,
+        },
+        _ => false,
+    };
+    if done {
+        Ok(value)
+    } else {
+        Err(array_index::invalid(array, &at.into(), total_size(array)?))
+    }
+}
+
+fn total_size(array: &Value) -> Result<usize, Box<Raise>> {
+    Ok(dimensions(array)?.iter().product())
+}
+
+fn aref(_: &mut Image, args: &[Value]) -> Outcome {
+    let at = row_major_index(&args[0], &args[1..])?;
+    match row_major(&args[0], at) {
+        Some(value) => Ok(value),
+        None => Err(array_index::invalid(
+            &args[0],
+            &at.into(),
+            total_size(&args[0])?,
+        )),
+    }
+}
+
+fn set_aref(_: &mut Image, args: &[Value]) -> Outcome {
+    let at = row_major_index(&args[1], &args[2..])?;
+    set_row_major(&args[1], at, &args[0])
+}
+
+fn svref(image: &mut Image, args: &[Value]) -> Outcome {
+    if is_simple_vector(&args[0]) {
+        aref(image, args)
+    } else {
+        Err(Raise::type_error(&args[0], known::SIMPLE_VECTOR))
+    }
+}
+
+fn set_svref(image: &mut Image, args: &[Value]) -> Outcome {
+    if is_simple_vector(&args[1]) {
+        set_aref(image, args)
+    } else {
+        Err(Raise::type_error(&args[1], known::SIMPLE_VECTOR))
+    }
+}
+
+fn bit(image: &mut Image, args: &[Value]) -> Outcome {
+    if element_type(&args[0])? == known::BIT {
+        aref(image, args)
+    } else {
+        Err(Raise::type_error(&args[0], bit_array_type()))
+    }
+}
+
+fn set_bit(image: &mut Image, args: &[Value]) -> Outcome {
+    if element_type(&args[1])? == known::BIT {
+        set_aref(image, args)
+    } else {
+        Err(Raise::type_error(&args[1], bit_array_type()))
+    }
+}
+
+/// `(array bit)`.
+pub fn bit_array_type() -> Value {
+    Value::list([known::ARRAY.into(), known::BIT.into()])
+}
+
+fn row_major_aref(_: &mut Image, args: &[Value]) -> Outcome {
+    match row_major(&args[0], index(&args[1])?) {
+        Some(value) => Ok(value),
+        None => Err(array_index::invalid(
+            &args[0],
+            &args[1],
+            total_size(&args[0])?,
+        )),
+    }
+}
+
+fn set_row_major_aref(_: &mut Image, args: &[Value]) -> Outcome {
+    set_row_major(&args[1], index(&args[2])?, &args[0])
+}
+
+fn array_row_major_index(_: &mut Image, args: &[Value]) -> Outcome {
+    row_major_index(&args[0], &args[1..]).map(Value::from)
+}
+
+fn array_rank(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(dimensions(&args[0])?.len().into())
+}
+
+fn array_dimensions(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::list(
+        dimensions(&args[0])?.into_iter().map(Value::from),
+    ))
+}
+
+fn array_dimension(_: &mut Image, args: &[Value]) -> Outcome {
+    let dimensions = dimensions(&args[0])?;
+    match dimensions.get(index(&args[1])?) {
+        Some(size) => Ok((*size).into()),
+        None => Err(Raise::simple(format!(
+            "Axis {} is too large; the array has rank {}.",
+            index(&args[1])?,
+            dimensions.len()
+        ))),
+    }
+}
+
+fn array_total_size(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(total_size(&args[0])?.into())
+}
+
+fn array_in_bounds_p(_: &mut Image, args: &[Value]) -> Outcome {
+    let dimensions = dimensions(&args[0])?;
+    if dimensions.len() != args.len() - 1 {
+        // The wrong number of subscripts is an error, not out of bounds.
+        row_major_index(&args[0], &args[1..])?;
+    }
+    let inside = args[1..].iter().zip(dimensions).all(|(i, size)| match i {
+        Value::Int(n) => usize::try_from(*n).is_ok_and(|n| n < size),
+        _ => false,
+    });
+    Ok(Value::bool(inside))
+}
+
+fn array_element_type(_: &mut Image, args: &[Value]) -> Outcome {
+    element_type(&args[0]).map(Value::Symbol)
+}
+
+fn is_adjustable(array: &Value) -> bool {
+    match array {
+        Value::Vector(v) => v.adjustable || v.fill_pointer.get().is_some(),
+        Value::Str(s) => s.has_fill_pointer.get() || s.adjustable.get(),
+        _ => false,
+    }
+}
+
+fn adjustable_array_p(_: &mut Image, args: &[Value]) -> Outcome {
+    element_type(&args[0])?;
+    Ok(Value::bool(is_adjustable(&args[0])))
+}
+
+fn array_displacement(_: &mut Image, args: &[Value]) -> Outcome {
+    element_type(&args[0])?;
+    Ok(Value::values(vec![Value::NIL, Value::Int(0)]))
+}
+
+fn arrayp(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(dimensions(&args[0]).is_ok()))
+}
+
+fn vectorp(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(matches!(
+        args[0],
+        Value::Vector(_) | Value::Str(_)
+    )))
+}
+
+/// Is this a vector without fill pointer that holds anything?
+fn is_simple_vector(value: &Value) -> bool {
+    matches!(value, Value::Vector(v) if v.element_type == known::T) && !is_adjustable(value)
+}
+
+fn simple_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(is_simple_vector(&args[0])))
+}
+
+fn is_bit_vector(value: &Value) -> bool {
+    matches!(value, Value::Vector(v) if v.element_type == known::BIT)
+}
+
+fn bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(is_bit_vector(&args[0])))
+}
+
+fn simple_bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(
+        is_bit_vector(&args[0]) && !is_adjustable(&args[0]),
+    ))
+}
+
+fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
+    let shape = array_make::shape(&args[1])?;
+    let options = array_make::Options::parse(image, &args[2..])?;
+    let old_shape = dimensions(&args[0])?;
+    if old_shape.len() != shape.len() {
+        return Err(Raise::simple(format!(
+            "An array of rank {} cannot be given rank {}.",
+            old_shape.len(),
+            shape.len()
+        )));
+    }
+    let of_type = element_type(&args[0])?;
+    let items = match &options.contents {
+        Some(contents) => array_make::flatten(contents, &shape)?,
+        None => {
+            let filler = options
+                .element
+                .clone()
+                .unwrap_or_else(|| array_make::filler(of_type));
+            kept_items(&args[0], &old_shape, &shape, filler)
+        }
+    };
+    for item in &items {
+        checked_element(of_type, item.clone())?;
+    }
+    match &args[0] {
+        Value::Vector(v) if is_adjustable(&args[0]) => {
+            let count = items.len();
+            *v.items.borrow_mut() = items;
+            if let Some(old) = v.fill_pointer.get() {
+                let pointer = options.fill_pointer(count)?.unwrap_or(old.min(count));
+                v.fill_pointer.set(Some(pointer));
+            }
+            Ok(args[0].clone())
+        }
+        Value::Array(a) => Ok(Value::Array(Rc::new(Array {
+            dimensions: shape,
+            items: std::cell::RefCell::new(items),
+            element_type: a.element_type,
+        }))),
+        _ => {
+            let pointer = options.fill_pointer(items.len())?;
+            array_make::vector(of_type, items, pointer, options.adjustable)
+        }
+    }
+}
+
+/// The elements of an array in a new shape; places that the old one lacks get a filler.
+fn kept_items(array: &Value, old: &[usize], new: &[usize], filler: Value) -> Vec<Value> {
+    let total: usize = new.iter().product();
+    let mut items = Vec::with_capacity(total);
+    let mut subscripts = vec![0_usize; new.len()];
+    for _ in 0..total {
+        let inside = subscripts.iter().zip(old).all(|(i, size)| i < size);
+        let at = subscripts
+            .iter()
+            .zip(old)
+            .fold(0, |at, (i, size)| at * size + i);
+        let item = if inside { row_major(array, at) } else { None };
+        items.push(item.unwrap_or_else(|| filler.clone()));
+        for (i, size) in subscripts.iter_mut().zip(new).rev() {
+            *i += 1;
+            if *i < *size {
+                break;
+            }
+            *i = 0;
+        }
+    }
+    items
+}
+
+/// Arrays.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "AREF",
+        "array &rest subscripts",
+        "The element of an array at subscripts from 0.",
+        &["(aref #(1 2 3) 2) => 3", "(aref #2A((1 2) (3 4)) 1 0) => 3"],
+        aref,
+    ),
+    pure(
+        "SVREF",
+        "vector index",
+        "The element of a simple vector.",
+        &["(svref #(1 2 3) 1) => 2"],
+        svref,
+    ),
+    pure(
+        "BIT",
+        "array &rest subscripts",
+        "The element of a bit array.",
+        &["(bit #*1010 0) => 1"],
+        bit,
+    ),
+    pure(
+        "SBIT",
+        "array &rest subscripts",
+        "The element of a bit array.",
+        &["(sbit #*1010 1) => 0"],
+        bit,
+    ),
+    pure(
+        "ROW-MAJOR-AREF",
+        "array index",
+        "The element of an array seen as a vector.",
+        &["(row-major-aref #2A((1 2) (3 4)) 2) => 3"],
+        row_major_aref,
+    ),
+    pure(
+        "ARRAY-ROW-MAJOR-INDEX",
+        "array &rest subscripts",
+        "The index of an element of an array seen as a vector.",
+        &["(array-row-major-index #2A((1 2) (3 4)) 1 0) => 2"],
+        array_row_major_index,
+    ),
+    pure(
+        "ARRAY-RANK",
+        "array",
+        "The number of dimensions.",
+        &["(array-rank #2A((1))) => 2"],
+        array_rank,
+    ),
+    pure(
+        "ARRAY-DIMENSIONS",
+        "array",
+        "The sizes of all dimensions.",
+        &["(array-dimensions #2A((1 2 3))) => (1 3)"],
+        array_dimensions,
+    ),
+    pure(
+        "ARRAY-DIMENSION",
+        "array axis",
+        "The size of a dimension.",
+        &["(array-dimension #(1 2) 0) => 2"],
+        array_dimension,
+    ),
+    pure(
+        "ARRAY-TOTAL-SIZE",
+        "array",
+        "The number of elements.",
+        &["(array-total-size #2A((1 2) (3 4))) => 4"],
+        array_total_size,
+    ),
+    pure(
+        "ARRAY-IN-BOUNDS-P",
+        "array &rest subscripts",
+        "Is there an element at these subscripts?",
+        &["(array-in-bounds-p #(1 2 3) 3) => NIL"],
+        array_in_bounds_p,
+    ),
+    pure(
+        "ARRAY-ELEMENT-TYPE",
+        "array",
+        "The type of the elements.",
+        &["(array-element-type \"a\") => CHARACTER"],
+        array_element_type,
+    ),
+    pure(
+        "ADJUSTABLE-ARRAY-P",
+        "array",
+        "Can the array be adjusted in place?",
+        &["(adjustable-array-p #(1)) => NIL"],
+        adjustable_array_p,
+    ),
+    pure(
+        "ARRAY-DISPLACEMENT",
+        "array",
+        "The array that an array shares its elements with (there is none), and the offset.",
+        &["(array-displacement #(1)) => NIL ; 0"],
+        array_displacement,
+    ),
+    pure(
+        "ADJUST-ARRAY",
+        "array dimensions &key initial-element initial-contents fill-pointer element-type",
+        "An array of another size with the same elements; an adjustable vector is changed itself.",
+        &["(adjust-array (make-array 2 :initial-element 1) 3 :initial-element 0) => #(1 1 0)"],
+        adjust_array,
+    ),
+    pure(
+        "ARRAYP",
+        "object",
+        "Is the object an array?",
+        &["(arrayp \"a\") => T"],
+        arrayp,
+    ),
+    pure(
+        "VECTORP",
+        "object",
+        "Is the object a vector?",
+        &["(vectorp #2A((1))) => NIL"],
+        vectorp,
+    ),
+    pure(
+        "SIMPLE-VECTOR-P",
+        "object",
+        "Is the object a simple vector?",
+        &["(simple-vector-p #(1)) => T"],
+        simple_vector_p,
+    ),
+    pure(
+        "BIT-VECTOR-P",
+        "object",
+        "Is the object a bit vector?",
+        &["(bit-vector-p #*1) => T"],
+        bit_vector_p,
+    ),
+    pure(
+        "SIMPLE-BIT-VECTOR-P",
+        "object",
+        "Is the object a simple bit vector?",
+        &["(simple-bit-vector-p #*1) => T"],
+        simple_bit_vector_p,
+    ),
+];
+
+/// Places for `setf`; the new value is the first argument.
+pub static SETTERS: &[Builtin] = &[
+    pure(
+        "AREF",
+        "value array &rest subscripts",
+        "Replaces an element.",
+        &[],
+        set_aref,
+    ),
+    pure(
+        "SVREF",
+        "value vector index",
+        "Replaces an element.",
+        &[],
+        set_svref,
+    ),
+    pure(
+        "BIT",
+        "value array &rest subscripts",
+        "Replaces an element.",
+        &[],
+        set_bit,
+    ),
+    pure(
+        "SBIT",
+        "value array &rest subscripts",
+        "Replaces an element.",
+        &[],
+        set_bit,
+    ),
+    pure(
+        "ROW-MAJOR-AREF",
+        "value array index",
+        "Replaces an element.",
+        &[],
+        set_row_major_aref,
+    ),
+];

@@ -1,0 +1,106 @@
+//! Bit arrays: the logical operations on all bits.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use super::array_make;
+use super::arrays::{bit_array_type, dimensions, element_type};
+use crate::lisp::array::Array;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+fn bits(array: &Value) -> Result<Vec<bool>, Box<Raise>> {
+    let to_bits = |items: &[Value]| -> Vec<bool> {
+        items.iter().map(|v| matches!(v, Value::Int(1))).collect()
+    };
+    if element_type(array)? != known::BIT {
+        return Err(Raise::type_error(array, bit_array_type()));
+    }
+    Ok(match array {
+        Value::Vector(v) => to_bits(&v.to_vec()),
+        Value::Array(a) => to_bits(&a.items.borrow()),
+        _ => Vec::new(),
+    })
+}
+
+/// Puts the bits where the optional result argument says: `NIL` makes an array, `T`
+/// changes the first operand.
+fn deliver(operand: &Value, result: Option<&Value>, bits: &[bool]) -> Outcome {
+    let items: Vec<Value> = bits.iter().map(|b| Value::Int(i64::from(*b))).collect();
+    let target = match result {
+        None | Some(Value::Symbol(known::NIL)) => {
+            if let Value::Array(a) = operand {
+                return Ok(Value::Array(Rc::new(Array {
+                    dimensions: a.dimensions.clone(),
+                    items: RefCell::new(items),
+                    element_type: known::BIT,
+                })));
+            }
+            return array_make::vector(known::BIT, items, None, false);
+        }
+        Some(Value::Symbol(known::T)) => operand,
+        Some(target) => target,
+    };
+    self::bits(target)?;
+    same_shape(operand, target)?;
+    let places = match target {
+        Value::Vector(v) => &v.items,
+        Value::Array(a) => &a.items,
+        other => return Err(Raise::type_error(other, bit_array_type())),
+    };
+    for (place, item) in places.borrow_mut().iter_mut().zip(items) {
+        *place = item;
+    }
+    Ok(target.clone())
+}
+
+fn same_shape(a: &Value, b: &Value) -> Result<(), Box<Raise>> {
+    if dimensions(a)? == dimensions(b)? {
+        Ok(())
+    } else {
+        Err(Raise::simple("The bit arrays have different dimensions."))
+    }
+}
+
+fn combine(args: &[Value], operation: impl Fn(bool, bool) -> bool) -> Outcome {
+    let (a, b) = (bits(&args[0])?, bits(&args[1])?);
+    same_shape(&args[0], &args[1])?;
+    let result: Vec<bool> = a.into_iter().zip(b).map(|(a, b)| operation(a, b)).collect();
+    deliver(&args[0], args.get(2), &result)
+}
+
+fn bit_not(_: &mut Image, args: &[Value]) -> Outcome {
+    let result: Vec<bool> = bits(&args[0])?.into_iter().map(|b| !b).collect();
+    deliver(&args[0], args.get(1), &result)
+}
+
+macro_rules! operations {
+    ($($function:ident $name:literal |$a:ident, $b:ident| $result:expr, $doc:literal $example:literal;)*) => {
+        $(fn $function(_: &mut Image, args: &[Value]) -> Outcome {
+            combine(args, |$a, $b| $result)
+        })*
+        /// Logical operations on bit arrays.
+        pub static TABLE: &[Builtin] = &[
+            pure("BIT-NOT", "bits &optional result", "The inverse of all bits.", &["(bit-not #*1100) => #*0011"], bit_not),
+            $(pure($name, "bits-1 bits-2 &optional result", $doc, &[$example], $function),)*
+        ];
+    };
+}
+
+operations! {
+    bit_and "BIT-AND" |a, b| a & b, "Bits that are set in both." "(bit-and #*1100 #*1010) => #*1000";
+    bit_ior "BIT-IOR" |a, b| a | b, "Bits that are set in one or both." "(bit-ior #*1100 #*1010) => #*1110";
+    bit_xor "BIT-XOR" |a, b| a ^ b, "Bits that are set in exactly one." "(bit-xor #*1100 #*1010) => #*0110";
+    bit_eqv "BIT-EQV" |a, b| a == b, "Bits that are the same in both." "(bit-eqv #*1100 #*1010) => #*1001";
+    bit_nand "BIT-NAND" |a, b| !(a & b), "The inverse of `bit-and`." "(bit-nand #*1100 #*1010) => #*0111";
+    bit_nor "BIT-NOR" |a, b| !(a | b), "The inverse of `bit-ior`." "(bit-nor #*1100 #*1010) => #*0001";
+    bit_andc1 "BIT-ANDC1" |a, b| !a & b, "Bits that are set in the second only." "(bit-andc1 #*1100 #*1010) => #*0010";
+    bit_andc2 "BIT-ANDC2" |a, b| a & !b, "Bits that are set in the first only." "(bit-andc2 #*1100 #*1010) => #*0100";
+    bit_orc1 "BIT-ORC1" |a, b| !a | b, "Bits that are clear in the first or set in the second." "(bit-orc1 #*1100 #*1010) => #*1011";
+    bit_orc2 "BIT-ORC2" |a, b| a | !b, "Bits that are set in the first or clear in the second." "(bit-orc2 #*1100 #*1010) => #*1101";
+}

@@ -1,0 +1,109 @@
+//! `documentation`: the texts that definitions carry.
+
+use std::rc::Rc;
+
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::function::{Body, Function};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::object::method::{MethodObject, named_function};
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::{FunctionCell, Sym};
+use crate::lisp::value::Value;
+
+/// The builtins.
+pub static TABLE: &[Builtin] = &[pure(
+    "DOCUMENTATION",
+    "object doc-type",
+    "The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a function, class or method.",
+    &[
+        "(progn (defun twice (x) \"Doubles.\" (* 2 x)) (documentation 'twice 'function)) => \"Doubles.\"",
+        "(progn (defparameter *speed* 1 \"In m/s.\") (documentation '*speed* 'variable)) => \"In m/s.\"",
+    ],
+    documentation,
+)];
+
+/// What `setf` of the functions here calls: the new value comes first.
+pub static SETTERS: &[Builtin] = &[pure(
+    "DOCUMENTATION",
+    "text object doc-type",
+    "Gives a name a documentation.",
+    &[],
+    set_documentation,
+)];
+
+fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    let kind = args[1].as_symbol();
+    let text = match (&args[0], kind) {
+        (Value::Symbol(name), Some(known::VARIABLE)) => image.symbol(*name).variable_doc.clone(),
+        (Value::Symbol(name), Some(known::TYPE | known::STRUCTURE)) => {
+            image.class(*name).and_then(|c| c.doc.borrow().clone())
+        }
+        (Value::Symbol(name), Some(known::FUNCTION | known::SETF)) => of_name(image, *name),
+        (Value::Cons(_), Some(known::FUNCTION)) => {
+            named_function(image, &args[0]).and_then(|f| of_function(image, &f))
+        }
+        (Value::Function(function), _) => of_function(image, function),
+        (Value::Class(class), _) => class.doc.borrow().clone(),
+        (other, _) => other
+            .as_foreign::<MethodObject>()
+            .and_then(|method| method.0.doc.clone()),
+    };
+    Ok(text.map_or(Value::NIL, |text| Value::string(text.as_ref())))
+}
+
+/// The documentation of what a name means as a function.
+fn of_name(image: &Image, name: Sym) -> Option<Rc<str>> {
+    let given = image.symbol(name).plist.iter_list().collect::<Vec<_>>();
+    let given = given
+        .chunks_exact(2)
+        .find(|pair| pair[0].as_symbol() == Some(known::FUNCTION_DOCUMENTATION))
+        .and_then(|pair| pair[1].as_text());
+    if let Some(text) = given {
+        return Some(text.into());
+    }
+    match &image.symbol(name).function {
+        FunctionCell::Function(function) | FunctionCell::Macro(function) => {
+            of_function(image, function)
+        }
+        FunctionCell::Builtin => image.operators.get(&name).map(|o| o.doc.into()),
+        FunctionCell::Unbound => None,
+    }
+}
+
+fn of_function(image: &Image, function: &Rc<Function>) -> Option<Rc<str>> {
+    match &function.body {
+        Body::Closure { code, .. } => code.doc.clone(),
+        Body::Generic(generic) => generic.doc.borrow().clone(),
+        Body::Native(native) => image.builtins.get(&native.name).map(|b| b.doc.into()),
+    }
+}
+
+fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    let text: Option<Rc<str>> = args[0].as_text().map(Into::into);
+    match (&args[1], args[2].as_symbol()) {
+        (Value::Symbol(name), Some(known::VARIABLE)) => {
+            image.symbols.get_mut(*name).variable_doc = text;
+        }
+        (Value::Symbol(name), Some(known::TYPE | known::STRUCTURE)) => {
+            if let Some(class) = image.class(*name) {
+                *class.doc.borrow_mut() = text;
+            }
+        }
+        (Value::Symbol(name), _) => {
+            let data = image.symbols.get_mut(*name);
+            data.plist = Value::list_with_tail(
+                [known::FUNCTION_DOCUMENTATION.into(), args[0].clone()],
+                data.plist.clone(),
+            );
+        }
+        (Value::Class(class), _) => *class.doc.borrow_mut() = text,
+        (Value::Function(function), _) => {
+            if let Some(generic) = function.as_generic() {
+                *generic.doc.borrow_mut() = text;
+            }
+        }
+        _ => {}
+    }
+    Ok(args[0].clone())
+}

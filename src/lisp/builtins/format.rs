@@ -1,0 +1,166 @@
+//! `format` and `formatter`.
+
+use super::composing::compose;
+use crate::lisp::builtin::{Builtin, Operator, control};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print::format::Control;
+use crate::lisp::raise::Raise;
+use crate::lisp::stream;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+
+/// Builtins of package `COMMON-LISP`.
+pub static TABLE: &[Builtin] = &[control(
+    "FORMAT",
+    "destination control &rest arguments",
+    "Writes the arguments as the control string says: to a string that it returns (NIL), to standard output (T), to a stream, or to the end of a string with a fill pointer.",
+    &[
+        "(format nil \"~a and ~s\" \"x\" \"x\") => \"x and \\\"x\\\"\"",
+        "(format nil \"~{~a~^, ~}\" '(1 2 3)) => \"1, 2, 3\"",
+        "(format nil \"~,2f ~5d ~r\" 3.14159 42 42) => \"3.14    42 forty-two\"",
+    ],
+    format,
+)];
+
+/// Macros of package `COMMON-LISP`.
+pub static OPERATORS: &[Operator] = &[Operator {
+    name: "FORMATTER",
+    lambda_list: "control",
+    doc: "A function that writes its arguments to a stream as the control string says.",
+    examples: &["(format nil (formatter \"~a-~a\") 1 2) => \"1-2\""],
+    expand: Some(expand_formatter),
+}];
+
+/// Where the text goes.
+enum Destination {
+    /// Into a string that is returned.
+    Result,
+    /// To the stream of a designator.
+    Stream(Value),
+    /// To the end of a string with a fill pointer.
+    String(Value),
+}
+
+fn destination(value: &Value) -> Result<Destination, Box<Raise>> {
+    match value {
+        Value::Symbol(known::NIL) => Ok(Destination::Result),
+        Value::Symbol(known::T) => Ok(Destination::Stream(Value::NIL)),
+        Value::Stream(_) => Ok(Destination::Stream(value.clone())),
+        Value::Str(string) if string.has_fill_pointer.get() => {
+            Ok(Destination::String(value.clone()))
+        }
+        other => Err(Raise::type_error(
+            other,
+            Value::list([
+                known::OR.into(),
+                known::NULL.into(),
+                Value::list([known::MEMBER.into(), Value::T]),
+                known::STREAM.into(),
+                known::STRING.into(),
+            ]),
+        )),
+    }
+}
+
+impl Destination {
+    fn column(&self, image: &Image) -> Result<usize, Box<Raise>> {
+        match self {
+            Destination::Stream(target) => Ok(stream::column(image, target)?.unwrap_or(0)),
+            Destination::Result | Destination::String(_) => Ok(0),
+        }
+    }
+
+    fn take(self, image: &mut Image, text: String) -> Result<Value, Box<Raise>> {
+        match self {
+            Destination::Result => return Ok(Value::string(text)),
+            Destination::Stream(target) => stream::write(image, &target, &text)?,
+            Destination::String(target) => {
+                if let Value::Str(string) = &target {
+                    text.chars().for_each(|c| string.push(c));
+                }
+            }
+        }
+        Ok(Value::NIL)
+    }
+}
+
+fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let destination = destination(&args[0])?;
+    match &args[1] {
+        Value::Str(control) => {
+            let control = Control::parse(&control.borrow())?;
+            let column = destination.column(machine.image)?;
+            compose(
+                machine,
+                "FORMAT",
+                move |image, calls| control.run(image, args.get(2..).unwrap_or(&[]), column, calls),
+                move |machine, text| destination.take(machine.image, text).map(Step::Return),
+            )
+        }
+        function @ Value::Function(_) => {
+            let target = std::rc::Rc::new(stream::Stream::to_text());
+            let mut call = vec![Value::Stream(target.clone())];
+            call.extend(args.iter().skip(2).cloned());
+            Ok(Step::Call {
+                function: function.clone(),
+                args: call,
+                then: Box::new(ByFunction {
+                    target,
+                    destination,
+                }),
+            })
+        }
+        other => Err(Raise::type_error(
+            other,
+            Value::list([
+                known::OR.into(),
+                known::STRING.into(),
+                known::FUNCTION.into(),
+            ]),
+        )),
+    }
+}
+
+/// After the call of a function in place of a control string.
+struct ByFunction {
+    target: std::rc::Rc<stream::Stream>,
+    destination: Destination,
+}
+
+impl Resume for ByFunction {
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
+        let text = self.target.take_text().unwrap_or_default();
+        self.destination.take(machine.image, text).map(Step::Return)
+    }
+
+    fn name(&self) -> &'static str {
+        "FORMAT"
+    }
+}
+
+fn expand_formatter(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+    let control = form.cdr_or_nil().car_or_nil();
+    if let Some(text) = control.as_text() {
+        // A wrong control string is told now, not when the function is called.
+        Control::parse(&text)?;
+    }
+    let target: Value = image.gensym("STREAM").into();
+    let arguments: Value = image.gensym("ARGUMENTS").into();
+    let parameters = [target.clone(), known::L_REST.into(), arguments.clone()];
+    let call: [Value; 5] = [
+        known::APPLY.into(),
+        Value::list([known::FUNCTION.into(), known::FORMAT.into()]),
+        target,
+        control,
+        arguments,
+    ];
+    let lambda: [Value; 4] = [
+        known::LAMBDA.into(),
+        Value::list(parameters),
+        Value::list(call),
+        Value::NIL,
+    ];
+    Ok(Value::list([known::FUNCTION.into(), Value::list(lambda)]))
+}

@@ -1,0 +1,418 @@
+//! Hash tables.
+
+use std::rc::Rc;
+
+use super::calls::{builtin_name, callable, run};
+use super::keywords;
+use super::lists::size;
+use super::shown::shown;
+use crate::lisp::builtin::{Builtin, Operator, control, pure};
+use crate::lisp::hash_table::{HashTable, HashTest};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// The hash table that a value is.
+pub fn table(value: &Value) -> Result<&Rc<HashTable>, Box<Raise>> {
+    match value {
+        Value::Hash(table) => Ok(table),
+        _ => Err(Raise::type_error(value, known::HASH_TABLE)),
+    }
+}
+
+/// A test and the symbol that names it.
+const TESTS: &[(HashTest, Sym)] = &[
+    (HashTest::Eq, known::EQ),
+    (HashTest::Eql, known::EQL),
+    (HashTest::Equal, known::EQUAL),
+    (HashTest::Equalp, known::EQUALP),
+];
+
+pub(super) fn make(image: &mut Image, args: &[Value]) -> Outcome {
+    let [test, wanted_size, ..] = keywords::parse(
+        image,
+        args,
+        [
+            known::K_TEST,
+            known::K_SIZE,
+            known::K_REHASH_SIZE,
+            known::K_REHASH_THRESHOLD,
+            known::K_WEAKNESS,
+            known::K_SYNCHRONIZED,
+        ],
+    )?;
+    let test = test.unwrap_or(Value::Symbol(known::EQL));
+    let name = test.as_symbol().or_else(|| builtin_name(&test));
+    let Some((test, _)) = TESTS.iter().find(|(_, sym)| Some(*sym) == name) else {
+        return Err(Raise::simple(format!(
+            "{} is no :TEST of hash tables; EQ, EQL, EQUAL and EQUALP are.",
+            shown(image, &test)
+        )));
+    };
+    let table = HashTable::new(*test);
+    if let Some(wanted) = wanted_size {
+        table.size.set(size(&wanted)?);
+    }
+    Ok(Value::Hash(Rc::new(table)))
+}
+
+fn hash_table_p(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(matches!(args[0], Value::Hash(_))))
+}
+
+fn gethash(_: &mut Image, args: &[Value]) -> Outcome {
+    let (value, found) = match table(&args[1])?.get(&args[0]) {
+        Some(value) => (value, true),
+        None => (args.get(2).cloned().unwrap_or(Value::NIL), false),
+    };
+    Ok(Value::values(vec![value, found.into()]))
+}
+
+fn set_gethash(_: &mut Image, args: &[Value]) -> Outcome {
+    table(&args[2])?.insert(args[1].clone(), args[0].clone());
+    Ok(args[0].clone())
+}
+
+fn remhash(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(table(&args[1])?.remove(&args[0]).into())
+}
+
+fn clrhash(_: &mut Image, args: &[Value]) -> Outcome {
+    table(&args[0])?.clear();
+    Ok(args[0].clone())
+}
+
+fn hash_table_count(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(table(&args[0])?.len().into())
+}
+
+fn hash_table_size(_: &mut Image, args: &[Value]) -> Outcome {
+    let table = table(&args[0])?;
+    Ok(table.size.get().max(table.len()).into())
+}
+
+fn hash_table_test(_: &mut Image, args: &[Value]) -> Outcome {
+    let test = table(&args[0])?.test;
+    let name = TESTS.iter().find(|(t, _)| *t == test);
+    Ok(name.map_or(Value::NIL, |(_, sym)| Value::Symbol(*sym)))
+}
+
+fn rehash_size(_: &mut Image, args: &[Value]) -> Outcome {
+    table(&args[0]).map(|_| Value::Single(1.5))
+}
+
+fn rehash_threshold(_: &mut Image, args: &[Value]) -> Outcome {
+    table(&args[0]).map(|_| Value::Single(1.0))
+}
+
+fn maphash(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let function = callable(machine.image, &args[0])?;
+    let table = table(&args[1])?.clone();
+    run(machine, "MAPHASH", |calls| async move {
+        for (key, _) in table.pairs() {
+            // An entry may have been removed or changed since.
+            if let Some(value) = table.get(&key) {
+                calls.call2(&function, key, value).await;
+            }
+        }
+        Ok(Value::NIL)
+    })
+}
+
+/// A number that is the same for values that are `equal`, on every run.
+fn sxhash(image: &mut Image, args: &[Value]) -> Outcome {
+    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
+    let mut mix = |bytes: &[u8]| {
+        for byte in bytes {
+            hash = (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
+        }
+    };
+    let mut pending = vec![args[0].clone()];
+    // Deep structures are told apart by their first few leaves only.
+    for _ in 0..64 {
+        let Some(value) = pending.pop() else { break };
+        match &value {
+            Value::Symbol(s) => mix(image.name(*s).as_bytes()),
+            Value::Int(n) => mix(&n.to_le_bytes()),
+            Value::Big(n) => mix(&n.to_signed_bytes_le()),
+            Value::Ratio(r) => {
+                mix(&r.numerator.to_signed_bytes_le());
+                mix(&r.denominator.to_signed_bytes_le());
+            }
+            Value::Single(x) => mix(&x.to_bits().to_le_bytes()),
+            Value::Double(x) => mix(&x.to_bits().to_le_bytes()),
+            Value::Char(c) => mix(&u32::from(*c).to_le_bytes()),
+            Value::Str(s) => mix(s.borrow().as_bytes()),
+            Value::Cons(c) => {
+                mix(&[1]);
+                pending.push(c.cdr());
+                pending.push(c.car());
+            }
+            _ => mix(&[2]),
+        }
+    }
+    Ok(Value::Int(i64::try_from(hash >> 2).unwrap_or(0)))
+}
+
+/// The entries that `with-hash-table-iterator` steps through, in a fresh pair.
+fn hash_iterator(_: &mut Image, args: &[Value]) -> Outcome {
+    let entries = table(&args[0])?.pairs();
+    let entries = entries.into_iter().map(|(k, v)| Value::list([k, v]));
+    Ok(Value::cons(
+        Value::list(entries.collect::<Vec<_>>()),
+        Value::NIL,
+    ))
+}
+
+/// Takes the next entry of an iterator: `T` and its parts, or `NIL`.
+fn iterator_next(_: &mut Image, args: &[Value]) -> Outcome {
+    let Value::Cons(state) = &args[0] else {
+        return Err(Raise::type_error(&args[0], known::CONS));
+    };
+    match state.car() {
+        Value::Cons(entries) => {
+            state.set_car(entries.cdr());
+            let mut values = vec![Value::T];
+            values.extend(entries.car().iter_list());
+            Ok(Value::values(values))
+        }
+        _ => Ok(Value::NIL),
+    }
+}
+
+fn hash_keys(_: &mut Image, args: &[Value]) -> Outcome {
+    let pairs = table(&args[0])?.pairs();
+    Ok(Value::list(
+        pairs.into_iter().map(|(k, _)| k).collect::<Vec<_>>(),
+    ))
+}
+
+fn hash_values(_: &mut Image, args: &[Value]) -> Outcome {
+    let pairs = table(&args[0])?.pairs();
+    Ok(Value::list(
+        pairs.into_iter().map(|(_, v)| v).collect::<Vec<_>>(),
+    ))
+}
+
+fn hash_alist(_: &mut Image, args: &[Value]) -> Outcome {
+    let pairs = table(&args[0])?.pairs();
+    Ok(Value::list(
+        pairs
+            .into_iter()
+            .map(|(k, v)| Value::cons(k, v))
+            .collect::<Vec<_>>(),
+    ))
+}
+
+/// `(with-hash-table-iterator (name table) body…)`.
+fn with_iterator(image: &mut Image, form: &Value) -> Outcome {
+    let wrong = || {
+        Raise::program(
+            "WITH-HASH-TABLE-ITERATOR is written (WITH-HASH-TABLE-ITERATOR (NAME TABLE) BODY...).",
+        )
+    };
+    let mut parts = form.iter_list().skip(1);
+    let binding = parts.next().and_then(|b| b.list_to_vec());
+    let Some([name, table]) = binding.as_deref() else {
+        return Err(wrong());
+    };
+    let body: Vec<Value> = parts.collect();
+    let start = Value::list([known::HASH_ITERATOR.into(), table.clone()]);
+    Ok(iterator_form(image, name, start, body))
+}
+
+/// Binds the state of an iterator, and a local macro that takes its next entry.
+pub fn iterator_form(image: &mut Image, name: &Value, start: Value, body: Vec<Value>) -> Value {
+    let state: Value = image.gensym("ITERATOR").into();
+    let next = Value::list([known::ITERATOR_NEXT.into(), state.clone()]);
+    let macro_body = Value::list([known::QUOTE.into(), next]);
+    let definition = Value::list([name.clone(), Value::NIL, macro_body]);
+    Value::list([
+        known::LET.into(),
+        Value::list([Value::list([state, start])]),
+        Value::list_with_tail(
+            [known::MACROLET.into(), Value::list([definition])],
+            Value::list(body),
+        ),
+    ])
+}
+
+/// Hash tables.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "MAKE-HASH-TABLE",
+        "&key test size rehash-size rehash-threshold",
+        "An empty hash table; the test is `eq`, `eql` (the default), `equal` or `equalp`.",
+        &["(hash-table-count (make-hash-table :test 'equal)) => 0"],
+        make,
+    ),
+    pure(
+        "HASH-TABLE-P",
+        "object",
+        "Is the object a hash table?",
+        &["(hash-table-p 5) => NIL"],
+        hash_table_p,
+    ),
+    pure(
+        "GETHASH",
+        "key table &optional default",
+        "The value of a key, and whether the key is there.",
+        &["(gethash 'a (make-hash-table) 7) => 7 ; NIL"],
+        gethash,
+    ),
+    pure(
+        "REMHASH",
+        "key table",
+        "Removes a key; was it there?",
+        &["(remhash 'a (make-hash-table)) => NIL"],
+        remhash,
+    ),
+    pure(
+        "CLRHASH",
+        "table",
+        "Removes all entries; returns the table.",
+        &["(hash-table-count (clrhash (make-hash-table))) => 0"],
+        clrhash,
+    ),
+    pure(
+        "HASH-TABLE-COUNT",
+        "table",
+        "The number of entries.",
+        &["(hash-table-count (make-hash-table)) => 0"],
+        hash_table_count,
+    ),
+    pure(
+        "HASH-TABLE-SIZE",
+        "table",
+        "The number of entries that there is room for.",
+        &["(hash-table-size (make-hash-table :size 100)) => 100"],
+        hash_table_size,
+    ),
+    pure(
+        "HASH-TABLE-TEST",
+        "table",
+        "The name of the table's test.",
+        &["(hash-table-test (make-hash-table)) => EQL"],
+        hash_table_test,
+    ),
+    pure(
+        "HASH-TABLE-REHASH-SIZE",
+        "table",
+        "How a table grows.",
+        &["(hash-table-rehash-size (make-hash-table)) => 1.5"],
+        rehash_size,
+    ),
+    pure(
+        "HASH-TABLE-REHASH-THRESHOLD",
+        "table",
+        "How full a table may be.",
+        &["(hash-table-rehash-threshold (make-hash-table)) => 1.0"],
+        rehash_threshold,
+    ),
+    control(
+        "MAPHASH",
+        "function table",
+        "Calls a function with the key and value of each entry, in order of insertion.",
+        &[
+            "(let ((h (make-hash-table)) r) (setf (gethash 1 h) 'a) (maphash (lambda (k v) (push (list k v) r)) h) r) => ((1 A))",
+        ],
+        maphash,
+    ),
+    pure(
+        "SXHASH",
+        "object",
+        "A number that is the same for `equal` objects.",
+        &["(= (sxhash \"abc\") (sxhash (copy-seq \"abc\"))) => T"],
+        sxhash,
+    ),
+];
+
+/// What the expansions of macros call; in `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "%HASH-ITERATOR",
+        "table",
+        "An iterator over the entries of a table.",
+        &["(system::%hash-iterator (make-hash-table)) => (NIL)"],
+        hash_iterator,
+    ),
+    pure(
+        "%ITERATOR-NEXT",
+        "iterator",
+        "Takes the next entry: `T` and its parts, or `NIL`.",
+        &["(system::%iterator-next (list '((a 1)))) => T ; A ; 1"],
+        iterator_next,
+    ),
+    pure(
+        "%HASH-KEYS",
+        "table",
+        "The keys of a table, in order of insertion.",
+        &["(system::%hash-keys (make-hash-table)) => NIL"],
+        hash_keys,
+    ),
+    pure(
+        "%HASH-VALUES",
+        "table",
+        "The values of a table, in order of insertion.",
+        &["(system::%hash-values (make-hash-table)) => NIL"],
+        hash_values,
+    ),
+    pure(
+        "%HASH-PAIRS",
+        "table",
+        "The entries of a table as pairs, in order of insertion.",
+        &["(system::%hash-pairs (make-hash-table)) => NIL"],
+        hash_alist,
+    ),
+];
+
+/// The same under the names of `ALEXANDRIA`.
+pub static ALEXANDRIA_TABLE: &[Builtin] = &[
+    pure(
+        "HASH-TABLE-KEYS",
+        "table",
+        "The keys of a table.",
+        &["(alexandria:hash-table-keys (make-hash-table)) => NIL"],
+        hash_keys,
+    ),
+    pure(
+        "HASH-TABLE-VALUES",
+        "table",
+        "The values of a table.",
+        &["(alexandria:hash-table-values (make-hash-table)) => NIL"],
+        hash_values,
+    ),
+    pure(
+        "HASH-TABLE-ALIST",
+        "table",
+        "The entries of a table as an association list.",
+        &["(alexandria:hash-table-alist (make-hash-table)) => NIL"],
+        hash_alist,
+    ),
+];
+
+/// Places for `setf`; the new value is the first argument.
+pub static SETTERS: &[Builtin] = &[pure(
+    "GETHASH",
+    "value key table &optional default",
+    "Sets the value of a key.",
+    &[],
+    set_gethash,
+)];
+
+/// Macros over hash tables.
+pub static OPERATORS: &[Operator] = &[Operator {
+    name: "WITH-HASH-TABLE-ITERATOR",
+    lambda_list: "(name table) &body body",
+    doc: "Evaluates the body; in it `(name)` returns `T` and key and value of the next entry, or `NIL`.",
+    examples: &[
+        "(let ((h (make-hash-table))) (setf (gethash 1 h) 'a) (with-hash-table-iterator (next h) (multiple-value-list (next)))) => (T 1 A)",
+    ],
+    expand: Some(with_iterator),
+}];

@@ -1,0 +1,486 @@
+//! Integers as numbers and as rows of bits; exact fractions; the parts of floats.
+
+use super::keywords;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::number::{self, ByteSpecifier};
+use crate::lisp::package::PackageTable;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::reader::numeric::parse_integer as read_integer;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// Builtins of package `COMMON-LISP`.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "GCD",
+        "&rest integers",
+        "The greatest common divisor; 0 of none.",
+        &["(gcd 12 18 27) => 3", "(gcd) => 0"],
+        |_, args| fold(args, 0, number::gcd),
+    ),
+    pure(
+        "LCM",
+        "&rest integers",
+        "The least common multiple; 1 of none.",
+        &["(lcm 4 6) => 12"],
+        |_, args| fold(args, 1, number::lcm),
+    ),
+    pure(
+        "ISQRT",
+        "integer",
+        "The largest integer whose square is not above the integer.",
+        &["(isqrt 17) => 4"],
+        |_, args| number::isqrt(&args[0]),
+    ),
+    pure(
+        "NUMERATOR",
+        "rational",
+        "The numerator in lowest terms.",
+        &["(numerator 6/4) => 3"],
+        |_, args| number::numerator(&args[0]),
+    ),
+    pure(
+        "DENOMINATOR",
+        "rational",
+        "The denominator in lowest terms.",
+        &["(denominator 6/4) => 2"],
+        |_, args| number::denominator(&args[0]),
+    ),
+    pure(
+        "RATIONAL",
+        "number",
+        "The exact value of the number.",
+        &["(rational 0.5) => 1/2"],
+        |_, args| number::rational(&args[0]),
+    ),
+    pure(
+        "RATIONALIZE",
+        "number",
+        "The simplest exact number that is the same float.",
+        &["(rationalize 0.1) => 1/10"],
+        |_, args| number::rationalize(&args[0]),
+    ),
+    pure(
+        "FLOAT",
+        "number &optional prototype",
+        "The number as a float; as a float of the prototype's type.",
+        &[
+            "(float 5) => 5.0",
+            "(float 1/3 1d0) => 0.3333333333333333d0",
+        ],
+        float,
+    ),
+    pure(
+        "LOGAND",
+        "&rest integers",
+        "The bits that all integers have.",
+        &["(logand 12 10) => 8", "(logand) => -1"],
+        |_, args| fold(args, -1, number::and),
+    ),
+    pure(
+        "LOGIOR",
+        "&rest integers",
+        "The bits that some of the integers have.",
+        &["(logior 12 10) => 14"],
+        |_, args| fold(args, 0, number::or),
+    ),
+    pure(
+        "LOGXOR",
+        "&rest integers",
+        "The bits that an odd number of the integers have.",
+        &["(logxor 12 10) => 6"],
+        |_, args| fold(args, 0, number::xor),
+    ),
+    pure(
+        "LOGEQV",
+        "&rest integers",
+        "The bits in which an even number of the integers differ.",
+        &["(logeqv 12 10) => -7"],
+        |_, args| fold(args, -1, |a, b| number::not(&number::xor(a, b)?)),
+    ),
+    pure(
+        "LOGNOT",
+        "integer",
+        "The bits that the integer does not have.",
+        &["(lognot 5) => -6"],
+        |_, args| number::not(&args[0]),
+    ),
+    pure(
+        "LOGNAND",
+        "integer1 integer2",
+        "The bits that not both have.",
+        &["(lognand 12 10) => -9"],
+        |_, args| boole_op(6, &args[0], &args[1]),
+    ),
+    pure(
+        "LOGNOR",
+        "integer1 integer2",
+        "The bits that neither has.",
+        &["(lognor 12 10) => -15"],
+        |_, args| boole_op(11, &args[0], &args[1]),
+    ),
+    pure(
+        "LOGANDC1",
+        "integer1 integer2",
+        "The bits of the second that the first does not have.",
+        &["(logandc1 12 10) => 2"],
+        |_, args| boole_op(12, &args[0], &args[1]),
+    ),
+    pure(
+        "LOGANDC2",
+        "integer1 integer2",
+        "The bits of the first that the second does not have.",
+        &["(logandc2 15 5) => 10"],
+        |_, args| boole_op(13, &args[0], &args[1]),
+    ),
+    pure(
+        "LOGORC1",
+        "integer1 integer2",
+        "The bits of the second and those that the first does not have.",
+        &["(logorc1 12 10) => -5"],
+        |_, args| boole_op(14, &args[0], &args[1]),
+    ),
+    pure(
+        "LOGORC2",
+        "integer1 integer2",
+        "The bits of the first and those that the second does not have.",
+        &["(logorc2 12 10) => -3"],
+        |_, args| boole_op(15, &args[0], &args[1]),
+    ),
+    pure(
+        "LOGTEST",
+        "integer1 integer2",
+        "Have both integers a bit in common?",
+        &["(logtest 12 4) => T"],
+        |_, args| {
+            let common = number::and(&args[0], &args[1])?;
+            Ok(Value::bool(!number::is_zero(&common)?))
+        },
+    ),
+    pure(
+        "LOGBITP",
+        "index integer",
+        "Has the integer the bit of that index?",
+        &["(logbitp 0 5) => T", "(logbitp 1 5) => NIL"],
+        |_, args| number::is_bit_set(&args[0], &args[1]).map(Value::bool),
+    ),
+    pure(
+        "LOGCOUNT",
+        "integer",
+        "The number of bits that differ from the sign.",
+        &["(logcount 255) => 8"],
+        |_, args| number::bit_count(&args[0]),
+    ),
+    pure(
+        "INTEGER-LENGTH",
+        "integer",
+        "The number of bits without the sign.",
+        &["(integer-length 255) => 8", "(integer-length 0) => 0"],
+        |_, args| number::bit_length(&args[0]),
+    ),
+    pure(
+        "ASH",
+        "integer count",
+        "The integer shifted to the left; to the right if the count is negative.",
+        &["(ash 1 10) => 1024", "(ash -8 -1) => -4"],
+        |_, args| number::ash(&args[0], &args[1]),
+    ),
+    pure(
+        "BOOLE",
+        "operation integer1 integer2",
+        "Combines the bits of two integers by an operation such as BOOLE-AND.",
+        &["(boole boole-and 12 10) => 8"],
+        |_, args| match &args[0] {
+            Value::Int(operation @ 0..=15) => boole_op(*operation, &args[1], &args[2]),
+            other => Err(Raise::type_error(
+                other,
+                Value::list([known::MOD.into(), Value::Int(16)]),
+            )),
+        },
+    ),
+    pure(
+        "BYTE",
+        "size position",
+        "Describes so many bits above so many others.",
+        &["(byte 8 0) => (8 . 0)"],
+        |_, args| {
+            byte_of(&Value::cons(args[0].clone(), args[1].clone()))?;
+            Ok(Value::cons(args[0].clone(), args[1].clone()))
+        },
+    ),
+    pure(
+        "BYTE-SIZE",
+        "byte",
+        "How many bits a byte has.",
+        &["(byte-size (byte 8 2)) => 8"],
+        |_, args| byte_of(&args[0]).map(|byte| Value::Int(byte.size.into())),
+    ),
+    pure(
+        "BYTE-POSITION",
+        "byte",
+        "How many bits are below a byte.",
+        &["(byte-position (byte 8 2)) => 2"],
+        |_, args| byte_of(&args[0]).map(|byte| Value::Int(byte.position.into())),
+    ),
+    pure(
+        "LDB",
+        "byte integer",
+        "The bits of a byte, as an integer.",
+        &["(ldb (byte 8 0) 511) => 255"],
+        |_, args| number::extract(byte_of(&args[0])?, &args[1]),
+    ),
+    pure(
+        "LDB-TEST",
+        "byte integer",
+        "Is any bit of a byte set?",
+        &["(ldb-test (byte 2 0) 4) => NIL"],
+        |_, args| {
+            let bits = number::extract(byte_of(&args[0])?, &args[1])?;
+            Ok(Value::bool(!number::is_zero(&bits)?))
+        },
+    ),
+    pure(
+        "MASK-FIELD",
+        "byte integer",
+        "The bits of a byte where they are in the integer.",
+        &["(mask-field (byte 4 4) 255) => 240"],
+        |_, args| {
+            let byte = byte_of(&args[0])?;
+            let bits = number::extract(byte, &args[1])?;
+            number::ash(&bits, &Value::Int(byte.position.into()))
+        },
+    ),
+    pure(
+        "DPB",
+        "new byte integer",
+        "The integer with new bits in a byte.",
+        &["(dpb 15 (byte 4 0) 0) => 15"],
+        |_, args| number::deposit(&args[0], byte_of(&args[1])?, &args[2]),
+    ),
+    pure(
+        "DEPOSIT-FIELD",
+        "new byte integer",
+        "The integer with a byte taken over from another integer.",
+        &["(deposit-field 255 (byte 4 4) 0) => 240"],
+        |_, args| {
+            let byte = byte_of(&args[1])?;
+            let bits = number::extract(byte, &args[0])?;
+            number::deposit(&bits, byte, &args[2])
+        },
+    ),
+    pure(
+        "DECODE-FLOAT",
+        "float",
+        "Mantissa, exponent and sign of a float.",
+        &["(decode-float 0.5) => 0.5 ; 0 ; 1.0"],
+        |_, args| number::decode(&args[0]).map(|parts| Value::values(parts.to_vec())),
+    ),
+    pure(
+        "INTEGER-DECODE-FLOAT",
+        "float",
+        "Mantissa, exponent and sign of a float as integers.",
+        &["(integer-decode-float 1.0) => 8388608 ; -23 ; 1"],
+        |_, args| number::integer_decode(&args[0]).map(|parts| Value::values(parts.to_vec())),
+    ),
+    pure(
+        "SCALE-FLOAT",
+        "float power",
+        "The float times two to the power.",
+        &["(scale-float 1.5 2) => 6.0"],
+        |_, args| number::scale(&args[0], &args[1]),
+    ),
+    pure(
+        "FLOAT-RADIX",
+        "float",
+        "The base of the float's exponent.",
+        &["(float-radix 1.0) => 2"],
+        |_, args| number::digits(&args[0]).map(|_| Value::Int(2)),
+    ),
+    pure(
+        "FLOAT-DIGITS",
+        "float",
+        "The number of bits of the mantissa.",
+        &["(float-digits 1.0) => 24"],
+        |_, args| number::digits(&args[0]),
+    ),
+    pure(
+        "FLOAT-PRECISION",
+        "float",
+        "The number of significant bits of the mantissa.",
+        &["(float-precision 1d0) => 53"],
+        |_, args| number::precision(&args[0]),
+    ),
+    pure(
+        "FLOAT-SIGN",
+        "float &optional magnitude",
+        "The magnitude, or one, with the sign of the float.",
+        &["(float-sign -2.5) => -1.0", "(float-sign -1.0 3.0) => -3.0"],
+        |_, args| number::sign_of(&args[0], args.get(1)),
+    ),
+    pure(
+        "PARSE-INTEGER",
+        "string &key start end radix junk-allowed",
+        "The integer that a string stands for, and where it ends.",
+        &[
+            "(parse-integer \" 42 \") => 42 ; 4",
+            "(parse-integer \"ff\" :radix 16) => 255 ; 2",
+        ],
+        parse_integer,
+    ),
+];
+
+fn fold(args: &[Value], start: i64, operate: fn(&Value, &Value) -> Outcome) -> Outcome {
+    args.iter()
+        .try_fold(Value::Int(start), |total, n| operate(&total, n))
+}
+
+/// Names of the operations of `boole`, in order of their numbers.
+const BOOLE: [&str; 16] = [
+    "BOOLE-CLR",
+    "BOOLE-SET",
+    "BOOLE-1",
+    "BOOLE-2",
+    "BOOLE-C1",
+    "BOOLE-C2",
+    "BOOLE-NAND",
+    "BOOLE-AND",
+    "BOOLE-IOR",
+    "BOOLE-XOR",
+    "BOOLE-EQV",
+    "BOOLE-NOR",
+    "BOOLE-ANDC1",
+    "BOOLE-ANDC2",
+    "BOOLE-ORC1",
+    "BOOLE-ORC2",
+];
+
+fn boole_op(operation: i64, a: &Value, b: &Value) -> Outcome {
+    use number::{and, not, or, xor};
+    // Both are checked to be integers, whatever the operation.
+    let both = and(a, b)?;
+    match operation {
+        0 => Ok(Value::Int(0)),
+        1 => Ok(Value::Int(-1)),
+        2 => Ok(a.clone()),
+        3 => Ok(b.clone()),
+        4 => not(a),
+        5 => not(b),
+        6 => not(&both),
+        7 => Ok(both),
+        8 => or(a, b),
+        9 => xor(a, b),
+        10 => not(&xor(a, b)?),
+        11 => not(&or(a, b)?),
+        12 => and(&not(a)?, b),
+        13 => and(a, &not(b)?),
+        14 => or(&not(a)?, b),
+        _ => or(a, &not(b)?),
+    }
+}
+
+/// Defines the constants `BOOLE-AND` and so on.
+pub fn define_constants(image: &mut Image) {
+    for (name, number) in BOOLE.iter().zip(0..) {
+        let sym = image.export_symbol(PackageTable::CL, name);
+        image.define_constant(sym, Value::Int(number));
+    }
+}
+
+/// A byte: a pair of size and position.
+fn byte_of(value: &Value) -> Result<ByteSpecifier, Box<Raise>> {
+    let part = |part: &Value| match part {
+        Value::Int(n) => u32::try_from(*n).ok(),
+        _ => None,
+    };
+    let wrong = || Raise::type_error(value, known::CONS);
+    let pair = value.as_cons().ok_or_else(wrong)?;
+    match (part(&pair.car()), part(&pair.cdr())) {
+        (Some(size), Some(position)) => Ok(ByteSpecifier { size, position }),
+        (None, _) => Err(Raise::type_error(&pair.car(), known::UNSIGNED_BYTE)),
+        _ => Err(Raise::type_error(&pair.cdr(), known::UNSIGNED_BYTE)),
+    }
+}
+
+fn float(_: &mut Image, args: &[Value]) -> Outcome {
+    match (&args[0], args.get(1)) {
+        (Value::Single(_) | Value::Double(_), None) => Ok(args[0].clone()),
+        (number, Some(prototype @ (Value::Single(_) | Value::Double(_)))) => {
+            number::to_float_like(number, prototype)
+        }
+        (_, Some(other)) => Err(Raise::type_error(other, known::FLOAT)),
+        (number, None) => number::to_single(number),
+    }
+}
+
+fn parse_integer(image: &mut Image, args: &[Value]) -> Outcome {
+    let Value::Str(string) = &args[0] else {
+        return Err(Raise::type_error(&args[0], known::STRING));
+    };
+    let [start, end, radix, junk_allowed] = keywords::parse(
+        image,
+        args.get(1..).unwrap_or(&[]),
+        [
+            known::K_START,
+            known::K_END,
+            known::K_RADIX,
+            known::K_JUNK_ALLOWED,
+        ],
+    )?;
+    let sequence = super::sequence::Sequence::Str(string.clone());
+    let bounds = super::sequence::Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let radix = match radix {
+        None => 10,
+        Some(Value::Int(n @ 2..=36)) => u32::try_from(n).unwrap_or(10),
+        Some(other) => {
+            let range = [known::INTEGER.into(), Value::Int(2), Value::Int(36)];
+            return Err(Raise::type_error(&other, Value::list(range)));
+        }
+    };
+    let junk_allowed = junk_allowed.is_some_and(|v| v.is_true());
+    let text = string.text();
+    let chars: Vec<char> = text
+        .chars()
+        .skip(bounds.start)
+        .take(bounds.end.unwrap_or(usize::MAX) - bounds.start)
+        .collect();
+    let blanks = chars.iter().take_while(|c| c.is_whitespace()).count();
+    let signs = usize::from(matches!(chars.get(blanks), Some('+' | '-')));
+    let digits = chars
+        .iter()
+        .skip(blanks + signs)
+        .take_while(|c| c.is_digit(radix))
+        .count();
+    let end_of_number = blanks + signs + digits;
+    let rest_is_blank = chars.iter().skip(end_of_number).all(|c| c.is_whitespace());
+    let token: String = chars.iter().skip(blanks).take(signs + digits).collect();
+    let number = read_integer(&token, radix);
+    let position = if junk_allowed {
+        end_of_number
+    } else {
+        chars.len()
+    };
+    match number {
+        Some(number) if rest_is_blank || junk_allowed => Ok(Value::values(vec![
+            number,
+            Value::from(bounds.start + position),
+        ])),
+        None if junk_allowed => Ok(Value::values(vec![
+            Value::NIL,
+            Value::from(bounds.start + position),
+        ])),
+        None if rest_is_blank => Err(Raise::new(
+            known::SIMPLE_PARSE_ERROR,
+            format!(
+                "no non-whitespace characters in string {}.",
+                super::shown::shown(image, &args[0])
+            ),
+        )),
+        _ => Err(Raise::new(
+            known::SIMPLE_PARSE_ERROR,
+            format!("junk in string {}", super::shown::shown(image, &args[0])),
+        )),
+    }
+}

@@ -1,0 +1,394 @@
+//! `defpackage`, `in-package`, `do-symbols` and their kin.
+
+use super::hash_tables::iterator_form;
+use super::packages::{
+    accessible, designated, import_one, make, one_or_more, package_error, shadow_one, status,
+    use_one,
+};
+use super::sequence::list_items;
+use super::shown::shown;
+use super::strings;
+use crate::lisp::builtin::{Builtin, Operator, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::package::{Access, PackageId};
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+fn quoted(value: Value) -> Value {
+    Value::list([known::QUOTE.into(), value])
+}
+
+/// `(defpackage name option…)`.
+fn defpackage(_: &mut Image, form: &Value) -> Outcome {
+    let Value::Cons(rest) = form.cdr_or_nil() else {
+        return Err(Raise::program("DEFPACKAGE needs a name."));
+    };
+    Ok(Value::list([
+        known::DEFINE_PACKAGE.into(),
+        quoted(rest.car()),
+        quoted(rest.cdr()),
+    ]))
+}
+
+/// The strings that an option lists.
+fn texts(image: &Image, items: &[Value]) -> Result<Vec<String>, Box<Raise>> {
+    items
+        .iter()
+        .map(|i| strings::designated(image, i))
+        .collect()
+}
+
+/// Carries out a `defpackage`: arguments are the name and the options.
+fn define_package(image: &mut Image, args: &[Value]) -> Outcome {
+    let name = strings::designated(image, &args[0])?;
+    let mut options: Vec<(Sym, Vec<Value>)> = Vec::new();
+    for option in list_items(&args[1])? {
+        let parts = list_items(&option)?;
+        match parts.split_first() {
+            Some((Value::Symbol(key), rest)) => options.push((*key, rest.to_vec())),
+            _ => {
+                return Err(Raise::program(format!(
+                    "Bogus DEFPACKAGE option: {}",
+                    shown(image, &option)
+                )));
+            }
+        }
+    }
+    let of = |key: Sym| {
+        let matching = options.iter().filter(move |(k, _)| *k == key);
+        matching
+            .flat_map(|(_, items)| items.iter().cloned())
+            .collect::<Vec<Value>>()
+    };
+    let nicknames = texts(image, &of(known::K_NICKNAMES))?;
+    let used: Vec<PackageId> = of(known::K_USE)
+        .iter()
+        .map(|u| designated(image, u))
+        .collect::<Result<_, _>>()?;
+    let imports = imported(image, &options, known::K_IMPORT_FROM)?;
+    let shadowing_imports = imported(image, &options, known::K_SHADOWING_IMPORT_FROM)?;
+    if let Some((key, _)) = options.iter().find(|(key, _)| !is_option(*key)) {
+        return Err(Raise::program(format!(
+            "Bogus DEFPACKAGE option: {}; there are :USE, :EXPORT, :NICKNAMES, :IMPORT-FROM, :SHADOW, :SHADOWING-IMPORT-FROM, :INTERN, :SIZE and :DOCUMENTATION.",
+            shown(image, &(*key).into())
+        )));
+    }
+    let id = match image.packages.find(&name) {
+        Some(id) => {
+            for nickname in &nicknames {
+                if image
+                    .packages
+                    .find(nickname)
+                    .is_some_and(|other| other != id)
+                {
+                    return Err(package_error(
+                        format!("A package named \"{nickname}\" already exists."),
+                        &Value::string(nickname.as_str()),
+                    ));
+                }
+                image.packages.add_nickname(id, nickname);
+            }
+            id
+        }
+        None => make(image, &name, &nicknames)?,
+    };
+    for name in texts(image, &of(known::K_SHADOW))? {
+        shadow_one(image, id, &name);
+    }
+    for sym in shadowing_imports {
+        image.packages.shadowing_import(&mut image.symbols, id, sym);
+    }
+    for used in used {
+        use_one(image, id, used)?;
+    }
+    for sym in imports {
+        import_one(image, id, sym)?;
+    }
+    for name in texts(image, &of(known::K_INTERN))? {
+        image.intern(id, &name);
+    }
+    for name in texts(image, &of(known::K_EXPORT))? {
+        image.export_symbol(id, &name);
+    }
+    if let Some(Value::Str(doc)) = of(known::K_DOCUMENTATION).first() {
+        image.packages.get_mut(id).doc = Some(doc.text().into());
+    }
+    Ok(Value::Package(id))
+}
+
+fn is_option(key: Sym) -> bool {
+    [
+        known::K_USE,
+        known::K_EXPORT,
+        known::K_NICKNAMES,
+        known::K_IMPORT_FROM,
+        known::K_SHADOW,
+        known::K_SHADOWING_IMPORT_FROM,
+        known::K_INTERN,
+        known::K_SIZE,
+        known::K_DOCUMENTATION,
+    ]
+    .contains(&key)
+}
+
+/// The symbols of `(:import-from package name…)` options.
+fn imported(
+    image: &Image,
+    options: &[(Sym, Vec<Value>)],
+    key: Sym,
+) -> Result<Vec<Sym>, Box<Raise>> {
+    let mut symbols = Vec::new();
+    for (_, items) in options.iter().filter(|(k, _)| *k == key) {
+        let Some((from, wanted)) = items.split_first() else {
+            continue;
+        };
+        let from = designated(image, from)?;
+        for name in texts(image, wanted)? {
+            match image.packages.find_symbol(from, &name) {
+                Some((sym, _)) => symbols.push(sym),
+                None => {
+                    return Err(package_error(
+                        format!(
+                            "No symbol named \"{name}\" in the package {}.",
+                            image.packages.get(from).name
+                        ),
+                        &Value::Package(from),
+                    ));
+                }
+            }
+        }
+    }
+    Ok(symbols)
+}
+
+/// `(in-package name)`.
+fn in_package(_: &mut Image, form: &Value) -> Outcome {
+    let rest = form.cdr_or_nil();
+    let (Value::Cons(_), Value::Symbol(known::NIL)) = (&rest, rest.cdr_or_nil()) else {
+        return Err(Raise::program("IN-PACKAGE is written (IN-PACKAGE NAME)."));
+    };
+    let set = Value::list([
+        known::SETQ.into(),
+        known::V_PACKAGE.into(),
+        Value::list([known::EXISTING_PACKAGE.into(), quoted(rest.car_or_nil())]),
+    ]);
+    let always = Value::list([
+        known::K_COMPILE_TOPLEVEL.into(),
+        known::K_LOAD_TOPLEVEL.into(),
+        known::K_EXECUTE.into(),
+    ]);
+    Ok(Value::list([known::EVAL_WHEN.into(), always, set]))
+}
+
+fn existing_package(image: &mut Image, args: &[Value]) -> Outcome {
+    designated(image, &args[0]).map(Value::Package)
+}
+
+/// Which symbols a `do-…symbols` form visits.
+#[derive(Clone, Copy)]
+enum Visited {
+    Accessible,
+    External,
+    Everywhere,
+}
+
+fn symbol_loop(form: &Value, what: &str, visited: Visited) -> Outcome {
+    let mut parts = form.iter_list().skip(1);
+    let head = parts.next().unwrap_or(Value::NIL).list_to_vec();
+    let wrong = || {
+        Raise::program(format!(
+            "{what} is written ({what} (VARIABLE [PACKAGE [RESULT]]) BODY...)."
+        ))
+    };
+    let head = head.ok_or_else(wrong)?;
+    let (variable, package, result) = match (head.as_slice(), visited) {
+        ([variable], _) => (variable, None, None),
+        ([variable, result], Visited::Everywhere) => (variable, None, Some(result)),
+        ([variable, package], _) => (variable, Some(package), None),
+        ([variable, package, result], Visited::Accessible | Visited::External) => {
+            (variable, Some(package), Some(result))
+        }
+        _ => return Err(wrong()),
+    };
+    let package = package.cloned().unwrap_or(known::V_PACKAGE.into());
+    let kind = match visited {
+        Visited::Accessible => known::K_INHERITED,
+        Visited::External => known::K_EXTERNAL,
+        Visited::Everywhere => known::T,
+    };
+    let symbols = Value::list([known::PACKAGE_SYMBOLS.into(), package, kind.into()]);
+    let mut binding = vec![variable.clone(), symbols];
+    binding.extend(result.cloned());
+    Ok(Value::list_with_tail(
+        [known::DOLIST.into(), Value::list(binding)],
+        Value::list(parts.collect::<Vec<_>>()),
+    ))
+}
+
+fn do_symbols(_: &mut Image, form: &Value) -> Outcome {
+    symbol_loop(form, "DO-SYMBOLS", Visited::Accessible)
+}
+
+fn do_external_symbols(_: &mut Image, form: &Value) -> Outcome {
+    symbol_loop(form, "DO-EXTERNAL-SYMBOLS", Visited::External)
+}
+
+fn do_all_symbols(_: &mut Image, form: &Value) -> Outcome {
+    symbol_loop(form, "DO-ALL-SYMBOLS", Visited::Everywhere)
+}
+
+/// The symbols of a package: `:INHERITED` all accessible ones, `:INTERNAL` the present
+/// ones, `:EXTERNAL` the exported ones, `T` those of all packages.
+fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
+    let symbols: Vec<Sym> = match &args[1] {
+        Value::Symbol(known::T) => {
+            let mut all: Vec<Sym> = image
+                .packages
+                .ids()
+                .flat_map(|id| image.packages.get(id).symbols.values())
+                .map(|(sym, _)| *sym)
+                .collect();
+            all.sort();
+            all.dedup();
+            all
+        }
+        Value::Symbol(known::K_INHERITED) => {
+            let id = designated(image, &args[0])?;
+            accessible(image, id)
+        }
+        kind => {
+            let id = designated(image, &args[0])?;
+            let all = kind.as_symbol() == Some(known::K_INTERNAL);
+            let present = image.packages.get(id).symbols.values();
+            let chosen = present.filter(|(_, external)| all || *external);
+            chosen.map(|(sym, _)| *sym).collect()
+        }
+    };
+    Ok(Value::list(symbols.into_iter().map(Value::Symbol)))
+}
+
+/// `(with-package-iterator (name packages kind…) body…)`.
+fn with_package_iterator(image: &mut Image, form: &Value) -> Outcome {
+    let mut parts = form.iter_list().skip(1);
+    let head = parts.next().and_then(|b| b.list_to_vec());
+    let Some([name, packages, kinds @ ..]) = head.as_deref() else {
+        return Err(Raise::program(
+            "WITH-PACKAGE-ITERATOR is written (WITH-PACKAGE-ITERATOR (NAME PACKAGES KIND...) BODY...).",
+        ));
+    };
+    let start = Value::list([
+        known::PACKAGE_ITERATOR.into(),
+        packages.clone(),
+        quoted(Value::list(kinds.to_vec())),
+    ]);
+    let body: Vec<Value> = parts.collect();
+    Ok(iterator_form(image, name, start, body))
+}
+
+/// The state of a package iterator: a pair whose car lists what is still to come.
+fn package_iterator(image: &mut Image, args: &[Value]) -> Outcome {
+    let kinds = list_items(&args[1])?;
+    let mut entries = Vec::new();
+    for package in one_or_more(&args[0])? {
+        let id = designated(image, &package)?;
+        for sym in accessible(image, id) {
+            let access: Option<Access> = image
+                .packages
+                .find_symbol(id, image.name(sym))
+                .map(|(_, access)| access);
+            let status = status(access);
+            if kinds.iter().any(|kind| kind.is_eq(&status)) {
+                entries.push(Value::list([sym.into(), status, Value::Package(id)]));
+            }
+        }
+    }
+    Ok(Value::cons(Value::list(entries), Value::NIL))
+}
+
+/// What the expansions call; in `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "%DEFINE-PACKAGE",
+        "name options",
+        "Carries out a `defpackage`.",
+        &[
+            "(system::%define-package \"DEFINED-AS-EXAMPLE\" '((:use :cl))) => #<PACKAGE \"DEFINED-AS-EXAMPLE\">",
+        ],
+        define_package,
+    ),
+    pure(
+        "%EXISTING-PACKAGE",
+        "designator",
+        "The package of a name; an error if there is none.",
+        &["(system::%existing-package :cl) => #<PACKAGE \"COMMON-LISP\">"],
+        existing_package,
+    ),
+    pure(
+        "%PACKAGE-SYMBOLS",
+        "package kind",
+        "The symbols of a package.",
+        &["(system::%package-symbols (make-package :empty-example) :external) => NIL"],
+        package_symbols,
+    ),
+    pure(
+        "%PACKAGE-ITERATOR",
+        "packages kinds",
+        "An iterator over the symbols of packages.",
+        &["(system::%package-iterator :cl nil) => (NIL)"],
+        package_iterator,
+    ),
+];
+
+/// Macros over packages.
+pub static OPERATORS: &[Operator] = &[
+    Operator {
+        name: "DEFPACKAGE",
+        lambda_list: "name &rest options",
+        doc: "Defines a package; options are :use, :export, :nicknames, :import-from, :shadow, :shadowing-import-from, :intern and :documentation.",
+        examples: &[
+            "(defpackage :example-package (:use :cl) (:export #:thing)) => #<PACKAGE \"EXAMPLE-PACKAGE\">",
+        ],
+        expand: Some(defpackage),
+    },
+    Operator {
+        name: "IN-PACKAGE",
+        lambda_list: "name",
+        doc: "Makes a package the current one.",
+        examples: &["(in-package :cl-user) => #<PACKAGE \"COMMON-LISP-USER\">"],
+        expand: Some(in_package),
+    },
+    Operator {
+        name: "DO-SYMBOLS",
+        lambda_list: "(variable &optional package result) &body body",
+        doc: "Evaluates the body for each symbol accessible in a package.",
+        examples: &["(let ((n 0)) (do-symbols (s :cl) (when (eq s 'car) (incf n))) n) => 1"],
+        expand: Some(do_symbols),
+    },
+    Operator {
+        name: "DO-EXTERNAL-SYMBOLS",
+        lambda_list: "(variable &optional package result) &body body",
+        doc: "Evaluates the body for each symbol that a package exports.",
+        examples: &[
+            "(let ((n 0)) (do-external-symbols (s :cl) (when (eq s 'car) (incf n))) n) => 1",
+        ],
+        expand: Some(do_external_symbols),
+    },
+    Operator {
+        name: "DO-ALL-SYMBOLS",
+        lambda_list: "(variable &optional result) &body body",
+        doc: "Evaluates the body for each symbol of all packages.",
+        examples: &["(let ((n 0)) (do-all-symbols (s n) (when (eq s 'car) (incf n)))) => 1"],
+        expand: Some(do_all_symbols),
+    },
+    Operator {
+        name: "WITH-PACKAGE-ITERATOR",
+        lambda_list: "(name packages &rest kinds) &body body",
+        doc: "Evaluates the body; in it `(name)` returns `T` and the next symbol, how it is accessible, and its package, or `NIL`.",
+        examples: &["(with-package-iterator (next :cl :internal) (next)) => NIL"],
+        expand: Some(with_package_iterator),
+    },
+];

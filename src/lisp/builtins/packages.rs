@@ -1,0 +1,546 @@
+//! Packages: finding, making, using, exporting, importing, shadowing.
+
+use std::rc::Rc;
+
+use super::keywords;
+use super::property_lists::symbol;
+use super::sequence::list_items;
+use super::shown::shown;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::package::{Access, PackageId, PackageTable};
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// A package error with a text.
+pub fn package_error(report: impl Into<String>, package: &Value) -> Box<Raise> {
+    Raise::new(known::SIMPLE_PACKAGE_ERROR, report).with(known::K_PACKAGE, package.clone())
+}
+
+/// The package that a designator means, if there is one.
+pub fn find(image: &Image, designator: &Value) -> Result<Option<PackageId>, Box<Raise>> {
+    match designator {
+        Value::Package(id) => Ok(Some(*id)),
+        other => Ok(image
+            .packages
+            .find(&super::strings::designated(image, other)?)),
+    }
+}
+
+/// The package that a designator means.
+pub fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Raise>> {
+    match find(image, designator)? {
+        Some(id) if !image.packages.is_deleted(id) => Ok(id),
+        _ => {
+            let name = match designator {
+                Value::Package(id) => image.packages.get(*id).name.to_string(),
+                other => super::strings::designated(image, other)?,
+            };
+            Err(package_error(
+                format!("The name \"{name}\" does not designate any package."),
+                designator,
+            ))
+        }
+    }
+}
+
+/// The package that an optional argument means, by default the current one.
+pub fn or_current(image: &Image, designator: Option<&Value>) -> Result<PackageId, Box<Raise>> {
+    match designator {
+        None | Some(Value::Symbol(known::NIL)) => Ok(image.current_package()),
+        Some(designator) => designated(image, designator),
+    }
+}
+
+/// `:EXTERNAL`, `:INTERNAL`, `:INHERITED` or `NIL`.
+pub fn status(access: Option<Access>) -> Value {
+    match access {
+        Some(Access::External) => known::K_EXTERNAL.into(),
+        Some(Access::Internal) => known::K_INTERNAL.into(),
+        Some(Access::Inherited) => known::K_INHERITED.into(),
+        None => Value::NIL,
+    }
+}
+
+/// The items of a list, or the one item that is not a list.
+pub fn one_or_more(value: &Value) -> Result<Vec<Value>, Box<Raise>> {
+    if value.is_list() {
+        list_items(value)
+    } else {
+        Ok(vec![value.clone()])
+    }
+}
+
+/// The symbols accessible in a package, those present first, each group by name.
+pub fn accessible(image: &Image, package: PackageId) -> Vec<Sym> {
+    let this = image.packages.get(package);
+    let mut found: Vec<Sym> = this.symbols.values().map(|(sym, _)| *sym).collect();
+    for used in &this.uses {
+        for (name, (sym, external)) in &image.packages.get(*used).symbols {
+            if *external && !this.symbols.contains_key(name) {
+                found.push(*sym);
+            }
+        }
+    }
+    found
+}
+
+fn packagep(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(matches!(args[0], Value::Package(_))))
+}
+
+fn find_package(image: &mut Image, args: &[Value]) -> Outcome {
+    Ok(find(image, &args[0])?.map_or(Value::NIL, Value::Package))
+}
+
+fn package_name(image: &mut Image, args: &[Value]) -> Outcome {
+    if let Value::Package(id) = &args[0]
+        && image.packages.is_deleted(*id)
+    {
+        return Ok(Value::NIL);
+    }
+    let id = designated(image, &args[0])?;
+    Ok(Value::string(image.packages.get(id).name.as_ref()))
+}
+
+fn package_nicknames(image: &mut Image, args: &[Value]) -> Outcome {
+    let id = designated(image, &args[0])?;
+    let names = &image.packages.get(id).nicknames;
+    Ok(Value::list(names.iter().map(|n| Value::string(n.as_ref()))))
+}
+
+fn package_list(ids: impl IntoIterator<Item = PackageId>) -> Value {
+    Value::list(ids.into_iter().map(Value::Package).collect::<Vec<_>>())
+}
+
+fn package_use_list(image: &mut Image, args: &[Value]) -> Outcome {
+    let id = designated(image, &args[0])?;
+    Ok(package_list(image.packages.get(id).uses.iter().copied()))
+}
+
+fn package_used_by_list(image: &mut Image, args: &[Value]) -> Outcome {
+    let id = designated(image, &args[0])?;
+    let users = image.packages.ids();
+    Ok(package_list(users.filter(|user| {
+        image.packages.get(*user).uses.contains(&id)
+    })))
+}
+
+fn package_shadowing_symbols(image: &mut Image, args: &[Value]) -> Outcome {
+    let id = designated(image, &args[0])?;
+    let this = image.packages.get(id);
+    let symbols = this.shadowing.iter().filter_map(|n| this.symbols.get(n));
+    Ok(Value::list(
+        symbols
+            .map(|(sym, _)| Value::Symbol(*sym))
+            .collect::<Vec<_>>(),
+    ))
+}
+
+fn list_all_packages(image: &mut Image, _: &[Value]) -> Outcome {
+    let all = image.packages.ids();
+    Ok(package_list(
+        all.filter(|id| !image.packages.is_deleted(*id)),
+    ))
+}
+
+fn find_all_symbols(image: &mut Image, args: &[Value]) -> Outcome {
+    let name = super::strings::designated(image, &args[0])?;
+    let mut found: Vec<Sym> = Vec::new();
+    for id in image.packages.ids() {
+        if let Some((sym, _)) = image.packages.get(id).symbols.get(name.as_str())
+            && !found.contains(sym)
+        {
+            found.push(*sym);
+        }
+    }
+    Ok(Value::list(found.into_iter().map(Value::Symbol)))
+}
+
+fn names(image: &Image, list: Option<&Value>) -> Result<Vec<String>, Box<Raise>> {
+    let items = list.map_or(Ok(Vec::new()), one_or_more)?;
+    items
+        .iter()
+        .map(|item| super::strings::designated(image, item))
+        .collect()
+}
+
+/// Makes a package.
+pub fn make(image: &mut Image, name: &str, nicknames: &[String]) -> Result<PackageId, Box<Raise>> {
+    let short: Vec<&str> = nicknames.iter().map(String::as_str).collect();
+    image.packages.make(name, &short).ok_or_else(|| {
+        let taken = std::iter::once(name)
+            .chain(short.iter().copied())
+            .find(|n| image.packages.find(n).is_some())
+            .unwrap_or(name);
+        package_error(
+            format!("A package named \"{taken}\" already exists."),
+            &Value::string(taken),
+        )
+    })
+}
+
+fn make_package(image: &mut Image, args: &[Value]) -> Outcome {
+    let [nicknames, used, _] = keywords::parse(
+        image,
+        &args[1..],
+        [known::K_NICKNAMES, known::K_USE, known::K_SIZE],
+    )?;
+    let name = super::strings::designated(image, &args[0])?;
+    let nicknames = names(image, nicknames.as_ref())?;
+    let used: Result<Vec<PackageId>, _> = used
+        .map_or(Ok(Vec::new()), |u| one_or_more(&u))?
+        .iter()
+        .map(|u| designated(image, u))
+        .collect();
+    let id = make(image, &name, &nicknames)?;
+    for used in used? {
+        use_one(image, id, used)?;
+    }
+    Ok(Value::Package(id))
+}
+
+fn rename_package(image: &mut Image, args: &[Value]) -> Outcome {
+    let id = designated(image, &args[0])?;
+    let name = super::strings::designated(image, &args[1])?;
+    let nicknames: Vec<Rc<str>> = names(image, args.get(2))?
+        .iter()
+        .map(|n| n.as_str().into())
+        .collect();
+    if image.packages.rename(id, &name, &nicknames) {
+        Ok(Value::Package(id))
+    } else {
+        Err(package_error(
+            format!("\"{name}\" or one of the nicknames is the name of another package."),
+            &args[0],
+        ))
+    }
+}
+
+fn delete_package(image: &mut Image, args: &[Value]) -> Outcome {
+    if let Value::Package(id) = &args[0]
+        && image.packages.is_deleted(*id)
+    {
+        return Ok(Value::NIL);
+    }
+    let id = designated(image, &args[0])?;
+    let name = image.packages.get(id).name.clone();
+    if id <= PackageTable::SYSTEM {
+        return Err(package_error(
+            format!("The package {name} is part of the system and cannot be deleted."),
+            &args[0],
+        ));
+    }
+    let users: Vec<PackageId> = image.packages.ids().collect();
+    for user in users {
+        image.packages.unuse_package(user, id);
+    }
+    let present: Vec<Sym> = image
+        .packages
+        .get(id)
+        .symbols
+        .values()
+        .map(|(sym, _)| *sym)
+        .collect();
+    for sym in present {
+        image.packages.unintern(&mut image.symbols, id, sym);
+    }
+    image.packages.delete(id);
+    Ok(Value::T)
+}
+
+/// Lets a package use another, unless two different symbols would get the same name.
+pub fn use_one(image: &mut Image, package: PackageId, used: PackageId) -> Result<(), Box<Raise>> {
+    let shadowing = &image.packages.get(package).shadowing;
+    let conflict = image
+        .packages
+        .get(used)
+        .symbols
+        .iter()
+        .find(|(name, (sym, external))| {
+            *external
+                && !shadowing.contains(name)
+                && image
+                    .packages
+                    .find_symbol(package, name)
+                    .is_some_and(|(other, _)| other != *sym)
+        });
+    if let Some((name, _)) = conflict {
+        let (user, used) = (
+            &image.packages.get(package).name,
+            &image.packages.get(used).name,
+        );
+        return Err(package_error(
+            format!(
+                "USE-PACKAGE {used} causes a name conflict in {user}: both have a symbol {name}; shadow it in {user} first."
+            ),
+            &Value::Package(package),
+        ));
+    }
+    image.packages.use_package(package, used);
+    Ok(())
+}
+
+fn use_package(image: &mut Image, args: &[Value]) -> Outcome {
+    let package = or_current(image, args.get(1))?;
+    for used in one_or_more(&args[0])? {
+        let used = designated(image, &used)?;
+        use_one(image, package, used)?;
+    }
+    Ok(Value::T)
+}
+
+fn unuse_package(image: &mut Image, args: &[Value]) -> Outcome {
+    let package = or_current(image, args.get(1))?;
+    for used in one_or_more(&args[0])? {
+        let used = designated(image, &used)?;
+        image.packages.unuse_package(package, used);
+    }
+    Ok(Value::T)
+}
+
+/// Makes a symbol present in a package, unless the package has another of its name.
+pub fn import_one(image: &mut Image, package: PackageId, sym: Sym) -> Result<(), Box<Raise>> {
+    let found = image.packages.find_symbol(package, image.name(sym));
+    if let Some((other, _)) = found
+        && other != sym
+    {
+        return Err(package_error(
+            format!(
+                "IMPORT {} causes a name conflict in {}: it has another symbol of that name.",
+                shown(image, &sym.into()),
+                image.packages.get(package).name
+            ),
+            &Value::Package(package),
+        ));
+    }
+    image.packages.import(&mut image.symbols, package, sym);
+    Ok(())
+}
+
+fn import(image: &mut Image, args: &[Value]) -> Outcome {
+    let package = or_current(image, args.get(1))?;
+    for sym in symbols(&args[0])? {
+        import_one(image, package, sym)?;
+    }
+    Ok(Value::T)
+}
+
+/// The symbols of a designator for a list of symbols; `NIL` is no symbol but the empty list.
+fn symbols(value: &Value) -> Result<Vec<Sym>, Box<Raise>> {
+    one_or_more(value)?.iter().map(symbol).collect()
+}
+
+fn shadowing_import(image: &mut Image, args: &[Value]) -> Outcome {
+    let package = or_current(image, args.get(1))?;
+    for sym in symbols(&args[0])? {
+        image
+            .packages
+            .shadowing_import(&mut image.symbols, package, sym);
+    }
+    Ok(Value::T)
+}
+
+fn export(image: &mut Image, args: &[Value]) -> Outcome {
+    let package = or_current(image, args.get(1))?;
+    for sym in symbols(&args[0])? {
+        let found = image.packages.find_symbol(package, image.name(sym));
+        if found.is_none_or(|(other, _)| other != sym) {
+            return Err(package_error(
+                format!(
+                    "{} cannot be exported: it is not accessible in {}; import it first.",
+                    shown(image, &sym.into()),
+                    image.packages.get(package).name
+                ),
+                &Value::Package(package),
+            ));
+        }
+        image.packages.export(&mut image.symbols, package, sym);
+    }
+    Ok(Value::T)
+}
+
+fn unexport(image: &mut Image, args: &[Value]) -> Outcome {
+    let package = or_current(image, args.get(1))?;
+    for sym in symbols(&args[0])? {
+        image.packages.unexport(&image.symbols, package, sym);
+    }
+    Ok(Value::T)
+}
+
+/// Makes a name refer to a symbol of the package itself, whatever it would inherit.
+pub fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
+    let present = image
+        .packages
+        .get(package)
+        .symbols
+        .get(name)
+        .map(|(s, _)| *s);
+    let sym = present.unwrap_or_else(|| image.make_symbol(name));
+    if present.is_none() {
+        image.symbols.get_mut(sym).package = Some(package);
+    }
+    let external = image
+        .packages
+        .get(package)
+        .symbols
+        .get(name)
+        .is_some_and(|(_, external)| *external);
+    image
+        .packages
+        .shadowing_import(&mut image.symbols, package, sym);
+    if external {
+        image.packages.export(&mut image.symbols, package, sym);
+    }
+}
+
+fn shadow(image: &mut Image, args: &[Value]) -> Outcome {
+    let package = or_current(image, args.get(1))?;
+    for name in names(image, Some(&args[0]))? {
+        shadow_one(image, package, &name);
+    }
+    Ok(Value::T)
+}
+
+/// Packages.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "PACKAGEP",
+        "object",
+        "Is the object a package?",
+        &["(packagep *package*) => T"],
+        packagep,
+    ),
+    pure(
+        "FIND-PACKAGE",
+        "name",
+        "The package of a name or nickname, or `NIL`.",
+        &["(find-package :cl) => #<PACKAGE \"COMMON-LISP\">"],
+        find_package,
+    ),
+    pure(
+        "PACKAGE-NAME",
+        "package",
+        "A package's name.",
+        &["(package-name :cl) => \"COMMON-LISP\""],
+        package_name,
+    ),
+    pure(
+        "PACKAGE-NICKNAMES",
+        "package",
+        "A package's other names.",
+        &["(package-nicknames :keyword) => NIL"],
+        package_nicknames,
+    ),
+    pure(
+        "PACKAGE-USE-LIST",
+        "package",
+        "The packages that a package uses.",
+        &["(package-use-list :keyword) => NIL"],
+        package_use_list,
+    ),
+    pure(
+        "PACKAGE-USED-BY-LIST",
+        "package",
+        "The packages that use a package.",
+        &["(package-used-by-list :keyword) => NIL"],
+        package_used_by_list,
+    ),
+    pure(
+        "PACKAGE-SHADOWING-SYMBOLS",
+        "package",
+        "The symbols that a package shadows.",
+        &["(package-shadowing-symbols :cl) => NIL"],
+        package_shadowing_symbols,
+    ),
+    pure(
+        "LIST-ALL-PACKAGES",
+        "",
+        "All packages.",
+        &["(first (list-all-packages)) => #<PACKAGE \"COMMON-LISP\">"],
+        list_all_packages,
+    ),
+    pure(
+        "FIND-ALL-SYMBOLS",
+        "name",
+        "All symbols of a name.",
+        &["(find-all-symbols \"CADDDR\") => (CADDDR)"],
+        find_all_symbols,
+    ),
+    pure(
+        "MAKE-PACKAGE",
+        "name &key nicknames use",
+        "A new package.",
+        &["(package-name (make-package :made-as-example)) => \"MADE-AS-EXAMPLE\""],
+        make_package,
+    ),
+    pure(
+        "RENAME-PACKAGE",
+        "package name &optional nicknames",
+        "Gives a package another name.",
+        &[
+            "(progn (make-package :old-name) (package-name (rename-package :old-name :new-name))) => \"NEW-NAME\"",
+        ],
+        rename_package,
+    ),
+    pure(
+        "DELETE-PACKAGE",
+        "package",
+        "Deletes a package.",
+        &["(progn (make-package :short-lived) (delete-package :short-lived)) => T"],
+        delete_package,
+    ),
+    pure(
+        "USE-PACKAGE",
+        "packages &optional package",
+        "Lets a package (the current one) inherit the exported symbols of others.",
+        &["(use-package :cl) => T"],
+        use_package,
+    ),
+    pure(
+        "UNUSE-PACKAGE",
+        "packages &optional package",
+        "Takes packages out of those that a package uses.",
+        &["(unuse-package :keyword) => T"],
+        unuse_package,
+    ),
+    pure(
+        "IMPORT",
+        "symbols &optional package",
+        "Makes symbols present in a package (the current one).",
+        &["(import 'cl:car) => T"],
+        import,
+    ),
+    pure(
+        "SHADOWING-IMPORT",
+        "symbols &optional package",
+        "Makes symbols present in a package in place of others of their names.",
+        &["(shadowing-import nil) => T"],
+        shadowing_import,
+    ),
+    pure(
+        "EXPORT",
+        "symbols &optional package",
+        "Exports symbols from a package (the current one).",
+        &["(export 'exported-as-example) => T"],
+        export,
+    ),
+    pure(
+        "UNEXPORT",
+        "symbols &optional package",
+        "Makes exported symbols internal again.",
+        &["(unexport 'exported-as-example) => T"],
+        unexport,
+    ),
+    pure(
+        "SHADOW",
+        "names &optional package",
+        "Gives a package symbols of its own in place of inherited ones.",
+        &["(shadow \"OWN-SYMBOL\") => T"],
+        shadow,
+    ),
+];

@@ -1,0 +1,466 @@
+//! Writing values and characters to streams: `print`, `princ`, `write-line`, …
+
+use super::composing::compose;
+use super::forms::split_declarations;
+use super::keywords;
+use super::sequence::{Bounds, Sequence};
+use crate::lisp::builtin::{Builtin, Operator, control, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print::{self, Case, Settings};
+use crate::lisp::raise::Raise;
+use crate::lisp::stream;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// Builtins of package `COMMON-LISP`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "PRINT",
+        "object &optional stream",
+        "Writes a newline, the object so that it can be read back, and a blank.",
+        &["(with-output-to-string (s) (print \"a\" s)) => \"\n\\\"a\\\" \""],
+        |m, args| write_object(m, args, Manner::Print),
+    ),
+    control(
+        "PRIN1",
+        "object &optional stream",
+        "Writes the object so that it can be read back.",
+        &["(with-output-to-string (s) (prin1 \"a\" s)) => \"\\\"a\\\"\""],
+        |m, args| write_object(m, args, Manner::Prin1),
+    ),
+    control(
+        "PRINC",
+        "object &optional stream",
+        "Writes the object for people.",
+        &["(with-output-to-string (s) (princ '(\"a\" #\\b) s)) => \"(a b)\""],
+        |m, args| write_object(m, args, Manner::Princ),
+    ),
+    control(
+        "PPRINT",
+        "object &optional stream",
+        "Writes a newline and the object with line breaks.",
+        &["(with-output-to-string (s) (pprint '(a b) s)) => \"\n(A B)\""],
+        |m, args| write_object(m, args, Manner::Pprint),
+    ),
+    control(
+        "WRITE",
+        "object &key stream escape radix base circle pretty level length case gensym array readably right-margin lines miser-width pprint-dispatch",
+        "Writes the object under given printer variables.",
+        &["(with-output-to-string (s) (write 255 :base 16 :stream s)) => \"FF\""],
+        write,
+    ),
+    control(
+        "PRIN1-TO-STRING",
+        "object",
+        "The text that PRIN1 writes.",
+        &["(prin1-to-string '(a \"b\")) => \"(A \\\"b\\\")\""],
+        |m, args| to_string(m, args, Some(true)),
+    ),
+    control(
+        "PRINC-TO-STRING",
+        "object",
+        "The text that PRINC writes.",
+        &["(princ-to-string '(a \"b\")) => \"(A b)\""],
+        |m, args| to_string(m, args, Some(false)),
+    ),
+    control(
+        "WRITE-TO-STRING",
+        "object &key escape radix base circle pretty level length case gensym array readably right-margin lines miser-width pprint-dispatch",
+        "The text that WRITE writes.",
+        &["(write-to-string '(1 2 3 4) :length 2) => \"(1 2 ...)\""],
+        |m, args| to_string(m, args, None),
+    ),
+    control(
+        "PRINT-OBJECT",
+        "object stream",
+        "Writes the object; a program may add methods.",
+        &["(with-output-to-string (s) (print-object 'a s)) => \"A\""],
+        print_object,
+    ),
+    pure(
+        "WRITE-STRING",
+        "string &optional stream &key start end",
+        "Writes the string as it is.",
+        &["(with-output-to-string (s) (write-string \"abc\" s :start 1)) => \"bc\""],
+        |image, args| write_string(image, args, ""),
+    ),
+    pure(
+        "WRITE-LINE",
+        "string &optional stream &key start end",
+        "Writes the string and a newline.",
+        &["(with-output-to-string (s) (write-line \"abc\" s)) => \"abc\n\""],
+        |image, args| write_string(image, args, "\n"),
+    ),
+    pure(
+        "WRITE-CHAR",
+        "character &optional stream",
+        "Writes the character.",
+        &["(with-output-to-string (s) (write-char #\\a s)) => \"a\""],
+        |image, args| {
+            let Value::Char(c) = args[0] else {
+                return Err(Raise::type_error(&args[0], known::CHARACTER));
+            };
+            stream::write(image, &stream_argument(args, 1), c.encode_utf8(&mut [0; 4]))?;
+            Ok(args[0].clone())
+        },
+    ),
+    pure(
+        "TERPRI",
+        "&optional stream",
+        "Writes a newline.",
+        &["(with-output-to-string (s) (terpri s)) => \"\n\""],
+        |image, args| {
+            stream::write(image, &stream_argument(args, 0), "\n")?;
+            Ok(Value::NIL)
+        },
+    ),
+    pure(
+        "FRESH-LINE",
+        "&optional stream",
+        "Writes a newline unless at the start of a line; was one written?",
+        &["(with-output-to-string (s) (fresh-line s)) => \"\""],
+        |image, args| stream::fresh_line(image, &stream_argument(args, 0)).map(Value::bool),
+    ),
+];
+
+/// Builtins of package `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[control(
+    "WRITE-UNREADABLE",
+    "object stream type identity body",
+    "Writes #<…> with the object's type, what the body writes, and a made-up address.",
+    &[],
+    write_unreadable,
+)];
+
+/// Macros of package `COMMON-LISP`.
+pub static OPERATORS: &[Operator] = &[Operator {
+    name: "PRINT-UNREADABLE-OBJECT",
+    lambda_list: "(object stream &key type identity) &body body",
+    doc: "Writes #<…> around what the body writes.",
+    examples: &[
+        "(with-output-to-string (s) (print-unreadable-object (1 s) (princ \"one\" s))) => \"#<one>\"",
+    ],
+    expand: Some(expand_print_unreadable),
+}];
+
+#[derive(Clone, Copy, PartialEq)]
+enum Manner {
+    Print,
+    Prin1,
+    Princ,
+    Pprint,
+}
+
+fn stream_argument(args: &[Value], index: usize) -> Value {
+    args.get(index).cloned().unwrap_or(Value::NIL)
+}
+
+/// The column of a stream, zero where that is not known.
+fn column(image: &Image, stream: &Value) -> Result<usize, Box<Raise>> {
+    Ok(stream::column(image, stream)?.unwrap_or(0))
+}
+
+fn write_object(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+    manner: Manner,
+) -> Result<Step, Box<Raise>> {
+    let target = stream_argument(&args, 1);
+    let object = args[0].clone();
+    let mut settings = Settings::of(machine.image).with_escape(manner != Manner::Princ);
+    let mut start = column(machine.image, &target)?;
+    if matches!(manner, Manner::Print | Manner::Pprint) {
+        start = 0;
+    }
+    settings.pretty |= manner == Manner::Pprint;
+    let printed = object.clone();
+    compose(
+        machine,
+        "PRINT",
+        move |image, calls| Ok(print::write(image, &printed, &settings, start, calls)),
+        move |machine, text| {
+            let text = match manner {
+                Manner::Print => format!("\n{text} "),
+                Manner::Pprint => format!("\n{text}"),
+                Manner::Prin1 | Manner::Princ => text,
+            };
+            stream::write(machine.image, &target, &text)?;
+            Ok(Step::Return(match manner {
+                Manner::Pprint => Value::values(Vec::new()),
+                _ => object,
+            }))
+        },
+    )
+}
+
+/// The settings of `write`, and the stream.
+fn write_settings(image: &Image, args: &[Value]) -> Result<(Settings, Value), Box<Raise>> {
+    let given = keywords::parse(
+        image,
+        args,
+        [
+            known::K_STREAM,
+            known::K_ESCAPE,
+            known::K_RADIX,
+            known::K_BASE,
+            known::K_CIRCLE,
+            known::K_PRETTY,
+            known::K_LEVEL,
+            known::K_LENGTH,
+            known::K_CASE,
+            known::K_GENSYM,
+            known::K_ARRAY,
+            known::K_READABLY,
+            known::K_RIGHT_MARGIN,
+            known::K_LINES,
+            known::K_MISER_WIDTH,
+            known::K_PPRINT_DISPATCH,
+        ],
+    )?;
+    let [
+        stream,
+        escape,
+        radix,
+        base,
+        circle,
+        pretty,
+        level,
+        length,
+        case,
+        gensym,
+        array,
+        readably,
+        right_margin,
+        lines,
+        miser_width,
+        _,
+    ] = given;
+    let mut settings = Settings::of(image);
+    let flag = |place: &mut bool, value: Option<Value>| {
+        if let Some(value) = value {
+            *place = value.is_true();
+        }
+    };
+    flag(&mut settings.escape, escape);
+    flag(&mut settings.radix, radix);
+    flag(&mut settings.circle, circle);
+    flag(&mut settings.pretty, pretty);
+    flag(&mut settings.gensym, gensym);
+    flag(&mut settings.array, array);
+    flag(&mut settings.readably, readably);
+    count(&mut settings.level, level)?;
+    count(&mut settings.length, length)?;
+    count(&mut settings.lines, lines)?;
+    count(&mut settings.miser_width, miser_width)?;
+    let mut margin = Some(settings.right_margin);
+    count(&mut margin, right_margin)?;
+    settings.right_margin = margin.unwrap_or(80);
+    match base {
+        None => {}
+        Some(Value::Int(n @ 2..=36)) => settings.base = u32::try_from(n).unwrap_or(10),
+        Some(other) => {
+            let range = [known::INTEGER.into(), Value::Int(2), Value::Int(36)];
+            return Err(Raise::type_error(&other, Value::list(range)));
+        }
+    }
+    match case.map(|value| (value.as_symbol(), value)) {
+        None => {}
+        Some((Some(known::K_UPCASE), _)) => settings.case = Case::Up,
+        Some((Some(known::K_DOWNCASE), _)) => settings.case = Case::Down,
+        Some((Some(known::K_CAPITALIZE), _)) => settings.case = Case::Capitalize,
+        Some((_, other)) => {
+            let cases: [Value; 4] = [
+                known::MEMBER.into(),
+                known::K_UPCASE.into(),
+                known::K_DOWNCASE.into(),
+                known::K_CAPITALIZE.into(),
+            ];
+            return Err(Raise::type_error(&other, Value::list(cases)));
+        }
+    }
+    Ok((settings, stream.unwrap_or(Value::NIL)))
+}
+
+fn count(place: &mut Option<usize>, value: Option<Value>) -> Result<(), Box<Raise>> {
+    *place = match value {
+        None => return Ok(()),
+        Some(Value::Symbol(known::NIL)) => None,
+        Some(Value::Int(n)) if n >= 0 => usize::try_from(n).ok(),
+        Some(other) => return Err(Raise::type_error(&other, known::UNSIGNED_BYTE)),
+    };
+    Ok(())
+}
+
+fn write(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let object = args[0].clone();
+    let (settings, target) = write_settings(machine.image, args.get(1..).unwrap_or(&[]))?;
+    let start = column(machine.image, &target)?;
+    let printed = object.clone();
+    compose(
+        machine,
+        "WRITE",
+        move |image, calls| Ok(print::write(image, &printed, &settings, start, calls)),
+        move |machine, text| {
+            stream::write(machine.image, &target, &text)?;
+            Ok(Step::Return(object))
+        },
+    )
+}
+
+fn to_string(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+    escape: Option<bool>,
+) -> Result<Step, Box<Raise>> {
+    let settings = match escape {
+        Some(escape) => Settings::of(machine.image).with_escape(escape),
+        None => write_settings(machine.image, args.get(1..).unwrap_or(&[]))?.0,
+    };
+    compose(
+        machine,
+        "WRITE-TO-STRING",
+        move |image, calls| Ok(print::write(image, &args[0], &settings, 0, calls)),
+        |_, text| Ok(Step::Return(Value::string(text))),
+    )
+}
+
+/// What the method for everything does: the object's default form.
+fn print_object(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let settings = Settings::of(machine.image);
+    let target = args[1].clone();
+    let start = column(machine.image, &target)?;
+    let object = args[0].clone();
+    compose(
+        machine,
+        "PRINT-OBJECT",
+        move |image, calls| {
+            Ok(print::write_default(
+                image, &args[0], &settings, start, calls,
+            ))
+        },
+        move |machine, text| {
+            stream::write(machine.image, &target, &text)?;
+            Ok(Step::Return(object))
+        },
+    )
+}
+
+fn write_string(image: &mut Image, args: &[Value], end_of_line: &str) -> Outcome {
+    let Value::Str(string) = &args[0] else {
+        return Err(Raise::type_error(&args[0], known::STRING));
+    };
+    let names: [Sym; 2] = [known::K_START, known::K_END];
+    let [start, end] = keywords::parse(image, args.get(2..).unwrap_or(&[]), names)?;
+    let sequence = Sequence::Str(string.clone());
+    let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let text = string.text();
+    let part: String = match (bounds.start, bounds.end) {
+        (0, None) => text,
+        (start, end) => {
+            let end = end.unwrap_or(usize::MAX);
+            text.chars().skip(start).take(end - start).collect()
+        }
+    };
+    stream::write(
+        image,
+        &stream_argument(args, 1),
+        &format!("{part}{end_of_line}"),
+    )?;
+    Ok(args[0].clone())
+}
+
+/// `(print-unreadable-object (object stream :type t) body…)` becomes
+/// `(write-unreadable object stream t nil (lambda () body…))`.
+fn expand_print_unreadable(image: &mut Image, form: &Value) -> Outcome {
+    let mut parts = form.iter_list().skip(1);
+    let head = parts.next().and_then(|head| head.list_to_vec());
+    let Some([object, target, options @ ..]) = head.as_deref() else {
+        return Err(Raise::program(
+            "The form is written (PRINT-UNREADABLE-OBJECT (OBJECT STREAM &KEY TYPE IDENTITY) BODY...).",
+        ));
+    };
+    let names = [known::K_TYPE, known::K_IDENTITY];
+    let [type_form, identity] = keywords::parse(image, options, names)?;
+    let (declarations, body) = split_declarations(parts.collect());
+    let body = if body.is_empty() && declarations.is_empty() {
+        Value::NIL
+    } else {
+        let lambda = [known::LAMBDA.into(), Value::NIL]
+            .into_iter()
+            .chain(declarations)
+            .chain(body);
+        Value::list([
+            known::FUNCTION.into(),
+            Value::list(lambda.collect::<Vec<_>>()),
+        ])
+    };
+    Ok(Value::list([
+        known::WRITE_UNREADABLE.into(),
+        object.clone(),
+        target.clone(),
+        type_form.unwrap_or(Value::NIL),
+        identity.unwrap_or(Value::NIL),
+        body,
+    ]))
+}
+
+/// After the body of `print-unreadable-object`: the end of the text.
+struct CloseUnreadable {
+    stream: Value,
+    end: String,
+}
+
+impl Resume for CloseUnreadable {
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
+        stream::write(machine.image, &self.stream, &self.end)?;
+        Ok(Step::Return(Value::NIL))
+    }
+
+    fn name(&self) -> &'static str {
+        "PRINT-UNREADABLE-OBJECT"
+    }
+}
+
+fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let [object, target, with_type, with_identity, body] = args.as_slice() else {
+        return Err(Raise::program(format!(
+            "invalid number of arguments: {}",
+            args.len()
+        )));
+    };
+    let image = &mut *machine.image;
+    let mut start = String::from("#<");
+    if with_type.is_true() {
+        let name = crate::lisp::object::class_of(image, object).name;
+        start.push_str(&print::to_string(image, &name.into(), true));
+    }
+    let end = if with_identity.is_true() {
+        format!("{}>", print::identity(image, object))
+    } else {
+        ">".to_owned()
+    };
+    let is_first = start.len() == 2;
+    if body.is_nil() {
+        let blank = if is_first || end == ">" { "" } else { " " };
+        stream::write(image, target, &format!("{start}{blank}{end}"))?;
+        return Ok(Step::Return(Value::NIL));
+    }
+    if !is_first {
+        start.push(' ');
+    }
+    stream::write(image, target, &start)?;
+    let end = if end == ">" { end } else { format!(" {end}") };
+    Ok(Step::Call {
+        function: body.clone(),
+        args: Vec::new(),
+        then: Box::new(CloseUnreadable {
+            stream: target.clone(),
+            end,
+        }),
+    })
+}

@@ -1,0 +1,456 @@
+//! Reading forms from streams and strings, and macro characters.
+
+use std::rc::Rc;
+
+use super::keywords;
+use super::sequence::{Bounds, Sequence};
+use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::stream::{self, Stream};
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+use crate::reader::readtable::Readtable;
+use crate::reader::{ReadError, Reader};
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// Builtins of package `COMMON-LISP`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "READ",
+        "&optional stream eof-error-p eof-value recursive-p",
+        "Reads a form from a stream.",
+        &["(with-input-from-string (s \"(1 2) 3\") (read s)) => (1 2)"],
+        |m, args| read(m, &args, false),
+    ),
+    control(
+        "READ-PRESERVING-WHITESPACE",
+        "&optional stream eof-error-p eof-value recursive-p",
+        "Like READ, without reading the blank after the form.",
+        &[],
+        |m, args| read(m, &args, true),
+    ),
+    control(
+        "READ-FROM-STRING",
+        "string &optional eof-error-p eof-value &key start end preserve-whitespace",
+        "Reads a form from a string; also where reading ended.",
+        &["(read-from-string \"(a b) c\") => (A B) ; 6"],
+        read_from_string,
+    ),
+    control(
+        "READ-DELIMITED-LIST",
+        "character &optional stream recursive-p",
+        "Reads forms up to a character.",
+        &["(with-input-from-string (s \"1 2 ]\") (read-delimited-list #\\] s)) => (1 2)"],
+        read_delimited_list,
+    ),
+    pure(
+        "COPY-READTABLE",
+        "&optional readtable to",
+        "A copy of a readtable; of the standard one if the argument is NIL.",
+        &["(readtablep (copy-readtable nil)) => T"],
+        copy_readtable,
+    ),
+    pure(
+        "READTABLEP",
+        "object",
+        "Is the object a readtable?",
+        &["(readtablep 1) => NIL"],
+        |_, args| Ok(Value::bool(args[0].as_foreign::<Readtable>().is_some())),
+    ),
+    pure(
+        "READTABLE-CASE",
+        "readtable",
+        "What the reader does with letters: it upcases them.",
+        &["(readtable-case *readtable*) => :UPCASE"],
+        |_, args| match args[0].as_foreign::<Readtable>() {
+            Some(_) => Ok(known::K_UPCASE.into()),
+            None => Err(Raise::type_error(&args[0], known::READTABLE)),
+        },
+    ),
+    pure(
+        "SET-MACRO-CHARACTER",
+        "character function &optional non-terminating-p readtable",
+        "Lets a function of stream and character read what begins with the character.",
+        &[],
+        set_macro_character,
+    ),
+    pure(
+        "GET-MACRO-CHARACTER",
+        "character &optional readtable",
+        "The function of a macro character that a program has set.",
+        &["(get-macro-character #\\!) => NIL ; NIL"],
+        get_macro_character,
+    ),
+    pure(
+        "SET-DISPATCH-MACRO-CHARACTER",
+        "character sub-character function &optional readtable",
+        "Lets a function of stream, sub-character and number read what begins with the two characters.",
+        &[],
+        set_dispatch_macro_character,
+    ),
+    pure(
+        "GET-DISPATCH-MACRO-CHARACTER",
+        "character sub-character &optional readtable",
+        "The function of two characters that a program has set.",
+        &["(get-dispatch-macro-character #\\# #\\?) => NIL"],
+        |image, args| {
+            let key = (character(&args[0])?, upper(character(&args[1])?));
+            with_readtable(image, args.get(2), |table| {
+                table
+                    .dispatch
+                    .borrow()
+                    .get(&key)
+                    .cloned()
+                    .unwrap_or(Value::NIL)
+            })
+        },
+    ),
+];
+
+/// Gives `*readtable*` its value.
+pub fn define_variables(image: &mut Image) {
+    image.define_special(known::V_READTABLE, Value::foreign(Readtable::default()));
+}
+
+/// Reading a form that may stop for evaluation.
+struct Reading {
+    reader: Reader,
+    /// Where the reader's text begins in the stream's rest.
+    start: usize,
+    then: After,
+}
+
+/// What happens with the form.
+enum After {
+    /// It is the value; the stream goes on behind it.
+    Stream(FromStream),
+    /// It is the first value; the second is the position.
+    String {
+        /// Characters before the text.
+        before: usize,
+        eof: Eof,
+        preserve_whitespace: bool,
+    },
+    /// It is an element of a list that ends with a character.
+    List {
+        end: char,
+        items: Vec<Value>,
+        stream: Value,
+    },
+}
+
+struct FromStream {
+    stream: Value,
+    eof: Eof,
+    preserve_whitespace: bool,
+}
+
+/// What the end of the text means: an error (with the stream), or a value.
+enum Eof {
+    Error(Value),
+    Value(Value),
+}
+
+impl Eof {
+    fn of(args: &[Value], stream: Value) -> Eof {
+        match args.first() {
+            Some(error) if error.is_nil() => Eof::Value(args.get(1).cloned().unwrap_or(Value::NIL)),
+            _ => Eof::Error(stream),
+        }
+    }
+
+    fn value(&self, image: &Image) -> Outcome {
+        match self {
+            Eof::Value(value) => Ok(value.clone()),
+            Eof::Error(stream) => Err(end_of_file(image, stream)),
+        }
+    }
+}
+
+fn end_of_file(image: &Image, stream: &Value) -> Box<Raise> {
+    let shown = print::to_string(image, stream, true);
+    Raise::new(known::END_OF_FILE, format!("end of file on {shown}"))
+        .with(known::K_STREAM, stream.clone())
+}
+
+impl Reading {
+    fn next(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step, Box<Raise>> {
+        if let After::List { end, .. } = &self.then {
+            let rest = self.reader.rest();
+            let blanks = rest.len() - rest.trim_start().len();
+            if rest.trim_start().starts_with(*end) {
+                let consumed = blanks + end.len_utf8();
+                return self.finish_list(machine, consumed);
+            }
+        }
+        let outcome = self.reader.next(machine.image);
+        self.take(machine, outcome)
+    }
+
+    fn take(
+        mut self: Box<Self>,
+        machine: &mut Machine<'_>,
+        outcome: Result<crate::reader::Outcome, ReadError>,
+    ) -> Result<Step, Box<Raise>> {
+        use crate::reader::Outcome;
+        let form = match outcome {
+            Ok(Outcome::Evaluate(form)) => {
+                return Ok(Step::Call {
+                    function: known::EVAL.into(),
+                    args: vec![form],
+                    then: self,
+                });
+            }
+            Ok(Outcome::Form(form, _)) => Some(form),
+            Ok(Outcome::End) => None,
+            Err(error) => {
+                self.advance(machine.image)?;
+                return Err(error.raise());
+            }
+        };
+        let image = &mut *machine.image;
+        match (&mut self.then, form) {
+            (After::List { items, .. }, Some(form)) => {
+                items.push(form);
+                self.next(machine)
+            }
+            (After::List { stream, .. }, None) => {
+                let error = end_of_file(image, stream);
+                self.advance(image)?;
+                Err(error)
+            }
+            (After::Stream(from), Some(form)) => {
+                if !from.preserve_whitespace {
+                    self.reader.skip_one_blank();
+                }
+                self.advance(image)?;
+                Ok(Step::Return(form))
+            }
+            (After::Stream(from), None) => {
+                let value = from.eof.value(image);
+                self.advance(image)?;
+                value.map(Step::Return)
+            }
+            (
+                After::String {
+                    before,
+                    eof,
+                    preserve_whitespace,
+                },
+                form,
+            ) => {
+                let value = match form {
+                    Some(form) => {
+                        if !*preserve_whitespace {
+                            self.reader.skip_one_blank();
+                        }
+                        form
+                    }
+                    None => eof.value(image)?,
+                };
+                let read = self.reader.text().get(..self.reader.position());
+                let position = *before + read.map_or(0, |text| text.chars().count());
+                Ok(Step::Return(Value::values(vec![
+                    value,
+                    Value::from(position),
+                ])))
+            }
+        }
+    }
+
+    /// Tells the stream how much was read.
+    fn advance(&self, image: &mut Image) -> Result<(), Box<Raise>> {
+        let stream = match &self.then {
+            After::Stream(from) => &from.stream,
+            After::List { stream, .. } => stream,
+            After::String { .. } => return Ok(()),
+        };
+        let consumed = self.reader.position().saturating_sub(self.start);
+        stream::advance(image, stream, consumed)
+    }
+
+    fn finish_list(
+        self: Box<Self>,
+        machine: &mut Machine<'_>,
+        consumed: usize,
+    ) -> Result<Step, Box<Raise>> {
+        let read = self.reader.position().saturating_sub(self.start) + consumed;
+        match self.then {
+            After::List { items, stream, .. } => {
+                stream::advance(machine.image, &stream, read)?;
+                Ok(Step::Return(Value::list(items)))
+            }
+            _ => Ok(Step::Return(Value::NIL)),
+        }
+    }
+}
+
+impl Resume for Reading {
+    fn resume(
+        mut self: Box<Self>,
+        machine: &mut Machine<'_>,
+        value: Value,
+    ) -> Result<Step, Box<Raise>> {
+        let outcome = self.reader.supply(machine.image, value);
+        self.take(machine, outcome)
+    }
+
+    fn name(&self) -> &'static str {
+        "READ"
+    }
+}
+
+fn reading_of_stream(image: &Image, then: After) -> Result<Box<Reading>, Box<Raise>> {
+    let stream = match &then {
+        After::Stream(from) => &from.stream,
+        After::List { stream, .. } => stream,
+        After::String { .. } => &Value::NIL,
+    };
+    let (text, start) = stream::rest(image, stream)?;
+    Ok(Box::new(Reading {
+        reader: Reader::of_text(text).at(start),
+        start,
+        then,
+    }))
+}
+
+fn read(
+    machine: &mut Machine<'_>,
+    args: &[Value],
+    preserve_whitespace: bool,
+) -> Result<Step, Box<Raise>> {
+    let designator = args.first().cloned().unwrap_or(Value::NIL);
+    let stream = Value::Stream(stream::input_stream(machine.image, &designator)?);
+    // Inside another reading, the blank after the form belongs to that.
+    let is_recursive = args.get(3).is_some_and(Value::is_true);
+    let then = After::Stream(FromStream {
+        eof: Eof::of(args.get(1..).unwrap_or(&[]), stream.clone()),
+        stream,
+        preserve_whitespace: preserve_whitespace || is_recursive,
+    });
+    reading_of_stream(machine.image, then)?.next(machine)
+}
+
+fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let Value::Str(string) = &args[0] else {
+        return Err(Raise::type_error(&args[0], known::STRING));
+    };
+    let [start, end, preserve_whitespace] = keywords::parse(
+        machine.image,
+        args.get(3..).unwrap_or(&[]),
+        [known::K_START, known::K_END, known::K_PRESERVE_WHITESPACE],
+    )?;
+    let sequence = Sequence::Str(string.clone());
+    let bounds = Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let text: Rc<str> = match bounds.end {
+        None => string.text().into(),
+        Some(end) => {
+            let chars = string.text();
+            let part: String = chars
+                .chars()
+                .skip(bounds.start)
+                .take(end - bounds.start)
+                .collect();
+            part.into()
+        }
+    };
+    let stream = Value::Stream(Rc::new(Stream::from_text(text.clone())));
+    let reading = Box::new(Reading {
+        reader: Reader::of_text(text),
+        start: 0,
+        then: After::String {
+            before: bounds.start,
+            eof: Eof::of(args.get(1..).unwrap_or(&[]), stream),
+            preserve_whitespace: preserve_whitespace.is_some_and(|v| v.is_true()),
+        },
+    });
+    reading.next(machine)
+}
+
+fn read_delimited_list(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let end = character(&args[0])?;
+    let designator = args.get(1).cloned().unwrap_or(Value::NIL);
+    let stream = Value::Stream(stream::input_stream(machine.image, &designator)?);
+    let then = After::List {
+        end,
+        items: Vec::new(),
+        stream,
+    };
+    let mut reading = reading_of_stream(machine.image, then)?;
+    reading.reader = reading.reader.with_terminator(end);
+    reading.next(machine)
+}
+
+fn character(value: &Value) -> Result<char, Box<Raise>> {
+    match value {
+        Value::Char(c) => Ok(*c),
+        other => Err(Raise::type_error(other, known::CHARACTER)),
+    }
+}
+
+fn upper(c: char) -> char {
+    c.to_ascii_uppercase()
+}
+
+/// Looks into the readtable of an argument, or the current one.
+fn with_readtable<R>(
+    image: &Image,
+    argument: Option<&Value>,
+    look: impl FnOnce(&Readtable) -> R,
+) -> Result<R, Box<Raise>> {
+    let table = match argument {
+        Some(table) if table.is_true() => table,
+        _ => image.special(known::V_READTABLE),
+    };
+    match table.as_foreign::<Readtable>() {
+        Some(table) => Ok(look(table)),
+        None => Err(Raise::type_error(table, known::READTABLE)),
+    }
+}
+
+fn copy_readtable(image: &mut Image, args: &[Value]) -> Outcome {
+    if args.first().is_some_and(Value::is_nil) {
+        return Ok(Value::foreign(Readtable::default()));
+    }
+    with_readtable(image, args.first(), |table| Value::foreign(table.clone()))
+}
+
+fn set_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
+    let c = character(&args[0])?;
+    let inside = args.get(2).is_some_and(Value::is_true);
+    with_readtable(image, args.get(3), |table| {
+        let entry = (args[1].clone(), inside);
+        table.macros.borrow_mut().insert(c, entry);
+        Value::T
+    })
+}
+
+fn get_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
+    let c = character(&args[0])?;
+    with_readtable(image, args.get(1), |table| {
+        let (function, inside) = match table.macros.borrow().get(&c) {
+            Some((function, inside)) => (function.clone(), *inside),
+            None => (Value::NIL, false),
+        };
+        Value::values(vec![function, Value::bool(inside)])
+    })
+}
+
+fn set_dispatch_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
+    let key = (character(&args[0])?, upper(character(&args[1])?));
+    if key.0 != '#' {
+        return Err(Raise::simple(format!(
+            "{} is no dispatching macro character; only # is.",
+            key.0
+        )));
+    }
+    with_readtable(image, args.get(3), |table| {
+        table.dispatch.borrow_mut().insert(key, args[2].clone());
+        Value::T
+    })
+}

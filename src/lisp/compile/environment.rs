@@ -1,0 +1,65 @@
+//! Environments: what a macro function learns of the scope of its call.
+
+use super::scope::{FunctionMeaning, Scope, VariableMeaning};
+use crate::lisp::foreign::Foreign;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine;
+
+/// The scope of a macro call, as a value.
+pub(super) struct Environment(Scope);
+
+impl Environment {
+    /// The environment of a scope.
+    pub fn value(scope: &Scope) -> Value {
+        Value::foreign(Environment(scope.clone()))
+    }
+}
+
+impl Foreign for Environment {
+    fn type_symbol(&self) -> Sym {
+        known::L_ENVIRONMENT
+    }
+
+    fn print(&self, _: &Image, _: bool) -> String {
+        "#<ENVIRONMENT>".to_owned()
+    }
+}
+
+/// Expands a form that an environment's local macros or functions are about: the expansion,
+/// or `Some(None)` if the name is that of a local function or variable. `None` if the
+/// environment does not know the name.
+pub(super) fn expand_locally(
+    image: &mut Image,
+    form: &Value,
+    environment: &Value,
+) -> Result<Option<Option<Value>>, Box<Raise>> {
+    let Some(Environment(scope)) = environment.as_foreign::<Environment>() else {
+        return Ok(None);
+    };
+    match form {
+        Value::Symbol(name) => Ok(match scope.variable(*name) {
+            Some(VariableMeaning::SymbolMacro(expansion)) => Some(Some(expansion.clone())),
+            Some(_) => Some(None),
+            None => None,
+        }),
+        Value::Cons(cons) => {
+            let Some(name) = cons.car().as_symbol() else {
+                return Ok(Some(None));
+            };
+            match scope.function(name, false) {
+                Some(FunctionMeaning::Macro(function)) => {
+                    let function = Value::Function(function.clone());
+                    let args = vec![form.clone(), environment.clone()];
+                    machine::call_nested(image, function, args).map(|e| Some(Some(e)))
+                }
+                Some(FunctionMeaning::Local(_)) => Ok(Some(None)),
+                None => Ok(None),
+            }
+        }
+        _ => Ok(None),
+    }
+}

@@ -1,0 +1,110 @@
+//! Variables of clauses: single ones, and trees that take a list apart.
+
+use super::parser::Parser;
+use super::plan::{Assignment, Plan};
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+/// Trees of variables may be this large.
+const MAX_VARIABLES: usize = 10_000;
+
+/// Reads a variable or tree of variables, and a type if one follows.
+///
+/// Returns the tree and the type.
+pub fn variable(
+    parser: &mut Parser<'_>,
+    plan: &mut Plan,
+    clause: &str,
+) -> Result<(Value, Option<Value>), Box<Raise>> {
+    let tree = parser.form(clause)?;
+    for name in leaves(&tree)? {
+        let Value::Symbol(sym) = &name else {
+            return Err(Raise::program(format!(
+                "{} after {clause} in LOOP is not a variable.",
+                parser.shown(&name)
+            )));
+        };
+        if parser.image.is_keyword(*sym) || *sym == known::T {
+            return Err(Raise::program(format!(
+                "{} after {clause} in LOOP is a constant and cannot be a variable.",
+                parser.shown(&name)
+            )));
+        }
+        if plan.variables.iter().any(|v| v.is_eq(&name)) {
+            return Err(Raise::program(format!(
+                "The variable {} stands twice in LOOP.",
+                parser.shown(&name)
+            )));
+        }
+        plan.variables.push(name);
+    }
+    Ok((tree, variable_type(parser, clause)?))
+}
+
+/// Reads a type: after `of-type`, or one of the simple types that stand alone.
+pub fn variable_type(parser: &mut Parser<'_>, clause: &str) -> Result<Option<Value>, Box<Raise>> {
+    if parser.accept(&["OF-TYPE"]) {
+        return parser.form(&format!("OF-TYPE in {clause}")).map(Some);
+    }
+    if parser.is_any(&["FIXNUM", "FLOAT", "T", "NIL"]) {
+        return parser.form(clause).map(Some);
+    }
+    Ok(None)
+}
+
+/// What a variable holds that no value was given for.
+pub fn default_value(of_type: Option<&Value>) -> Value {
+    match of_type {
+        Some(Value::Symbol(
+            known::FIXNUM
+            | known::INTEGER
+            | known::NUMBER
+            | known::REAL
+            | known::RATIONAL
+            | known::BIT
+            | known::UNSIGNED_BYTE,
+        )) => Value::Int(0),
+        Some(Value::Symbol(known::FLOAT | known::SINGLE_FLOAT)) => Value::Single(0.0),
+        Some(Value::Symbol(known::DOUBLE_FLOAT)) => Value::Double(0.0),
+        _ => Value::NIL,
+    }
+}
+
+/// The variables of a tree; `NIL` is none.
+fn leaves(tree: &Value) -> Result<Vec<Value>, Box<Raise>> {
+    let mut found = Vec::new();
+    let mut pending = vec![tree.clone()];
+    while let Some(part) = pending.pop() {
+        match &part {
+            Value::Cons(cons) => {
+                pending.push(cons.cdr());
+                pending.push(cons.car());
+            }
+            Value::Symbol(known::NIL) => {}
+            _ => found.push(part),
+        }
+        if found.len() + pending.len() > MAX_VARIABLES {
+            return Err(Raise::program("LOOP has too many variables in one clause."));
+        }
+    }
+    Ok(found)
+}
+
+/// Each variable of a tree with the form that takes its value out of a variable.
+pub fn parts(tree: &Value, whole: &Value) -> Vec<Assignment> {
+    let mut found = Vec::new();
+    let mut pending = vec![(tree.clone(), whole.clone())];
+    while let Some((part, form)) = pending.pop() {
+        match &part {
+            Value::Cons(cons) => {
+                let half = |f| Value::list([Value::Symbol(f), form.clone()]);
+                pending.push((cons.cdr(), half(known::CDR)));
+                pending.push((cons.car(), half(known::CAR)));
+            }
+            Value::Symbol(known::NIL) => {}
+            _ => found.push((part, form)),
+        }
+    }
+    found
+}

@@ -1,0 +1,121 @@
+//! Reading the forms of a `loop` from left to right.
+
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::reader::nearest;
+
+/// The forms of a loop and how far they are read.
+pub struct Parser<'a> {
+    /// The image: names of symbols, fresh variables.
+    pub image: &'a mut Image,
+    forms: Vec<Value>,
+    position: usize,
+}
+
+impl<'a> Parser<'a> {
+    /// A parser of the forms after `loop`.
+    pub fn new(image: &'a mut Image, forms: Vec<Value>) -> Parser<'a> {
+        Parser {
+            image,
+            forms,
+            position: 0,
+        }
+    }
+
+    /// Is everything read?
+    pub fn is_at_end(&self) -> bool {
+        self.position >= self.forms.len()
+    }
+
+    /// The next form, without reading it.
+    pub fn peek(&self) -> Option<&Value> {
+        self.forms.get(self.position)
+    }
+
+    /// The name of the next form, if that is a symbol.
+    pub fn word(&self) -> Option<&str> {
+        let sym = self.peek()?.as_symbol()?;
+        Some(self.image.name(sym))
+    }
+
+    /// Is the next form one of these words?
+    pub fn is_any(&self, words: &[&str]) -> bool {
+        self.word().is_some_and(|word| words.contains(&word))
+    }
+
+    /// Reads the next form if it is one of these words.
+    pub fn accept(&mut self, words: &[&str]) -> bool {
+        let found = self.is_any(words);
+        if found {
+            self.position += 1;
+        }
+        found
+    }
+
+    /// Reads the next form; `after` names what it belongs to.
+    pub fn form(&mut self, after: &str) -> Result<Value, Box<Raise>> {
+        match self.forms.get(self.position) {
+            Some(form) => {
+                let form = form.clone();
+                self.position += 1;
+                Ok(form)
+            }
+            None => Err(Raise::program(format!(
+                "LOOP ends after {after}, where a form is wanted."
+            ))),
+        }
+    }
+
+    /// Reads forms up to the next word: at least one.
+    pub fn compound_forms(&mut self, after: &str) -> Result<Vec<Value>, Box<Raise>> {
+        let mut forms = Vec::new();
+        while let Some(form @ Value::Cons(_)) = self.peek() {
+            forms.push(form.clone());
+            self.position += 1;
+        }
+        if forms.is_empty() {
+            let found = match self.peek() {
+                Some(form) => format!("not {}", self.shown(form)),
+                None => "and the LOOP ends there".to_owned(),
+            };
+            return Err(Raise::program(format!(
+                "{after} in LOOP is followed by forms in parentheses, {found}."
+            )));
+        }
+        Ok(forms)
+    }
+
+    /// A form as messages show it.
+    pub fn shown(&self, form: &Value) -> String {
+        print::to_string(self.image, form, true)
+    }
+
+    /// The error that the next form is none of the words that may stand here.
+    pub fn unexpected(&self, after: &str, words: &[&str]) -> Box<Raise> {
+        let expected = match words.split_last() {
+            Some((last, [])) => (*last).to_owned(),
+            Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+            None => "nothing".to_owned(),
+        };
+        let Some(found) = self.peek() else {
+            return Raise::program(format!(
+                "LOOP ends after {after}, where {expected} is wanted."
+            ));
+        };
+        let hint = match self.word().and_then(|w| nearest(w, words.iter().copied())) {
+            Some(near) => format!(" Did you mean {near}?"),
+            None => String::new(),
+        };
+        Raise::program(format!(
+            "{} in LOOP after {after}: {expected} may stand there.{hint}",
+            self.shown(found)
+        ))
+    }
+
+    /// A fresh variable.
+    pub fn fresh(&mut self, name: &str) -> Value {
+        self.image.gensym(name).into()
+    }
+}

@@ -1,0 +1,134 @@
+//! What loops call when they run.
+
+use std::rc::Rc;
+
+use crate::lisp::array::Vector;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtins::lists::last_pair;
+use crate::lisp::builtins::sequence::Sequence;
+use crate::lisp::cons::Cons;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::number;
+use crate::lisp::package::PackageTable;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// The symbol of a name in `COMMON-LISP`.
+pub fn common(image: &mut Image, name: &str) -> Value {
+    image.intern(PackageTable::CL, name).into()
+}
+
+/// The symbol of a name in `SYSTEM`.
+pub fn system(image: &mut Image, name: &str) -> Value {
+    image.intern(PackageTable::SYSTEM, name).into()
+}
+
+/// Checks that a step is a positive number.
+pub fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
+    let positive = number::compare(step, &Value::Int(0)).ok().flatten();
+    if positive == Some(std::cmp::Ordering::Greater) {
+        Ok(())
+    } else {
+        let above_zero = Value::list([known::REAL.into(), Value::list([Value::Int(0)])]);
+        Err(Raise::type_error(step, above_zero))
+    }
+}
+
+fn positive_step(_: &mut Image, args: &[Value]) -> Outcome {
+    check_positive(&args[0])?;
+    Ok(args[0].clone())
+}
+
+fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
+    value
+        .as_cons()
+        .ok_or_else(|| Raise::type_error(value, known::CONS))
+}
+
+fn extend_list(_: &mut Image, args: &[Value]) -> Outcome {
+    let tail = pair(&args[0])?;
+    let last = Value::cons(args[1].clone(), Value::NIL);
+    tail.set_cdr(last.clone());
+    Ok(last)
+}
+
+fn join(tail: &Value, list: Value) -> Outcome {
+    let cons = pair(tail)?;
+    let last = last_pair(&list);
+    cons.set_cdr(list);
+    Ok(last.map_or_else(|| tail.clone(), Value::Cons))
+}
+
+fn extend_list_copying(_: &mut Image, args: &[Value]) -> Outcome {
+    let mut iter = args[1].iter_list();
+    let items: Vec<Value> = iter.by_ref().collect();
+    join(&args[0], Value::list_with_tail(items, iter.rest))
+}
+
+fn extend_list_joining(_: &mut Image, args: &[Value]) -> Outcome {
+    join(&args[0], args[1].clone())
+}
+
+fn elements(_: &mut Image, args: &[Value]) -> Outcome {
+    match &args[0] {
+        list @ (Value::Cons(_) | Value::Symbol(known::NIL)) => Ok(list.clone()),
+        other => Ok(Value::list(Sequence::of(other)?.all()?)),
+    }
+}
+
+fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
+    match &args[0] {
+        Value::Vector(v) => Ok(Vector::len(v).into()),
+        Value::Str(s) => Ok(s.len().into()),
+        other => Err(Raise::type_error(other, known::VECTOR)),
+    }
+}
+
+/// What loops call; in `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "EXTEND-LIST",
+        "last-pair element",
+        "Adds an element behind the last pair of a list; the new last pair.",
+        &["(system::extend-list (list 1) 2) => (2)"],
+        extend_list,
+    ),
+    pure(
+        "EXTEND-LIST-COPYING",
+        "last-pair list",
+        "Adds the elements of a list behind the last pair of a list; the new last pair.",
+        &["(system::extend-list-copying (list 1) '(2 3)) => (3)"],
+        extend_list_copying,
+    ),
+    pure(
+        "EXTEND-LIST-JOINING",
+        "last-pair list",
+        "Joins a list to the last pair of a list; the new last pair.",
+        &["(system::extend-list-joining (list 1) (list 2 3)) => (3)"],
+        extend_list_joining,
+    ),
+    pure(
+        "POSITIVE-STEP",
+        "number",
+        "The number, which must be greater than zero.",
+        &["(system::positive-step 2) => 2"],
+        positive_step,
+    ),
+    pure(
+        "ELEMENTS",
+        "sequence",
+        "The elements of a sequence as a list.",
+        &["(system::elements #(1 2)) => (1 2)"],
+        elements,
+    ),
+    pure(
+        "VECTOR-LENGTH",
+        "vector",
+        "The number of elements of a vector.",
+        &["(system::vector-length #(1 2)) => 2"],
+        vector_length,
+    ),
+];

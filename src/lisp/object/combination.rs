@@ -1,0 +1,99 @@
+//! Method combinations: the builtin ones and the short form of `define-method-combination`.
+
+use super::form::{form, quote};
+use crate::lisp::generic::Combination;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// Operators that combinations are named after, and whether the value of a single method is
+/// the value of the call.
+const BUILTIN: &[(Sym, bool)] = &[
+    (known::STANDARD, true),
+    (known::PLUS, true),
+    (known::AND, true),
+    (known::APPEND, false),
+    (known::LIST, false),
+    (known::MAX, true),
+    (known::MIN, true),
+    (known::NCONC, true),
+    (known::OR, true),
+    (known::PROGN, true),
+];
+
+/// The combination of a name.
+pub fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box<Raise>> {
+    let unknown = || {
+        Raise::program(format!(
+            "There is no method combination named {}.",
+            super::text(image, name)
+        ))
+    };
+    let sym = name.as_symbol().ok_or_else(unknown)?;
+    if let Some((_, is_identity)) = BUILTIN.iter().find(|(operator, _)| *operator == sym) {
+        return Ok(Combination {
+            name: sym,
+            operator: sym,
+            is_identity: *is_identity,
+        });
+    }
+    // A program's own are kept on the property list of their names: (operator . identity).
+    let plist: Vec<Value> = image.symbol(sym).plist.iter_list().collect();
+    let kept = plist
+        .chunks_exact(2)
+        .find(|pair| pair[0].as_symbol() == Some(known::METHOD_COMBINATION))
+        .map(|pair| pair[1].clone())
+        .ok_or_else(unknown)?;
+    Ok(Combination {
+        name: sym,
+        operator: kept.car_or_nil().as_symbol().ok_or_else(unknown)?,
+        is_identity: kept.cdr_or_nil().is_true(),
+    })
+}
+
+/// `(define-method-combination name :operator operator :identity-with-one-argument flag)`.
+pub fn expand_define_method_combination(
+    image: &mut Image,
+    whole: &Value,
+) -> Result<Value, Box<Raise>> {
+    let parts = whole.list_to_vec().unwrap_or_default();
+    let [_, name @ Value::Symbol(_), options @ ..] = parts.as_slice() else {
+        return Err(Raise::program(
+            "DEFINE-METHOD-COMBINATION takes a name and options.",
+        ));
+    };
+    if options.first().is_some_and(Value::is_list) {
+        return Err(Raise::program(format!(
+            "The long form of DEFINE-METHOD-COMBINATION, used for {}, is not supported; the short form with :OPERATOR is.",
+            super::text(image, name)
+        )));
+    }
+    let option = |keyword| {
+        options
+            .chunks_exact(2)
+            .find(|pair| pair[0].as_symbol() == Some(keyword))
+            .map(|pair| pair[1].clone())
+    };
+    let operator = option(known::K_OPERATOR).unwrap_or_else(|| name.clone());
+    let is_identity = option(known::K_IDENTITY_WITH_ONE_ARGUMENT).unwrap_or(Value::NIL);
+    Ok(form![
+        known::SYS_DEFINE_COMBINATION,
+        quote(name.clone()),
+        quote(operator),
+        Value::bool(is_identity.is_true()),
+    ])
+}
+
+/// The builtin behind it: `(name operator identity)`; returns the name.
+pub fn define_combination(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    let Some(name) = args[0].as_symbol() else {
+        return Err(Raise::type_error(&args[0], Value::Symbol(known::SYMBOL)));
+    };
+    let kept = Value::cons(args[1].clone(), args[2].clone());
+    let data = image.symbols.get_mut(name);
+    data.plist =
+        Value::list_with_tail([known::METHOD_COMBINATION.into(), kept], data.plist.clone());
+    Ok(args[0].clone())
+}

@@ -1,0 +1,66 @@
+//! `format`: control strings, parsed once, and what their directives write.
+//!
+//! Pure like the printer: calls of Lisp functions (`~/name/`, objects that a program
+//! prints itself) are noted in [`Calls`] and made by the builtin.
+
+mod directive;
+mod english;
+mod error;
+mod fixed;
+mod float;
+mod integer;
+mod interpreter;
+mod justify;
+mod output;
+
+#[cfg(test)]
+mod tests;
+
+pub use error::FormatError;
+
+use std::rc::Rc;
+
+use super::calls::Calls;
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+/// A parsed control string.
+#[derive(Clone)]
+pub struct Control {
+    text: Rc<str>,
+    pieces: Rc<[directive::Piece]>,
+}
+
+impl Control {
+    /// Parses a control string.
+    pub fn parse(text: &str) -> Result<Control, FormatError> {
+        let pieces = directive::parse(text)?;
+        Ok(Control {
+            text: text.into(),
+            pieces: pieces.into(),
+        })
+    }
+
+    /// What the control string makes of the arguments, where the line has already so many
+    /// characters.
+    pub fn run(
+        &self,
+        image: &Image,
+        args: &[Value],
+        column: usize,
+        calls: &mut Calls,
+    ) -> Result<String, Box<Raise>> {
+        interpreter::run(self, image, args, column, calls)
+    }
+}
+
+/// What a control string makes of the arguments; objects that need Lisp code print in
+/// their default form.
+pub fn format_to_string(
+    image: &Image,
+    control: &str,
+    args: &[Value],
+) -> Result<String, Box<Raise>> {
+    Control::parse(control)?.run(image, args, 0, &mut Calls::none())
+}

@@ -1,0 +1,77 @@
+//! What has been formatted so far: plain text, and within `~<…~:>` a document whose lines
+//! are broken at the end of the outermost block.
+
+use super::super::document::Document;
+use super::super::layout::lay_out;
+use super::super::settings::Settings;
+
+/// Text under construction.
+pub(super) struct Output {
+    text: String,
+    /// Column where the text begins.
+    start: usize,
+    document: Option<Document>,
+}
+
+impl Output {
+    pub(super) fn new(start: usize) -> Output {
+        Output {
+            text: String::new(),
+            start,
+            document: None,
+        }
+    }
+
+    /// Appends a text.
+    pub(super) fn push(&mut self, text: &str) {
+        match &mut self.document {
+            Some(document) => document.text(text),
+            None => self.text.push_str(text),
+        }
+    }
+
+    /// Appends a character a number of times.
+    pub(super) fn repeat(&mut self, c: char, count: usize) {
+        self.push(&c.to_string().repeat(count));
+    }
+
+    /// Column of the next character; within a document, as if its lines did not break.
+    pub(super) fn column(&self) -> usize {
+        let before = match self.text.rsplit_once('\n') {
+            Some((_, last)) => last.chars().count(),
+            None => self.start + self.text.chars().count(),
+        };
+        before + self.document.as_ref().map_or(0, Document::characters)
+    }
+
+    /// The document, inside a logical block.
+    pub(super) fn document(&mut self) -> Option<&mut Document> {
+        self.document.as_mut()
+    }
+
+    /// Begins a document; false if one is under way.
+    pub(super) fn begin_document(&mut self, is_pretty: bool) -> bool {
+        let begins = self.document.is_none();
+        if begins {
+            self.document = Some(Document::new(is_pretty));
+        }
+        begins
+    }
+
+    /// Breaks the document into lines and goes on with plain text.
+    pub(super) fn end_document(&mut self, settings: &Settings) {
+        if let Some(document) = self.document.take() {
+            let text = if settings.pretty {
+                let column = self.column();
+                lay_out(document, settings, column)
+            } else {
+                document.into_text()
+            };
+            self.text.push_str(&text);
+        }
+    }
+
+    pub(super) fn into_text(self) -> String {
+        self.text
+    }
+}

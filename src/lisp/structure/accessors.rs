@@ -1,0 +1,99 @@
+//! Accessors, predicates and copiers of structures: functions that carry their class.
+
+use std::rc::Rc;
+
+use super::define::{check_slot_type, copy_structure};
+use crate::lisp::class::{Class, Instance, StructureSlot};
+use crate::lisp::function::Function;
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// The instance that a value is, if it is one of the class or of one that includes it.
+fn instance_of<'a>(value: &'a Value, class: &Rc<Class>) -> Option<&'a Rc<Instance>> {
+    let Value::Instance(instance) = value else {
+        return None;
+    };
+    let own = instance.class.borrow();
+    let is_one =
+        Rc::ptr_eq(&own, class) || own.precedence.borrow().iter().any(|c| Rc::ptr_eq(c, class));
+    is_one.then_some(instance)
+}
+
+fn wrong_type(value: &Value, class: &Class) -> Box<Raise> {
+    Raise::type_error(value, Value::Symbol(class.name))
+}
+
+/// Defines the reader of a slot and, unless it is read-only, its writer.
+pub fn define(
+    image: &mut Image,
+    class: &Rc<Class>,
+    index: usize,
+    slot: &StructureSlot,
+    accessor: Sym,
+) {
+    // The accessor of an included slot may be the included structure's own.
+    if is_inherited(image, class, accessor) {
+        return;
+    }
+    let of = class.clone();
+    let reader = Function::made(accessor, (1, Some(1)), move |_, args| {
+        instance_of(&args[0], &of)
+            .and_then(|instance| instance.slots.borrow().get(index).cloned())
+            .ok_or_else(|| wrong_type(&args[0], &of))
+    });
+    image.set_function(accessor, reader);
+    let data = image.symbols.get_mut(accessor);
+    if slot.read_only {
+        data.setf_function = None;
+        return;
+    }
+    let of = class.clone();
+    let slot_type = slot.slot_type.clone();
+    let writer = Function::made(accessor, (2, Some(2)), move |image, args| {
+        let instance = instance_of(&args[1], &of).ok_or_else(|| wrong_type(&args[1], &of))?;
+        check_slot_type(image, &slot_type, &args[0])?;
+        if let Some(place) = instance.slots.borrow_mut().get_mut(index) {
+            *place = args[0].clone();
+        }
+        Ok(args[0].clone())
+    });
+    data.setf_function = Some(writer);
+}
+
+/// Is the accessor one that an included structure has defined?
+fn is_inherited(image: &Image, class: &Rc<Class>, accessor: Sym) -> bool {
+    let name = image.name(accessor);
+    let supers = class.direct_superclasses.borrow();
+    supers.iter().any(|parent| {
+        let layout = parent.structure.borrow();
+        layout.as_ref().is_some_and(|layout| {
+            layout
+                .slots
+                .iter()
+                .any(|slot| name == format!("{}{}", layout.conc_name, image.name(slot.name)))
+        }) && image.function(accessor).is_some()
+    })
+}
+
+/// Defines the function that recognises structures of a class.
+pub fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
+    let of = class.clone();
+    let function = Function::made(predicate, (1, Some(1)), move |_, args| {
+        Ok(Value::bool(instance_of(&args[0], &of).is_some()))
+    });
+    image.set_function(predicate, function);
+}
+
+/// Defines the function that copies structures of a class.
+pub fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
+    let of = class.clone();
+    let function = Function::made(copier, (1, Some(1)), move |_, args| {
+        if instance_of(&args[0], &of).is_none() {
+            return Err(wrong_type(&args[0], &of));
+        }
+        copy_structure(&args[0])
+    });
+    image.set_function(copier, function);
+}

@@ -1,0 +1,469 @@
+//! Search for a joint path between two configurations that touches nothing.
+//!
+//! The straight path is tried first, then RRT-Connect (Kuffner and LaValle, 2000): for one
+//! chain of joints after the other where there are several, then for all at once. The result
+//! is shortened. What "touches" means is the caller's: a closure that names what
+//! blocks a configuration. All randomness comes from the generator that is passed in, so
+//! the same input gives the same path. Nothing here knows of robots or time.
+
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::Rng;
+
+/// One axis of the search space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathAxis {
+    /// Least value that is tried (rad or m).
+    pub lower: f64,
+    /// Greatest value that is tried (rad or m).
+    pub upper: f64,
+    /// How far (m) any part of the robot moves at most per unit of the axis.
+    pub reach: f64,
+    /// The chain of joints that the axis is part of, such as one of two arms: axes of
+    /// different chains move different parts. [`ALL_CHAINS`] for an axis that moves all.
+    pub chain: usize,
+}
+
+/// The chain of an axis that carries all other chains.
+pub const ALL_CHAINS: usize = 0;
+
+/// Why there is no path; `P` is what the caller's check names.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ArmPathFailure<P> {
+    /// The start is blocked.
+    Start(P),
+    /// The goal is blocked.
+    Goal(P),
+    /// None was found.
+    NotFound {
+        /// What blocks the straight path first.
+        blocker: P,
+        /// How many random configurations were tried.
+        samples: usize,
+    },
+}
+
+/// How fine and how long to search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArmPathEffort {
+    /// Greatest motion (m) of any part of the robot between two checked configurations.
+    pub resolution: f64,
+    /// Greatest number of random configurations.
+    pub samples: usize,
+    /// Greatest number of configurations that are checked, for all together.
+    pub checks: usize,
+    /// Attempts to shorten the path.
+    pub shortcuts: usize,
+}
+
+impl Default for ArmPathEffort {
+    fn default() -> Self {
+        Self {
+            resolution: 0.01,
+            samples: 1500,
+            checks: 30_000,
+            shortcuts: 40,
+        }
+    }
+}
+
+/// Longest new branch of a tree, as a bound on the motion of any part of the robot (m).
+const BRANCH: f64 = 0.5;
+
+/// How much coarser than the result the search is checked.
+const COARSENESS: f64 = 2.5;
+
+/// Number of chains that are told apart, [`ALL_CHAINS`] included.
+const CHAINS: usize = 3;
+
+type Point = Vec<f64>;
+
+/// A path from `start` to `goal`, both included, on which `blocked` names nothing.
+pub fn find_arm_path<P>(
+    axes: &[PathAxis],
+    start: &[f64],
+    goal: &[f64],
+    effort: ArmPathEffort,
+    rng: &mut Pcg64,
+    blocked: &mut dyn FnMut(&[f64]) -> Option<P>,
+) -> Result<Vec<Point>, ArmPathFailure<P>> {
+    if let Some(p) = blocked(goal) {
+        return Err(ArmPathFailure::Goal(p));
+    }
+    if let Some(p) = blocked(start) {
+        return Err(ArmPathFailure::Start(p));
+    }
+    let mut search = Search {
+        axes,
+        effort,
+        blocked,
+        checks: 0,
+    };
+    let Some(blocker) = search.edge(start, goal) else {
+        return Ok(vec![start.to_vec(), goal.to_vec()]);
+    };
+    // A coarse search is mostly right; where it is not, a fine one follows.
+    for coarseness in [COARSENESS, 1.0] {
+        search.effort.resolution = effort.resolution * coarseness;
+        let found = search.in_turns(start, goal, rng);
+        let Some(path) = found.or_else(|| search.connect(start, goal, None, rng)) else {
+            break;
+        };
+        let path = search.shorten(path, rng);
+        search.effort.resolution = effort.resolution;
+        if path
+            .windows(2)
+            .all(|leg| search.edge(&leg[0], &leg[1]).is_none())
+        {
+            return Ok(path);
+        }
+    }
+    Err(ArmPathFailure::NotFound {
+        blocker,
+        samples: effort.samples,
+    })
+}
+
+/// What blocks the straight path between two free configurations, if anything does.
+pub fn blocked_between<P>(
+    axes: &[PathAxis],
+    from: &[f64],
+    to: &[f64],
+    resolution: f64,
+    blocked: &mut dyn FnMut(&[f64]) -> Option<P>,
+) -> Option<P> {
+    let effort = ArmPathEffort {
+        resolution,
+        ..ArmPathEffort::default()
+    };
+    Search {
+        axes,
+        effort,
+        blocked,
+        checks: 0,
+    }
+    .edge(from, to)
+}
+
+struct Search<'a, P> {
+    axes: &'a [PathAxis],
+    effort: ArmPathEffort,
+    blocked: &'a mut dyn FnMut(&[f64]) -> Option<P>,
+    /// Configurations that were checked.
+    checks: usize,
+}
+
+/// Configurations that are connected to the first one; each with its parent's place.
+struct Tree(Vec<(Point, usize)>);
+
+enum Growth {
+    Reached(usize),
+    Advanced(usize),
+    Trapped,
+}
+
+impl<P> Search<'_, P> {
+    /// Bound on how far (m) any part of the robot moves between the two.
+    fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let (mut all, mut chains) = (0.0, [0.0; CHAINS]);
+        for ((a, b), axis) in a.iter().zip(b).zip(self.axes) {
+            let moved = (a - b).abs() * axis.reach;
+            match chains.get_mut(axis.chain) {
+                Some(chain) if axis.chain != ALL_CHAINS => *chain += moved,
+                _ => all += moved,
+            }
+        }
+        chains.into_iter().fold(0.0, f64::max) + all
+    }
+
+    /// Checks the inner points of the edge, coarse ones first.
+    fn edge(&mut self, from: &[f64], to: &[f64]) -> Option<P> {
+        let parts = (self.distance(from, to) / self.effort.resolution)
+            .ceil()
+            .max(1.0) as usize;
+        let mut stride = parts.next_power_of_two();
+        while stride > 1 {
+            for i in (stride / 2..parts).step_by(stride) {
+                let point = between(from, to, i as f64 / parts as f64);
+                self.checks += 1;
+                if let Some(p) = (self.blocked)(&point) {
+                    return Some(p);
+                }
+            }
+            stride /= 2;
+        }
+        None
+    }
+
+    /// One chain after the other, in either order.
+    fn in_turns(&mut self, start: &[f64], goal: &[f64], rng: &mut Pcg64) -> Option<Vec<Point>> {
+        for order in [[1, 2], [2, 1]] {
+            if !order
+                .iter()
+                .all(|chain| self.axes.iter().any(|axis| axis.chain == *chain))
+            {
+                return None;
+            }
+            // Axes that carry all chains move with the first one.
+            let halfway: Point = (start.iter().zip(goal).zip(self.axes))
+                .map(|((from, to), axis)| if axis.chain == order[1] { *from } else { *to })
+                .collect();
+            if (self.blocked)(&halfway).is_some() {
+                continue;
+            }
+            let Some(mut path) = self.leg(start, &halfway, order[0], rng) else {
+                continue;
+            };
+            let Some(rest) = self.leg(&halfway, goal, order[1], rng) else {
+                continue;
+            };
+            path.extend(rest.into_iter().skip(1));
+            return Some(path);
+        }
+        None
+    }
+
+    /// A path on which only one chain moves.
+    fn leg(
+        &mut self,
+        from: &[f64],
+        to: &[f64],
+        chain: usize,
+        rng: &mut Pcg64,
+    ) -> Option<Vec<Point>> {
+        match self.edge(from, to) {
+            None => Some(vec![from.to_vec(), to.to_vec()]),
+            Some(_) => self.connect(from, to, Some(chain), rng),
+        }
+    }
+
+    /// RRT-Connect, with all axes or with those of one chain alone.
+    fn connect(
+        &mut self,
+        start: &[f64],
+        goal: &[f64],
+        chain: Option<usize>,
+        rng: &mut Pcg64,
+    ) -> Option<Vec<Point>> {
+        let mut trees = [
+            Tree(vec![(start.to_vec(), 0)]),
+            Tree(vec![(goal.to_vec(), 0)]),
+        ];
+        let share = if chain.is_some() { 3 } else { 1 };
+        for round in 0..self.effort.samples / share {
+            if self.checks > self.effort.checks {
+                return None;
+            }
+            let side = round % 2;
+            let sample: Point = (self.axes.iter().zip(start).zip(goal))
+                .map(|((axis, from), to)| {
+                    let stays = chain.is_some_and(|c| axis.chain != c) && from == to;
+                    let random = axis.lower + (axis.upper - axis.lower) * unit(rng);
+                    if stays { *from } else { random }
+                })
+                .collect();
+            let [from_start, from_goal] = &mut trees;
+            let (growing, other) = if side == 0 {
+                (from_start, from_goal)
+            } else {
+                (from_goal, from_start)
+            };
+            let new = match self.extend(growing, &sample) {
+                Growth::Reached(node) | Growth::Advanced(node) => node,
+                Growth::Trapped => continue,
+            };
+            let target = growing.0[new].0.clone();
+            let met = loop {
+                match self.extend(other, &target) {
+                    Growth::Reached(node) => break Some(node),
+                    Growth::Advanced(_) => {}
+                    Growth::Trapped => break None,
+                }
+            };
+            if let Some(met) = met {
+                let (mut path, mut rest) = (growing.branch(new), other.branch(met));
+                path.reverse();
+                rest.remove(0);
+                path.append(&mut rest);
+                if side == 1 {
+                    path.reverse();
+                }
+                return Some(path);
+            }
+        }
+        None
+    }
+
+    /// Grows the tree by one branch towards the target.
+    fn extend(&mut self, tree: &mut Tree, target: &[f64]) -> Growth {
+        let mut nearest = (0, f64::MAX);
+        for (i, (point, _)) in tree.0.iter().enumerate() {
+            let d = self.distance(point, target);
+            if d < nearest.1 {
+                nearest = (i, d);
+            }
+        }
+        let (parent, distance) = nearest;
+        let from = &tree.0[parent].0;
+        let reaches = distance <= BRANCH;
+        let to = if reaches {
+            target.to_vec()
+        } else {
+            between(from, target, BRANCH / distance)
+        };
+        if (self.blocked)(&to).is_some() || self.edge(from, &to).is_some() {
+            return Growth::Trapped;
+        }
+        tree.0.push((to, parent));
+        let node = tree.0.len() - 1;
+        if reaches {
+            Growth::Reached(node)
+        } else {
+            Growth::Advanced(node)
+        }
+    }
+
+    /// Replaces detours by straight edges: between random places, then between corners.
+    fn shorten(&mut self, mut path: Vec<Point>, rng: &mut Pcg64) -> Vec<Point> {
+        for _ in 0..self.effort.shortcuts {
+            if path.len() <= 2 || self.checks > 2 * self.effort.checks {
+                break;
+            }
+            let length = self.length(&path);
+            let (a, b) = (unit(rng) * length, unit(rng) * length);
+            let (i, from) = self.place(&path, a.min(b));
+            let (j, to) = self.place(&path, a.max(b));
+            if i == j || self.edge(&from, &to).is_some() {
+                continue;
+            }
+            path.splice(i + 1..=j, [from, to]);
+        }
+        let mut i = 0;
+        while i + 2 < path.len() {
+            if self.edge(&path[i], &path[i + 2]).is_none() {
+                path.remove(i + 1);
+            } else {
+                i += 1;
+            }
+        }
+        path
+    }
+
+    fn length(&self, path: &[Point]) -> f64 {
+        path.windows(2).map(|w| self.distance(&w[0], &w[1])).sum()
+    }
+
+    /// The leg and the point at that distance along the path.
+    fn place(&self, path: &[Point], mut along: f64) -> (usize, Point) {
+        for (i, leg) in path.windows(2).enumerate() {
+            let length = self.distance(&leg[0], &leg[1]);
+            if along < length {
+                return (i, between(&leg[0], &leg[1], along / length));
+            }
+            along -= length;
+        }
+        (
+            path.len().saturating_sub(2),
+            path.last().cloned().unwrap_or_default(),
+        )
+    }
+}
+
+impl Tree {
+    /// From the node to the root.
+    fn branch(&self, mut node: usize) -> Vec<Point> {
+        let mut points = vec![self.0[node].0.clone()];
+        while node != 0 {
+            node = self.0[node].1;
+            points.push(self.0[node].0.clone());
+        }
+        points
+    }
+}
+
+/// The point at `fraction` of the way.
+pub fn between(from: &[f64], to: &[f64], fraction: f64) -> Point {
+    from.iter()
+        .zip(to)
+        .map(|(a, b)| a + (b - a) * fraction)
+        .collect()
+}
+
+/// A random number in 0..1, of 53 bits.
+pub(super) fn unit(rng: &mut Pcg64) -> f64 {
+    (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand_pcg::rand_core::SeedableRng;
+
+    const PLANE: [PathAxis; 2] = [PathAxis {
+        lower: -2.0,
+        upper: 2.0,
+        reach: 1.0,
+        chain: 1,
+    }; 2];
+
+    fn find(
+        blocked: &mut dyn FnMut(&[f64]) -> Option<&'static str>,
+    ) -> Result<Vec<Point>, ArmPathFailure<&'static str>> {
+        let mut rng = Pcg64::seed_from_u64(1);
+        find_arm_path(
+            &PLANE,
+            &[-1.0, 0.0],
+            &[1.0, 0.0],
+            ArmPathEffort::default(),
+            &mut rng,
+            blocked,
+        )
+    }
+
+    /// A wall at x = 0 that leaves a gap at the top.
+    fn wall(p: &[f64]) -> Option<&'static str> {
+        (p[0].abs() < 0.1 && p[1] < 1.0).then_some("wall")
+    }
+
+    #[test]
+    fn a_free_straight_path_is_taken() {
+        assert_eq!(
+            find(&mut |_| None),
+            Ok(vec![vec![-1.0, 0.0], vec![1.0, 0.0]])
+        );
+    }
+
+    #[test]
+    fn an_obstacle_is_passed_without_touching_it() {
+        let path = find(&mut wall).unwrap();
+        assert!(path.len() < 6, "{path:?}");
+        for leg in path.windows(2) {
+            assert_eq!(
+                blocked_between(&PLANE, &leg[0], &leg[1], 0.01, &mut wall),
+                None
+            );
+        }
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_path() {
+        assert_eq!(find(&mut wall), find(&mut wall));
+    }
+
+    #[test]
+    fn a_blocked_goal_names_what_blocks_it() {
+        let result = find(&mut |p| (p[0] > 0.5).then_some("table"));
+        assert_eq!(result, Err(ArmPathFailure::Goal("table")));
+    }
+
+    #[test]
+    fn an_obstacle_without_a_gap_is_named() {
+        let result = find(&mut |p| (p[0].abs() < 0.1).then_some("wall"));
+        assert_eq!(
+            result,
+            Err(ArmPathFailure::NotFound {
+                blocker: "wall",
+                samples: 1500
+            })
+        );
+    }
+}

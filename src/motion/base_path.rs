@@ -1,0 +1,487 @@
+//! Search for a path of the robot's base over the floor that touches nothing.
+//!
+//! The base may move in every direction and turn in place. The straight path is tried
+//! first, then A* on a lattice of places and headings whose origin is the start; states
+//! are checked only when the search gets to them, edges only when a path uses them. The
+//! result is shortened. Paths keep a distance from obstacles where they can: the search
+//! first asks for a margin, then for none. What "touches" means is the caller's closure,
+//! so the robot is taken as it stands, its arms and what they hold included.
+
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use std::f64::consts::FRAC_PI_8;
+
+use crate::spatial::trig;
+
+/// A place of the base: x (m), y (m), heading (rad, not wrapped) in the map frame.
+pub type BasePlace = [f64; 3];
+
+/// The part of the floor where paths are looked for, in the map frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FloorArea {
+    /// Smallest x and y (m).
+    pub min: [f64; 2],
+    /// Largest x and y (m).
+    pub max: [f64; 2],
+}
+
+impl FloorArea {
+    fn contains(&self, p: &BasePlace) -> bool {
+        (0..2).all(|i| (self.min[i]..=self.max[i]).contains(&p[i]))
+    }
+}
+
+/// Why there is no path; `P` is what the caller's check names.
+#[derive(Clone, Debug, PartialEq)]
+pub enum BasePathFailure<P> {
+    /// The robot touches something where it stands.
+    StartOccupied(P),
+    /// Something is where the robot shall stand.
+    GoalOccupied(P),
+    /// Start and goal are free, but no way leads from one to the other.
+    Enclosed {
+        /// What stands in the way that touches least, without repetition, in the order met.
+        blockers: Vec<P>,
+    },
+}
+
+/// Free distance (m) that a path keeps where it can.
+pub(super) const MARGIN: f64 = 0.04;
+/// No margin is asked for at places this near (m) to the start or the goal.
+const NO_MARGIN_WITHIN: f64 = 0.35;
+/// Between two checked places no part of the robot moves by more than this (m).
+const RESOLUTION: f64 = 0.01;
+/// Distance of neighbouring lattice places (m), in the order in which they are tried.
+const SPACINGS: [(f64, f64); 2] = [(0.10, MARGIN), (0.05, 0.0)];
+/// Angle between neighbouring headings of the lattice.
+const TURN: f64 = FRAC_PI_8;
+/// What a radian of turning costs in metres of driving.
+const TURN_COST: f64 = 0.5;
+/// How much the estimate of the remaining way counts; above 1 the search is faster and
+/// the path may be longer by that factor.
+const GREED: f64 = 1.3;
+/// A path that would touch something costs this much (m) more per place.
+const TOUCH_COST: f64 = 2.0;
+
+type Check<'a, P> = dyn FnMut(&BasePlace, f64) -> Option<P> + 'a;
+
+/// A path from `start` to `goal`, both included; the goal's heading is unwound so that the
+/// robot turns the shorter way.
+///
+/// `blocked` names what the robot touches at a place, or comes nearer to than the margin
+/// (m). `reach` (m) is the greatest distance of any part of the robot from the base's axis.
+pub fn find_base_path<P: Clone + PartialEq>(
+    start: BasePlace,
+    goal: BasePlace,
+    area: FloorArea,
+    reach: f64,
+    blocked: &mut Check<'_, P>,
+) -> Result<Vec<BasePlace>, BasePathFailure<P>> {
+    let goal = [goal[0], goal[1], start[2] + trig::wrap(goal[2] - start[2])];
+    if let Some(p) = blocked(&goal, 0.0) {
+        return Err(BasePathFailure::GoalOccupied(p));
+    }
+    if let Some(p) = blocked(&start, 0.0) {
+        return Err(BasePathFailure::StartOccupied(p));
+    }
+    let mut search = Search {
+        start,
+        goal,
+        area,
+        reach,
+        margin: MARGIN,
+        blocked,
+    };
+    if search.edge(&start, &goal).is_none() {
+        return Ok(vec![start, goal]);
+    }
+    for (spacing, margin) in SPACINGS {
+        search.margin = margin;
+        if let Some(path) = Lattice::new(&mut search, spacing, false).path() {
+            return Ok(search.shorten(path));
+        }
+    }
+    let blockers = match Lattice::new(&mut search, SPACINGS[0].0, true).path() {
+        Some(path) => search.blockers(&path),
+        None => Vec::new(),
+    };
+    Err(BasePathFailure::Enclosed { blockers })
+}
+
+struct Search<'a, 'c, P> {
+    start: BasePlace,
+    goal: BasePlace,
+    area: FloorArea,
+    reach: f64,
+    margin: f64,
+    blocked: &'a mut Check<'c, P>,
+}
+
+impl<P: Clone + PartialEq> Search<'_, '_, P> {
+    fn place(&mut self, p: &BasePlace) -> Option<P> {
+        let near = |q: &BasePlace| libm::hypot(p[0] - q[0], p[1] - q[1]) < NO_MARGIN_WITHIN;
+        let margin = if near(&self.start) || near(&self.goal) {
+            0.0
+        } else {
+            self.margin
+        };
+        (self.blocked)(p, margin)
+    }
+
+    /// What blocks the straight way, coarse steps first; the ends are taken as free.
+    fn edge(&mut self, from: &BasePlace, to: &BasePlace) -> Option<P> {
+        let way =
+            libm::hypot(to[0] - from[0], to[1] - from[1]) + (to[2] - from[2]).abs() * self.reach;
+        let parts = (way / RESOLUTION).ceil().max(1.0) as usize;
+        let mut stride = parts.next_power_of_two();
+        while stride > 1 {
+            for i in (stride / 2..parts).step_by(stride) {
+                let place = between(from, to, i as f64 / parts as f64);
+                if let Some(p) = self.place(&place) {
+                    return Some(p);
+                }
+            }
+            stride /= 2;
+        }
+        None
+    }
+
+    /// Leaves out places where the straight way is free, the longest way first; then cuts
+    /// the corners that remain.
+    fn shorten(&mut self, path: Vec<BasePlace>) -> Vec<BasePlace> {
+        let mut short = self.skip(path);
+        for _ in 0..3 {
+            let halved = halve(&short);
+            let next = self.skip(halved);
+            if cost(&next) > cost(&short) - 0.01 {
+                break;
+            }
+            short = next;
+        }
+        short
+    }
+
+    fn skip(&mut self, path: Vec<BasePlace>) -> Vec<BasePlace> {
+        let mut short = Vec::new();
+        let mut i = 0;
+        while let Some(&from) = path.get(i) {
+            short.push(from);
+            let mut next = i + 1;
+            for j in (i + 2..path.len()).rev() {
+                if self.edge(&from, &path[j]).is_none() {
+                    next = j;
+                    break;
+                }
+            }
+            i = next;
+        }
+        short
+    }
+
+    fn blockers(&mut self, path: &[BasePlace]) -> Vec<P> {
+        let mut all = Vec::new();
+        for leg in path.windows(2) {
+            let met = self.place(&leg[1]).or_else(|| self.edge(&leg[0], &leg[1]));
+            if let Some(p) = met
+                && !all.contains(&p)
+            {
+                all.push(p);
+            }
+        }
+        all
+    }
+}
+
+/// Adds the middle of every leg that is longer than 20 cm or turns more than 20 degrees.
+fn halve(path: &[BasePlace]) -> Vec<BasePlace> {
+    let mut fine: Vec<BasePlace> = path.first().copied().into_iter().collect();
+    for leg in path.windows(2) {
+        if step_cost(&leg[0], &leg[1]) > 0.2 {
+            fine.push(between(&leg[0], &leg[1], 0.5));
+        }
+        fine.push(leg[1]);
+    }
+    fine
+}
+
+fn cost(path: &[BasePlace]) -> f64 {
+    path.windows(2).map(|l| step_cost(&l[0], &l[1])).sum()
+}
+
+/// The place at `fraction` of the way.
+fn between(from: &BasePlace, to: &BasePlace, fraction: f64) -> BasePlace {
+    [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * fraction)
+}
+
+/// Driving and turning at once cost as much as the longer of both.
+fn step_cost(from: &BasePlace, to: &BasePlace) -> f64 {
+    let drive = libm::hypot(to[0] - from[0], to[1] - from[1]);
+    drive.max((to[2] - from[2]).abs() * TURN_COST)
+}
+
+/// A place of the lattice: steps in x, y and heading from the start.
+type Cell = [i32; 3];
+
+/// The goal, which in general lies between the lattice's places.
+const GOAL: Cell = [i32::MAX; 3];
+/// Number of headings.
+const HEADINGS: i32 = 16;
+
+struct Lattice<'s, 'a, 'c, P> {
+    search: &'s mut Search<'a, 'c, P>,
+    spacing: f64,
+    /// Whether places may be passed where the robot touches something, at a price.
+    through: bool,
+    free: BTreeMap<Cell, bool>,
+    bad_edges: BTreeSet<(Cell, Cell)>,
+}
+
+impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
+    fn new(search: &'s mut Search<'a, 'c, P>, spacing: f64, through: bool) -> Self {
+        Self {
+            search,
+            spacing,
+            through,
+            free: BTreeMap::new(),
+            bad_edges: BTreeSet::new(),
+        }
+    }
+
+    /// The cheapest path whose edges are free at full resolution.
+    fn path(mut self) -> Option<Vec<BasePlace>> {
+        loop {
+            let cells = self.cheapest()?;
+            let places = self.unwound(&cells);
+            if self.through {
+                return Some(places);
+            }
+            let mut good = true;
+            for (i, leg) in places.windows(2).enumerate() {
+                if self.search.edge(&leg[0], &leg[1]).is_some() {
+                    self.bad_edges.insert((cells[i], cells[i + 1]));
+                    self.bad_edges.insert((cells[i + 1], cells[i]));
+                    good = false;
+                }
+            }
+            if good {
+                return Some(places);
+            }
+        }
+    }
+
+    fn place(&self, cell: Cell) -> BasePlace {
+        if cell == GOAL {
+            return self.search.goal;
+        }
+        let [x, y, yaw] = self.search.start;
+        let [i, j, k] = cell.map(f64::from);
+        [x + i * self.spacing, y + j * self.spacing, yaw + k * TURN]
+    }
+
+    /// Places of the cells with headings that go on from one to the next.
+    fn unwound(&self, cells: &[Cell]) -> Vec<BasePlace> {
+        let mut yaw = self.search.start[2];
+        let unwind = |&cell: &Cell| {
+            let mut place = self.place(cell);
+            yaw += trig::wrap(place[2] - yaw);
+            place[2] = yaw;
+            place
+        };
+        cells.iter().map(unwind).collect()
+    }
+
+    fn is_free(&mut self, cell: Cell) -> bool {
+        if cell == GOAL || cell == [0; 3] {
+            return true;
+        }
+        if let Some(free) = self.free.get(&cell) {
+            return *free;
+        }
+        let place = self.place(cell);
+        let free = self.search.place(&place).is_none();
+        self.free.insert(cell, free);
+        free
+    }
+
+    /// Least cost from the place to the goal if nothing were in the way.
+    fn estimate(&self, place: &BasePlace) -> f64 {
+        let goal = &self.search.goal;
+        let turn = trig::wrap(goal[2] - place[2]).abs() * TURN_COST;
+        libm::hypot(goal[0] - place[0], goal[1] - place[1]) + turn
+    }
+
+    fn neighbours(&self, cell: Cell) -> Vec<(Cell, f64)> {
+        let [i, j, k] = cell;
+        let turned = |by: i32| ([i, j, (k + by).rem_euclid(HEADINGS)], TURN * TURN_COST);
+        let mut all = vec![turned(1), turned(-1)];
+        for di in -1..=1 {
+            for dj in -1..=1 {
+                if (di, dj) != (0, 0) {
+                    let length = f64::from(di * di + dj * dj).sqrt() * self.spacing;
+                    all.push(([i + di, j + dj, k], length));
+                }
+            }
+        }
+        all.retain(|(c, _)| self.search.area.contains(&self.place(*c)));
+        let (place, goal) = (self.place(cell), &self.search.goal);
+        let near = libm::hypot(goal[0] - place[0], goal[1] - place[1]) <= self.spacing * 0.75;
+        if near && trig::wrap(goal[2] - place[2]).abs() <= TURN * 0.51 {
+            all.push((GOAL, self.estimate(&place)));
+        }
+        all
+    }
+
+    /// A* over cells that are free; edges are taken as free unless known otherwise.
+    fn cheapest(&mut self) -> Option<Vec<Cell>> {
+        let start: Cell = [0; 3];
+        let mut costs: BTreeMap<Cell, (f64, Cell)> = BTreeMap::from([(start, (0.0, start))]);
+        let mut done: BTreeSet<Cell> = BTreeSet::new();
+        let mut open = BinaryHeap::from([Candidate {
+            total: 0.0,
+            cell: start,
+        }]);
+        while let Some(Candidate { cell, .. }) = open.pop() {
+            if !done.insert(cell) {
+                continue;
+            }
+            if cell == GOAL {
+                return Some(trace(&costs));
+            }
+            let so_far = costs.get(&cell).map_or(0.0, |c| c.0);
+            for (next, step) in self.neighbours(cell) {
+                if done.contains(&next) || self.bad_edges.contains(&(cell, next)) {
+                    continue;
+                }
+                let known = costs.get(&next).map_or(f64::MAX, |c| c.0);
+                if so_far + step >= known {
+                    continue;
+                }
+                let touch = match (self.is_free(next), self.through) {
+                    (true, _) => 0.0,
+                    (false, true) => TOUCH_COST,
+                    (false, false) => continue,
+                };
+                let new = so_far + step + touch;
+                if new < known {
+                    costs.insert(next, (new, cell));
+                    let total = new + GREED * self.estimate(&self.place(next));
+                    open.push(Candidate { total, cell: next });
+                }
+            }
+        }
+        None
+    }
+}
+
+/// The cells from the start to the goal.
+fn trace(costs: &BTreeMap<Cell, (f64, Cell)>) -> Vec<Cell> {
+    let mut cells = vec![GOAL];
+    let mut cell = GOAL;
+    while let Some(&(_, before)) = costs.get(&cell)
+        && before != cell
+    {
+        cells.push(before);
+        cell = before;
+    }
+    cells.reverse();
+    cells
+}
+
+/// A cell to look at; the greatest is the one with the least total cost.
+#[derive(Debug, PartialEq)]
+struct Candidate {
+    total: f64,
+    cell: Cell,
+}
+
+impl Eq for Candidate {}
+
+impl Ord for Candidate {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other
+            .total
+            .total_cmp(&self.total)
+            .then_with(|| other.cell.cmp(&self.cell))
+    }
+}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROOM: FloorArea = FloorArea {
+        min: [-3.0, -3.0],
+        max: [3.0, 3.0],
+    };
+
+    /// A robot 1.0 m wide (along its own y) and 0.4 m long, as points along its width.
+    fn touches(p: &BasePlace, margin: f64, wall: impl Fn(f64, f64, f64) -> bool) -> bool {
+        let (s, c) = trig::sin_cos(p[2]);
+        (-10..=10)
+            .map(|i| f64::from(i) * 0.05)
+            .any(|w| wall(p[0] - s * w, p[1] + c * w, 0.2 + margin))
+    }
+
+    fn find(
+        goal: BasePlace,
+        wall: impl Fn(f64, f64, f64) -> bool,
+    ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
+        let mut blocked = |p: &BasePlace, m: f64| touches(p, m, &wall).then_some("wall");
+        find_base_path([-2.0, 0.0, 0.0], goal, ROOM, 0.7, &mut blocked)
+    }
+
+    #[test]
+    fn a_free_straight_way_is_taken() {
+        let path = find([2.0, 0.0, 0.0], |_, _, _| false);
+        assert_eq!(path, Ok(vec![[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0]]));
+    }
+
+    #[test]
+    fn the_shorter_turn_is_taken() {
+        let path = find([-2.0, 0.0, 1.5 * std::f64::consts::PI], |_, _, _| false).unwrap();
+        assert!((path[1][2] + std::f64::consts::FRAC_PI_2).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_gap_narrower_than_the_arms_is_passed_sideways() {
+        // A gap 0.7 m wide at x = 0: only fits the robot's length.
+        let gap = |x: f64, y: f64, r: f64| x.abs() < 0.3 + r && (y - 1.0).abs() > 0.35 - r;
+        let path = find([2.0, 0.0, 0.0], gap).unwrap();
+        let mut blocked = |p: &BasePlace, _: f64| touches(p, 0.0, gap).then_some(());
+        let mut search = Search {
+            start: path[0],
+            goal: path[0],
+            area: ROOM,
+            reach: 0.7,
+            margin: 0.0,
+            blocked: &mut blocked,
+        };
+        for leg in path.windows(2) {
+            assert_eq!(search.edge(&leg[0], &leg[1]), None);
+        }
+        assert!(path.len() < 9, "{path:?}");
+    }
+
+    #[test]
+    fn an_occupied_goal_names_what_is_there() {
+        let result = find([2.0, 0.0, 0.0], |x, _, _| x > 1.5);
+        assert_eq!(result, Err(BasePathFailure::GoalOccupied("wall")));
+    }
+
+    #[test]
+    fn an_enclosed_robot_is_told_by_what() {
+        let result = find([2.0, 0.0, 0.0], |x, _, r| x.abs() < r);
+        assert_eq!(
+            result,
+            Err(BasePathFailure::Enclosed {
+                blockers: vec!["wall"]
+            })
+        );
+    }
+}

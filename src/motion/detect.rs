@@ -1,0 +1,103 @@
+//! Looking for objects with the camera. Nothing moves.
+
+use super::failure::MotionFailure;
+use super::job::{DetectedObject, Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use crate::perception::Sight;
+use crate::world::World;
+
+/// Which objects are looked for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DetectQuery {
+    /// Name in the world; any when absent.
+    pub name: Option<String>,
+    /// Types of the object library of which the object has one; any when empty.
+    pub types: Vec<String>,
+    /// What failures call the object, such as its designator.
+    pub description: String,
+}
+
+/// Finds all objects that match the query and that the camera sees, in the order in which
+/// they appeared in the world.
+#[derive(Clone, Debug)]
+pub struct Detect {
+    query: DetectQuery,
+    ended: bool,
+}
+
+impl Detect {
+    /// Looks once, with the head as it is.
+    pub fn new(query: DetectQuery) -> Self {
+        Self {
+            query,
+            ended: false,
+        }
+    }
+
+    fn matches(&self, name: &str, type_name: &str) -> bool {
+        let same = |a: &String, b: &str| a.eq_ignore_ascii_case(b);
+        self.query.name.as_ref().is_none_or(|n| same(n, name))
+            && (self.query.types.is_empty() || self.query.types.iter().any(|t| same(t, type_name)))
+    }
+
+    fn look(&self, world: &World) -> Result<Vec<DetectedObject>, MotionFailure> {
+        let wanted = || {
+            world
+                .objects()
+                .filter(|o| self.matches(o.name(), o.type_name()))
+        };
+        let base = world.robot_configuration().base;
+        let sight = Sight::of_robot(world);
+        let (mut seen, mut candidates) = (Vec::new(), Vec::new());
+        for object in wanted() {
+            // The names come from the world itself.
+            let Ok(visibility) = sight.visibility(object.name()) else {
+                continue;
+            };
+            let Ok(pose) = world.object_pose(object.name()) else {
+                continue;
+            };
+            if visibility.is_seen() {
+                seen.push(DetectedObject {
+                    name: object.name().to_owned(),
+                    type_name: object.type_name().to_owned(),
+                    pose_in_base: base.inverse() * pose,
+                    pose_in_map: pose,
+                });
+            }
+            candidates.push(visibility);
+        }
+        if seen.is_empty() {
+            let wanted = self.query.description.clone();
+            return Err(MotionFailure::ObjectNotFound { wanted, candidates });
+        }
+        Ok(seen)
+    }
+}
+
+impl Motion for Detect {
+    fn module(&self) -> ProcessModule {
+        ProcessModule::Perception
+    }
+
+    fn tick(&mut self, world: &mut World) -> MotionStatus {
+        if self.ended {
+            return MotionStatus::Done(MotionOutcome::Detected(Vec::new()));
+        }
+        self.ended = true;
+        match self.look(world) {
+            Ok(seen) => MotionStatus::Done(MotionOutcome::Detected(seen)),
+            Err(failure) => MotionStatus::failed(failure),
+        }
+    }
+
+    fn cancel(&mut self) {
+        self.ended = true;
+    }
+
+    fn progress(&self) -> Progress {
+        Progress {
+            what: "detecting",
+            fraction: if self.ended { 1.0 } else { 0.0 },
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! Driving the base to a pose in the map, around what is in the way.
+//!
+//! The goal is checked first, then a path is searched for the robot as it stands: with its
+//! arms where they are and with what they hold. Other jobs may move arms and torso
+//! meanwhile. While they do, the base keeps a larger distance from everything ahead, slows
+//! down and stops where it cannot, and goes on when the posture is steady; where the way has
+//! become blocked it then looks for another one.
+
+use super::base_path::BasePlace;
+use super::drive_plan::{at_place, is_way_free, plan_drive};
+use super::failure::MotionFailure;
+use super::follower::Follower;
+use super::guard;
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
+use super::patience::{Attempt, Retry};
+use super::trajectory::{AxisGroup, Corners, Trajectory};
+use crate::robot::JointId;
+use crate::spatial::{Pose, pose};
+use crate::world::physics::STEP_SECONDS;
+use crate::world::{AllowedPairs, CollisionHit, World};
+
+/// Times ahead (s) at which the way is looked at while the posture changes.
+const LOOK_AHEAD: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
+/// Steps between two looks ahead.
+const LOOK_EVERY: u32 = 12;
+/// Free distance (m) that is kept ahead while the posture changes.
+const CHANGING_MARGIN: f64 = 0.10;
+/// A posture is steady when it has not changed for this long (s).
+const STEADY: f64 = 0.05;
+/// How long (s) the robot may be still without a path before the drive fails: when there has
+/// been none yet, and when there has been one that became blocked. The arms wait shorter, so
+/// that they get out of the way.
+const FIRST_PATIENCE: f64 = 0.1;
+const LATER_PATIENCE: f64 = 1.0;
+/// How often a path is found, and then blocked, before giving up.
+const MOST_PLANS: u32 = 8;
+
+/// Drives the base to a pose.
+#[derive(Clone, Debug)]
+pub struct Drive {
+    goal: BasePlace,
+    way: Option<Follower>,
+    /// Torso and arms in the last tick, and for how long (s) they have been so.
+    posture: Vec<f64>,
+    steady: f64,
+    ticks: u32,
+    /// What the robot would come too near to on the way ahead.
+    ahead: Option<CollisionHit>,
+    /// Whether the posture was steady when that was found out.
+    ahead_is_sure: bool,
+    /// Paths that were found.
+    plans: u32,
+    retry: Retry,
+    ended: bool,
+}
+
+impl Drive {
+    /// To the pose in the map frame, of which only x, y and the heading count.
+    pub fn new(goal: &Pose) -> Self {
+        let t = goal.translation;
+        Self {
+            goal: [t.x, t.y, pose::yaw(goal)],
+            way: None,
+            posture: Vec::new(),
+            steady: 0.0,
+            ticks: 0,
+            ahead: None,
+            ahead_is_sure: false,
+            plans: 0,
+            retry: Retry::default(),
+            ended: false,
+        }
+    }
+
+    fn watch_posture(&mut self, world: &World) {
+        let joints = &world.robot_configuration().joints;
+        let posture: Vec<f64> = posture_joints(world).map(|j| joints.get(j)).collect();
+        self.steady = if posture == self.posture {
+            self.steady + STEP_SECONDS
+        } else {
+            0.0
+        };
+        self.posture = posture;
+    }
+
+    fn is_steady(&self) -> bool {
+        self.steady >= STEADY
+    }
+
+    fn plan(&self, world: &World) -> Result<Follower, MotionFailure> {
+        check_finite(ProcessModule::Navigation, &self.goal)?;
+        let path = plan_drive(world, self.goal)?;
+        let base = &world.models().description.base;
+        let drive = AxisGroup {
+            axes: 0..2,
+            velocity: base.drive.velocity,
+            acceleration: base.drive.acceleration,
+        };
+        let turn = AxisGroup::single(2, base.turn.velocity, base.turn.acceleration);
+        let limits = [drive, turn];
+        let points: Vec<Vec<f64>> = path.iter().map(|p| p.to_vec()).collect();
+        let round = Trajectory::new(&points, &limits, Corners::Round);
+        // Rounding leaves the path that was checked, so what comes out is checked again.
+        let free = points.len() <= 2 || is_way_free(world, &round);
+        let way = if free {
+            round
+        } else {
+            Trajectory::new(&points, &limits, Corners::Stop)
+        };
+        Ok(Follower::new(way))
+    }
+
+    /// Searches a path; what is in the way while the posture changes may be gone later.
+    fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
+        let patience = if self.plans == 0 {
+            FIRST_PATIENCE
+        } else {
+            LATER_PATIENCE
+        };
+        match self.retry.next(world, patience) {
+            Attempt::Later => return None,
+            Attempt::GiveUp(failure) => return Some(MotionStatus::failed(failure)),
+            Attempt::Now => {}
+        }
+        match self.plan(world) {
+            Ok(way) => {
+                self.plans += 1;
+                self.retry.reset();
+                self.ahead = None;
+                self.way = Some(way);
+                None
+            }
+            Err(failure) if failure.may_pass() => {
+                self.retry.failed(world, failure);
+                None
+            }
+            Err(failure) => Some(MotionStatus::failed(failure)),
+        }
+    }
+
+    /// Looks at the way ahead as long as arms or torso move, or something was there.
+    fn look_ahead(&mut self, world: &World) {
+        if !self.ticks.is_multiple_of(LOOK_EVERY) || (self.is_steady() && self.ahead.is_none()) {
+            return;
+        }
+        let Some(way) = &self.way else { return };
+        let margin = if self.is_steady() {
+            -guard::GUARD_DEPTH
+        } else {
+            CHANGING_MARGIN
+        };
+        let robot = world.robot_configuration();
+        let mut checker = world.collision_checker();
+        // What is near already does not come from driving on.
+        let near = checker.all_hits(robot, &AllowedPairs::none(), margin);
+        let allowed = near.into_iter().fold(AllowedPairs::none(), |all, hit| {
+            all.and(hit.moving, hit.other)
+        });
+        self.ahead_is_sure = self.is_steady();
+        self.ahead = LOOK_AHEAD.iter().find_map(|seconds| {
+            checker.first_hit(&at_place(robot, &way.ahead(*seconds)), &allowed, margin)
+        });
+    }
+
+    fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
+        self.look_ahead(world);
+        let way = self.way.as_mut()?;
+        if way.is_at_end() {
+            return Some(MotionStatus::Done(MotionOutcome::Arrived));
+        }
+        if let Some(stuck) = guard::stuck_object(world, |_| true) {
+            return Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(
+                Box::new(stuck),
+            )));
+        }
+        if way.is_stopped()
+            && self.ahead_is_sure
+            && let Some(hit) = self.ahead.take()
+        {
+            return self.give_up_way(hit);
+        }
+        let next = at_place(world.robot_configuration(), &way.next());
+        if let Some(hit) = guard::obstacle(world, &next, &AllowedPairs::none()) {
+            return self.give_up_way(hit);
+        }
+        if self.ahead.is_some() {
+            way.brake()
+        } else {
+            way.advance()
+        }
+        world.set_robot_configuration(&next);
+        None
+    }
+
+    /// Stops; another way is looked for in the next ticks.
+    fn give_up_way(&mut self, hit: CollisionHit) -> Option<MotionStatus> {
+        self.way = None;
+        let (goal, hit) = (self.goal, Box::new(hit));
+        (self.plans >= MOST_PLANS)
+            .then(|| MotionStatus::failed(MotionFailure::DriveBlocked { goal, hit }))
+    }
+}
+
+/// The torso's and the arms' joints.
+fn posture_joints(world: &World) -> impl Iterator<Item = JointId> {
+    let description = &world.models().description;
+    let arms = description
+        .arms
+        .iter()
+        .flat_map(|arm| arm.joints().iter().copied());
+    std::iter::once(description.torso.joint).chain(arms)
+}
+
+impl Motion for Drive {
+    fn module(&self) -> ProcessModule {
+        ProcessModule::Navigation
+    }
+
+    fn tick(&mut self, world: &mut World) -> MotionStatus {
+        if self.ended {
+            return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        self.ticks += 1;
+        self.watch_posture(world);
+        let mut end = None;
+        if self.way.is_none() {
+            end = self.try_plan(world);
+        }
+        if end.is_none() {
+            end = self.step(world);
+        }
+        match end {
+            None => MotionStatus::Running,
+            Some(end) => {
+                self.ended = true;
+                end
+            }
+        }
+    }
+
+    fn cancel(&mut self) {
+        self.ended = true;
+    }
+
+    fn progress(&self) -> Progress {
+        let fraction = self.way.as_ref().map_or(0.0, Follower::fraction);
+        Progress {
+            what: "driving",
+            fraction,
+        }
+    }
+}

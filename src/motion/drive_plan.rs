@@ -1,0 +1,187 @@
+//! Planning a drive: the path of the base for the robot as it stands.
+
+use super::base_path::{BasePathFailure, BasePlace, FloorArea, MARGIN, find_base_path};
+use super::expected_contacts::ExpectedContacts;
+use super::failure::MotionFailure;
+use super::touching::TouchingPairs;
+use super::trajectory::Trajectory;
+use crate::spatial::{Pose, pose};
+use crate::world::{
+    AllowedPairs, BodyName, CollisionChecker, CollisionHit, RobotConfiguration, World,
+};
+
+/// What the robot's links add (m) to the distance of their frames from the base's axis.
+const LINK_EXTENT: f64 = 0.15;
+/// Free floor (m) that is searched around robot, goal and furniture.
+const AREA_BORDER: f64 = 1.0;
+/// Time (s) between two places of a trajectory that are checked.
+const CHECK_EVERY: f64 = 0.04;
+/// Places around an occupied goal that are tried (m): spacing and number of rings.
+const NEARBY: (f64, u32) = (0.05, 16);
+
+/// The configuration with the base elsewhere; its height stays.
+pub(super) fn at_place(robot: &RobotConfiguration, place: &[f64]) -> RobotConfiguration {
+    let mut there = robot.clone();
+    if let [x, y, yaw] = *place {
+        there.base = pose::from_xy_yaw(x, y, yaw);
+        there.base.translation.z = robot.base.translation.z;
+    }
+    there
+}
+
+/// Judges places of the base for the posture that the robot has now.
+pub(super) struct BaseJudge<'w> {
+    checker: CollisionChecker<'w>,
+    robot: RobotConfiguration,
+    /// Poses of the links in the frame of the base, and in the map for the place judged last.
+    in_base: Vec<Pose>,
+    in_map: Vec<Pose>,
+    touching: TouchingPairs,
+}
+
+impl<'w> BaseJudge<'w> {
+    pub(super) fn new(world: &'w World) -> Self {
+        let mut checker = world.collision_checker();
+        let robot = world.robot_configuration().clone();
+        // Parts of the robot do not come nearer to each other by driving.
+        let near = checker.all_hits(&robot, &AllowedPairs::none(), MARGIN);
+        let rides = |body: &BodyName| match body {
+            BodyName::Robot(_) => true,
+            BodyName::Object(name) => world.object(name).is_ok_and(|o| o.attachment().is_some()),
+            BodyName::Furniture(_) | BodyName::Floor => false,
+        };
+        let own = near
+            .into_iter()
+            .filter(|hit| rides(&hit.other))
+            .fold(AllowedPairs::none(), |all, hit| {
+                all.and(hit.moving, hit.other)
+            });
+        let contacts = ExpectedContacts {
+            allowed: own,
+            ..ExpectedContacts::default()
+        };
+        let touching = TouchingPairs::new(&mut checker, &robot, &contacts, 0.0, 0.0);
+        let mut in_base = Vec::new();
+        let tree = &world.models().robot;
+        tree.forward_kinematics(&Pose::identity(), &robot.joints, &mut in_base);
+        Self {
+            checker,
+            robot,
+            in_map: in_base.clone(),
+            in_base,
+            touching,
+        }
+    }
+
+    /// What the robot would come nearer to than the margin (m) at the place.
+    pub(super) fn blocked(&mut self, place: &BasePlace, margin: f64) -> Option<CollisionHit> {
+        self.robot = at_place(&self.robot, place);
+        for (in_map, in_base) in self.in_map.iter_mut().zip(&self.in_base) {
+            *in_map = self.robot.base * in_base;
+        }
+        let near = self
+            .checker
+            .first_hit_at(&self.in_map, self.touching.relaxed(), margin);
+        if near.is_some() || self.touching.is_empty() {
+            return near;
+        }
+        self.touching
+            .first_hit(&mut self.checker, &self.robot, margin)
+    }
+
+    /// The greatest distance (m) of any part of the robot from the axis of the base.
+    fn reach(&self) -> f64 {
+        let places = self.in_base.iter().map(|p| p.translation);
+        places.map(|t| libm::hypot(t.x, t.y)).fold(0.0, f64::max) + LINK_EXTENT
+    }
+}
+
+/// Whether the robot touches nothing all along the trajectory.
+pub(super) fn is_way_free(world: &World, way: &Trajectory) -> bool {
+    let mut judge = BaseJudge::new(world);
+    let parts = (way.duration() / CHECK_EVERY).ceil().max(1.0) as u32;
+    (0..=parts).all(|i| {
+        let place = way.position(way.duration() * f64::from(i) / f64::from(parts));
+        let place = <BasePlace>::try_from(place);
+        place.is_ok_and(|place| judge.blocked(&place, 0.0).is_none())
+    })
+}
+
+/// The path of the base from where it is, for the robot's present posture.
+pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, MotionFailure> {
+    let base = world.robot_configuration().base;
+    let t = base.translation;
+    let start = [t.x, t.y, pose::yaw(&base)];
+    let area = floor_area(world, &start, &goal);
+    let mut judge = BaseJudge::new(world);
+    let reach = judge.reach();
+    let found = find_base_path(start, goal, area, reach, &mut |place, margin| {
+        judge.blocked(place, margin).map(Obstacle)
+    });
+    found.map_err(|failure| match failure {
+        BasePathFailure::StartOccupied(hit) => {
+            MotionFailure::DriveStartOccupied { hit: hit.0.into() }
+        }
+        BasePathFailure::GoalOccupied(hit) => {
+            let mut places = nearby(&goal).into_iter();
+            let nearest_free = places.find(|place| judge.blocked(place, 0.0).is_none());
+            MotionFailure::GoalOccupied {
+                goal,
+                hit: hit.0.into(),
+                nearest_free,
+            }
+        }
+        BasePathFailure::Enclosed { blockers } => {
+            let blockers = blockers.into_iter().map(|b| b.0.other).collect();
+            MotionFailure::Enclosed { goal, blockers }
+        }
+    })
+}
+
+/// A hit that equals another one with the same obstacle, wherever they touch.
+#[derive(Clone, Debug)]
+struct Obstacle(CollisionHit);
+
+impl PartialEq for Obstacle {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.other == other.0.other
+    }
+}
+
+/// Places around the goal with the goal's heading, the nearest first.
+fn nearby(goal: &BasePlace) -> Vec<BasePlace> {
+    let (spacing, rings) = NEARBY;
+    let mut places = Vec::new();
+    for ring in 1..=rings {
+        for turn in 0..16 {
+            let (s, c) =
+                crate::spatial::trig::sin_cos(f64::from(turn) * std::f64::consts::FRAC_PI_8);
+            let r = f64::from(ring) * spacing;
+            places.push([goal[0] + r * c, goal[1] + r * s, goal[2]]);
+        }
+    }
+    places
+}
+
+/// The floor that holds the robot, its goal and all furniture.
+fn floor_area(world: &World, start: &BasePlace, goal: &BasePlace) -> FloorArea {
+    let links = world.models().kitchen.links();
+    let furniture = links
+        .filter(|(_, link)| !link.collisions.is_empty())
+        .map(|(id, _)| {
+            let t = world.furniture_pose(id).translation;
+            [t.x, t.y]
+        });
+    let ends = [[start[0], start[1]], [goal[0], goal[1]]];
+    let mut area = FloorArea {
+        min: [f64::MAX; 2],
+        max: [f64::MIN; 2],
+    };
+    for p in furniture.chain(ends) {
+        for (i, v) in p.into_iter().enumerate() {
+            area.min[i] = area.min[i].min(v - AREA_BORDER);
+            area.max[i] = area.max[i].max(v + AREA_BORDER);
+        }
+    }
+    area
+}

@@ -1,0 +1,341 @@
+//! Why a motion did not reach its goal.
+//!
+//! A failure carries what is known: the pair of bodies that touch, the limit that is
+//! violated and by how much, what was tried and what would work. The words are in
+//! `Display` alone: a first line as CRAM has it, or a sentence that says what and why, and
+//! where it can be computed a second one that says what would work.
+
+use thiserror::Error;
+
+use super::base_path::BasePlace;
+use super::guard::StuckObject;
+use super::job::ProcessModule;
+use super::unreachable::{UnreachablePose, UnreachableReason};
+use crate::perception::Visibility;
+use crate::robot::{LimitViolation, Side};
+use crate::world::{BodyName, CollisionHit};
+
+/// Why a motion did not reach its goal.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum MotionFailure {
+    /// Something is where the base shall stand.
+    #[error("the robot cannot stand at {}: {}{}", place(.goal), touch(.hit), nearest(.nearest_free))]
+    GoalOccupied {
+        /// Where the base shall stand, in the map frame.
+        goal: BasePlace,
+        /// What would touch.
+        hit: Box<CollisionHit>,
+        /// The nearest place with the same heading where the robot can stand as it is.
+        nearest_free: Option<BasePlace>,
+    },
+    /// No way leads to the goal.
+    #[error(
+        "no way leads to {} for the robot as it stands{}",
+        place(.goal), list(", in the way: ", .blockers)
+    )]
+    Enclosed {
+        /// Where the base shall stand, in the map frame.
+        goal: BasePlace,
+        /// What stands in the way that touches least.
+        blockers: Vec<BodyName>,
+    },
+    /// The robot touches something and cannot drive away.
+    #[error("the robot cannot drive: {}", touch(.hit))]
+    DriveStartOccupied {
+        /// What touches.
+        hit: Box<CollisionHit>,
+    },
+    /// The way was free and is not any more.
+    #[error("on the way to {} the robot was stopped: {}", place(.goal), touch(.hit))]
+    DriveBlocked {
+        /// Where the base shall stand, in the map frame.
+        goal: BasePlace,
+        /// What would touch.
+        hit: Box<CollisionHit>,
+    },
+    /// The torso is at its limit, short of the goal.
+    #[error("Torso goal {goal} was out of joint limits\nthe torso goes from {lower} to {upper} m")]
+    TorsoGoalOutOfLimits {
+        /// Height that was wanted (m).
+        goal: f64,
+        /// Least height (m).
+        lower: f64,
+        /// Greatest height (m).
+        upper: f64,
+    },
+    /// The torso was stopped.
+    #[error("the torso was stopped at {height:.3} m on its way to {goal:.3} m: {}", touch(.hit))]
+    TorsoBlocked {
+        /// Height that was wanted (m).
+        goal: f64,
+        /// Height that was reached (m).
+        height: f64,
+        /// What would touch.
+        hit: Box<CollisionHit>,
+    },
+    /// The neck is at its limit, short of the goal.
+    #[error("Look action wanted to twist the neck\n{violation}")]
+    NeckLimit {
+        /// The joint and its range.
+        violation: LimitViolation,
+    },
+    /// The head was stopped.
+    #[error("the head was stopped: {}", touch(.hit))]
+    NeckBlocked {
+        /// What would touch.
+        hit: Box<CollisionHit>,
+    },
+    /// No object that was asked for is in sight.
+    #[error("Could not find object {wanted}.{}", sights(.candidates, .wanted))]
+    ObjectNotFound {
+        /// What was looked for.
+        wanted: String,
+        /// How much of each object that was asked for is in sight.
+        candidates: Vec<Visibility>,
+    },
+    /// The fingers met without an object between them.
+    #[error(
+        "There was no object to grip\nthe fingers of the {side} hand met without an object between them"
+    )]
+    NothingGripped {
+        /// The hand.
+        side: Side,
+    },
+    /// The fingers hold something else.
+    #[error("the {side} hand has {held} between its fingers, not {wanted}")]
+    WrongObject {
+        /// The hand.
+        side: Side,
+        /// What was to be gripped.
+        wanted: String,
+        /// What is between the fingers.
+        held: BodyName,
+    },
+    /// The fingers cannot get to the position.
+    #[error("the {side} gripper cannot open to {goal:.3} m: {violation}")]
+    GripperLimit {
+        /// The hand.
+        side: Side,
+        /// Opening that was wanted (m).
+        goal: f64,
+        /// The joint and its range.
+        violation: LimitViolation,
+    },
+    /// The fingers were stopped.
+    #[error("the fingers of the {side} hand were stopped: {}", touch(.hit))]
+    FingersBlocked {
+        /// The hand.
+        side: Side,
+        /// What would touch.
+        hit: Box<CollisionHit>,
+    },
+    /// A joint goal is outside of the joint's range.
+    #[error("{violation}")]
+    JointLimit {
+        /// The joint and its range.
+        violation: LimitViolation,
+    },
+    /// A list of joint positions has the wrong length.
+    #[error(
+        "length of joints list is incorrect: the {side} arm has {expected} joints, not {given}"
+    )]
+    JointCount {
+        /// The arm.
+        side: Side,
+        /// Number of positions that were given.
+        given: usize,
+        /// Number of joints of the arm.
+        expected: usize,
+    },
+    /// No posture of the arm brings the hand to the pose.
+    #[error("{0}")]
+    PoseUnreachable(Box<UnreachablePose>),
+    /// The goals of both hands need different heights of the torso.
+    #[error(
+        "In MOVE-TCP goals for the two arms require different torso angles).\n\
+         the left one is reachable at {}, the right one at {}", heights(.left), heights(.right)
+    )]
+    TorsoConflict {
+        /// Torso heights (m) that suit the left hand: least and greatest.
+        left: Option<[f64; 2]>,
+        /// Torso heights (m) that suit the right hand: least and greatest.
+        right: Option<[f64; 2]>,
+    },
+    /// The arms would touch something in the goal.
+    #[error("the arms cannot be put there: {}", touch(.hit))]
+    ArmGoalInCollision {
+        /// What would touch.
+        hit: Box<CollisionHit>,
+    },
+    /// The arms touch something and may not move.
+    #[error("the arms cannot move: {}", touch(.hit))]
+    ArmStartInCollision {
+        /// What touches.
+        hit: Box<CollisionHit>,
+    },
+    /// No path of the arms was found.
+    #[error("no path of the arms was found in {samples} attempts: {}", touch(.hit))]
+    ArmPathNotFound {
+        /// What would touch on the straight path.
+        hit: Box<CollisionHit>,
+        /// How many random postures were tried.
+        samples: usize,
+    },
+    /// The arms were stopped.
+    #[error("the arms were stopped: {}", touch(.hit))]
+    ArmBlocked {
+        /// What would touch.
+        hit: Box<CollisionHit>,
+    },
+    /// A hand ended beside its goal, because something else moved the robot meanwhile.
+    #[error(
+        "the {side} hand ended {:.1} mm and {:.1} degrees beside its goal, because torso or \
+         base were moved at the same time", .distance * 1e3, .angle.to_degrees()
+    )]
+    HandGoalMissed {
+        /// The hand.
+        side: Side,
+        /// Distance (m) from the goal.
+        distance: f64,
+        /// Angle (rad) from the goal.
+        angle: f64,
+    },
+    /// A held object does not follow the hand.
+    #[error(
+        "stopped because {} is stuck{}: it is {:.1} mm behind the hand and pressed with {:.0} N",
+        .0.object, list(" against ", &.0.against), .0.lag * 1e3, .0.force
+    )]
+    HeldObjectStuck(Box<StuckObject>),
+    /// The hand holds nothing.
+    #[error("the {side} hand holds nothing")]
+    HoldsNothing {
+        /// The hand.
+        side: Side,
+    },
+    /// A goal has a coordinate that is infinite or no number.
+    #[error("the goal for the {module} is not a finite number")]
+    NotFinite {
+        /// The part of the robot that the goal is for.
+        module: ProcessModule,
+    },
+    /// The world does not know the object, or the frame.
+    #[error("{0}")]
+    UnknownName(String),
+}
+
+impl MotionFailure {
+    /// Whether the reason may pass while other jobs go on to move the robot.
+    pub(super) fn may_pass(&self) -> bool {
+        match self {
+            Self::GoalOccupied { .. }
+            | Self::Enclosed { .. }
+            | Self::DriveStartOccupied { .. }
+            | Self::ArmGoalInCollision { .. }
+            | Self::ArmStartInCollision { .. }
+            | Self::ArmPathNotFound { .. } => true,
+            Self::PoseUnreachable(pose) => {
+                matches!(pose.reason, UnreachableReason::Collisions { .. })
+            }
+            _ => false,
+        }
+    }
+
+    /// Name of CRAM's failure class that handlers name to catch this failure.
+    pub fn class_name(&self) -> &'static str {
+        match self {
+            Self::GoalOccupied { .. } | Self::Enclosed { .. } => "NAVIGATION-POSE-UNREACHABLE",
+            Self::DriveStartOccupied { .. } | Self::DriveBlocked { .. } => {
+                "NAVIGATION-GOAL-NOT-REACHED"
+            }
+            Self::TorsoGoalOutOfLimits { .. } => "TORSO-GOAL-NOT-REACHED",
+            Self::TorsoBlocked { .. } => "TORSO-GOAL-UNREACHABLE",
+            Self::NeckLimit { .. } | Self::NeckBlocked { .. } => "PTU-GOAL-NOT-REACHED",
+            Self::ObjectNotFound { .. } => "PERCEPTION-OBJECT-NOT-FOUND",
+            Self::NothingGripped { .. } | Self::WrongObject { .. } => "GRIPPER-CLOSED-COMPLETELY",
+            Self::GripperLimit { .. } | Self::FingersBlocked { .. } => "GRIPPER-GOAL-NOT-REACHED",
+            Self::PoseUnreachable(_) | Self::TorsoConflict { .. } => {
+                "MANIPULATION-POSE-UNREACHABLE"
+            }
+            Self::JointLimit { .. }
+            | Self::JointCount { .. }
+            | Self::ArmGoalInCollision { .. }
+            | Self::ArmStartInCollision { .. }
+            | Self::ArmPathNotFound { .. }
+            | Self::ArmBlocked { .. }
+            | Self::HandGoalMissed { .. }
+            | Self::HeldObjectStuck(_)
+            | Self::HoldsNothing { .. } => "MANIPULATION-GOAL-NOT-REACHED",
+            Self::NotFinite { module } => match module {
+                ProcessModule::Navigation => "NAVIGATION-POSE-UNREACHABLE",
+                ProcessModule::Torso => "TORSO-GOAL-NOT-REACHED",
+                ProcessModule::Neck => "PTU-GOAL-NOT-REACHED",
+                ProcessModule::Perception => "PERCEPTION-LOW-LEVEL-FAILURE",
+                ProcessModule::Grippers => "GRIPPER-GOAL-NOT-REACHED",
+                ProcessModule::Arms => "MANIPULATION-POSE-UNREACHABLE",
+            },
+            Self::UnknownName(_) => "LOW-LEVEL-FAILURE",
+        }
+    }
+}
+
+fn place(&[x, y, yaw]: &BasePlace) -> String {
+    format!(
+        "x {x:.3}, y {y:.3}, heading {:.1} degrees",
+        yaw.to_degrees()
+    )
+}
+
+/// "a touches b" or, for a gap that is too narrow, "a is 3 mm from b".
+fn touch(hit: &CollisionHit) -> String {
+    let CollisionHit {
+        moving,
+        other,
+        depth,
+        point,
+    } = hit;
+    let at = format!("at ({:.2} {:.2} {:.2})", point.x, point.y, point.z);
+    if *depth > 0.0 {
+        format!(
+            "{moving} would overlap {other} by {:.1} mm {at}",
+            depth * 1e3
+        )
+    } else {
+        format!(
+            "{moving} would be only {:.1} mm from {other} {at}",
+            -depth * 1e3
+        )
+    }
+}
+
+fn nearest(place: &Option<BasePlace>) -> String {
+    match place {
+        Some([x, y, _]) => {
+            format!("\nthe nearest free place with this heading is x {x:.3}, y {y:.3}")
+        }
+        None => String::new(),
+    }
+}
+
+fn list<'a>(lead: &str, bodies: impl IntoIterator<Item = &'a BodyName>) -> String {
+    let names: Vec<String> = bodies.into_iter().map(ToString::to_string).collect();
+    if names.is_empty() {
+        String::new()
+    } else {
+        format!("{lead}{}", names.join(", "))
+    }
+}
+
+fn heights(range: &Option<[f64; 2]>) -> String {
+    match range {
+        Some([least, greatest]) => format!("{least:.2} to {greatest:.2} m"),
+        None => "no height".to_owned(),
+    }
+}
+
+fn sights(candidates: &[Visibility], wanted: &str) -> String {
+    if candidates.is_empty() {
+        return format!("\nthe world holds no object like {wanted}");
+    }
+    let lines: Vec<String> = candidates.iter().map(ToString::to_string).collect();
+    format!("\n{}", lines.join("; "))
+}

@@ -1,0 +1,92 @@
+//! The last check before the robot moves by one step.
+//!
+//! Paths are planned free of collisions, but the world goes on while a path is followed:
+//! other jobs move other joints, objects are pushed about. So every single step is checked
+//! again, whatever was planned. A step is refused when it brings the robot, or what it
+//! holds, deeper into something than [`GUARD_DEPTH`]. Where two bodies overlap that much
+//! already, steps that part them or slide along are taken all the same, or the robot could
+//! never get away; but none that leads beyond [`GREATEST_DEPTH`].
+
+use crate::robot::LinkId;
+use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
+
+/// Overlap (m) that a step may bring about: less than the 2 mm that are never exceeded.
+pub const GUARD_DEPTH: f64 = 0.0015;
+/// Lag (m) of a held object behind the hand from which on it is taken to be stuck.
+pub const GREATEST_LAG: f64 = 0.01;
+/// Force (N) between a held object and what it bumps into from which on it is stuck.
+pub const GREATEST_FORCE: f64 = 50.0;
+/// Overlap (m) that no step brings about, however it began.
+const GREATEST_DEPTH: f64 = 0.0019;
+/// A step that slides along may seem to go deeper by this (m): rounding, not motion.
+const SLIDE: f64 = 2e-5;
+/// Pairs that overlap less than this (m) do not overlap already.
+const NOT_YET: f64 = GUARD_DEPTH / 2.0;
+
+/// What forbids the robot to be in the configuration after the next step, if anything does.
+pub(super) fn obstacle(
+    world: &World,
+    next: &RobotConfiguration,
+    allowed: &AllowedPairs,
+) -> Option<CollisionHit> {
+    let mut checker = world.collision_checker();
+    let first = checker.first_hit(next, allowed, -GUARD_DEPTH)?;
+    let now = checker.all_hits(world.robot_configuration(), allowed, -NOT_YET);
+    if now.is_empty() {
+        return Some(first);
+    }
+    let is_deeper = |hit: &CollisionHit| {
+        let before = now
+            .iter()
+            .find(|n| n.moving == hit.moving && n.other == hit.other);
+        let before = before.map_or(0.0, |b| b.depth);
+        hit.depth > before && hit.depth > (before + SLIDE).min(GREATEST_DEPTH)
+    };
+    checker
+        .all_hits(next, allowed, -GUARD_DEPTH)
+        .into_iter()
+        .find(is_deeper)
+}
+
+/// A held object that does not follow the hand as it should.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StuckObject {
+    /// Name of the object.
+    pub object: String,
+    /// How far it lags behind the hand (m).
+    pub lag: f64,
+    /// Force (N) with which it is pressed against something else than the robot.
+    pub force: f64,
+    /// What it is pressed against most, where it is known.
+    pub against: Option<crate::world::BodyName>,
+}
+
+/// The first object held by one of the links that lags or is pressed too much.
+pub(super) fn stuck_object(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Option<StuckObject> {
+    let held = world
+        .objects()
+        .filter(|o| o.attachment().is_some_and(|a| is_hand(a.link)));
+    for object in held {
+        let name = object.name();
+        let lag = world
+            .weld_error(name)
+            .ok()
+            .flatten()
+            .map_or(0.0, |e| e.distance);
+        let force = world.support_force(name).unwrap_or(0.0);
+        if lag > GREATEST_LAG || force > GREATEST_FORCE {
+            let pressed = world.supports(name).unwrap_or_default();
+            let most = pressed
+                .into_iter()
+                .max_by(|a, b| a.force.total_cmp(&b.force));
+            let against = most.map(|m| m.body);
+            return Some(StuckObject {
+                object: name.to_owned(),
+                lag,
+                force,
+                against,
+            });
+        }
+    }
+    None
+}

@@ -1,0 +1,119 @@
+//! Taking hold of an object between the fingers, and letting go of it.
+
+use super::failure::MotionFailure;
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use crate::robot::Side;
+use crate::world::World;
+use crate::world::physics::STEP_SECONDS;
+
+/// Steps without motion that count as rest.
+const QUIET: u32 = 24;
+/// Longest time (s) that an object is given to come to rest.
+const SETTLE: f64 = 2.0;
+
+/// Welds the object softly to the palm of the hand, where it is now.
+pub fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), MotionFailure> {
+    let palm = world.models().description.arm(side).gripper.palm;
+    world
+        .attach(object, palm)
+        .map_err(|e| MotionFailure::UnknownName(e.to_string()))
+}
+
+/// Names of the objects that the hand holds.
+pub fn held_objects(world: &World, side: Side) -> Vec<String> {
+    let palm = world.models().description.arm(side).gripper.palm;
+    let held = world
+        .objects()
+        .filter(|o| o.attachment().is_some_and(|a| a.link == palm));
+    held.map(|o| o.name().to_owned()).collect()
+}
+
+/// Lets go of an object and waits until everything is at rest.
+#[derive(Clone, Debug)]
+pub struct LetGo {
+    side: Side,
+    object: Option<String>,
+    released: Option<String>,
+    quiet: u32,
+    waited: f64,
+    ended: bool,
+}
+
+impl LetGo {
+    /// Of the named object, or of whatever the hand holds.
+    pub fn new(side: Side, object: Option<String>) -> Self {
+        Self {
+            side,
+            object,
+            released: None,
+            quiet: 0,
+            waited: 0.0,
+            ended: false,
+        }
+    }
+
+    fn release(&mut self, world: &mut World) -> Result<String, MotionFailure> {
+        let side = self.side;
+        let held = held_objects(world, side).into_iter().next();
+        let name = self
+            .object
+            .clone()
+            .or(held)
+            .ok_or(MotionFailure::HoldsNothing { side })?;
+        match world.detach(&name) {
+            Ok(Some(_)) => Ok(name),
+            Ok(None) => Err(MotionFailure::HoldsNothing { side }),
+            Err(error) => Err(MotionFailure::UnknownName(error.to_string())),
+        }
+    }
+}
+
+impl Motion for LetGo {
+    fn module(&self) -> ProcessModule {
+        ProcessModule::Grippers
+    }
+
+    fn tick(&mut self, world: &mut World) -> MotionStatus {
+        if self.ended {
+            return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        let Some(object) = &self.released else {
+            return match self.release(world) {
+                Ok(name) => {
+                    self.released = Some(name);
+                    MotionStatus::Running
+                }
+                Err(failure) => {
+                    self.ended = true;
+                    MotionStatus::failed(failure)
+                }
+            };
+        };
+        self.waited += STEP_SECONDS;
+        self.quiet = if world.is_at_rest() {
+            self.quiet + 1
+        } else {
+            0
+        };
+        if self.quiet < QUIET && self.waited < SETTLE {
+            return MotionStatus::Running;
+        }
+        self.ended = true;
+        let at_rest = self.quiet >= QUIET;
+        MotionStatus::Done(MotionOutcome::Released {
+            object: object.clone(),
+            at_rest,
+        })
+    }
+
+    fn cancel(&mut self) {
+        self.ended = true;
+    }
+
+    fn progress(&self) -> Progress {
+        Progress {
+            what: "letting go",
+            fraction: (self.waited / SETTLE).min(1.0),
+        }
+    }
+}

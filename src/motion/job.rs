@@ -1,0 +1,146 @@
+//! What all motions have in common: a job that is polled once per simulation step.
+
+use std::fmt;
+
+use super::failure::MotionFailure;
+use crate::spatial::Pose;
+use crate::world::{BodyName, World};
+
+/// The part of the robot that a motion needs for itself. At most one job per module may be
+/// active at a time; jobs of different modules write different joints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ProcessModule {
+    /// The base.
+    Navigation,
+    /// The torso lift.
+    Torso,
+    /// Pan and tilt of the head.
+    Neck,
+    /// The cameras.
+    Perception,
+    /// The fingers of both hands.
+    Grippers,
+    /// Both arms, and the torso when a hand's goal needs another height.
+    Arms,
+}
+
+impl fmt::Display for ProcessModule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Navigation => "navigation",
+            Self::Torso => "torso",
+            Self::Neck => "neck",
+            Self::Perception => "perception",
+            Self::Grippers => "grippers",
+            Self::Arms => "arms",
+        })
+    }
+}
+
+/// What a motion has brought about.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MotionOutcome {
+    /// The goal is reached.
+    Arrived,
+    /// Objects that the camera sees.
+    Detected(Vec<DetectedObject>),
+    /// Both fingers press on the object.
+    Gripped {
+        /// Name of the object.
+        object: String,
+    },
+    /// A held object was put down as far as something carries it.
+    Put {
+        /// What carries it; `None` when nothing was met below the goal.
+        support: Option<BodyName>,
+        /// How much higher (m) than its goal the hand is; negative below the goal. Poses for
+        /// retracting that were derived from the same goal must be raised by as much.
+        raised: f64,
+    },
+    /// An object was let go.
+    Released {
+        /// Name of the object.
+        object: String,
+        /// Whether it came to rest in time.
+        at_rest: bool,
+    },
+}
+
+/// An object that a camera sees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DetectedObject {
+    /// Name in the world.
+    pub name: String,
+    /// Type in the object library.
+    pub type_name: String,
+    /// Pose in the frame of the robot's base.
+    pub pose_in_base: Pose,
+    /// Pose in the map frame.
+    pub pose_in_map: Pose,
+}
+
+/// How a motion stands after a tick.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MotionStatus {
+    /// It goes on.
+    Running,
+    /// It has ended well.
+    Done(MotionOutcome),
+    /// It has ended otherwise; the robot is at rest.
+    Failed(Box<MotionFailure>),
+}
+
+/// Fails when one of the numbers is infinite or none.
+pub(super) fn check_finite(module: ProcessModule, goal: &[f64]) -> Result<(), MotionFailure> {
+    let finite = goal.iter().all(|v| v.is_finite());
+    if finite {
+        Ok(())
+    } else {
+        Err(MotionFailure::NotFinite { module })
+    }
+}
+
+/// Position and quaternion of a pose as numbers.
+pub(super) fn numbers_of(pose: &Pose) -> Vec<f64> {
+    pose.translation
+        .vector
+        .iter()
+        .chain(pose.rotation.coords.iter())
+        .copied()
+        .collect()
+}
+
+impl MotionStatus {
+    /// The end with that failure.
+    pub(super) fn failed(failure: MotionFailure) -> Self {
+        Self::Failed(Box::new(failure))
+    }
+}
+
+/// What a motion is doing, for a line that shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// What is going on, such as "driving".
+    pub what: &'static str,
+    /// How much of it is done, 0..1.
+    pub fraction: f64,
+}
+
+/// A motion of the robot as a job that is advanced step by step.
+///
+/// `tick` is called once before every [`World::step`] until it returns something else than
+/// [`MotionStatus::Running`]; planning happens in the first tick. Several jobs of different
+/// modules may be active at once; they are polled one after the other in a fixed order.
+pub trait Motion {
+    /// The part of the robot that the job needs for itself.
+    fn module(&self) -> ProcessModule;
+
+    /// Sets the robot's joints for the next step, or reports the end.
+    fn tick(&mut self, world: &mut World) -> MotionStatus;
+
+    /// Ends the job at once. The robot stays where it is, at rest; later ticks do nothing.
+    fn cancel(&mut self);
+
+    /// What the job is doing.
+    fn progress(&self) -> Progress;
+}

@@ -1,0 +1,99 @@
+//! Moving a set of joints along a trajectory, one guarded step at a time.
+
+use super::follower::Follower;
+use super::guard::{self, StuckObject};
+use super::patience::Patience;
+use super::trajectory::Trajectory;
+use crate::robot::{JointId, LinkId};
+use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
+
+/// What became of a step.
+#[derive(Debug)]
+pub(super) enum FollowStep {
+    /// The joints move on.
+    Moving,
+    /// The joints are where the trajectory ends.
+    Arrived,
+    /// The step was refused.
+    Blocked {
+        /// What would touch.
+        hit: CollisionHit,
+        /// For how long (s) the whole robot has not moved.
+        still: f64,
+    },
+    /// A held object does not follow.
+    Stuck(StuckObject),
+}
+
+/// Joints that follow a trajectory. Axes of the trajectory beyond the joints only limit its
+/// speed.
+#[derive(Clone, Debug)]
+pub(super) struct JointFollow {
+    joints: Vec<JointId>,
+    follower: Follower,
+    allowed: AllowedPairs,
+    patience: Patience,
+}
+
+impl JointFollow {
+    pub(super) fn new(joints: Vec<JointId>, way: Trajectory, allowed: AllowedPairs) -> Self {
+        let follower = Follower::new(way);
+        Self {
+            joints,
+            follower,
+            allowed,
+            patience: Patience::default(),
+        }
+    }
+
+    pub(super) fn fraction(&self) -> f64 {
+        self.follower.fraction()
+    }
+
+    /// Sets the joints for the next step; `is_hand` tells links whose held objects must follow.
+    pub(super) fn tick(
+        &mut self,
+        world: &mut World,
+        is_hand: impl Fn(LinkId) -> bool,
+    ) -> FollowStep {
+        if let Some(stuck) = guard::stuck_object(world, is_hand) {
+            return FollowStep::Stuck(stuck);
+        }
+        if self.follower.is_at_end() {
+            return FollowStep::Arrived;
+        }
+        let next = with_joints(
+            world.robot_configuration(),
+            &self.joints,
+            &self.follower.next(),
+        );
+        match guard::obstacle(world, &next, &self.allowed) {
+            None => {
+                self.follower.advance();
+                self.patience.reset();
+                world.set_robot_configuration(&next);
+                FollowStep::Moving
+            }
+            Some(hit) => {
+                self.follower.hold();
+                FollowStep::Blocked {
+                    hit,
+                    still: self.patience.wait(world),
+                }
+            }
+        }
+    }
+}
+
+/// The configuration with some joints elsewhere.
+pub(super) fn with_joints(
+    robot: &RobotConfiguration,
+    joints: &[JointId],
+    positions: &[f64],
+) -> RobotConfiguration {
+    let mut there = robot.clone();
+    for (joint, position) in joints.iter().zip(positions) {
+        there.joints.set(*joint, *position);
+    }
+    there
+}

@@ -1,0 +1,81 @@
+//! Judging postures of some joints while everything else stays as it is.
+
+use super::expected_contacts::ExpectedContacts;
+use super::guard::GUARD_DEPTH;
+use super::touching::TouchingPairs;
+use crate::robot::JointId;
+use crate::world::{CollisionChecker, CollisionHit, RobotConfiguration, World};
+
+/// Gap (m) that planned postures keep to everything.
+pub(super) const PLAN_MARGIN: f64 = 0.004;
+/// Overlap (m) of pairs that are near at the start, up to which postures pass.
+const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0005;
+
+/// Tells which postures are free. Pairs that are near each other at the start, such as a
+/// held object and what it stands on, may stay near, but not overlap more.
+pub(super) struct Judge<'w> {
+    checker: CollisionChecker<'w>,
+    robot: RobotConfiguration,
+    joints: Vec<JointId>,
+    touching: TouchingPairs,
+}
+
+impl<'w> Judge<'w> {
+    pub(super) fn new(world: &'w World, joints: Vec<JointId>, contacts: &ExpectedContacts) -> Self {
+        let mut checker = world.collision_checker();
+        let robot = world.robot_configuration().clone();
+        let touching = TouchingPairs::new(&mut checker, &robot, contacts, PLAN_MARGIN, TOUCH_DEPTH);
+        Self {
+            checker,
+            robot,
+            joints,
+            touching,
+        }
+    }
+
+    /// Pairs that come as near as touching at the goal may do so on the way, too.
+    pub(super) fn accept_goal(&mut self, positions: &[f64]) {
+        self.set(positions);
+        self.touching
+            .expect(&mut self.checker, &self.robot, PLAN_MARGIN);
+    }
+
+    fn set(&mut self, positions: &[f64]) {
+        for (joint, position) in self.joints.iter().zip(positions) {
+            self.robot.joints.set(*joint, *position);
+        }
+    }
+
+    /// What forbids the joints to be at the positions, if anything does.
+    pub(super) fn blocked(&mut self, positions: &[f64]) -> Option<CollisionHit> {
+        self.set(positions);
+        self.touching
+            .first_hit(&mut self.checker, &self.robot, PLAN_MARGIN)
+    }
+
+    /// Whether the posture would also be free with other joints elsewhere than they are now.
+    pub(super) fn is_free_with(&mut self, positions: &[f64], others: &[(JointId, f64)]) -> bool {
+        let joints = &self.robot.joints;
+        let before: Vec<_> = others
+            .iter()
+            .map(|(joint, _)| (*joint, joints.get(*joint)))
+            .collect();
+        for (joint, position) in others {
+            self.robot.joints.set(*joint, *position);
+        }
+        let free = self.blocked(positions).is_none();
+        for (joint, position) in before {
+            self.robot.joints.set(joint, position);
+        }
+        free
+    }
+
+    /// The smallest gap (m) in that posture, up to `reach` (m).
+    pub(super) fn clearance(&mut self, positions: &[f64], reach: f64) -> f64 {
+        self.set(positions);
+        let nearest = self
+            .checker
+            .clearance(&self.robot, self.touching.relaxed(), reach);
+        nearest.map_or(reach, |c| c.distance)
+    }
+}

@@ -1,0 +1,188 @@
+//! Moving one or both arms to given joint positions, around what is in the way.
+
+use super::arm_axes::ArmAxes;
+use super::arm_path::ArmPathEffort;
+use super::arm_way::plan_way;
+use super::expected_contacts::ExpectedContacts;
+use super::failure::MotionFailure;
+use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
+use super::joint_follow::{FollowStep, JointFollow, with_joints};
+use super::joint_limit::violation;
+use super::judge::Judge;
+use super::patience::{Attempt, Retry};
+use crate::robot::{ARM_JOINTS, Side};
+use crate::spatial::trig;
+use crate::world::{AllowedPairs, World};
+
+/// How long (s) a plan or the way may be blocked while nothing moves.
+const PATIENCE: f64 = 0.3;
+/// How often a path is searched before giving up.
+const MOST_PLANS: u32 = 4;
+
+/// Moves the joints of one or both arms. Both arrive at the same time.
+#[derive(Clone, Debug)]
+pub struct MoveJoints {
+    goals: [Option<Vec<f64>>; 2],
+    follow: Option<JointFollow>,
+    retry: Retry,
+    plans: u32,
+    ended: bool,
+}
+
+impl MoveJoints {
+    /// The positions (rad) of the left and of the right arm, from the shoulder to the wrist;
+    /// an arm without positions stays. Continuous joints turn the shorter way.
+    pub fn new(left: Option<Vec<f64>>, right: Option<Vec<f64>>) -> Self {
+        Self {
+            goals: [left, right],
+            follow: None,
+            retry: Retry::default(),
+            plans: 0,
+            ended: false,
+        }
+    }
+
+    fn sides(&self) -> Vec<Side> {
+        Side::BOTH
+            .into_iter()
+            .filter(|s| self.goals[s.index()].is_some())
+            .collect()
+    }
+
+    /// The goals one after the other, within hard limits.
+    fn goal(&self, world: &World, axes: &ArmAxes) -> Result<Vec<f64>, MotionFailure> {
+        let mut goal = Vec::new();
+        for (side, given) in Side::BOTH.into_iter().zip(&self.goals) {
+            let Some(given) = given else { continue };
+            if given.len() != ARM_JOINTS {
+                let (given, expected) = (given.len(), ARM_JOINTS);
+                return Err(MotionFailure::JointCount {
+                    side,
+                    given,
+                    expected,
+                });
+            }
+            goal.extend(given);
+        }
+        check_finite(ProcessModule::Arms, &goal)?;
+        let tree = &world.models().robot;
+        let joints = axes.joints.iter().zip(axes.now(world));
+        for ((&id, now), wanted) in joints.zip(&mut goal) {
+            let joint = tree.joint(id);
+            match joint.limits {
+                Some(l) if l.excess(*wanted) > 0.0 => {
+                    let violation = violation(joint, l, *wanted);
+                    return Err(MotionFailure::JointLimit { violation });
+                }
+                Some(_) => {}
+                None => *wanted = now + trig::wrap(*wanted - now),
+            }
+        }
+        Ok(goal)
+    }
+
+    fn plan(&self, world: &World) -> Result<JointFollow, MotionFailure> {
+        let axes = ArmAxes::new(world, false, &self.sides());
+        let goal = self.goal(world, &axes)?;
+        let none = AllowedPairs::none();
+        let contacts = ExpectedContacts::default();
+        let mut judge = Judge::new(world, axes.joints.clone(), &contacts);
+        judge.accept_goal(&goal);
+        let way = plan_way(world, &axes, &goal, &mut judge, ArmPathEffort::default())?;
+        Ok(JointFollow::new(axes.joints, way, none))
+    }
+
+    /// Plans; what is in the way while the robot still moves may be gone later.
+    fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
+        match self.retry.next(world, PATIENCE) {
+            Attempt::Later => return None,
+            Attempt::GiveUp(failure) => return Some(MotionStatus::failed(failure)),
+            Attempt::Now => {}
+        }
+        match self.plan(world) {
+            Ok(follow) => {
+                self.plans += 1;
+                self.follow = Some(follow);
+                self.retry.reset();
+                None
+            }
+            Err(failure) if failure.may_pass() => {
+                self.retry.failed(world, failure);
+                None
+            }
+            Err(failure) => Some(MotionStatus::failed(failure)),
+        }
+    }
+
+    fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
+        if self.follow.is_none()
+            && let Some(end) = self.try_plan(world)
+        {
+            return Some(end);
+        }
+        let follow = self.follow.as_mut()?;
+        let hands = [
+            world.models().description.arms[0].gripper.palm,
+            world.models().description.arms[1].gripper.palm,
+        ];
+        match follow.tick(world, |link| hands.contains(&link)) {
+            FollowStep::Moving => None,
+            FollowStep::Blocked { still, .. } if still < PATIENCE => None,
+            FollowStep::Blocked { hit, .. } if self.plans >= MOST_PLANS => {
+                Some(MotionStatus::failed(MotionFailure::ArmBlocked {
+                    hit: hit.into(),
+                }))
+            }
+            FollowStep::Blocked { .. } => {
+                self.follow = None;
+                None
+            }
+            FollowStep::Stuck(stuck) => Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(
+                Box::new(stuck),
+            ))),
+            FollowStep::Arrived => {
+                self.name_positions(world);
+                Some(MotionStatus::Done(MotionOutcome::Arrived))
+            }
+        }
+    }
+
+    /// Gives the joints the very numbers that were asked for: continuous joints were unwound.
+    fn name_positions(&self, world: &mut World) {
+        let axes = ArmAxes::new(world, false, &self.sides());
+        let goal: Vec<f64> = self.goals.iter().flatten().flatten().copied().collect();
+        let exact = with_joints(world.robot_configuration(), &axes.joints, &goal);
+        world.set_robot_configuration(&exact);
+    }
+}
+
+impl Motion for MoveJoints {
+    fn module(&self) -> ProcessModule {
+        ProcessModule::Arms
+    }
+
+    fn tick(&mut self, world: &mut World) -> MotionStatus {
+        if self.ended {
+            return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        match self.step(world) {
+            None => MotionStatus::Running,
+            Some(end) => {
+                self.ended = true;
+                end
+            }
+        }
+    }
+
+    fn cancel(&mut self) {
+        self.ended = true;
+    }
+
+    fn progress(&self) -> Progress {
+        let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
+        Progress {
+            what: "moving the arms",
+            fraction,
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Planning how to put a held object down: where it meets something, and a way there.
+
+use super::arm_axes::ArmAxes;
+use super::joint_follow::{JointFollow, with_joints};
+use super::judge::Judge;
+use super::speeds;
+use super::tcp_line::{LineEnd, LinePath, LineTask, TcpLine};
+use super::tcp_plan::{REASON_STEP, TcpTask};
+use crate::robot::Side;
+use crate::spatial::{Pose, pose};
+use crate::world::{AllowedPairs, BodyName};
+
+/// How far (m) the hand may go on below the place where the object meets something.
+const PRESS: f64 = 0.004;
+/// Steps of refinement of that place; each halves the centimetre between two postures.
+const REFINEMENTS: u32 = 6;
+/// How many final postures at one height are tried.
+const POSTURES: usize = 6;
+
+/// Plans the way of a hand with an object: straight to the goal of the task, which has one,
+/// and from there straight down.
+pub(super) struct PutPlan<'a> {
+    pub(super) task: TcpTask<'a>,
+    pub(super) side: Side,
+    /// Name of the held object.
+    pub(super) object: BodyName,
+    /// How far (m) below the goal a surface is looked for.
+    pub(super) depth: f64,
+}
+
+impl PutPlan<'_> {
+    /// The way to where the object meets something, or to the goal where it meets nothing.
+    pub(super) fn way(mut self) -> Result<JointFollow, super::failure::MotionFailure> {
+        let Some(&(side, goal)) = self.task.goals.first() else {
+            return self.task.plan_free();
+        };
+        let contact = self.contact();
+        self.task.goals = vec![(side, contact.unwrap_or(goal))];
+        for height in self.task.heights(REASON_STEP) {
+            if let Some(follow) = self.way_at(height, contact.is_some()) {
+                return Ok(follow);
+            }
+        }
+        self.task.plan_free()
+    }
+
+    fn way_at(&self, height: f64, presses: bool) -> Option<JointFollow> {
+        let axes = self.task.axes(height);
+        let postures = self.task.postures(height, &axes);
+        if postures.is_empty() {
+            return None;
+        }
+        let mut judge = Judge::new(self.task.world, axes.joints.clone(), &self.task.contacts);
+        let start = axes.now(self.task.world);
+        let ends = postures
+            .iter()
+            .take(POSTURES)
+            .map(|p| Some(p.positions.as_slice()));
+        let mut task = self.task.line_task(height, &axes);
+        for end in std::iter::once(None).chain(ends) {
+            let (mut path, met) = task.follow(&start, end, Some(&mut judge));
+            if !matches!(met, LineEnd::Complete) {
+                continue;
+            }
+            if presses {
+                lower(&mut task, PRESS);
+                append(&mut path, &task, Some(&mut judge));
+            }
+            let way = self.task.line_way(&path, &axes, speeds::PUT, &mut judge);
+            return Some(JointFollow::new(
+                axes.joints,
+                way,
+                self.task.contacts.allowed.clone(),
+            ));
+        }
+        None
+    }
+
+    /// The pose of the hand in which the object first meets something, whatever the arm
+    /// itself would touch on the way.
+    fn contact(&self) -> Option<Pose> {
+        for height in self.task.heights(REASON_STEP) {
+            let axes = self.task.axes(height);
+            let start = axes.now(self.task.world);
+            let mut task = self.task.line_task(height, &axes);
+            let (path, met) = task.follow(&start, None, None);
+            let to_goal = self.contact_on(&task, &path, &axes, &start);
+            if to_goal.is_some() {
+                return to_goal;
+            }
+            if !matches!(met, LineEnd::Complete) {
+                continue;
+            }
+            lower(&mut task, self.depth);
+            let reached = path.points.last()?.clone();
+            let (down, _) = task.follow(&reached, None, None);
+            return self.contact_on(&task, &down, &axes, &reached);
+        }
+        None
+    }
+
+    /// The first contact of the object on the path, refined between two postures.
+    fn contact_on(
+        &self,
+        task: &LineTask<'_>,
+        path: &LinePath,
+        axes: &ArmAxes,
+        start: &[f64],
+    ) -> Option<Pose> {
+        let world = self.task.world;
+        let mut checker = world.collision_checker();
+        let none = AllowedPairs::none();
+        let mut touches = |positions: &[f64]| {
+            let there = with_joints(world.robot_configuration(), &axes.joints, positions);
+            checker
+                .all_hits(&there, &none, 0.0)
+                .iter()
+                .any(|hit| hit.moving == self.object)
+        };
+        // Where the object starts it may stand on something.
+        let met =
+            (1..path.points.len()).find(|&i| path.points.get(i).is_some_and(|p| touches(p)))?;
+        let share = |i: usize| i as f64 / (path.steps as f64).max(1.0);
+        let (mut free, mut touching) = (share(met - 1), share(met));
+        let seed = path.points.get(met)?;
+        for _ in 0..REFINEMENTS {
+            let middle = (free + touching) / 2.0;
+            match task.posture(middle, seed, start) {
+                Some(posture) if touches(&posture) => touching = middle,
+                Some(_) => free = middle,
+                None => break,
+            }
+        }
+        let line = task.lines.iter().find(|line| line.side == self.side)?;
+        Some(pose::between(&line.from, &line.to, touching))
+    }
+}
+
+/// Lets the lines go on straight down from where they end.
+fn lower(task: &mut LineTask<'_>, depth: f64) {
+    for line in &mut task.lines {
+        let mut to = line.to;
+        to.translation.z -= depth;
+        *line = TcpLine {
+            from: line.to,
+            to,
+            ..*line
+        };
+    }
+}
+
+/// Follows the lines from the end of the path on, as far as possible.
+fn append(path: &mut LinePath, task: &LineTask<'_>, judge: Option<&mut Judge<'_>>) {
+    let reached = path.points.last().cloned().unwrap_or_default();
+    let so_far = path.way.last().copied().unwrap_or(0.0);
+    let (more, _) = task.follow(&reached, None, judge);
+    path.points.extend(more.points.into_iter().skip(1));
+    path.way
+        .extend(more.way.into_iter().skip(1).map(|way| so_far + way));
+}

@@ -1,0 +1,30 @@
+//! How fast the robot moves where its description does not say it.
+
+use super::trajectory::AxisGroup;
+use crate::robot::description::Speed;
+use crate::robot::{JointId, RobotDescription};
+
+/// A finger while it closes on an object (rad/s).
+pub const GRIP_VELOCITY: f64 = 0.5;
+/// A hand that puts an object down (m): half a millimetre per step.
+pub const PUT: Speed = Speed {
+    velocity: 0.12,
+    acceleration: 0.6,
+};
+/// A hand along a straight line (m).
+pub const HAND: Speed = Speed {
+    velocity: 0.25,
+    acceleration: 1.0,
+};
+
+/// The limits of the joints, in their order.
+pub(super) fn limits_of(body: &RobotDescription, joints: &[JointId]) -> Vec<AxisGroup> {
+    let limit = |(axis, &joint): (usize, &JointId)| {
+        let Speed {
+            velocity,
+            acceleration,
+        } = body.speed(joint);
+        AxisGroup::single(axis, velocity, acceleration)
+    };
+    joints.iter().enumerate().map(limit).collect()
+}

@@ -1,0 +1,401 @@
+//! Choosing a height of the torso and postures of the arms for goals of their hands, and
+//! planning the way there.
+//!
+//! The present height of the torso comes first, then others, the nearest first. At each
+//! height all postures over the arm's free angle are looked at, those that touch something
+//! are left out, the rest is ranked by how far away it is and how much room it leaves.
+
+use super::arm_axes::ArmAxes;
+use super::arm_path::{ArmPathEffort, blocked_between};
+use super::arm_way::{plan_way, smooth};
+use super::expected_contacts::ExpectedContacts;
+use super::failure::MotionFailure;
+use super::hold::held_objects;
+use super::joint_follow::{JointFollow, with_joints};
+use super::judge::Judge;
+use super::speeds;
+use super::tcp_line::{LineEnd, LinePath, LineTask, TcpLine, tcp_in_base, wrist_in_torso};
+use super::trajectory::{AxisGroup, Corners, Trajectory};
+use super::unreachable::{UnreachablePose, UnreachableReason};
+use crate::robot::description::Speed;
+use crate::robot::{self, JointId, Limits, RobotDescription, Side};
+use crate::spatial::{Pose, trig};
+use crate::world::{CollisionHit, World};
+
+/// Distance of neighbouring postures over the free angle (rad).
+const POSTURE_STEP: f64 = 0.15;
+/// Steps of the torso's height (m) that are tried.
+const TORSO_STEP: f64 = 0.01;
+/// Steps of the torso's height (m) at which a reason for failing is looked for.
+pub(super) const REASON_STEP: f64 = 0.03;
+/// How many postures are judged by the room they leave.
+const SHORT_LIST: usize = 10;
+/// Room (m) around the arm beyond which more is not better.
+const ROOM: f64 = 0.05;
+/// What a posture without any room costs, in radians of joint motion.
+const NO_ROOM_COST: f64 = 2.0;
+/// What a posture costs in which the empty hand could not open, in radians of joint motion.
+const SHUT_COST: f64 = 4.0;
+/// Distance (rad) from a joint's limit below which postures cost more, and how much.
+const LIMIT_MARGIN: (f64, f64) = (0.2, 1.0);
+/// How many postures at one height are tried with a long search for a path.
+const LONG_SEARCHES: usize = 2;
+/// At how many heights a search for a path may fail before giving up.
+const MOST_HEIGHTS: usize = 4;
+
+/// Goals of the hands: poses of their tools in the frame of the base.
+pub(super) struct TcpTask<'a> {
+    pub(super) world: &'a World,
+    pub(super) goals: Vec<(Side, Pose)>,
+    pub(super) contacts: ExpectedContacts,
+}
+
+/// A posture that reaches the goals.
+pub(super) struct Posture {
+    cost: f64,
+    /// Positions of the axes, that of the torso first if it moves.
+    pub(super) positions: Vec<f64>,
+}
+
+impl TcpTask<'_> {
+    fn body(&self) -> &RobotDescription {
+        &self.world.models().description
+    }
+
+    fn sides(&self) -> Vec<Side> {
+        self.goals.iter().map(|(side, _)| *side).collect()
+    }
+
+    pub(super) fn torso_now(&self) -> f64 {
+        self.world
+            .robot_configuration()
+            .joints
+            .get(self.body().torso.joint)
+    }
+
+    fn torso_limits(&self) -> Limits {
+        self.body().torso.limits
+    }
+
+    /// Heights of the torso (m), the present one first, then the nearest first.
+    pub(super) fn heights(&self, step: f64) -> Vec<f64> {
+        let (now, limits) = (self.torso_now(), self.torso_limits());
+        let count = ((limits.upper - limits.lower) / step).ceil() as u32;
+        let mut others: Vec<f64> = (0..=count)
+            .map(|i| (limits.lower + f64::from(i) * step).min(limits.upper))
+            .filter(|h| (h - now).abs() > 1e-3)
+            .collect();
+        others.sort_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs()));
+        others.insert(0, now);
+        others
+    }
+
+    /// The torso is one of the axes only when it has to move.
+    pub(super) fn axes(&self, height: f64) -> ArmAxes {
+        ArmAxes::new(self.world, height != self.torso_now(), &self.sides())
+    }
+
+    fn wrist(&self, side: Side, tcp: &Pose, height: f64) -> Pose {
+        let robot = with_joints(
+            self.world.robot_configuration(),
+            &[self.body().torso.joint],
+            &[height],
+        );
+        wrist_in_torso(self.world.models(), &robot, self.body().arm(side), tcp)
+    }
+
+    /// All postures at the height, the best one first; what they touch is not looked at.
+    pub(super) fn postures(&self, height: f64, axes: &ArmAxes) -> Vec<Posture> {
+        let now = axes.now(self.world);
+        let lead = now.len() - self.goals.len() * robot::ARM_JOINTS;
+        let torso = if lead > 0 { vec![height] } else { Vec::new() };
+        let mut all = vec![Posture {
+            cost: 0.0,
+            positions: torso,
+        }];
+        for (side, tcp) in &self.goals {
+            let kinematics = &self.body().arm(*side).kinematics;
+            let wrist = self.wrist(*side, tcp, height);
+            let found = kinematics.solutions(&wrist, POSTURE_STEP);
+            let mut next = Vec::new();
+            for before in &all {
+                for solution in &found {
+                    let mut positions = before.positions.clone();
+                    let mut cost = before.cost;
+                    for (q, limits) in solution.iter().zip(kinematics.limits()) {
+                        let from = now[positions.len()];
+                        let to = match limits {
+                            Some(_) => *q,
+                            None => from + trig::wrap(q - from),
+                        };
+                        cost += (to - from).abs() + limits.map_or(0.0, |l| limit_cost(&l, to));
+                        positions.push(to);
+                    }
+                    next.push(Posture { cost, positions });
+                }
+            }
+            next.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            // Two arms: the product of all postures of both would be too much.
+            next.truncate(400);
+            all = next;
+        }
+        all
+    }
+
+    /// The finger joints of the empty hands that are to move, wide open.
+    fn open_hands(&self) -> Vec<(JointId, f64)> {
+        let empty = self.sides().into_iter();
+        let empty = empty.filter(|side| held_objects(self.world, *side).is_empty());
+        let gripper = |side| &self.body().arm(side).gripper;
+        empty
+            .map(|side| (gripper(side).joint, gripper(side).limits.upper))
+            .collect()
+    }
+
+    /// The postures at the height that touch nothing, the best one first; or how many there
+    /// are and what one of them touches.
+    fn free_postures(
+        &self,
+        postures: Vec<Posture>,
+        judge: &mut Judge<'_>,
+    ) -> Result<Vec<Posture>, (usize, Option<CollisionHit>)> {
+        let count = postures.len();
+        let mut first_hit = None;
+        let mut free = Vec::new();
+        let open_hands = self.open_hands();
+        for mut posture in postures {
+            if let Some(hit) = judge.blocked(&posture.positions) {
+                first_hit = first_hit.or(Some(hit));
+                continue;
+            }
+            if !judge.is_free_with(&posture.positions, &open_hands) {
+                posture.cost += SHUT_COST;
+            }
+            free.push(posture);
+        }
+        if free.is_empty() {
+            return Err((count, first_hit));
+        }
+        free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        for posture in free.iter_mut().take(SHORT_LIST) {
+            let room = judge.clearance(&posture.positions, ROOM);
+            posture.cost += NO_ROOM_COST * (1.0 - room.max(0.0) / ROOM);
+        }
+        let listed = free.len().min(SHORT_LIST);
+        free[..listed].sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        Ok(free)
+    }
+
+    /// A path to the goals, wherever it leads the hands in between.
+    pub(super) fn plan_free(&self) -> Result<JointFollow, MotionFailure> {
+        let mut touching: Option<(usize, CollisionHit)> = None;
+        let mut last_failure = None;
+        let mut searched = 0;
+        for height in self.heights(TORSO_STEP) {
+            let axes = self.axes(height);
+            let postures = self.postures(height, &axes);
+            if postures.is_empty() {
+                continue;
+            }
+            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.contacts);
+            let free = match self.free_postures(postures, &mut judge) {
+                Ok(free) => free,
+                Err((count, hit)) => {
+                    let all = touching.as_ref().map_or(0, |t| t.0) + count;
+                    touching = hit.or(touching.map(|t| t.1)).map(|hit| (all, hit));
+                    continue;
+                }
+            };
+            match self.plan_to_one_of(&free, &axes, &mut judge) {
+                Ok(way) => {
+                    return Ok(JointFollow::new(
+                        axes.joints,
+                        way,
+                        self.contacts.allowed.clone(),
+                    ));
+                }
+                Err(failure @ MotionFailure::ArmStartInCollision { .. }) => return Err(failure),
+                Err(failure) => last_failure = Some(failure),
+            }
+            searched += 1;
+            if searched >= MOST_HEIGHTS {
+                break;
+            }
+        }
+        Err(last_failure.unwrap_or_else(|| self.unreachable(touching)))
+    }
+
+    /// Straight ways to the best postures first, then long searches to the very best ones.
+    fn plan_to_one_of(
+        &self,
+        free: &[Posture],
+        axes: &ArmAxes,
+        judge: &mut Judge<'_>,
+    ) -> Result<Trajectory, MotionFailure> {
+        let effort = ArmPathEffort::default();
+        let now = axes.now(self.world);
+        for posture in free.iter().take(SHORT_LIST) {
+            let mut blocked = |q: &[f64]| judge.blocked(q);
+            let met = blocked_between(
+                &axes.path,
+                &now,
+                &posture.positions,
+                effort.resolution,
+                &mut blocked,
+            );
+            if met.is_none() {
+                let limits = speeds::limits_of(self.body(), &axes.joints);
+                let path = [now, posture.positions.clone()];
+                return Ok(Trajectory::new(&path, &limits, Corners::Round));
+            }
+        }
+        let mut result = None;
+        for posture in free.iter().take(LONG_SEARCHES) {
+            match plan_way(self.world, axes, &posture.positions, judge, effort) {
+                Ok(way) => return Ok(way),
+                Err(failure) => result = Some(failure),
+            }
+        }
+        Err(result.unwrap_or_else(|| self.unreachable(None)))
+    }
+
+    pub(super) fn line_task(&self, height: f64, axes: &ArmAxes) -> LineTask<'_> {
+        LineTask {
+            models: self.world.models(),
+            robot: self.world.robot_configuration().clone(),
+            axes: axes.clone(),
+            lines: self
+                .goals
+                .iter()
+                .map(|(side, to)| TcpLine {
+                    side: *side,
+                    from: tcp_in_base(self.world, *side),
+                    to: *to,
+                })
+                .collect(),
+            torso: (height != self.torso_now()).then_some(height),
+        }
+    }
+
+    /// A path that leads the tools straight to the goals, if there is one.
+    pub(super) fn plan_line(&self) -> Option<JointFollow> {
+        for height in self.heights(REASON_STEP) {
+            let axes = self.axes(height);
+            let postures = self.postures(height, &axes);
+            if postures.is_empty() {
+                continue;
+            }
+            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.contacts);
+            let task = self.line_task(height, &axes);
+            let start = axes.now(self.world);
+            let ends = postures
+                .iter()
+                .take(6)
+                .map(|p| Some(p.positions.as_slice()));
+            for end in std::iter::once(None).chain(ends) {
+                let (path, met) = task.follow(&start, end, Some(&mut judge));
+                if matches!(met, LineEnd::Complete) {
+                    let way = self.line_way(&path, &axes, speeds::HAND, &mut judge);
+                    return Some(JointFollow::new(
+                        axes.joints,
+                        way,
+                        self.contacts.allowed.clone(),
+                    ));
+                }
+            }
+        }
+        None
+    }
+
+    /// The path in time: the tool's way is one more axis, with its own speed limit.
+    pub(super) fn line_way(
+        &self,
+        path: &LinePath,
+        axes: &ArmAxes,
+        speed: Speed,
+        judge: &mut Judge<'_>,
+    ) -> Trajectory {
+        let mut limits = speeds::limits_of(self.body(), &axes.joints);
+        limits.push(AxisGroup::single(
+            axes.joints.len(),
+            speed.velocity,
+            speed.acceleration,
+        ));
+        let points: Vec<Vec<f64>> = path
+            .points
+            .iter()
+            .zip(&path.way)
+            .map(|(q, way)| q.iter().copied().chain([*way]).collect())
+            .collect();
+        smooth(&points, &limits, judge)
+    }
+
+    /// Says why no posture was found.
+    fn unreachable(&self, touching: Option<(usize, CollisionHit)>) -> MotionFailure {
+        let limits = self.torso_limits();
+        let torso = [limits.lower, limits.upper];
+        let now = self.torso_now();
+        let tree = &self.world.models().robot;
+        let report = |side: Side, tcp: &Pose, reason| {
+            let unreachable = UnreachablePose {
+                side,
+                frame: tree.link(self.body().torso.link).name.clone(),
+                wrist: self.wrist(side, tcp, now),
+                torso,
+                reason,
+            };
+            MotionFailure::PoseUnreachable(Box::new(unreachable))
+        };
+        let mut suitable = Vec::new();
+        for (side, tcp) in &self.goals {
+            let kinematics = &self.body().arm(*side).kinematics;
+            let mut range: Option<[f64; 2]> = None;
+            let mut nearest: Option<(robot::Unreachable, f64)> = None;
+            for height in self.heights(REASON_STEP) {
+                let wrist = self.wrist(*side, tcp, height);
+                match kinematics.nearest(&wrist, &[0.0; robot::ARM_JOINTS]) {
+                    Ok(_) => {
+                        let [least, most] = range.unwrap_or([height; 2]);
+                        range = Some([least.min(height), most.max(height)]);
+                    }
+                    Err(reason) => {
+                        if nearest
+                            .as_ref()
+                            .is_none_or(|n| reason.badness() < n.0.badness())
+                        {
+                            nearest = Some((reason, height));
+                        }
+                    }
+                }
+            }
+            if let (None, Some((nearest, torso))) = (range, nearest) {
+                return report(*side, tcp, UnreachableReason::Arm { nearest, torso });
+            }
+            suitable.push((*side, range));
+        }
+        match (touching, self.goals.as_slice()) {
+            (Some((postures, hit)), [(side, tcp), ..]) => {
+                report(*side, tcp, UnreachableReason::Collisions { hit, postures })
+            }
+            _ => {
+                let of = |wanted| {
+                    suitable
+                        .iter()
+                        .find(|(s, _)| *s == wanted)
+                        .and_then(|(_, r)| *r)
+                };
+                MotionFailure::TorsoConflict {
+                    left: of(Side::Left),
+                    right: of(Side::Right),
+                }
+            }
+        }
+    }
+}
+
+/// What a position near its limit costs (rad).
+fn limit_cost(limits: &Limits, position: f64) -> f64 {
+    let (margin, cost) = LIMIT_MARGIN;
+    let room = (position - limits.lower).min(limits.upper - position);
+    cost * (1.0 - room / margin).max(0.0)
+}

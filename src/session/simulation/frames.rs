@@ -1,0 +1,39 @@
+//! Named frames: the map, the robot's links, the kitchen's links, objects.
+
+use super::Simulation;
+use super::names::suggestion;
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::spatial::Pose;
+
+/// The frame that everything refers to.
+pub(super) const MAP: &str = "map";
+/// The frame of the robot's base on the floor.
+pub(super) const BASE: &str = "base_footprint";
+
+impl Simulation {
+    /// The pose of a frame in the map frame.
+    pub(super) fn frame_pose(&self, _: &Image, frame: &str) -> Result<Pose, Box<Raise>> {
+        let name = frame.trim_start_matches('/');
+        if matches!(name, "map" | "world" | "odom_combined") {
+            return Ok(Pose::identity());
+        }
+        if let Some(link) = self.models.robot.link_named(name) {
+            return Ok(self.world.link_pose(link));
+        }
+        if let Some(link) = self.models.kitchen.link_named(name) {
+            return Ok(self.world.furniture_pose(link));
+        }
+        let object = name.to_uppercase().replace('_', "-");
+        if let Ok(pose) = self.world.object_pose(&object) {
+            return Ok(pose);
+        }
+        let links = self.models.robot.links();
+        let names = links.map(|(_, link)| link.name.as_str()).chain([MAP]);
+        let near = suggestion(name, names, |n| format!("{n:?}"));
+        Err(Raise::simple(format!(
+            "There is no frame {frame:?}{near}{}",
+            if near.is_empty() { "." } else { "" }
+        )))
+    }
+}

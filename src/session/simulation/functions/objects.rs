@@ -1,0 +1,215 @@
+//! Objects of the world: spawning, moving, removing.
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtins::keywords;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::number;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::plan::Reply;
+use crate::session::simulation::Simulation;
+use crate::session::simulation::call::{done, host};
+use crate::session::simulation::names::{name_text, suggestion, type_text};
+use crate::spatial::Pose;
+use crate::transform::value::pose_stamped;
+use crate::world::WorldError;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Longest time (s) that a spawned object is given to come to rest.
+const SETTLE: f64 = 5.0;
+
+/// Builtins of package `CRAM-BULLET-REASONING-UTILITIES`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "SPAWN-OBJECT",
+        "name type &key pose color mass",
+        "Puts an object of a type into the world.",
+        &[],
+        host!(spawn_keyword),
+    ),
+    control(
+        "KILL-OBJECT",
+        "name",
+        "Removes an object.",
+        &[],
+        host!(kill_object),
+    ),
+    control(
+        "KILL-ALL-OBJECTS",
+        "",
+        "Removes all objects.",
+        &[],
+        host!(kill_all_objects),
+    ),
+    control(
+        "MOVE-OBJECT",
+        "name &optional pose",
+        "Puts an object somewhere else.",
+        &[],
+        host!(move_object),
+    ),
+    control(
+        "OBJECT-POSE",
+        "name",
+        "The pose of an object in the map frame.",
+        &[],
+        host!(object_pose),
+    ),
+    control(
+        "OBJECT-EXISTS",
+        "name",
+        "Is there an object of that name?",
+        &[],
+        host!(object_exists),
+    ),
+    control(
+        "MOVE-ROBOT",
+        "&optional pose",
+        "Puts the robot somewhere else at once.",
+        &[],
+        host!(move_robot),
+    ),
+];
+
+/// What is to be spawned.
+pub(super) struct Spawning<'a> {
+    pub name: &'a Value,
+    pub kind: &'a Value,
+    pub pose: Pose,
+    pub color: Option<&'a Value>,
+    pub mass: Option<f64>,
+}
+
+impl Simulation {
+    /// Puts an object into the world, or moves the one of that name, and lets it settle.
+    pub(super) fn spawn(&mut self, image: &mut Image, spawning: &Spawning<'_>) -> Result<()> {
+        let Some(name) = name_text(image, spawning.name) else {
+            return Err(Raise::type_error(spawning.name, known::SYMBOL));
+        };
+        let Some(kind) = type_text(image, spawning.kind) else {
+            return Err(Raise::type_error(spawning.kind, known::SYMBOL));
+        };
+        if self.world.object(&name).is_err() && self.models.objects.get(&kind).is_none() {
+            let types = self.models.objects.types();
+            let near = suggestion(&kind, types.map(|t| t.name.as_str()), |n| {
+                format!(":{}", n.to_uppercase())
+            });
+            let shown = print::to_string(image, spawning.kind, true);
+            return Err(Raise::simple(format!(
+                "Couldn't find a mesh for object type {shown}{}",
+                if near.is_empty() {
+                    "; (list-available-objects) lists the types."
+                } else {
+                    &near
+                }
+            )));
+        }
+        let color = spawning.color.map(color).transpose()?;
+        self.world
+            .spawn(&name, &kind, &spawning.pose, color, spawning.mass)
+            .map_err(world_error)?;
+        self.names
+            .entry(name)
+            .or_insert_with(|| spawning.name.clone());
+        self.world.settle(SETTLE);
+        Ok(())
+    }
+}
+
+fn world_error(error: WorldError) -> Box<Raise> {
+    Raise::simple(format!("{error}."))
+}
+
+/// A colour: a list of red, green and blue, and perhaps alpha, in 0..1.
+fn color(value: &Value) -> Result<[f32; 4]> {
+    let parts: Vec<f32> = value
+        .iter_list()
+        .filter_map(|v| number::to_f64(&v))
+        .map(|x| x as f32)
+        .collect();
+    match parts.as_slice() {
+        [r, g, b] => Ok([*r, *g, *b, 1.0]),
+        [r, g, b, a] => Ok([*r, *g, *b, *a]),
+        _ => Err(Raise::simple(
+            "A colour is a list of red, green and blue between 0 and 1, such as '(1 0 0).",
+        )),
+    }
+}
+
+fn spawn_keyword(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let keys = [
+        image.keyword("POSE"),
+        image.keyword("COLOR"),
+        image.keyword("MASS"),
+    ];
+    let [pose, color, mass] = keywords::parse(image, &args[2..], keys)?;
+    let pose = match pose {
+        Some(pose) => simulation.pose_as_given(image, &pose)?,
+        None => Pose::translation(2.0, 0.0, 0.0),
+    };
+    simulation.spawn(
+        image,
+        &Spawning {
+            name: &args[0],
+            kind: &args[1],
+            pose,
+            color: color.as_ref(),
+            mass: mass.as_ref().and_then(number::to_f64),
+        },
+    )?;
+    done(args[0].clone())
+}
+
+fn kill_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    simulation.world.remove(&name).map_err(world_error)?;
+    simulation.names.shift_remove(&name);
+    simulation.held.shift_remove(&name);
+    done(Value::NIL)
+}
+
+fn kill_all_objects(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    simulation.world.remove_all();
+    simulation.names.clear();
+    simulation.held.clear();
+    done(Value::NIL)
+}
+
+fn move_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let pose = match args.get(1) {
+        Some(pose) => simulation.pose_as_given(image, pose)?,
+        None => Pose::translation(2.0, 0.0, 0.0),
+    };
+    simulation
+        .world
+        .move_object(&name, &pose)
+        .map_err(world_error)?;
+    simulation.world.settle(SETTLE);
+    done(args[0].clone())
+}
+
+fn object_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let pose = simulation.world.object_pose(&name).map_err(world_error)?;
+    done(pose_stamped("map", &pose))
+}
+
+fn object_exists(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = name_text(image, &args[0]).unwrap_or_default();
+    done(simulation.world.object(&name).is_ok())
+}
+
+fn move_robot(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let pose = match args.first() {
+        Some(pose) => simulation.pose_as_given(image, pose)?,
+        None => Pose::identity(),
+    };
+    let mut robot = simulation.world.robot_configuration().clone();
+    robot.base = pose;
+    simulation.world.teleport_robot(&robot);
+    done(Value::T)
+}

@@ -1,0 +1,482 @@
+//! What the plans of picking up and placing ask of the world and of the grasp library.
+
+use crate::designator::value::current;
+use crate::session::simulation::properties::property;
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::number;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::motion::{LetGo, take_hold};
+use crate::plan::Reply;
+use crate::robot::Side;
+use crate::session::simulation::Simulation;
+use crate::session::simulation::call::{done, host};
+use crate::session::simulation::held::Held;
+use crate::session::simulation::motions::{side, side_keyword};
+use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
+use crate::spatial::{Pose, Shape, trig};
+use crate::transform::value::{as_placement, frame_of, pose_stamped};
+use crate::world::grasp_library::{GraspDefinition, Grip};
+use crate::world::object_library::ObjectType;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "ARM-POSTURE",
+        "arm posture",
+        "The joint angles of an arm's posture: :CARRY, :TUCKED, ….",
+        &[],
+        host!(arm_posture),
+    ),
+    control(
+        "OBJECTS-IN-HAND",
+        "arm",
+        "Names of the objects that a hand holds.",
+        &[],
+        host!(objects_in_hand),
+    ),
+    control(
+        "GRASPS-OF-OBJECT",
+        "object arm",
+        "The grasps that are defined for an object and an arm.",
+        &[],
+        host!(grasps_of_object),
+    ),
+    control(
+        "GRASPING-POSES",
+        "object arm grasp",
+        "Poses of the hand for a grasp: pregrasp, second pregrasp, grasp, lift, second lift.",
+        &[],
+        host!(grasping_poses),
+    ),
+    control(
+        "GRIPPER-OPENING",
+        "object",
+        "How wide a hand opens (m) to grasp an object.",
+        &[],
+        host!(gripper_opening),
+    ),
+    control(
+        "GRIPPING-EFFORT",
+        "object",
+        "How hard an object is gripped (N).",
+        &[],
+        host!(gripping_effort),
+    ),
+    control(
+        "ATTACH-OBJECT",
+        "object arm grasp",
+        "Notes that a hand holds an object.",
+        &[],
+        host!(attach_object),
+    ),
+    control(
+        "DETACH-OBJECT",
+        "name arm",
+        "Lets go of an object and waits until it rests.",
+        &[],
+        host!(detach_object),
+    ),
+    control(
+        "OBJECT-TO-PLACE",
+        "object arm",
+        "The name of the object to be placed, and the arm that holds it.",
+        &[],
+        host!(object_to_place),
+    ),
+    control(
+        "PLACING-TARGET",
+        "object target",
+        "The pose where an object is to be placed.",
+        &[],
+        host!(placing_target),
+    ),
+    control(
+        "PUTTING-POSES",
+        "name arm target",
+        "Poses of the hand for placing: lift, grasp, second pregrasp, pregrasp.",
+        &[],
+        host!(putting_poses),
+    ),
+    control(
+        "RAISE-POSE",
+        "pose height",
+        "A pose so much higher (m).",
+        &[],
+        host!(raise_pose),
+    ),
+];
+
+/// Headings (degrees) at which an object that looks the same from all sides may be put
+/// down, those nearest to the wanted one first.
+const HEADINGS: [f64; 24] = [
+    0.0, 15.0, -15.0, 30.0, -30.0, 45.0, -45.0, 60.0, -60.0, 75.0, -75.0, 90.0, -90.0, 105.0,
+    -105.0, 120.0, -120.0, 135.0, -135.0, 150.0, -150.0, 165.0, -165.0, 180.0,
+];
+
+/// An object as perception has described it.
+struct Perceived {
+    name: String,
+    kind: String,
+    /// Its pose in the frame of the robot's base as it stands now.
+    in_base: Pose,
+}
+
+impl Simulation {
+    /// Reads the designator of a perceived object.
+    fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
+        let current = current(object);
+        let name = property(image, &current, "NAME");
+        let kind = property(image, &current, "TYPE");
+        let pose = property(image, &current, "POSE");
+        let (Some(name), Some(kind), Some(pose)) = (name, kind, pose) else {
+            return Err(Raise::simple(format!(
+                "{} has not been perceived: perform an action of type detecting first and use its result.",
+                print::to_string(image, &current, false)
+            )));
+        };
+        let entry = |key: &str| {
+            pose.iter_list()
+                .find(|pair| {
+                    pair.car_or_nil()
+                        .as_symbol()
+                        .is_some_and(|sym| image.name(sym) == key)
+                })
+                .map(|pair| pair.cdr_or_nil().car_or_nil())
+                .and_then(|pose| as_placement(&pose))
+                .map(|placement| placement.to_pose())
+        };
+        // The robot may have moved since: the pose in the map is what counts.
+        let in_base = match (entry("POSE-IN-MAP"), entry("POSE")) {
+            (Some(in_map), _) => self.base().inverse() * in_map,
+            (None, Some(in_base)) => in_base,
+            (None, None) => {
+                return Err(Raise::simple(format!(
+                    "{} has no pose.",
+                    print::to_string(image, &current, false)
+                )));
+            }
+        };
+        Ok(Perceived {
+            name: self.object_named(image, &name)?,
+            kind: type_text(image, &kind).unwrap_or_default(),
+            in_base,
+        })
+    }
+
+    /// The definition of a grasp, or an error that lists those there are.
+    fn grasp(
+        &self,
+        image: &Image,
+        kind: &str,
+        arm: Side,
+        grasp: &Value,
+    ) -> Result<GraspDefinition> {
+        let wanted = type_text(image, grasp).unwrap_or_default();
+        let mut kinds = self.models.objects.lineage(kind);
+        let found = kinds.find_map(|k| self.grasps.get(k, arm, &wanted));
+        if let Some(definition) = found {
+            return Ok(definition.clone());
+        }
+        let defined: Vec<String> = self.defined_grasps(kind, arm);
+        let near = suggestion(&wanted, defined.iter().map(String::as_str), |n| {
+            format!(":{}", n.to_uppercase())
+        });
+        let names: Vec<String> = defined
+            .iter()
+            .map(|n| format!(":{}", n.to_uppercase()))
+            .collect();
+        let all = if names.is_empty() {
+            "none is".to_owned()
+        } else {
+            format!("{} are", names.join(", "))
+        };
+        Err(Raise::simple(format!(
+            "No grasp {} of a :{} with the {arm} arm is defined: {all}{near}{}",
+            print::to_string(image, grasp, true),
+            kind.to_uppercase(),
+            if near.is_empty() { "." } else { "" }
+        )))
+    }
+
+    /// Names of the grasps of a type that are defined for an arm, in the order in which
+    /// they are tried.
+    fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
+        let kinds = self.models.objects.lineage(kind);
+        for kind in kinds {
+            let names: Vec<String> = self
+                .grasps
+                .grasps(kind)
+                .iter()
+                .filter(|name| self.grasps.get(kind, arm, name).is_some())
+                .cloned()
+                .collect();
+            if !names.is_empty() {
+                return names;
+            }
+        }
+        Vec::new()
+    }
+
+    fn grip(&self, kind: &str) -> Grip {
+        self.grasps.grip(kind)
+    }
+
+    /// Can the hand be brought to all poses, given in the frame of the base?
+    fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
+        let description = &self.models.description;
+        let joints = &self.world.robot_configuration().joints;
+        let search = description.torso_search(&self.models.robot, joints, arm);
+        poses.iter().all(|tool| {
+            let wrist = description.arm(arm).wrist_for_tool(tool);
+            search.reach(&wrist).is_ok()
+        })
+    }
+}
+
+fn in_base(pose: &Pose) -> Value {
+    pose_stamped("base_footprint", pose)
+}
+
+fn arm_posture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let side = side(image, &args[0])?;
+    let name = type_text(image, &args[1]).unwrap_or_default();
+    let name = if name == "carry" {
+        "park"
+    } else {
+        name.as_str()
+    };
+    match simulation.models.description.arm(side).posture(name) {
+        Some(angles) => done(Value::list(angles.iter().map(|a| Value::Double(*a)))),
+        None => Err(Raise::simple(format!(
+            "The {side} arm has no posture {}.",
+            print::to_string(image, &args[1], true)
+        ))),
+    }
+}
+
+fn objects_in_hand(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let side = side(image, &args[0])?;
+    let names = simulation.held_by(side);
+    let symbols: Vec<Value> = names.iter().map(|n| simulation.symbol_of(n)).collect();
+    done(Value::list(symbols))
+}
+
+fn grasps_of_object(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let object = simulation.perceived(image, &args[0])?;
+    let side = side(image, &args[1])?;
+    let names = simulation.defined_grasps(&object.kind, side);
+    let keywords: Vec<Value> = names.iter().map(|n| type_keyword(image, n)).collect();
+    done(Value::list(keywords))
+}
+
+fn grasping_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let object = simulation.perceived(image, &args[0])?;
+    let side = side(image, &args[1])?;
+    let definition = simulation.grasp(image, &object.kind, side, &args[2])?;
+    let axes = &simulation.models.description.arm(side).tool_axes;
+    let poses = definition
+        .tool_poses(&object.in_base, axes)
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    done(Value::list(
+        [
+            poses.pregrasp,
+            poses.second_pregrasp,
+            poses.grasp,
+            poses.lift,
+            poses.second_lift,
+        ]
+        .map(|pose| in_base(&pose)),
+    ))
+}
+
+fn gripper_opening(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let object = simulation.perceived(image, &args[0])?;
+    done(simulation.grip(&object.kind).opening)
+}
+
+fn gripping_effort(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let object = simulation.perceived(image, &args[0])?;
+    done(simulation.grip(&object.kind).effort)
+}
+
+fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let object = simulation.perceived(image, &args[0])?;
+    let side = side(image, &args[1])?;
+    take_hold(&mut simulation.world, side, &object.name)
+        .map_err(|failure| Simulation::failure(image, &failure, &args[0]))?;
+    let held = Held {
+        side,
+        grasp: type_text(image, &args[2]),
+    };
+    simulation.held.insert(object.name, held);
+    done(Value::NIL)
+}
+
+fn detach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let side = side(image, &args[1])?;
+    let motion = LetGo::new(side, Some(name));
+    Ok(Reply::Later(
+        simulation.start(Box::new(motion), args[0].clone()),
+    ))
+}
+
+fn object_to_place(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let object = current(&args[0]);
+    let name = property(image, &object, "NAME");
+    let name = match name {
+        Some(name) => Some(simulation.object_named(image, &name)?),
+        None => None,
+    };
+    let wanted = match &args[1] {
+        arm if arm.is_true() => Some(side(image, arm)?),
+        _ => None,
+    };
+    let (name, side) = match (name, wanted) {
+        (Some(name), Some(side)) => {
+            if !simulation.held_by(side).contains(&name) {
+                let shown = print::to_string(image, &object, false);
+                image.output.fresh_line();
+                image.output.write(&format!(
+                    "WARNING: Wanted to place an object {shown} with arm {side}, but it's not in the arm.\n"
+                ));
+            }
+            (name, side)
+        }
+        (Some(name), None) => match simulation.hand_of(&name) {
+            Some(side) => (name, side),
+            None => return Err(Raise::simple(format!("No hand holds {name}."))),
+        },
+        (None, Some(side)) => match simulation.held_by(side).into_iter().next() {
+            Some(name) => (name, side),
+            None => return Err(Raise::simple(format!("The {side} hand holds nothing."))),
+        },
+        (None, None) => {
+            let holding = [Side::Right, Side::Left]
+                .into_iter()
+                .find_map(|s| Some((simulation.held_by(s).into_iter().next()?, s)));
+            match holding {
+                Some(found) => found,
+                None => {
+                    return Err(Raise::simple(
+                        "There is nothing to place: both hands are empty.",
+                    ));
+                }
+            }
+        }
+    };
+    let symbol = simulation.symbol_of(&name);
+    let arm = side_keyword(image, side);
+    done(Value::values(vec![symbol, arm]))
+}
+
+fn placing_target(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    if args[1].is_true() {
+        return done(Simulation::location_pose(image, &args[1])?);
+    }
+    let object = simulation.perceived(image, &args[0])?;
+    done(in_base(&object.in_base))
+}
+
+/// Does the object look the same from all sides?
+fn is_round(kind: &ObjectType) -> bool {
+    kind.shapes.iter().all(|placed| {
+        let t = &placed.pose.translation.vector;
+        let is_centred = t.x.hypot(t.y) < 2e-3;
+        let up = placed.pose.rotation * Vector3::z();
+        match placed.shape {
+            Shape::Cylinder { .. } => is_centred && up.z.abs() > 0.999,
+            Shape::Sphere { .. } => is_centred,
+            _ => false,
+        }
+    })
+}
+
+fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let side = side(image, &args[1])?;
+    let target = match frame_of(&args[2]).as_deref() {
+        Some("base_footprint") => simulation.pose_as_given(image, &args[2])?,
+        _ => simulation.base().inverse() * simulation.pose_in_map(image, &args[2])?,
+    };
+    let object_in_map = simulation
+        .world
+        .object_pose(&name)
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    // The grasps speak of a tool frame of their own, ahead of the wrist.
+    let arm = simulation.models.description.arm(side);
+    let wrist_in_map = simulation.world.link_pose(arm.wrist);
+    let tool_in_object = object_in_map.inverse() * arm.tool_for_wrist(&wrist_in_map);
+    let object = simulation.world.object(&name);
+    let kind = object.map(|o| o.type_name().to_owned()).unwrap_or_default();
+    let held = simulation.held.get(&name).cloned();
+    let definition = match held.as_ref().and_then(|h| h.grasp.as_ref()) {
+        Some(grasp) => {
+            let grasp = type_keyword(image, grasp);
+            Some(simulation.grasp(image, &kind, side, &grasp)?)
+        }
+        None => None,
+    };
+    let offsets = definition.map_or(
+        ([0.0, 0.0, 0.15], [0.0, 0.0, 0.15], [0.0, 0.0, 0.15]),
+        |d| (d.lift, d.second_pregrasp, d.pregrasp),
+    );
+    let is_round = simulation.models.objects.get(&kind).is_some_and(is_round);
+    let headings: &[f64] = if is_round { &HEADINGS } else { &HEADINGS[..1] };
+    let poses_at = |heading: f64| {
+        let (s, c) = trig::sin_cos(heading.to_radians() / 2.0);
+        let turn = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(c, 0.0, 0.0, s));
+        let turned = target * turn;
+        let tool = |offset: [f64; 3]| turned * Translation3::from(offset) * tool_in_object;
+        [
+            tool(offsets.0),
+            tool([0.0; 3]),
+            tool(offsets.1),
+            tool(offsets.2),
+        ]
+    };
+    // What cannot be reached at any heading fails later, and says why.
+    let poses = headings
+        .iter()
+        .map(|heading| poses_at(*heading))
+        .find(|poses| simulation.is_reachable(side, &poses[..2]))
+        .unwrap_or_else(|| poses_at(0.0));
+    done(Value::list(poses.map(|pose| in_base(&pose))))
+}
+
+fn raise_pose(_: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let (Some(placement), Some(frame)) = (as_placement(&args[0]), frame_of(&args[0])) else {
+        let shown = name_text(image, &args[0]).unwrap_or_default();
+        return Err(Raise::simple(format!("{shown} is no pose with a frame.")));
+    };
+    let height = number::to_f64(&args[1]).unwrap_or(0.0);
+    let pose = Translation3::new(0.0, 0.0, height) * placement.to_pose();
+    done(pose_stamped(&frame, &pose))
+}

@@ -1,0 +1,338 @@
+//! The functions of the tutorial's package that look at the world or change it.
+
+use super::objects::Spawning;
+use crate::designator::value::current;
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtins::keywords;
+use crate::lisp::foreign::Foreign;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::number;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::plan::Reply;
+use crate::session::simulation::call::{done, host};
+use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
+use crate::session::simulation::properties::property;
+use crate::session::simulation::{Axes, LogLevel, Simulation};
+use crate::transform::value::{as_placement, frame_of, pose_stamped, transform_stamped};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `CRAM-PICK-PLACE-TUTORIAL`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "INIT-PROJECTION",
+        "",
+        "Takes the world back to its start: no objects, the robot at the origin with its arms tucked.",
+        &[],
+        host!(init_projection),
+    ),
+    control(
+        "SPAWN-OBJECT",
+        "pose &optional type name color",
+        "Puts an object (a red bottle named BOTTLE-1 unless told) into the world and lets it come to rest. An object of that name is moved.",
+        &[],
+        host!(spawn_object),
+    ),
+    control(
+        "LIST-AVAILABLE-OBJECTS",
+        "",
+        "The types of objects that can be spawned.",
+        &[],
+        host!(list_available_objects),
+    ),
+    control(
+        "LIST-DEFINED-GRASPS",
+        "type",
+        "The grasps that are defined for a type of objects.",
+        &[],
+        host!(list_defined_grasps),
+    ),
+    control(
+        "VISUALIZE-COORDINATES",
+        "object-or-pose &optional size",
+        "Shows coordinate axes at an object or a pose.",
+        &[],
+        host!(visualize_coordinates),
+    ),
+    control(
+        "GET-KITCHEN-URDF",
+        "",
+        "The description of the kitchen.",
+        &[],
+        host!(get_kitchen_urdf),
+    ),
+    control(
+        "MOVE-KITCHEN-JOINT",
+        "&key joint-name joint-angle kitchen-name",
+        "Opens or closes a drawer or a door.",
+        &[],
+        host!(move_kitchen_joint),
+    ),
+    control(
+        "GET-ROBOT-TRANSFORMATION",
+        "",
+        "The transform from the map to the robot's base.",
+        &[],
+        host!(get_robot_transformation),
+    ),
+    control(
+        "GET-CURRENT-POSE-OF-OBJECT",
+        "name",
+        "The pose of an object in the map frame.",
+        &[],
+        host!(get_current_pose),
+    ),
+    control(
+        "GET-OBJ-NAME",
+        "object",
+        "The name of a perceived object.",
+        &[],
+        host!(get_object_name),
+    ),
+    control(
+        "GET-OBJECT-NAME",
+        "object",
+        "The name of a perceived object.",
+        &[],
+        host!(get_object_name),
+    ),
+    control(
+        "LOOK-UP-TRANSFORMATION",
+        "parent child",
+        "The transform from one frame to another.",
+        &[],
+        host!(look_up_transformation),
+    ),
+];
+
+fn init_projection(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    simulation.restart();
+    done(Value::T)
+}
+
+fn spawn_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let pose = simulation.pose_as_given(image, &args[0])?;
+    let kind = match args.get(1) {
+        Some(kind) => kind.clone(),
+        None => image.keyword("BOTTLE").into(),
+    };
+    let name = match args.get(2) {
+        Some(name) => name.clone(),
+        None => {
+            let package = image.packages.find("CRAM-PICK-PLACE-TUTORIAL");
+            let package = package.unwrap_or_else(|| image.current_package());
+            image.intern(package, "BOTTLE-1").into()
+        }
+    };
+    let red = Value::list([Value::Int(1), Value::Int(0), Value::Int(0)]);
+    let color = args.get(3).cloned().unwrap_or(red);
+    simulation.spawn(
+        image,
+        &Spawning {
+            name: &name,
+            kind: &kind,
+            pose,
+            color: Some(&color),
+            mass: None,
+        },
+    )?;
+    done(Value::NIL)
+}
+
+fn list_available_objects(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    _: &[Value],
+) -> Result<Reply> {
+    let types: Vec<Value> = simulation
+        .models
+        .objects
+        .types()
+        .map(|kind| type_keyword(image, &kind.name))
+        .collect();
+    done(Value::list(types))
+}
+
+fn list_defined_grasps(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let Some(kind) = type_text(image, &args[0]) else {
+        return Err(Raise::type_error(&args[0], known::SYMBOL));
+    };
+    let grasps: Vec<Value> = simulation
+        .grasps
+        .grasps(&kind)
+        .iter()
+        .map(|name| type_keyword(image, name))
+        .collect();
+    done(Value::list(grasps))
+}
+
+fn visualize_coordinates(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let size = args.get(1).and_then(number::to_f64).unwrap_or(0.3);
+    let pose = match as_placement(&args[0]) {
+        Some(placement) => {
+            if frame_of(&args[0]).is_some_and(|frame| &*frame != "map") {
+                image.output.fresh_line();
+                image.output.write(
+                    "WARNING: Pose is not in MAP frame. It is visualized with respect to the MAP though.\n",
+                );
+            }
+            placement.to_pose()
+        }
+        None => {
+            let Some(name) = name_text(image, &args[0]) else {
+                let shown = crate::lisp::print::to_string(image, &args[0], true);
+                return Err(Raise::simple(format!(
+                    "{shown} cannot be visualized: the name or type of an object, or a pose, was expected."
+                )));
+            };
+            let named = simulation.world.object_pose(&name).ok();
+            let typed = || {
+                let kind = name.to_lowercase();
+                let object = simulation.world.objects().find(|o| o.type_name() == kind)?;
+                simulation.world.object_pose(object.name()).ok()
+            };
+            match named.or_else(typed) {
+                Some(pose) => pose,
+                None => {
+                    image.output.fresh_line();
+                    image.output.write(
+                        "WARNING: Unknown object, please either give an object name or object type.\n",
+                    );
+                    return done(Value::NIL);
+                }
+            }
+        }
+    };
+    simulation.axes = Some(Axes { pose, size });
+    done(Value::NIL)
+}
+
+/// The kitchen's description as a value.
+struct KitchenUrdf {
+    name: String,
+    symbol: Sym,
+}
+
+impl Foreign for KitchenUrdf {
+    fn type_symbol(&self) -> Sym {
+        self.symbol
+    }
+
+    fn print(&self, _: &Image, _: bool) -> String {
+        format!("#<CL-URDF:ROBOT {:?}>", self.name)
+    }
+}
+
+fn get_kitchen_urdf(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+    let symbol = image.keyword("ROBOT");
+    done(Value::foreign(KitchenUrdf {
+        name: "iai_kitchen".to_owned(),
+        symbol,
+    }))
+}
+
+fn move_kitchen_joint(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let keys = [
+        image.keyword("JOINT-NAME"),
+        image.keyword("JOINT-ANGLE"),
+        image.keyword("KITCHEN-NAME"),
+    ];
+    let [name, angle, _] = keywords::parse(image, args, keys)?;
+    let name = match name {
+        Some(Value::Str(name)) => name.text(),
+        Some(other) => return Err(Raise::type_error(&other, known::STRING)),
+        None => "iai_fridge_door_joint".to_owned(),
+    };
+    let angle = angle.as_ref().and_then(number::to_f64).unwrap_or(0.2);
+    if simulation.models.kitchen.joint_named(&name).is_none() {
+        let joints = simulation.models.kitchen.joints();
+        let near = suggestion(&name, joints.map(|(_, joint)| joint.name.as_str()), |n| {
+            format!("{n:?}")
+        });
+        return Err(Raise::simple(format!(
+            "The kitchen has no joint {name:?}{near}{}",
+            if near.is_empty() { "." } else { "" }
+        )));
+    }
+    simulation
+        .world
+        .teleport_kitchen_joint(&name, angle)
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    simulation.world.settle(2.0);
+    done(Value::NIL)
+}
+
+fn get_robot_transformation(
+    simulation: &mut Simulation,
+    _: &mut Image,
+    _: &[Value],
+) -> Result<Reply> {
+    done(transform_stamped(
+        "map",
+        "base_footprint",
+        &simulation.base(),
+    ))
+}
+
+fn get_current_pose(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let pose = simulation
+        .world
+        .object_pose(&name)
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    done(pose_stamped("map", &pose))
+}
+
+fn get_object_name(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let current = current(&args[0]);
+    match property(image, &current, "NAME") {
+        Some(name) => done(name),
+        None => {
+            simulation.log(
+                image,
+                LogLevel::Debug,
+                "(PP-TUT GET-OBJ-NAME)",
+                "an object has no name before it is perceived",
+            );
+            done(Value::NIL)
+        }
+    }
+}
+
+fn look_up_transformation(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let frame = |value: &Value| match value {
+        Value::Str(text) => Ok(text.text()),
+        other => Err(Raise::type_error(other, known::STRING)),
+    };
+    let (parent, child) = (frame(&args[0])?, frame(&args[1])?);
+    let from = simulation.frame_pose(image, &parent)?;
+    let to = simulation.frame_pose(image, &child)?;
+    done(transform_stamped(&parent, &child, &(from.inverse() * to)))
+}

@@ -1,0 +1,168 @@
+//! The simulated robot in its world, as plans reach it: motions under way, what the hands
+//! hold and how it was grasped, and the names under which people know the objects.
+//!
+//! Everything that a plan asks of the world comes here as a request of a builtin.
+
+pub mod call;
+mod frames;
+mod functions;
+mod held;
+mod motions;
+mod names;
+mod pace;
+mod pose_argument;
+mod properties;
+mod raising;
+pub mod request;
+mod tables;
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+
+use super::{SessionError, SessionOptions};
+use crate::lisp::value::Value;
+use crate::motion::{Motion, ProcessModule};
+use crate::plan::Ticket;
+use crate::spatial::Pose;
+use crate::world::grasp_library::{GRASPS, GraspLibrary};
+use crate::world::{Models, RobotConfiguration, World};
+
+use pace::Pace;
+pub use tables::install;
+
+/// A motion that a task waits for.
+struct Job {
+    ticket: Ticket,
+    module: ProcessModule,
+    motion: Box<dyn Motion>,
+    /// The designator that failures name.
+    subject: Value,
+    is_paused: bool,
+}
+
+/// Coordinate axes that a person asked to see.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axes {
+    /// Where, in the map frame.
+    pub pose: Pose,
+    /// Length of the bars (m).
+    pub size: f64,
+}
+
+/// Looks at the world after every step of a motion.
+pub type Observer = Box<dyn FnMut(&World)>;
+
+/// The robot in its world.
+pub struct Simulation {
+    models: Arc<Models>,
+    world: World,
+    grasps: GraspLibrary,
+    /// The symbol under which each object was spawned, by its name in the world.
+    names: IndexMap<String, Value>,
+    held: IndexMap<String, held::Held>,
+    /// Motions under way, in order of their start.
+    active: Vec<Job>,
+    /// Motions that wait for a process module, in order.
+    waiting: VecDeque<Job>,
+    next_ticket: u64,
+    axes: Option<Axes>,
+    log_level: LogLevel,
+    pace: Option<Pace>,
+    /// The exit status, once somebody has asked to leave.
+    pub(super) quit: Option<u8>,
+    observer: Option<Observer>,
+    /// Simulated time (s) as the scheduler told it last.
+    now: f64,
+}
+
+/// Severity of log lines.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum LogLevel {
+    /// Everything.
+    Debug,
+    /// Progress of plans.
+    Info,
+    /// What may be wrong.
+    Warn,
+    /// What is wrong.
+    Error,
+    /// Nothing.
+    None,
+}
+
+impl Simulation {
+    /// The robot as after start-up: at the origin of the map, its arms tucked.
+    pub(super) fn new(
+        models: Arc<Models>,
+        options: &SessionOptions,
+    ) -> Result<Simulation, SessionError> {
+        let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp")
+            .map_err(|error| SessionError::Models(error.to_string()))?;
+        Ok(Simulation {
+            world: starting_world(&models),
+            models,
+            grasps,
+            names: IndexMap::new(),
+            held: IndexMap::new(),
+            active: Vec::new(),
+            waiting: VecDeque::new(),
+            next_ticket: 0,
+            axes: None,
+            log_level: options.log_level,
+            pace: options.realtime.map(Pace::new),
+            quit: None,
+            observer: None,
+            now: 0.0,
+        })
+    }
+
+    /// Takes the world back to the start: no objects, the robot at the origin. Simulated
+    /// time goes on.
+    fn restart(&mut self) {
+        self.world = starting_world(&self.models);
+        self.names.clear();
+        self.held.clear();
+        self.axes = None;
+    }
+
+    /// Simulated time (s).
+    pub fn now(&self) -> f64 {
+        self.now
+    }
+
+    /// The world.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// Has a function look at the world after every step that a motion takes.
+    pub fn set_observer(&mut self, observer: Observer) {
+        self.observer = Some(observer);
+    }
+
+    fn observe(&mut self) {
+        if let Some(observer) = &mut self.observer {
+            observer(&self.world);
+        }
+    }
+
+    /// The coordinate axes to be shown, if any.
+    pub fn axes(&self) -> Option<&Axes> {
+        self.axes.as_ref()
+    }
+
+    /// The pose of the robot's base in the map frame.
+    fn base(&self) -> Pose {
+        self.world.robot_configuration().base
+    }
+}
+
+fn starting_world(models: &Arc<Models>) -> World {
+    let robot = RobotConfiguration {
+        base: Pose::identity(),
+        joints: models.description.start_positions(&models.robot),
+    };
+    World::new(models.clone(), robot)
+}

@@ -1,0 +1,69 @@
+//! Names of objects and types: symbols for people, texts in the world.
+
+use super::Simulation;
+use crate::closest_name::closest_name;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+/// The text of a name: that of a symbol or string, in upper case, `_` read as `-`.
+pub(super) fn name_text(image: &Image, name: &Value) -> Option<String> {
+    let text = match name {
+        Value::Symbol(sym) if name.is_true() => image.name(*sym).to_owned(),
+        Value::Str(s) => s.text(),
+        _ => return None,
+    };
+    Some(text.to_uppercase().replace('_', "-"))
+}
+
+/// The name of a type in the object library: lower case, `_` read as `-`.
+pub(super) fn type_text(image: &Image, name: &Value) -> Option<String> {
+    name_text(image, name).map(|text| text.to_lowercase())
+}
+
+/// The keyword of a type of the object library.
+pub(super) fn type_keyword(image: &mut Image, name: &str) -> Value {
+    image.keyword(&name.to_uppercase()).into()
+}
+
+/// "; did you mean X?" if a name is near.
+pub(super) fn suggestion<'a>(
+    wanted: &str,
+    names: impl IntoIterator<Item = &'a str>,
+    show: impl Fn(&str) -> String,
+) -> String {
+    match closest_name(wanted, names) {
+        Some(name) => format!("; did you mean {}?", show(name)),
+        None => String::new(),
+    }
+}
+
+impl Simulation {
+    /// The name in the world of an existing object.
+    pub(super) fn object_named(&self, image: &Image, name: &Value) -> Result<String, Box<Raise>> {
+        let Some(text) = name_text(image, name) else {
+            return Err(Raise::type_error(name, known::SYMBOL));
+        };
+        if self.world.object(&text).is_ok() {
+            return Ok(text);
+        }
+        let shown = print::to_string(image, name, true);
+        let near = suggestion(&text, self.names.keys().map(String::as_str), str::to_owned);
+        let known: Vec<&str> = self.names.keys().map(String::as_str).collect();
+        let remedy = match (near.is_empty(), known.is_empty()) {
+            (false, _) => near,
+            (true, false) => format!("; there are {}", known.join(", ")),
+            (true, true) => "; there are none: use spawn-object".to_owned(),
+        };
+        Err(Raise::simple(format!(
+            "There is no object named {shown}{remedy}."
+        )))
+    }
+
+    /// The symbol by which people know an object.
+    pub(super) fn symbol_of(&self, name: &str) -> Value {
+        self.names.get(name).cloned().unwrap_or(Value::NIL)
+    }
+}

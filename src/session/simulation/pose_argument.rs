@@ -1,0 +1,49 @@
+//! Poses as arguments: lists, poses, stamped poses, location designators.
+
+use super::Simulation;
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::session::simulation::properties::property;
+use crate::spatial::Pose;
+use crate::transform::argument;
+use crate::transform::value::{as_placement, frame_of};
+
+impl Simulation {
+    /// The pose, in the map frame, of a pose argument. The frame of a stamped pose counts;
+    /// a list or a plain pose is in the map frame.
+    pub(super) fn pose_in_map(&self, image: &Image, pose: &Value) -> Result<Pose, Box<Raise>> {
+        let placement = match as_placement(pose) {
+            Some(placement) => placement,
+            None => argument::placement(image, pose)?,
+        };
+        let local = placement.to_pose();
+        match frame_of(pose) {
+            Some(frame) => Ok(self.frame_pose(image, &frame)? * local),
+            None => Ok(local),
+        }
+    }
+
+    /// Position and orientation of a pose argument as they stand, whatever the frame.
+    pub(super) fn pose_as_given(&self, image: &Image, pose: &Value) -> Result<Pose, Box<Raise>> {
+        let placement = match as_placement(pose) {
+            Some(placement) => placement,
+            None => argument::placement(image, pose)?,
+        };
+        Ok(placement.to_pose())
+    }
+
+    /// The pose of a resolved location designator, or of a pose itself.
+    pub(super) fn location_pose(image: &mut Image, location: &Value) -> Result<Value, Box<Raise>> {
+        if as_placement(location).is_some() {
+            return Ok(location.clone());
+        }
+        match property(image, location, "POSE") {
+            Some(pose) => Ok(pose),
+            None => Err(Raise::simple(format!(
+                "{} has no pose: write (a location (pose ?pose)).",
+                crate::lisp::print::to_string(image, location, false)
+            ))),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! Reading properties of designators.
+
+use crate::designator::value::as_designator;
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+
+/// The first value of a designator's property, unless that is `NIL`. The key is in upper
+/// case.
+pub(super) fn property(image: &Image, designator: &Value, key: &str) -> Option<Value> {
+    as_designator(designator)?
+        .property_named(image, key)
+        .filter(Value::is_true)
+}

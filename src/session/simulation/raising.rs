@@ -1,0 +1,32 @@
+//! Failures of motions as conditions.
+
+use super::Simulation;
+use crate::lisp::image::Image;
+use crate::lisp::package::PackageTable;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::motion::MotionFailure;
+
+impl Simulation {
+    /// The failure condition for a motion's failure; `subject` is the designator it is about.
+    pub(super) fn failure(
+        image: &mut Image,
+        failure: &MotionFailure,
+        subject: &Value,
+    ) -> Box<Raise> {
+        let package = image
+            .packages
+            .find("CRAM-COMMON-FAILURES")
+            .unwrap_or(PackageTable::USER);
+        let class = image.intern(package, failure.class_name());
+        let text = failure.to_string();
+        let mut raise = Raise::new(class, text.clone());
+        let description = image.keyword("DESCRIPTION");
+        raise = raise.with(description, text.as_str().into());
+        for initarg in ["OBJECT", "LOCATION", "ACTION"] {
+            let initarg = image.keyword(initarg);
+            raise = raise.with(initarg, subject.clone());
+        }
+        raise
+    }
+}

@@ -1,0 +1,176 @@
+//! Carrying out requests of tasks, and advancing the world while all tasks wait.
+
+use std::any::Any;
+use std::sync::atomic::Ordering;
+
+use super::call::HostCall;
+use super::{Job, Simulation};
+use crate::designator::MotionRequest;
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::motion::{Motion, MotionOutcome, MotionStatus};
+use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
+use crate::world::physics::STEP_SECONDS;
+
+type Completion = (Ticket, Result<Value, Box<Raise>>);
+
+impl Host for Simulation {
+    fn request(&mut self, image: &mut Image, _: TaskId, request: Box<dyn Any>) -> Reply {
+        let request = match request.downcast::<HostCall>() {
+            Ok(call) => {
+                let reply = (call.call)(self, image, &call.args);
+                return reply.unwrap_or_else(|raise| Reply::Now(Err(raise)));
+            }
+            Err(request) => request,
+        };
+        match request.downcast::<MotionRequest>() {
+            Ok(request) => match self.motion_for(image, &request) {
+                Ok((motion, subject)) => Reply::Later(self.start(motion, subject)),
+                Err(raise) => Reply::Now(Err(raise)),
+            },
+            Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
+        }
+    }
+
+    fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
+        self.now = now;
+        let mut done = Vec::new();
+        let mut steps = 0u32;
+        while done.is_empty()
+            && until.is_none_or(|until| self.now < until)
+            && !self.is_interrupted(image)
+        {
+            self.admit_waiting();
+            self.tick(image, &mut done);
+            self.step();
+            steps += 1;
+            self.now = now + f64::from(steps) * STEP_SECONDS;
+        }
+        Advance {
+            now: self.now,
+            done,
+        }
+    }
+
+    fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
+        let mut steps = 0u32;
+        self.now = now;
+        // A world at rest need not be stepped.
+        while self.now < until && !self.world.is_at_rest() {
+            if self.is_interrupted(image) {
+                return self.now;
+            }
+            self.step();
+            steps += 1;
+            self.now = now + f64::from(steps) * STEP_SECONDS;
+        }
+        self.now = until;
+        until
+    }
+
+    fn cancel(&mut self, _: &mut Image, ticket: Ticket) {
+        for job in &mut self.active {
+            if job.ticket == ticket {
+                job.motion.cancel();
+            }
+        }
+        self.active.retain(|job| job.ticket != ticket);
+        self.waiting.retain(|job| job.ticket != ticket);
+    }
+
+    fn pause(&mut self, _: &mut Image, ticket: Ticket) {
+        self.set_paused(ticket, true);
+    }
+
+    fn wake(&mut self, _: &mut Image, ticket: Ticket) {
+        self.set_paused(ticket, false);
+    }
+}
+
+impl Simulation {
+    /// Starts a motion as soon as its process module is free.
+    pub(super) fn start(&mut self, motion: Box<dyn Motion>, subject: Value) -> Ticket {
+        self.next_ticket += 1;
+        let ticket = Ticket(self.next_ticket);
+        self.waiting.push_back(Job {
+            ticket,
+            module: motion.module(),
+            motion,
+            subject,
+            is_paused: false,
+        });
+        ticket
+    }
+
+    fn admit_waiting(&mut self) {
+        let mut still_waiting = std::collections::VecDeque::new();
+        while let Some(job) = self.waiting.pop_front() {
+            let is_busy = |other: &Job| other.module == job.module;
+            if self.active.iter().any(is_busy) || still_waiting.iter().any(is_busy) {
+                still_waiting.push_back(job);
+            } else {
+                self.active.push(job);
+            }
+        }
+        self.waiting = still_waiting;
+    }
+
+    /// Lets the motions set the robot's joints for the next step.
+    fn tick(&mut self, image: &mut Image, completions: &mut Vec<Completion>) {
+        let mut jobs = std::mem::take(&mut self.active);
+        let mut ended = Vec::new();
+        for (i, job) in jobs.iter_mut().enumerate() {
+            if job.is_paused {
+                continue;
+            }
+            let result = match job.motion.tick(&mut self.world) {
+                MotionStatus::Running => continue,
+                MotionStatus::Done(outcome) => Ok(self.outcome(image, &outcome, &job.subject)),
+                MotionStatus::Failed(failure) => {
+                    Err(Simulation::failure(image, &failure, &job.subject))
+                }
+            };
+            completions.push((job.ticket, result));
+            ended.push(i);
+        }
+        for i in ended.into_iter().rev() {
+            jobs.remove(i);
+        }
+        jobs.append(&mut self.active);
+        self.active = jobs;
+    }
+
+    /// What a motion has brought about, as a value.
+    fn outcome(&mut self, image: &mut Image, outcome: &MotionOutcome, subject: &Value) -> Value {
+        match outcome {
+            MotionOutcome::Arrived | MotionOutcome::Gripped { .. } => Value::NIL,
+            MotionOutcome::Put { raised, .. } => Value::Double(*raised),
+            MotionOutcome::Released { object, .. } => {
+                self.held.shift_remove(object);
+                Value::NIL
+            }
+            MotionOutcome::Detected(objects) => self.detected(image, objects, subject),
+        }
+    }
+
+    fn step(&mut self) {
+        self.world.step();
+        self.observe();
+        if let Some(pace) = &mut self.pace {
+            pace.wait_for_step();
+        }
+    }
+
+    fn set_paused(&mut self, ticket: Ticket, paused: bool) {
+        for job in self.active.iter_mut().chain(&mut self.waiting) {
+            if job.ticket == ticket {
+                job.is_paused = paused;
+            }
+        }
+    }
+
+    fn is_interrupted(&self, image: &Image) -> bool {
+        image.interrupt.load(Ordering::Relaxed)
+    }
+}

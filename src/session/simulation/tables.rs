@@ -1,0 +1,91 @@
+//! Installing what plans can ask of the world.
+
+use super::functions;
+use crate::lisp::builtin::{Builtin, Operator};
+use crate::lisp::image::Image;
+use crate::lisp::package::PackageTable;
+
+/// Builtins by package.
+static FUNCTIONS: &[(&str, &[Builtin])] = &[
+    ("CRAM-PICK-PLACE-TUTORIAL", functions::tutorial::TABLE),
+    ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::plans::TABLE),
+    ("CRAM-BULLET-REASONING-UTILITIES", functions::objects::TABLE),
+    ("CRAM-OBJECT-INTERFACES", functions::grasps::TABLE),
+    ("ROSLISP", functions::ros::LOG_TABLE),
+    ("ROSLISP-UTILITIES", functions::ros::UTILITIES_TABLE),
+    ("ROS-LOAD", functions::ros::LOAD_TABLE),
+];
+
+/// Operators by package.
+static OPERATORS: &[(&str, &[Operator])] =
+    &[("CRAM-PR2-PROJECTION", functions::robot_macros::OPERATORS)];
+
+/// Functions of one package that another package offers under the same name.
+static ALIASES: &[(&str, &str, &[&str])] = &[
+    (
+        "CRAM-OBJECT-INTERFACES",
+        "CRAM-MANIPULATION-INTERFACES",
+        &["DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS"],
+    ),
+    (
+        "CRAM-PR2-PROJECTION",
+        "CRAM-URDF-PROJECTION",
+        &["WITH-SIMULATED-ROBOT", "WITH-PROJECTED-ROBOT"],
+    ),
+    (
+        "CRAM-PR2-PROJECTION",
+        "CRAM-PICK-PLACE-TUTORIAL",
+        &["WITH-SIMULATED-ROBOT", "WITH-PROJECTED-ROBOT"],
+    ),
+];
+
+/// Installs the builtins that act on the world. The packages must exist.
+pub fn install(image: &mut Image) {
+    for (package, table) in FUNCTIONS {
+        if let Some(package) = image.packages.find(package) {
+            image.install(package, table);
+        }
+    }
+    for (package, table) in OPERATORS {
+        if let Some(package) = image.packages.find(package) {
+            image.install_operators(package, table);
+        }
+    }
+    image.install(PackageTable::CL, functions::leaving::TABLE);
+    for (from, to, names) in ALIASES {
+        let (Some(from), Some(to)) = (image.packages.find(from), image.packages.find(to)) else {
+            continue;
+        };
+        for name in *names {
+            alias(image, from, to, name);
+        }
+    }
+}
+
+/// Makes a symbol of one package accessible in another: the same symbol, unless the other
+/// package has one of that name, which then means the same.
+fn alias(
+    image: &mut Image,
+    from: crate::lisp::package::PackageId,
+    to: crate::lisp::package::PackageId,
+    name: &str,
+) {
+    let original = image.export_symbol(from, name);
+    let other = match image.packages.find_symbol(to, name) {
+        None => {
+            image.packages.export(&mut image.symbols, to, original);
+            return;
+        }
+        Some((other, _)) => other,
+    };
+    if other == original {
+        image.packages.export(&mut image.symbols, to, original);
+        return;
+    }
+    let function = image.symbol(original).function.clone();
+    image.symbols.get_mut(other).function = function;
+    if let Some(operator) = image.operators.get(&original).copied() {
+        image.operators.insert(other, operator);
+    }
+    image.packages.export(&mut image.symbols, to, other);
+}

@@ -1,0 +1,115 @@
+//! Composing, inverting and converting poses and transforms without frames.
+
+use nalgebra::Point3;
+
+use super::argument::{self, Result};
+use super::value::{self, Placement};
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::value::Value;
+
+/// Functions of package `CL-TRANSFORMS`.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "TRANSFORM*",
+        "transform &rest transforms",
+        "The product of transforms: the last is applied first.",
+        &[],
+        |image, args| {
+            let mut product = argument::placement(image, &args[0])?.to_pose();
+            for arg in &args[1..] {
+                product *= argument::placement(image, arg)?.to_pose();
+            }
+            Ok(value::transform(Placement::of(&product)))
+        },
+    ),
+    pure(
+        "TRANSFORM-INV",
+        "transform",
+        "The transform back; of a stamped one, with its frames exchanged.",
+        &[],
+        |_, args| invert(&args[0]),
+    ),
+    pure(
+        "TRANSFORM-DIFF",
+        "transform other",
+        "The transform that leads from the second to the first.",
+        &[],
+        |image, args| {
+            let a = argument::placement(image, &args[0])?.to_pose();
+            let b = argument::placement(image, &args[1])?.to_pose();
+            Ok(value::transform(Placement::of(&(b.inverse() * a))))
+        },
+    ),
+    pure(
+        "TRANSFORM-POSE",
+        "transform pose",
+        "The pose carried along by the transform.",
+        &[],
+        |image, args| {
+            let transform = argument::placement(image, &args[0])?.to_pose();
+            let pose = argument::placement(image, &args[1])?.to_pose();
+            Ok(value::pose(Placement::of(&(transform * pose))))
+        },
+    ),
+    pure(
+        "TRANSFORM-POINT",
+        "transform point",
+        "The point carried along by the transform (m).",
+        &[],
+        |image, args| {
+            let transform = argument::placement(image, &args[0])?.to_pose();
+            let point = Point3::from(argument::vector(image, &args[1])?.0);
+            let moved = transform * point;
+            Ok(value::vector([moved.x, moved.y, moved.z]))
+        },
+    ),
+    pure(
+        "POSE->TRANSFORM",
+        "pose",
+        "The transform with a pose's position and orientation.",
+        &[],
+        |image, args| Ok(value::transform(argument::placement(image, &args[0])?)),
+    ),
+    pure(
+        "TRANSFORM->POSE",
+        "transform",
+        "The pose with a transform's translation and rotation.",
+        &[],
+        |image, args| Ok(value::pose(argument::placement(image, &args[0])?)),
+    ),
+    pure(
+        "TO-POSE",
+        "object",
+        "The object as a pose.",
+        &[],
+        |image, args| Ok(value::pose(argument::placement(image, &args[0])?)),
+    ),
+    pure(
+        "TO-TRANSFORM",
+        "object",
+        "The object as a transform.",
+        &[],
+        |image, args| Ok(value::transform(argument::placement(image, &args[0])?)),
+    ),
+];
+
+/// The inverse: a stamped transform leads from child to frame then.
+pub(super) fn invert(transform: &Value) -> Result<Value> {
+    let placement = argument::as_kind(transform, known::TRANSFORM)?;
+    let inverse = Placement::of(&placement.to_pose().inverse());
+    Ok(match value::as_transform_stamped(transform) {
+        Some(t) => value::transform_stamped_at(&t.child, &t.frame, t.stamp, inverse),
+        None => value::transform(inverse),
+    })
+}
+
+/// Position and orientation as `((x y z) (x y z w))`.
+pub(super) fn placement_to_list(image: &Image, pose: &Value) -> Result<Value> {
+    let placement = argument::placement(image, pose)?;
+    Ok(Value::list([
+        Value::list(placement.position.0.map(Value::Double)),
+        Value::list(placement.orientation.0.map(Value::Double)),
+    ]))
+}

@@ -1,0 +1,81 @@
+//! The tutorial's functions on poses.
+
+use super::argument::{self, Result};
+use super::value::{self, Placement};
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+
+/// Functions of package `CRAM-PICK-PLACE-TUTORIAL`.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "MAKE-POSE",
+        "frame pose",
+        "A pose in a frame (\"map\", \"base_footprint\", the name of a link) from a list ((x y z) (x y z w)): metres and a quaternion.",
+        &[
+            "(pp-tut:make-pose \"map\" '((0 1 0) (0 0 0 1))) => #<\"map\" ((0.00000 1.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
+        make_pose,
+    ),
+    pure(
+        "INVERSE-TRANSFORMATION",
+        "transform",
+        "The transform back.",
+        &[],
+        |_, args| {
+            let transform = argument::as_kind(&args[0], known::TRANSFORM)?;
+            let inverse = transform.to_pose().inverse();
+            Ok(value::transform(Placement::of(&inverse)))
+        },
+    ),
+    pure(
+        "APPLY-TRANSFORMATION",
+        "transform pose",
+        "The pose carried along by the transform; frames are not compared.",
+        &[],
+        |image, args| {
+            let transform = argument::as_kind(&args[0], known::TRANSFORM)?;
+            let pose = argument::placement(image, &args[1])?;
+            let moved = transform.to_pose() * pose.to_pose();
+            Ok(value::pose(Placement::of(&moved)))
+        },
+    ),
+    pure(
+        "GET-X-OF-POSE",
+        "pose",
+        "The x of a pose's position (m).",
+        &["(pp-tut:get-x-of-pose (pp-tut:make-pose \"map\" '((1 2 0) (0 0 0 1)))) => 1.0d0"],
+        |image, args| coordinate(image, &args[0], 0),
+    ),
+    pure(
+        "GET-Y-OF-POSE",
+        "pose",
+        "The y of a pose's position (m).",
+        &["(pp-tut:get-y-of-pose (pp-tut:make-pose \"map\" '((1 2 0) (0 0 0 1)))) => 2.0d0"],
+        |image, args| coordinate(image, &args[0], 1),
+    ),
+];
+
+fn make_pose(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let Some(frame) = args[0].as_text() else {
+        return Err(Raise::simple(format!(
+            "{} is not the name of a frame: a string such as \"map\" or \"base_footprint\" was expected.",
+            print::to_string(image, &args[0], true)
+        ))
+        .with(known::K_DATUM, args[0].clone()));
+    };
+    let placement = match value::as_placement(&args[1]) {
+        Some(placement) => placement,
+        None => argument::placement_list(image, &args[1])?,
+    };
+    Ok(value::pose_stamped_at(&frame, 0.0, placement))
+}
+
+fn coordinate(image: &Image, pose: &Value, index: usize) -> Result<Value> {
+    let placement = argument::placement(image, pose)?;
+    let x = placement.position.0.get(index).copied();
+    Ok(Value::Double(x.unwrap_or_default()))
+}
