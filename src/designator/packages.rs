@@ -203,7 +203,7 @@ pub static PACKAGES: &[PackageRow] = &[
     row("QUICKLISP-CLIENT", &["QL", "QUICKLISP"], "QUICKLOAD"),
     row("SWANK", &[], ""),
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
-    row("CRAM-PR2-PICK-PLACE-DEMO", &["DEMO"], ""),
+    row("CRAM-PR2-PICK-PLACE-DEMO", &[], ""),
     row("CRAM-BEGINNER-TUTORIAL", &["TUT"], ""),
 ];
 
