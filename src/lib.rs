@@ -6,6 +6,7 @@ pub mod command;
 pub mod designator;
 pub mod dialogue;
 pub mod lisp;
+pub mod manual;
 pub mod motion;
 pub mod perception;
 pub mod plan;

@@ -86,6 +86,8 @@ pub(super) enum Command {
         #[arg(value_name = "FILE", required = true)]
         files: Vec<PathBuf>,
     },
+    /// Print the reference manual in Markdown
+    Reference,
     /// Print a completion script for a shell
     Completions {
         /// The shell

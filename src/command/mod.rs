@@ -13,6 +13,7 @@ mod failure;
 mod open;
 mod paint;
 mod pipe;
+mod reference;
 mod replay;
 mod run;
 
@@ -72,6 +73,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
             replay::replay(options, &files, bless, jobs)
         }
         Some(Command::Check { files }) => check::check(options, &files),
+        Some(Command::Reference) => reference::print(),
         Some(Command::Completions { shell }) => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "planwright", &mut script);

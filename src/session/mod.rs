@@ -18,6 +18,7 @@ use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::package::PackageTable;
 use crate::lisp::value::Value;
+use crate::manual;
 use crate::plan::{Evaluation, Scheduler};
 use live_host::LiveHost;
 use simulation::Simulation;
@@ -77,6 +78,15 @@ impl Session {
                     .map(|example| (image.name(*sym).to_owned(), *example))
             })
             .collect()
+    }
+
+    /// The reference manual in Markdown.
+    pub fn reference(&self) -> String {
+        manual::markdown(&manual::Sources {
+            image: &self.image,
+            objects: self.simulation.object_types(),
+            grasps: self.simulation.grasp_library(),
+        })
     }
 
     /// The robot in its world.

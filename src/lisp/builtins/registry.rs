@@ -44,6 +44,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     files::TABLE,
     fill_pointers::TABLE,
     hash_tables::TABLE,
+    help::TABLE,
     packages::TABLE,
     streams::TABLE,
     symbols::TABLE,

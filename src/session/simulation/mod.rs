@@ -27,6 +27,7 @@ use crate::motion::{Motion, ProcessModule};
 use crate::plan::Ticket;
 use crate::spatial::Pose;
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
+use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
 
 use pace::Pace;
@@ -135,6 +136,16 @@ impl Simulation {
     /// The world.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// The types of objects that can be spawned.
+    pub(super) fn object_types(&self) -> &ObjectLibrary {
+        &self.models.objects
+    }
+
+    /// How objects are grasped.
+    pub(super) fn grasp_library(&self) -> &GraspLibrary {
+        &self.grasps
     }
 
     /// Has a function look at the world after every step that a motion takes.

@@ -1,0 +1,406 @@
+//! Help at the prompt: `describe`, `apropos`, `apropos-list`.
+//!
+//! What is told of builtins and operators comes from their tables, of definitions of the
+//! user from what their code remembers. Nothing here runs code of the user.
+
+use super::packages;
+use super::strings::designated;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::class::{Class, ClassKind, Instance};
+use crate::lisp::function::{Body, Function};
+use crate::lisp::image::Image;
+use crate::lisp::package::{Access, PackageTable};
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::stream;
+use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
+use crate::lisp::types::type_of::type_of;
+use crate::lisp::value::Value;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// The builtins.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "DESCRIBE",
+        "object &optional stream",
+        "Writes what is known about an object: of a symbol what it means as a function, a variable and a class, with examples.",
+        &[
+            "(with-output-to-string (s) (describe :cup s)) => \":CUP: a keyword\n\"",
+            "(search \"(first list)\" (with-output-to-string (s) (describe 'first s))) => 31",
+        ],
+        describe,
+    ),
+    pure(
+        "APROPOS",
+        "text &optional package",
+        "Writes the symbols whose names contain the text, and what they mean; those of all packages, or those accessible in one.",
+        &[
+            "(with-output-to-string (*standard-output*) (apropos \"nth-v\")) => \"NTH-VALUE (macro)\n\"",
+        ],
+        apropos,
+    ),
+    pure(
+        "APROPOS-LIST",
+        "text &optional package",
+        "The symbols whose names contain the text; those of all packages, or those accessible in one.",
+        &["(apropos-list \"cdaa\" :cl) => (CDAAAR CDAADR CDAAR)"],
+        apropos_list,
+    ),
+];
+
+fn describe(image: &mut Image, args: &[Value]) -> Outcome {
+    let text = match &args[0] {
+        Value::Symbol(sym) => of_symbol(image, *sym),
+        other => of_value(image, other),
+    };
+    let to = args.get(1).cloned().unwrap_or(Value::NIL);
+    stream::fresh_line(image, &to)?;
+    stream::write(image, &to, &text)?;
+    Ok(Value::values(Vec::new()))
+}
+
+/// A value as it is read back.
+fn shown(image: &Image, value: &Value) -> String {
+    print::to_string(image, value, true)
+}
+
+fn of_symbol(image: &Image, sym: Sym) -> String {
+    let data = image.symbol(sym);
+    let value = Value::Symbol(sym);
+    if image.is_keyword(sym) {
+        return format!("{}: a keyword\n", shown(image, &value));
+    }
+    let home = match data.package {
+        None => "in no package".to_owned(),
+        Some(id) => {
+            let name = &image.packages.get(id).name;
+            match image.home_access(sym) {
+                Some(Access::External) => format!("exported from {name}"),
+                _ => format!("in {name}"),
+            }
+        }
+    };
+    let mut text = format!("{}: a symbol {home}\n", shown(image, &value));
+    text.push_str(&as_function(image, sym));
+    text.push_str(&as_variable(image, sym));
+    if let Some(class) = image.class(sym) {
+        text.push_str(&format!("\nNames a {}:\n", kind_of_class(class)));
+        text.push_str(&of_class(image, class));
+    }
+    text
+}
+
+fn as_function(image: &Image, sym: Sym) -> String {
+    let (kind, call, doc, examples): (&str, _, _, &[&str]) = match &image.symbol(sym).function {
+        FunctionCell::Unbound => return String::new(),
+        FunctionCell::Builtin => match image.operators.get(&sym) {
+            Some(operator) => (
+                operator_kind(operator.expand.is_some()),
+                call(image, sym, operator.lambda_list),
+                Some(operator.doc.to_owned()),
+                operator.examples,
+            ),
+            None => return String::new(),
+        },
+        FunctionCell::Macro(function) => {
+            let (lambda_list, doc) = of_definition(image, function);
+            ("macro", call(image, sym, &lambda_list), doc, &[])
+        }
+        FunctionCell::Function(function) => {
+            let kind = match function.as_generic() {
+                Some(_) => "generic function",
+                None => "function",
+            };
+            match (&function.body, image.builtins.get(&sym)) {
+                (Body::Native(_), Some(builtin)) => (
+                    kind,
+                    call(image, sym, builtin.lambda_list),
+                    Some(builtin.doc.to_owned()),
+                    builtin.examples,
+                ),
+                _ => {
+                    let (lambda_list, doc) = of_definition(image, function);
+                    (kind, call(image, sym, &lambda_list), doc, &[])
+                }
+            }
+        }
+    };
+    let mut text = format!("\nNames a {kind}:\n  {call}\n");
+    add_indented(&mut text, doc.as_deref());
+    if !examples.is_empty() {
+        text.push_str("Examples:\n");
+        examples
+            .iter()
+            .for_each(|example| add_indented(&mut text, Some(example)));
+    }
+    text
+}
+
+fn operator_kind(is_macro: bool) -> &'static str {
+    if is_macro {
+        "macro"
+    } else {
+        "special operator"
+    }
+}
+
+/// The shape of a call.
+fn call(image: &Image, sym: Sym, lambda_list: &str) -> String {
+    let name = image.name(sym).to_lowercase();
+    if lambda_list.is_empty() {
+        format!("({name})")
+    } else {
+        format!("({name} {lambda_list})")
+    }
+}
+
+/// Lambda list, without parentheses, and documentation of a function that the tables do
+/// not know.
+fn of_definition(image: &Image, function: &Function) -> (String, Option<String>) {
+    match &function.body {
+        Body::Closure { code, .. } => {
+            let list = print::to_string(image, &code.lambda_list, true).to_lowercase();
+            let inner = list
+                .strip_prefix('(')
+                .and_then(|rest| rest.strip_suffix(')'))
+                .unwrap_or_default();
+            (inner.to_owned(), code.doc.as_deref().map(str::to_owned))
+        }
+        Body::Generic(generic) => {
+            let parameters = generic.parameters.borrow();
+            let mut names = vec!["argument".to_owned(); parameters.required];
+            if parameters.optional > 0 {
+                names.push("&optional".to_owned());
+                names.extend(vec!["argument".to_owned(); parameters.optional]);
+            }
+            if parameters.has_rest {
+                names.extend(["&rest".to_owned(), "arguments".to_owned()]);
+            }
+            if let Some(keys) = &parameters.keys {
+                names.push("&key".to_owned());
+                names.extend(keys.iter().map(|key| image.name(*key).to_lowercase()));
+            }
+            let doc = generic.doc.borrow().as_deref().map(str::to_owned);
+            (names.join(" "), doc)
+        }
+        Body::Native(native) => {
+            let mut names = vec!["argument".to_owned(); usize::from(native.min)];
+            match native.max {
+                None => names.extend(["&rest".to_owned(), "arguments".to_owned()]),
+                Some(max) if max > native.min => {
+                    names.push("&optional".to_owned());
+                    let optional = usize::from(max - native.min);
+                    names.extend(vec!["argument".to_owned(); optional]);
+                }
+                Some(_) => {}
+            }
+            (names.join(" "), None)
+        }
+    }
+}
+
+fn as_variable(image: &Image, sym: Sym) -> String {
+    let data = image.symbol(sym);
+    let kind = match data.kind {
+        VariableKind::Constant => "constant",
+        VariableKind::Special => "special variable",
+        VariableKind::Lexical if data.value.is_unbound() => return String::new(),
+        VariableKind::Lexical => "variable",
+    };
+    let mut text = if data.value.is_unbound() {
+        format!("\nNames a {kind} without a value.\n")
+    } else {
+        format!(
+            "\nNames a {kind} with the value:\n  {}\n",
+            shown(image, &data.value)
+        )
+    };
+    add_indented(&mut text, data.variable_doc.as_deref());
+    text
+}
+
+/// Adds the lines of a text, indented.
+fn add_indented(to: &mut String, text: Option<&str>) {
+    for line in text.unwrap_or_default().lines() {
+        to.push_str("  ");
+        to.push_str(line);
+        to.push('\n');
+    }
+}
+
+fn kind_of_class(class: &Class) -> &'static str {
+    match class.kind {
+        ClassKind::Builtin => "type",
+        ClassKind::Standard => "class",
+        ClassKind::Structure => "structure",
+        ClassKind::Condition => "condition class",
+    }
+}
+
+fn of_class(image: &Image, class: &Class) -> String {
+    let mut text = String::new();
+    add_indented(&mut text, class.doc.borrow().as_deref());
+    let names = |classes: &[std::rc::Rc<Class>]| {
+        let names: Vec<String> = classes
+            .iter()
+            .map(|class| shown(image, &class.name.into()))
+            .collect();
+        names.join(", ")
+    };
+    let above = names(&class.direct_superclasses.borrow());
+    if !above.is_empty() {
+        text.push_str(&format!("  Superclasses: {above}\n"));
+    }
+    let below = names(&class.direct_subclasses.borrow());
+    if !below.is_empty() {
+        text.push_str(&format!("  Subclasses: {below}\n"));
+    }
+    let slots = class.slots.borrow();
+    if !slots.is_empty() {
+        text.push_str("  Slots:\n");
+    }
+    for slot in slots.iter() {
+        let initargs: Vec<String> = slot
+            .initargs
+            .iter()
+            .map(|sym| shown(image, &(*sym).into()))
+            .collect();
+        let name = shown(image, &slot.name.into());
+        let line = format!("    {name} {}", initargs.join(" "));
+        text.push_str(line.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+fn of_value(image: &Image, value: &Value) -> String {
+    let mut text = format!(
+        "{}: of type {}\n",
+        shown(image, value),
+        shown(image, &type_of(image, value))
+    );
+    match value {
+        Value::Instance(instance) => text.push_str(&slot_values(image, instance)),
+        Value::Class(class) => text.push_str(&of_class(image, class)),
+        Value::Function(function) => {
+            let (lambda_list, doc) = match &function.body {
+                Body::Native(native) => match image.builtins.get(&native.name) {
+                    Some(builtin) => (builtin.lambda_list.to_owned(), Some(builtin.doc.to_owned())),
+                    None => of_definition(image, function),
+                },
+                _ => of_definition(image, function),
+            };
+            text.push_str(&format!("  Arguments: ({lambda_list})\n"));
+            add_indented(&mut text, doc.as_deref());
+        }
+        Value::Package(id) => {
+            let package = image.packages.get(*id);
+            add_indented(&mut text, package.doc.as_deref());
+            if !package.nicknames.is_empty() {
+                let nicknames = package.nicknames.join(", ");
+                text.push_str(&format!("  Nicknames: {nicknames}\n"));
+            }
+            let exported = package.symbols.values().filter(|(_, external)| *external);
+            text.push_str(&format!("  Exported symbols: {}\n", exported.count()));
+        }
+        _ => {}
+    }
+    text
+}
+
+fn slot_values(image: &Image, instance: &Instance) -> String {
+    let mut text = String::new();
+    let names: Vec<Sym> = instance
+        .class()
+        .slots
+        .borrow()
+        .iter()
+        .map(|slot| slot.name)
+        .collect();
+    for name in names {
+        let value = match instance.slot(name) {
+            Some(value) if !value.is_unbound() => shown(image, &value),
+            _ => "no value".to_owned(),
+        };
+        text.push_str(&format!("  {}: {value}\n", shown(image, &name.into())));
+    }
+    text
+}
+
+/// The symbols whose names contain the text, whatever the case: by name, then by package.
+fn found(image: &Image, args: &[Value]) -> Result<Vec<Sym>, Box<Raise>> {
+    let text = designated(image, &args[0])?.to_uppercase();
+    let mut symbols: Vec<Sym> = match args.get(1) {
+        Some(package) if package.is_true() => {
+            packages::accessible(image, packages::designated(image, package)?)
+        }
+        _ => image
+            .packages
+            .ids()
+            .filter(|id| *id != PackageTable::SYSTEM && !image.packages.is_deleted(*id))
+            .flat_map(|id| {
+                image
+                    .packages
+                    .get(id)
+                    .symbols
+                    .values()
+                    .map(|(sym, _)| *sym)
+                    .collect::<Vec<_>>()
+            })
+            .collect(),
+    };
+    symbols.retain(|sym| image.name(*sym).to_uppercase().contains(&text));
+    symbols.sort_by(|a, b| {
+        let key = |sym: &Sym| (image.name(*sym), image.symbol(*sym).package, *sym);
+        key(a).cmp(&key(b))
+    });
+    symbols.dedup();
+    Ok(symbols)
+}
+
+fn apropos_list(image: &mut Image, args: &[Value]) -> Outcome {
+    let symbols = found(image, args)?;
+    Ok(Value::list(
+        symbols.into_iter().map(Value::Symbol).collect::<Vec<_>>(),
+    ))
+}
+
+fn apropos(image: &mut Image, args: &[Value]) -> Outcome {
+    let mut text = String::new();
+    for sym in found(image, args)? {
+        text.push_str(&shown(image, &sym.into()));
+        let meanings = meanings(image, sym);
+        if !meanings.is_empty() {
+            text.push_str(&format!(" ({})", meanings.join(", ")));
+        }
+        text.push('\n');
+    }
+    stream::fresh_line(image, &Value::NIL)?;
+    stream::write(image, &Value::NIL, &text)?;
+    Ok(Value::values(Vec::new()))
+}
+
+/// What a symbol means, in a word each.
+fn meanings(image: &Image, sym: Sym) -> Vec<&'static str> {
+    let data = image.symbol(sym);
+    let function = match &data.function {
+        FunctionCell::Unbound => None,
+        FunctionCell::Function(f) if f.as_generic().is_some() => Some("generic function"),
+        FunctionCell::Function(_) => Some("function"),
+        FunctionCell::Macro(_) => Some("macro"),
+        FunctionCell::Builtin => image
+            .operators
+            .get(&sym)
+            .map(|operator| operator_kind(operator.expand.is_some())),
+    };
+    let variable = match data.kind {
+        _ if image.is_keyword(sym) => None,
+        VariableKind::Constant => Some("constant"),
+        VariableKind::Special => Some("variable"),
+        VariableKind::Lexical if data.value.is_unbound() => None,
+        VariableKind::Lexical => Some("variable"),
+    };
+    let class = image.class(sym).map(|class| kind_of_class(class));
+    [function, variable, class].into_iter().flatten().collect()
+}

@@ -1,0 +1,78 @@
+//! The reference manual: Markdown made from the tables that the language itself reads.
+//!
+//! Nothing is told twice: names, lambda lists, texts and examples come from the tables of
+//! builtins and operators, the keys of designators from their schema, the failures from
+//! the classes of the image. Only the chapter on differences from Common Lisp is written
+//! by hand.
+
+mod designators;
+mod entries;
+mod failures;
+mod objects;
+
+use std::fmt::Write;
+
+use crate::lisp::image::Image;
+use crate::world::grasp_library::GraspLibrary;
+use crate::world::object_library::ObjectLibrary;
+
+const INTRODUCTION: &str = include_str!("introduction.md");
+const DIFFERENCES: &str = include_str!("differences.md");
+
+/// What the manual is made from.
+pub struct Sources<'a> {
+    /// The language, all layers installed.
+    pub image: &'a Image,
+    /// The types of objects.
+    pub objects: &'a ObjectLibrary,
+    /// How they are grasped.
+    pub grasps: &'a GraspLibrary,
+}
+
+/// The whole manual.
+pub fn markdown(sources: &Sources<'_>) -> String {
+    let mut to = String::new();
+    let packages = entries::packages(sources.image);
+    to.push_str(INTRODUCTION);
+    to.push('\n');
+    for package in &packages {
+        let count = package.entries.len();
+        line(
+            &mut to,
+            &format!(
+                "- [Package {0}](#package-{1}) ({count})",
+                package.name,
+                package.name.to_lowercase(),
+            ),
+        );
+    }
+    to.push_str(
+        "- [Actions](#actions)\n- [Motions](#motions)\n- [Failures](#failures)\n\
+         - [Objects and grasps](#objects-and-grasps)\n\n",
+    );
+    to.push_str(DIFFERENCES);
+    for package in &packages {
+        package.write(&mut to);
+    }
+    designators::write(&mut to);
+    failures::write(&mut to, sources.image);
+    objects::write(&mut to, sources.objects, sources.grasps);
+    to
+}
+
+/// Adds a line.
+fn line(to: &mut String, text: &str) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(to, "{text}");
+}
+
+/// A name for people: lower case, as code.
+fn code(name: &str) -> String {
+    format!("`{}`", name.to_lowercase())
+}
+
+/// Several names for people.
+fn codes<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let shown: Vec<String> = names.into_iter().map(code).collect();
+    shown.join(", ")
+}
