@@ -73,7 +73,9 @@ pub static TABLE: &[Builtin] = &[
         "EQUATE",
         "parent successor",
         "Says that two designators describe the same thing, the second knowing better; the second.",
-        &[],
+        &[
+            "(let ((a (desig:an object (type cup))) (b (desig:an object (type cup) (color red)))) (desig:equate a b) (eq (desig:current-desig a) b)) => T",
+        ],
         equate,
     ),
     pure(
@@ -151,7 +153,9 @@ pub static TABLE: &[Builtin] = &[
         "MERGE-DESIGNATORS",
         "designator other &rest others",
         "A designator with the properties of all; those of the first win.",
-        &[],
+        &[
+            "(desig:desig-prop-value (desig:merge-designators (desig:an object (type cup)) (desig:an object (color red))) :color) => :RED",
+        ],
         merge,
     ),
     pure(

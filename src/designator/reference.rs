@@ -29,7 +29,9 @@ pub static TABLE: &[Builtin] = &[
         "REFERENCE",
         "designator",
         "What the designator stands for: an action's plan with its arguments, a motion's command, a location's pose, what is known of a perceived object.",
-        &[],
+        &[
+            "(desig:reference (desig:an action (type parking-arms))) => (CRAM-MOBILE-PICK-PLACE-PLANS::PARKING-ARMS)",
+        ],
         |machine, args| reference(machine, &args[0], done()),
     ),
     control(

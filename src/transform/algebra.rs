@@ -24,7 +24,9 @@ pub static TABLE: &[Builtin] = &[
         "V-",
         "vector &rest vectors",
         "The first vector less the others; of one vector, its opposite.",
-        &[],
+        &[
+            "(cl-tf:v- (cl-tf:make-3d-vector 1 2 3) (cl-tf:make-3d-vector 1 1 1)) => #<3D-VECTOR (0.0d0 1.0d0 2.0d0)>",
+        ],
         |image, args| match args {
             [only] => {
                 let v = column(image, only)?;
@@ -46,7 +48,7 @@ pub static TABLE: &[Builtin] = &[
         "V-INV",
         "vector",
         "The opposite vector.",
-        &[],
+        &["(cl-tf:v-inv (cl-tf:make-3d-vector 1 2 3)) => #<3D-VECTOR (-1.0d0 -2.0d0 -3.0d0)>"],
         |image, args| Ok(vector(-column(image, &args[0])?)),
     ),
     pure(
@@ -72,7 +74,9 @@ pub static TABLE: &[Builtin] = &[
         "DOT-PRODUCT",
         "vector other",
         "The scalar product of two vectors.",
-        &[],
+        &[
+            "(cl-tf:dot-product (cl-tf:make-3d-vector 1 2 3) (cl-tf:make-3d-vector 1 2 3)) => 14.0d0",
+        ],
         |image, args| {
             let product = column(image, &args[0])?.dot(&column(image, &args[1])?);
             Ok(Value::Double(product))
@@ -82,7 +86,9 @@ pub static TABLE: &[Builtin] = &[
         "CROSS-PRODUCT",
         "vector other",
         "The vector product of two vectors.",
-        &[],
+        &[
+            "(cl-tf:cross-product (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-3d-vector 0 1 0)) => #<3D-VECTOR (0.0d0 0.0d0 1.0d0)>",
+        ],
         |image, args| {
             let product = column(image, &args[0])?.cross(&column(image, &args[1])?);
             Ok(vector(product))
@@ -92,7 +98,9 @@ pub static TABLE: &[Builtin] = &[
         "Q+",
         "quaternion &rest quaternions",
         "The sum of quaternions.",
-        &[],
+        &[
+            "(cl-tf:q+ (cl-tf:make-identity-rotation) (cl-tf:make-identity-rotation)) => #<QUATERNION (0.0d0 0.0d0 0.0d0 2.0d0)>",
+        ],
         |image, args| {
             let mut sum = [0.0; 4];
             for arg in args {
@@ -121,7 +129,9 @@ pub static TABLE: &[Builtin] = &[
         "Q-INV",
         "quaternion",
         "The quaternion of the opposite rotation.",
-        &[],
+        &[
+            "(cl-tf:q-inv (cl-tf:make-quaternion 0 0 1 0)) => #<QUATERNION (-0.0d0 -0.0d0 -1.0d0 0.0d0)>",
+        ],
         |image, args| {
             let q = hamilton(image, &args[0])?;
             Ok(quaternion(&q.try_inverse().unwrap_or(q)))
@@ -150,7 +160,9 @@ pub static TABLE: &[Builtin] = &[
         "ROTATE",
         "quaternion vector",
         "The vector rotated.",
-        &[],
+        &[
+            "(cl-tf:rotate (cl-tf:make-quaternion 0 0 1 0) (cl-tf:make-3d-vector 1 2 3)) => #<3D-VECTOR (-1.0d0 -2.0d0 3.0d0)>",
+        ],
         |image, args| {
             let rotation = argument::quaternion(image, &args[0])?.rotation();
             Ok(vector(rotation * column(image, &args[1])?))
@@ -160,7 +172,9 @@ pub static TABLE: &[Builtin] = &[
         "ANGLE-BETWEEN-QUATERNIONS",
         "quaternion other",
         "The angle between two orientations (rad, 0 to pi).",
-        &[],
+        &[
+            "(cl-tf:angle-between-quaternions (cl-tf:make-identity-rotation) (cl-tf:make-quaternion 0 0 1 0)) => 3.141592653589793d0",
+        ],
         |image, args| {
             let a = argument::quaternion(image, &args[0])?.rotation();
             let b = argument::quaternion(image, &args[1])?.rotation();

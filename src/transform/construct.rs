@@ -59,28 +59,36 @@ pub static TABLE: &[Builtin] = &[
         "MAKE-POSE",
         "origin orientation",
         "A pose in no frame.",
-        &[],
+        &[
+            "(cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) => #<POSE #<3D-VECTOR (1.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| Ok(value::pose(parts(image, args)?)),
     ),
     pure(
         "MAKE-IDENTITY-POSE",
         "",
         "The pose at the origin.",
-        &[],
+        &[
+            "(cl-tf:make-identity-pose) => #<POSE #<3D-VECTOR (0.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |_, _| Ok(value::pose(Placement::IDENTITY)),
     ),
     pure(
         "MAKE-TRANSFORM",
         "translation rotation",
         "A transform between frames that it does not name.",
-        &[],
+        &[
+            "(cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) => #<TRANSFORM #<3D-VECTOR (1.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| Ok(value::transform(parts(image, args)?)),
     ),
     pure(
         "MAKE-IDENTITY-TRANSFORM",
         "",
         "The transform that changes nothing.",
-        &[],
+        &[
+            "(cl-tf:make-identity-transform) => #<TRANSFORM #<3D-VECTOR (0.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |_, _| Ok(value::transform(Placement::IDENTITY)),
     ),
     pure(
@@ -160,14 +168,18 @@ pub static TABLE: &[Builtin] = &[
         "COPY-QUATERNION",
         "quaternion &key x y z w",
         "A quaternion with some numbers changed.",
-        &[],
+        &[
+            "(cl-tf:copy-quaternion (cl-tf:make-quaternion 0 0 1 0) :x 1 :z 0) => #<QUATERNION (1.0d0 0.0d0 0.0d0 0.0d0)>",
+        ],
         copy_quaternion,
     ),
     pure(
         "COPY-POSE",
         "pose &key origin orientation",
         "A pose with another position or orientation.",
-        &[],
+        &[
+            "(cl-tf:copy-pose (cl-tf:make-identity-pose) :origin (cl-tf:make-3d-vector 1 2 3)) => #<POSE #<3D-VECTOR (1.0d0 2.0d0 3.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| {
             let old = argument::placement(image, &args[0])?;
             let names = [image.keyword("ORIGIN"), image.keyword("ORIENTATION")];
@@ -178,7 +190,9 @@ pub static TABLE: &[Builtin] = &[
         "COPY-TRANSFORM",
         "transform &key translation rotation",
         "A transform with another translation or rotation.",
-        &[],
+        &[
+            "(cl-tf:copy-transform (cl-tf:make-identity-transform) :translation (cl-tf:make-3d-vector 1 2 3)) => #<TRANSFORM #<3D-VECTOR (1.0d0 2.0d0 3.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| {
             let old = argument::as_kind(&args[0], known::TRANSFORM)?;
             let names = [image.keyword("TRANSLATION"), image.keyword("ROTATION")];

@@ -15,7 +15,9 @@ pub static TABLE: &[Builtin] = &[
         "TRANSFORM*",
         "transform &rest transforms",
         "The product of transforms: the last is applied first.",
-        &[],
+        &[
+            "(cl-tf:transform* (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<TRANSFORM #<3D-VECTOR (2.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| {
             let mut product = argument::placement(image, &args[0])?.to_pose();
             for arg in &args[1..] {
@@ -28,14 +30,18 @@ pub static TABLE: &[Builtin] = &[
         "TRANSFORM-INV",
         "transform",
         "The transform back; of a stamped one, with its frames exchanged.",
-        &[],
+        &[
+            "(cl-tf:transform-inv (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<TRANSFORM #<3D-VECTOR (-1.0d0 0.0d0 0.0d0)> #<QUATERNION (-0.0d0 -0.0d0 -0.0d0 1.0d0)>>",
+        ],
         |_, args| invert(&args[0]),
     ),
     pure(
         "TRANSFORM-DIFF",
         "transform other",
         "The transform that leads from the second to the first.",
-        &[],
+        &[
+            "(cl-tf:transform-diff (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) (cl-tf:make-identity-transform)) => #<TRANSFORM #<3D-VECTOR (1.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| {
             let a = argument::placement(image, &args[0])?.to_pose();
             let b = argument::placement(image, &args[1])?.to_pose();
@@ -46,7 +52,9 @@ pub static TABLE: &[Builtin] = &[
         "TRANSFORM-POSE",
         "transform pose",
         "The pose carried along by the transform.",
-        &[],
+        &[
+            "(cl-tf:transform-pose (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) (cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))) => #<POSE #<3D-VECTOR (2.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| {
             let transform = argument::placement(image, &args[0])?.to_pose();
             let pose = argument::placement(image, &args[1])?.to_pose();
@@ -57,7 +65,9 @@ pub static TABLE: &[Builtin] = &[
         "TRANSFORM-POINT",
         "transform point",
         "The point carried along by the transform (m).",
-        &[],
+        &[
+            "(cl-tf:transform-point (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) (cl-tf:make-3d-vector 1 2 3)) => #<3D-VECTOR (2.0d0 2.0d0 3.0d0)>",
+        ],
         |image, args| {
             let transform = argument::placement(image, &args[0])?.to_pose();
             let point = Point3::from(argument::vector(image, &args[1])?.0);
@@ -69,28 +79,36 @@ pub static TABLE: &[Builtin] = &[
         "POSE->TRANSFORM",
         "pose",
         "The transform with a pose's position and orientation.",
-        &[],
+        &[
+            "(cl-tf:pose->transform (cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))) => #<TRANSFORM #<3D-VECTOR (1.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| Ok(value::transform(argument::placement(image, &args[0])?)),
     ),
     pure(
         "TRANSFORM->POSE",
         "transform",
         "The pose with a transform's translation and rotation.",
-        &[],
+        &[
+            "(cl-tf:transform->pose (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<POSE #<3D-VECTOR (1.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| Ok(value::pose(argument::placement(image, &args[0])?)),
     ),
     pure(
         "TO-POSE",
         "object",
         "The object as a pose.",
-        &[],
+        &[
+            "(cl-tf:to-pose (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<POSE #<3D-VECTOR (1.0d0 0.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| Ok(value::pose(argument::placement(image, &args[0])?)),
     ),
     pure(
         "TO-TRANSFORM",
         "object",
         "The object as a transform.",
-        &[],
+        &[
+            "(cl-tf:to-transform (cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))) => #<TRANSFORM #<3D-VECTOR (1.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| Ok(value::transform(argument::placement(image, &args[0])?)),
     ),
 ];

@@ -26,7 +26,9 @@ pub static TABLE: &[Builtin] = &[
         "QUATERNION->EULER",
         "quaternion &key just-values",
         "The angles (rad) about x, y and z of a quaternion: a list (:AX x :AY y :AZ z), or three values.",
-        &[],
+        &[
+            "(cl-tf:quaternion->euler (cl-tf:make-identity-rotation)) => (:AX 0.0d0 :AY 0.0d0 :AZ 0.0d0)",
+        ],
         quaternion_to_euler,
     ),
     pure(
@@ -42,7 +44,9 @@ pub static TABLE: &[Builtin] = &[
         "QUATERNION->AXIS-ANGLE",
         "quaternion",
         "The axis and the angle (rad) of a quaternion, as two values.",
-        &[],
+        &[
+            "(cl-tf:quaternion->axis-angle (cl-tf:make-quaternion 0 0 1 0)) => #<3D-VECTOR (0.0d0 0.0d0 1.0d0)> ; 3.141592653589793d0",
+        ],
         |image, args| {
             let q = argument::quaternion(image, &args[0])?.rotation();
             let length = q.imag().norm();
@@ -71,7 +75,9 @@ pub static TABLE: &[Builtin] = &[
         "QUATERNION->MATRIX",
         "quaternion",
         "The rotation matrix of a quaternion as a list of three rows.",
-        &[],
+        &[
+            "(cl-tf:quaternion->matrix (cl-tf:make-identity-rotation)) => ((1.0d0 0.0d0 0.0d0) (0.0d0 1.0d0 0.0d0) (0.0d0 0.0d0 1.0d0))",
+        ],
         |image, args| {
             let q = argument::quaternion(image, &args[0])?.rotation();
             let m = q.to_rotation_matrix();

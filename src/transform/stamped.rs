@@ -34,7 +34,9 @@ pub static TABLE: &[Builtin] = &[
         "MAKE-TRANSFORM-STAMPED",
         "frame-id child-frame-id stamp translation rotation",
         "A transform from a frame to a child frame at a time (s).",
-        &[],
+        &[
+            "(cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) => #<\"map\" \"base\" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         |image, args| {
             let placement = Placement {
                 position: argument::vector(image, &args[3])?,
@@ -63,7 +65,9 @@ pub static TABLE: &[Builtin] = &[
         "CHILD-FRAME-ID",
         "transform-stamped",
         "The child frame of a stamped transform.",
-        &[],
+        &[
+            "(cl-tf:child-frame-id (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => \"base\"",
+        ],
         |_, args| Ok(Value::string(stamped_transform(&args[0])?.child.as_ref())),
     ),
     pure(
@@ -83,7 +87,9 @@ pub static TABLE: &[Builtin] = &[
         "POSE->POSE-STAMPED",
         "frame-id stamp pose",
         "A pose put into a frame.",
-        &[],
+        &[
+            "(cl-tf:pose->pose-stamped \"map\" 0.0 (cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))) => #<\"map\" ((1.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         |image, args| {
             let placement = argument::placement(image, &args[2])?;
             let frame = argument::frame(&args[0])?;
@@ -94,7 +100,9 @@ pub static TABLE: &[Builtin] = &[
         "TRANSFORM->TRANSFORM-STAMPED",
         "frame-id child-frame-id stamp transform",
         "A transform put between frames.",
-        &[],
+        &[
+            "(cl-tf:transform->transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-transform (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<\"map\" \"base\" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         |image, args| {
             let placement = argument::placement(image, &args[3])?;
             let (frame, child) = (argument::frame(&args[0])?, argument::frame(&args[1])?);
@@ -108,21 +116,27 @@ pub static TABLE: &[Builtin] = &[
         "POSE-STAMPED->POSE",
         "pose-stamped",
         "The pose without its frame.",
-        &[],
+        &[
+            "(cl-tf:pose-stamped->pose (cl-tf:make-pose-stamped \"map\" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))) => #<POSE #<3D-VECTOR (1.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |_, args| Ok(value::pose(stamped_pose(&args[0])?.placement)),
     ),
     pure(
         "COPY-POSE-STAMPED",
         "pose-stamped &key frame-id stamp origin orientation",
         "A stamped pose with some parts changed.",
-        &[],
+        &[
+            "(cl-tf:copy-pose-stamped (cl-tf:make-pose-stamped \"map\" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) :frame-id \"base\") => #<\"base\" ((1.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         copy_pose_stamped,
     ),
     pure(
         "COPY-TRANSFORM-STAMPED",
         "transform-stamped &key frame-id child-frame-id stamp translation rotation",
         "A stamped transform with some parts changed.",
-        &[],
+        &[
+            "(cl-tf:copy-transform-stamped (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) :child-frame-id \"torso\") => #<\"map\" \"torso\" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         copy_transform_stamped,
     ),
 ];
@@ -142,7 +156,9 @@ pub static CRAM_TABLE: &[Builtin] = &[
         "POSE->FLAT-LIST",
         "pose",
         "Position and orientation as (x y z x y z w).",
-        &[],
+        &[
+            "(cram-tf:pose->flat-list (cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))) => (1.0d0 2.0d0 0.0d0 0.0d0 0.0d0 0.0d0 1.0d0)",
+        ],
         |image, args| {
             let placement = argument::placement(image, &args[0])?;
             let numbers = placement.position.0.iter().chain(&placement.orientation.0);
@@ -155,21 +171,27 @@ pub static CRAM_TABLE: &[Builtin] = &[
         "LIST->POSE",
         "list",
         "The pose of a list ((x y z) (x y z w)).",
-        &[],
+        &[
+            "(cram-tf:list->pose '((1 2 0) (0 0 0 1))) => #<POSE #<3D-VECTOR (1.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| Ok(value::pose(argument::placement_list(image, &args[0])?)),
     ),
     pure(
         "LIST->TRANSFORM",
         "list",
         "The transform of a list ((x y z) (x y z w)).",
-        &[],
+        &[
+            "(cram-tf:list->transform '((1 2 0) (0 0 0 1))) => #<TRANSFORM #<3D-VECTOR (1.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| Ok(value::transform(argument::placement_list(image, &args[0])?)),
     ),
     pure(
         "POSE->TRANSFORM-STAMPED",
         "parent-frame child-frame stamp pose",
         "The transform between two frames that a pose says.",
-        &[],
+        &[
+            "(cram-tf:pose->transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-pose (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))) => #<\"map\" \"base\" ((1.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         |image, args| {
             let placement = argument::placement(image, &args[3])?;
             let (frame, child) = (argument::frame(&args[0])?, argument::frame(&args[1])?);
@@ -183,7 +205,9 @@ pub static CRAM_TABLE: &[Builtin] = &[
         "POSE-STAMPED->TRANSFORM-STAMPED",
         "pose-stamped child-frame",
         "The transform from the pose's frame to a child frame that stands in the pose.",
-        &[],
+        &[
+            "(cram-tf:pose-stamped->transform-stamped (cl-tf:make-pose-stamped \"map\" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) \"base\") => #<\"map\" \"base\" ((1.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         |_, args| {
             let pose = stamped_pose(&args[0])?;
             let child = argument::frame(&args[1])?;
@@ -199,7 +223,9 @@ pub static CRAM_TABLE: &[Builtin] = &[
         "TRANSFORM-STAMPED->POSE-STAMPED",
         "transform-stamped",
         "The pose of the child frame.",
-        &[],
+        &[
+            "(cram-tf:transform-stamped->pose-stamped (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<\"map\" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         |_, args| {
             let t = stamped_transform(&args[0])?;
             Ok(value::pose_stamped_at(&t.frame, t.stamp, t.placement))
@@ -209,7 +235,9 @@ pub static CRAM_TABLE: &[Builtin] = &[
         "STRIP-TRANSFORM-STAMPED",
         "transform-stamped",
         "The pose of the child frame in its frame.",
-        &[],
+        &[
+            "(cram-tf:strip-transform-stamped (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<\"map\" ((1.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         |_, args| {
             let t = stamped_transform(&args[0])?;
             Ok(value::pose_stamped_at(&t.frame, t.stamp, t.placement))
@@ -219,7 +247,9 @@ pub static CRAM_TABLE: &[Builtin] = &[
         "TRANSFORM-STAMPED-INV",
         "transform-stamped",
         "The transform back, with the frames exchanged.",
-        &[],
+        &[
+            "(cram-tf:transform-stamped-inv (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<\"base\" \"map\" ((-1.00000 0.00000 0.00000) (-0.00000 -0.00000 -0.00000 1.00000))>",
+        ],
         |_, args| {
             stamped_transform(&args[0])?;
             pose_functions::invert(&args[0])
@@ -243,28 +273,36 @@ pub static CRAM_TABLE: &[Builtin] = &[
         "TRANSLATE-POSE",
         "pose &key x-offset y-offset z-offset",
         "The pose moved along the axes of its frame (m).",
-        &[],
+        &[
+            "(cram-tf:translate-pose (cl-tf:make-pose-stamped \"map\" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) :x-offset 1) => #<\"map\" ((2.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         translate_pose,
     ),
     pure(
         "ROTATE-POSE",
         "pose axis angle",
         "The pose turned about one of its own axes :X :Y :Z by an angle (rad).",
-        &[],
+        &[
+            "(cram-tf:rotate-pose (cl-tf:make-pose-stamped \"map\" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) :z 0) => #<\"map\" ((1.00000 2.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         rotate_pose,
     ),
     pure(
         "TRANSLATE-TRANSFORM-STAMPED",
         "transform-stamped &key x-offset y-offset z-offset",
         "The transform moved along the axes of its frame (m).",
-        &[],
+        &[
+            "(cram-tf:translate-transform-stamped (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) :z-offset 1) => #<\"map\" \"base\" ((1.00000 0.00000 1.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         translate_pose,
     ),
     pure(
         "POSES-EQUAL-P",
         "pose other position-threshold angle-threshold",
         "Are two poses within a distance (m) and an angle (rad) of each other, in the same frame?",
-        &[],
+        &[
+            "(cram-tf:poses-equal-p (cl-tf:make-pose-stamped \"map\" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) (cl-tf:make-pose-stamped \"map\" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation)) 0.01 0.01) => T",
+        ],
         |image, args| {
             let same_frame = value::frame_of(&args[0]) == value::frame_of(&args[1]);
             let a = argument::placement(image, &args[0])?.to_pose();

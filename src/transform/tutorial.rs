@@ -24,7 +24,9 @@ pub static TABLE: &[Builtin] = &[
         "INVERSE-TRANSFORMATION",
         "transform",
         "The transform back.",
-        &[],
+        &[
+            "(pp-tut:inverse-transformation (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<TRANSFORM #<3D-VECTOR (-1.0d0 0.0d0 0.0d0)> #<QUATERNION (-0.0d0 -0.0d0 -0.0d0 1.0d0)>>",
+        ],
         |_, args| {
             let transform = argument::as_kind(&args[0], known::TRANSFORM)?;
             let inverse = transform.to_pose().inverse();
@@ -35,7 +37,9 @@ pub static TABLE: &[Builtin] = &[
         "APPLY-TRANSFORMATION",
         "transform pose",
         "The pose carried along by the transform; frames are not compared.",
-        &[],
+        &[
+            "(pp-tut:apply-transformation (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) (cl-tf:make-pose-stamped \"map\" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))) => #<POSE #<3D-VECTOR (2.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
+        ],
         |image, args| {
             let transform = argument::as_kind(&args[0], known::TRANSFORM)?;
             let pose = argument::placement(image, &args[1])?;

@@ -65,7 +65,9 @@ pub static TABLE: &[Builtin] = &[
         "UNBOUND-SLOT-INSTANCE",
         "condition",
         "The instance whose slot has no value.",
-        &[],
+        &[
+            "(progn (defclass crate () (load)) (handler-case (slot-value (make-instance 'crate) 'load) (unbound-slot (c) (type-of (unbound-slot-instance c))))) => CRATE",
+        ],
         |_, args| read(args, known::UNBOUND_SLOT, known::INSTANCE),
     ),
     pure(
@@ -86,21 +88,27 @@ pub static TABLE: &[Builtin] = &[
         "PACKAGE-ERROR-PACKAGE",
         "condition",
         "The package, or its name, that an error is about.",
-        &[],
+        &[
+            "(handler-case (in-package :nowhere) (package-error (c) (package-error-package c))) => :NOWHERE",
+        ],
         |_, args| read(args, known::PACKAGE_ERROR, known::PACKAGE),
     ),
     pure(
         "STREAM-ERROR-STREAM",
         "condition",
         "The stream that an error is about.",
-        &[],
+        &[
+            "(handler-case (read-char (make-string-input-stream \"\")) (end-of-file (c) (streamp (stream-error-stream c)))) => T",
+        ],
         |_, args| read(args, known::STREAM_ERROR, known::STREAM),
     ),
     pure(
         "FILE-ERROR-PATHNAME",
         "condition",
         "The file that an error is about.",
-        &[],
+        &[
+            "(handler-case (open \"no-such-file\") (file-error (c) (file-error-pathname c))) => \"no-such-file\"",
+        ],
         |_, args| read(args, known::FILE_ERROR, known::PATHNAME),
     ),
     pure(

@@ -25,7 +25,9 @@ pub static TABLE: &[Builtin] = &[
         "NO-APPLICABLE-METHOD",
         "generic-function &rest arguments",
         "Called when no method of a generic function applies. Add methods to do something else.",
-        &[],
+        &[
+            "(progn (defgeneric weigh (x)) (defmethod no-applicable-method ((g (eql #'weigh)) &rest args) (list :cannot args)) (weigh 1)) => (:CANNOT (1))",
+        ],
         |machine, args| {
             let function = args[0].clone();
             let rest = args[1..].to_vec();
@@ -63,7 +65,9 @@ pub static TABLE: &[Builtin] = &[
         "REMOVE-METHOD",
         "generic-function method",
         "Removes a method from a generic function, which is returned.",
-        &[],
+        &[
+            "(progn (defgeneric lift (x)) (let ((m (defmethod lift ((x integer)) x))) (remove-method #'lift m) (find-method #'lift '() (list (find-class 'integer)) nil))) => NIL",
+        ],
         |_, args| {
             let function = generic_argument(&args[0])?;
             if let Some(generic) = function.as_generic() {
@@ -154,7 +158,7 @@ pub static OPERATORS: &[Operator] = &[
         name: "DEFMETHOD",
         lambda_list: "name &rest qualifiers lambda-list &body body",
         doc: "Defines a method. Required parameters may be (name class) or (name (eql form)); qualifiers are :before, :after, :around or the operator of the method combination.",
-        examples: &["(progn (defmethod twice ((x integer)) (* 2 x)) (twice 21)) => 42"],
+        examples: &["(progn (defmethod doubled ((x integer)) (* 2 x)) (doubled 21)) => 42"],
         expand: Some(defmethod::expand_defmethod),
     },
     Operator {

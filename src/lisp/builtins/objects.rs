@@ -29,14 +29,18 @@ pub static TABLE: &[Builtin] = &[
         "ALLOCATE-INSTANCE",
         "class &rest initargs",
         "Makes an instance whose slots have no values.",
-        &[],
+        &[
+            "(progn (defclass tray () ((load :initform 1))) (slot-boundp (allocate-instance (find-class 'tray)) 'load)) => NIL",
+        ],
         instance::allocate_instance,
     ),
     control(
         "INITIALIZE-INSTANCE",
         "instance &rest initargs",
         "Gives the slots of a new instance their values. Add methods to do more.",
-        &[],
+        &[
+            "(progn (defclass lamp () ((lit :initarg :lit))) (defmethod initialize-instance :after ((x lamp) &key) (setf (slot-value x 'lit) :off)) (slot-value (make-instance 'lamp :lit :on) 'lit)) => :OFF",
+        ],
         instance::initialize_instance,
     ),
     control(
@@ -75,7 +79,9 @@ pub static TABLE: &[Builtin] = &[
         "SLOT-MAKUNBOUND",
         "object slot-name",
         "Takes the value of a slot away; returns the object.",
-        &[],
+        &[
+            "(progn (defclass jar () ((lid :initform 1))) (slot-boundp (slot-makunbound (make-instance 'jar) 'lid) 'lid)) => NIL",
+        ],
         |machine, args| access::slot_makunbound(machine, &args[0], &args[1]),
     ),
     pure(
@@ -130,7 +136,9 @@ pub static TABLE: &[Builtin] = &[
         "CHANGE-CLASS",
         "instance new-class &rest initargs",
         "Makes an instance one of another class; slots of the same name keep their values.",
-        &[],
+        &[
+            "(progn (defclass raw () ((mass :initform 2))) (defclass cooked () (mass)) (slot-value (change-class (make-instance 'raw) 'cooked) 'mass)) => 2",
+        ],
         change_class,
     ),
     control(

@@ -31,7 +31,9 @@ pub static TABLE: &[Builtin] = &[
         "READ-PRESERVING-WHITESPACE",
         "&optional stream eof-error-p eof-value recursive-p",
         "Like READ, without reading the blank after the form.",
-        &[],
+        &[
+            "(with-input-from-string (s \"a b\") (list (read-preserving-whitespace s) (read-char s) (read s))) => (A #\\  B)",
+        ],
         |m, args| read(m, &args, true),
     ),
     control(

@@ -252,44 +252,6 @@ fn unintern(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(found.into())
 }
 
-/// Symbols whose names contain a text, in order of their names.
-fn apropos_symbols(image: &Image, args: &[Value]) -> Result<Vec<Sym>, Box<Raise>> {
-    let text = designated(image, &args[0])?.to_uppercase();
-    let packages: Vec<_> = match args.get(1).filter(|p| p.is_true()) {
-        Some(package) => vec![super::packages::designated(image, package)?],
-        None => image.packages.ids().collect(),
-    };
-    let mut found: Vec<Sym> = Vec::new();
-    for id in packages {
-        found.extend(super::packages::accessible(image, id));
-    }
-    found.retain(|sym| image.name(*sym).to_uppercase().contains(&text));
-    found.sort_by(|a, b| (image.name(*a), a).cmp(&(image.name(*b), b)));
-    found.dedup();
-    Ok(found)
-}
-
-fn apropos_list(image: &mut Image, args: &[Value]) -> Outcome {
-    let found = apropos_symbols(image, args)?;
-    Ok(Value::list(found.into_iter().map(Value::Symbol)))
-}
-
-fn apropos(image: &mut Image, args: &[Value]) -> Outcome {
-    for sym in apropos_symbols(image, args)? {
-        let data = image.symbol(sym);
-        let mut line = super::shown::shown(image, &sym.into());
-        if !data.value.is_unbound() {
-            line.push_str(" (bound)");
-        }
-        if !matches!(data.function, FunctionCell::Unbound) {
-            line.push_str(" (fbound)");
-        }
-        line.push('\n');
-        crate::lisp::stream::write(image, &Value::NIL, &line)?;
-    }
-    Ok(Value::values(Vec::new()))
-}
-
 /// Symbols.
 pub static TABLE: &[Builtin] = &[
     pure(
@@ -424,7 +386,7 @@ pub static TABLE: &[Builtin] = &[
         "INTERN",
         "name &optional package",
         "The symbol of a name, made if need be, and how it was accessible.",
-        &["(intern \"CAR\") => CAR ; :INHERITED"],
+        &["(intern \"SVREF\") => SVREF ; :INHERITED"],
         intern,
     ),
     pure(
@@ -440,20 +402,6 @@ pub static TABLE: &[Builtin] = &[
         "Takes a symbol out of a package; was it there?",
         &["(unintern (make-symbol \"X\")) => NIL"],
         unintern,
-    ),
-    pure(
-        "APROPOS-LIST",
-        "text &optional package",
-        "The symbols whose names contain a text.",
-        &["(apropos-list \"CADDDR\") => (CADDDR)"],
-        apropos_list,
-    ),
-    pure(
-        "APROPOS",
-        "text &optional package",
-        "Prints the symbols whose names contain a text.",
-        &["(apropos \"no symbol has this in its name\") => "],
-        apropos,
     ),
 ];
 

@@ -70,36 +70,76 @@ pub static TABLE: &[Builtin] = &[
         ],
         value_changed,
     ),
-    control("FL+", "&rest numbers", "As CPL:+.", &[], |m, a| {
-        pure(m, "FN-FL+", add, a)
-    }),
-    control("FL-", "number &rest numbers", "As CPL:-.", &[], |m, a| {
-        pure(m, "FN-FL-", subtract, a)
-    }),
-    control("FL*", "&rest numbers", "As CPL:*.", &[], |m, a| {
-        pure(m, "FN-FL*", multiply, a)
-    }),
-    control("FL/", "number &rest numbers", "As CPL:/.", &[], |m, a| {
-        pure(m, "FN-FL/", divide, a)
-    }),
-    control("FL<", "number &rest numbers", "As CPL:<.", &[], |m, a| {
-        pure(m, "FN-FL<", less, a)
-    }),
-    control("FL>", "number &rest numbers", "As CPL:>.", &[], |m, a| {
-        pure(m, "FN-FL>", greater, a)
-    }),
-    control("FL=", "number &rest numbers", "As CPL:=.", &[], |m, a| {
-        pure(m, "FN-FL=", equal, a)
-    }),
-    control("FL-EQ", "a b", "As CPL:EQ.", &[], |m, a| {
-        pure(m, "FN-FL-EQ", eq, a)
-    }),
-    control("FL-EQL", "a b", "As CPL:EQL.", &[], |m, a| {
-        pure(m, "FN-FL-EQL", eql, a)
-    }),
-    control("FL-NOT", "object", "As CPL:NOT.", &[], |m, a| {
-        pure(m, "FN-FL-NOT", not, a)
-    }),
+    control(
+        "FL+",
+        "&rest numbers",
+        "As CPL:+.",
+        &["(cpl:value (cpl:fl+ (cpl:make-fluent :value 1) 2)) => 3"],
+        |m, a| pure(m, "FN-FL+", add, a),
+    ),
+    control(
+        "FL-",
+        "number &rest numbers",
+        "As CPL:-.",
+        &["(cpl:value (cpl:fl- (cpl:make-fluent :value 1) 2)) => -1"],
+        |m, a| pure(m, "FN-FL-", subtract, a),
+    ),
+    control(
+        "FL*",
+        "&rest numbers",
+        "As CPL:*.",
+        &["(cpl:value (cpl:fl* (cpl:make-fluent :value 3) 2)) => 6"],
+        |m, a| pure(m, "FN-FL*", multiply, a),
+    ),
+    control(
+        "FL/",
+        "number &rest numbers",
+        "As CPL:/.",
+        &["(cpl:value (cpl:fl/ (cpl:make-fluent :value 6) 2)) => 3"],
+        |m, a| pure(m, "FN-FL/", divide, a),
+    ),
+    control(
+        "FL<",
+        "number &rest numbers",
+        "As CPL:<.",
+        &["(cpl:value (cpl:fl< (cpl:make-fluent :value 1) 2)) => T"],
+        |m, a| pure(m, "FN-FL<", less, a),
+    ),
+    control(
+        "FL>",
+        "number &rest numbers",
+        "As CPL:>.",
+        &["(cpl:value (cpl:fl> (cpl:make-fluent :value 1) 2)) => NIL"],
+        |m, a| pure(m, "FN-FL>", greater, a),
+    ),
+    control(
+        "FL=",
+        "number &rest numbers",
+        "As CPL:=.",
+        &["(cpl:value (cpl:fl= (cpl:make-fluent :value 2) 2)) => T"],
+        |m, a| pure(m, "FN-FL=", equal, a),
+    ),
+    control(
+        "FL-EQ",
+        "a b",
+        "As CPL:EQ.",
+        &["(cpl:value (cpl:fl-eq (cpl:make-fluent :value 'a) 'a)) => T"],
+        |m, a| pure(m, "FN-FL-EQ", eq, a),
+    ),
+    control(
+        "FL-EQL",
+        "a b",
+        "As CPL:EQL.",
+        &["(cpl:value (cpl:fl-eql (cpl:make-fluent :value 2) 2)) => T"],
+        |m, a| pure(m, "FN-FL-EQL", eql, a),
+    ),
+    control(
+        "FL-NOT",
+        "object",
+        "As CPL:NOT.",
+        &["(cpl:value (cpl:fl-not (cpl:make-fluent :value t))) => NIL"],
+        |m, a| pure(m, "FN-FL-NOT", not, a),
+    ),
     control(
         "FL-MEMBER",
         "item list",

@@ -38,7 +38,9 @@ pub static TABLE: &[Builtin] = &[
         "TASK-PATH",
         "task",
         "A task's path in the task tree, innermost part first.",
-        &["(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-path a))) => ((TAGGED A))"],
+        &[
+            "(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:task-path a))) => ((CRAM-LANGUAGE-IMPLEMENTATION:TAGGED A))",
+        ],
         |image, args| Ok(task(image, &args[0])?.get().node.path.clone()),
     ),
     pure(

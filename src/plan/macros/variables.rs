@@ -21,7 +21,7 @@ pub static OPERATORS: &[Operator] = &[
         "name &optional value doc &key type init-function",
         "Defines a variable that each task binds anew: to the value in the task that starts it, or to what a function of the task, its parent and that value returns.",
         &[
-            "(progn (cpl:define-task-variable *depth* 0) (cpl:top-level (setf *depth* 1)) *depth*) => 0",
+            "(progn (cpl:define-task-variable *my-depth* 0) (cpl:top-level (setf *my-depth* 1)) *my-depth*) => 0",
         ],
         define_task_variable,
     ),

@@ -27,7 +27,9 @@ pub static TABLE: &[Builtin] = &[
         "SPAWN-OBJECT",
         "name type &key pose color mass",
         "Puts an object of a type into the world.",
-        &[],
+        &[
+            "(progn (pp-tut:init-projection) (btr-utils:spawn-object 'cup-1 :cup :pose '((1.4 0.6 0.9) (0 0 0 1))) (btr-utils:object-exists 'cup-1)) => T",
+        ],
         host!(spawn_keyword),
     ),
     control(
@@ -41,7 +43,7 @@ pub static TABLE: &[Builtin] = &[
         "KILL-ALL-OBJECTS",
         "",
         "Removes all objects.",
-        &[],
+        &["(btr-utils:kill-all-objects) => NIL"],
         host!(kill_all_objects),
     ),
     control(
@@ -62,7 +64,7 @@ pub static TABLE: &[Builtin] = &[
         "OBJECT-EXISTS",
         "name",
         "Is there an object of that name?",
-        &[],
+        &["(progn (btr-utils:kill-all-objects) (btr-utils:object-exists 'cup-1)) => NIL"],
         host!(object_exists),
     ),
     control(

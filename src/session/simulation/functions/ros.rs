@@ -35,7 +35,7 @@ pub static UTILITIES_TABLE: &[Builtin] = &[
         "STARTUP-ROS",
         "&rest options",
         "Nothing to start: the robot is here already. Takes the world back to its start.",
-        &[],
+        &["(roslisp-utilities:startup-ros) => NIL"],
         host!(startup_ros),
     ),
     control(

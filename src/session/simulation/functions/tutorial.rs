@@ -26,28 +26,30 @@ pub static TABLE: &[Builtin] = &[
         "INIT-PROJECTION",
         "",
         "Takes the world back to its start: no objects, the robot at the origin with its arms tucked.",
-        &[],
+        &["(pp-tut:init-projection) => T"],
         host!(init_projection),
     ),
     control(
         "SPAWN-OBJECT",
         "pose &optional type name color",
         "Puts an object (a red bottle named BOTTLE-1 unless told) into the world and lets it come to rest. An object of that name is moved.",
-        &[],
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr-utils:object-exists 'bottle-1)) => T",
+        ],
         host!(spawn_object),
     ),
     control(
         "LIST-AVAILABLE-OBJECTS",
         "",
         "The types of objects that can be spawned.",
-        &[],
+        &["(first (pp-tut:list-available-objects)) => :TRAY"],
         host!(list_available_objects),
     ),
     control(
         "LIST-DEFINED-GRASPS",
         "type",
         "The grasps that are defined for a type of objects.",
-        &[],
+        &["(pp-tut:list-defined-grasps :cup) => (:BACK :FRONT :LEFT-SIDE :RIGHT-SIDE)"],
         host!(list_defined_grasps),
     ),
     control(
@@ -68,14 +70,16 @@ pub static TABLE: &[Builtin] = &[
         "MOVE-KITCHEN-JOINT",
         "&key joint-name joint-angle kitchen-name",
         "Opens or closes a drawer or a door.",
-        &[],
+        &["(pp-tut:move-kitchen-joint) => NIL"],
         host!(move_kitchen_joint),
     ),
     control(
         "GET-ROBOT-TRANSFORMATION",
         "",
         "The transform from the map to the robot's base.",
-        &[],
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:get-robot-transformation)) => #<\"map\" \"base_footprint\" ((0.00000 0.00000 0.00000) (0.00000 0.00000 0.00000 1.00000))>",
+        ],
         host!(get_robot_transformation),
     ),
     control(
