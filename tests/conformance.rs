@@ -20,7 +20,6 @@ const FOLDERS: [(&str, &str); 3] = [
 type Place = String;
 
 #[test]
-#[ignore = "waits for the session"]
 fn only_known_entries_differ() {
     let transcripts: Vec<Transcript> = FOLDERS
         .iter()
