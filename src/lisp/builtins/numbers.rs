@@ -221,9 +221,9 @@ pub static TABLE: &[Builtin] = &[
     pure(
         "COMPLEXP",
         "object",
-        "Is the object a complex number? There are none.",
-        &["(complexp 1) => NIL"],
-        |_, _| Ok(Value::NIL),
+        "Is the object a complex number that is not real?",
+        &["(complexp #c(1 2)) => T", "(complexp 1) => NIL"],
+        |_, args| Ok(Value::bool(number::is_complex(&args[0]))),
     ),
     pure(
         "FLOOR",
