@@ -95,6 +95,8 @@ impl Output {
     }
 }
 
+/// The stream of the random generator: any constant does.
+const STREAM: u128 = 0xa02b_dbf7_bb3c_0a7a;
 /// Conditions whose places are remembered.
 const REMEMBERED_PLACES: usize = 64;
 /// Bytes of the Rust stack that the compiler may use unless told otherwise: a test's
@@ -120,7 +122,7 @@ impl Image {
             types: IndexMap::new(),
             sources: Sources::default(),
             output: Output::default(),
-            random: rand_pcg::Pcg64::new(0xcafe_f00d_d15e_a5e5, 0xa02b_dbf7_bb3c_0a7a),
+            random: rand_pcg::Pcg64::new(0, STREAM),
             setf_expanders: IndexMap::new(),
             interrupt: Arc::default(),
             stack_budget: STACK_BUDGET,
@@ -131,6 +133,11 @@ impl Image {
             builtins: IndexMap::new(),
             operators: IndexMap::new(),
         }
+    }
+
+    /// Seeds `random`.
+    pub fn seed(&mut self, seed: u64) {
+        self.random = rand_pcg::Pcg64::new(u128::from(seed), STREAM);
     }
 
     /// A number that no block or tagbody had before.
