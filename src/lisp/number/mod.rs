@@ -38,7 +38,7 @@ pub use division::{
 };
 pub use float_parts::{decode, digits, integer_decode, precision, scale, sign_of};
 pub use power::{expt, gcd, isqrt, lcm, sqrt};
-pub use random::random;
+pub use random::{RandomState, make_random_state, random, random_from};
 pub use ratio::Ratio;
 pub use transcendental::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, exp, log, log_base, sin, sinh, tan,
