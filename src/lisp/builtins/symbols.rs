@@ -452,7 +452,7 @@ pub static TABLE: &[Builtin] = &[
         "APROPOS",
         "text &optional package",
         "Prints the symbols whose names contain a text.",
-        &["(apropos \"no symbol has this in its name\") => "],
+        &["(apropos \"no symbol has this in its name\") => ; No value"],
         apropos,
     ),
 ];
