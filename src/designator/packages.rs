@@ -203,8 +203,8 @@ pub static PACKAGES: &[PackageRow] = &[
     row("QUICKLISP-CLIENT", &["QL", "QUICKLISP"], "QUICKLOAD"),
     row("SWANK", &[], ""),
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
-    row("CRAM-PR2-PICK-PLACE-DEMO", &["DEMO"], ""),
-    row("CRAM-BEGINNER-TUTORIAL", &["TUT"], ""),
+    row("CRAM-PR2-PICK-PLACE-DEMO", &[], ""),
+    row("CRAM-BEGINNER-TUTORIAL", &[], ""),
 ];
 
 /// Packages that inherit from others than `COMMON-LISP`.
