@@ -213,6 +213,7 @@ const USES: &[(&str, &[&str])] = &[
         "CRAM-PICK-PLACE-TUTORIAL",
         &["CRAM-PROLOG", "CRAM-COMMON-FAILURES"],
     ),
+    ("CRAM-MOBILE-PICK-PLACE-PLANS", &["CRAM-COMMON-FAILURES"]),
     ("CRAM-BULLET-WORLD-TUTORIAL", &["CRAM-PROLOG"]),
 ];
 
@@ -226,6 +227,18 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
     ),
     (
         "CRAM-PICK-PLACE-TUTORIAL",
+        "CRAM-EXECUTIVE",
+        "PERFORM",
+        false,
+    ),
+    (
+        "CRAM-MOBILE-PICK-PLACE-PLANS",
+        "CRAM-DESIGNATORS",
+        "A AN ALL DESIG-PROP-VALUE CURRENT-DESIG",
+        false,
+    ),
+    (
+        "CRAM-MOBILE-PICK-PLACE-PLANS",
         "CRAM-EXECUTIVE",
         "PERFORM",
         false,

@@ -3,7 +3,7 @@
 
 use std::any::Any;
 
-use super::TaskId;
+use super::task::TaskId;
 use crate::lisp::image::Image;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;

@@ -1,37 +1,29 @@
-//! stub
+//! CRAM's plan language: tasks that run in parallel, fluents that they wait for, failures
+//! and how plans handle them.
+//!
+//! [`install`] brings the language into an image; a [`Scheduler`] runs what uses it. The
+//! layer knows nothing of robots: what a task asks of the world is a request that the
+//! scheduler hands to its [`Host`].
+
+pub mod builtins;
+mod failure_table;
+mod fluent;
 pub mod host;
-use crate::lisp::{Image, Value};
-pub use host::*;
-/// x
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct TaskId(pub u64);
-/// x
-pub enum Evaluation {
-    /// x
-    Values(Vec<Value>),
-    /// x
-    Unhandled(Value),
-    /// x
-    Interrupted,
-}
-/// x
-pub struct Scheduler;
-impl Scheduler {
-    /// x
-    pub fn new() -> Self {
-        Scheduler
-    }
-    /// x
-    pub fn evaluate(
-        &mut self,
-        _image: &mut Image,
-        _host: &mut dyn Host,
-        _form: &Value,
-    ) -> Evaluation {
-        Evaluation::Interrupted
-    }
-    /// x
-    pub fn abort(&mut self, _image: &mut Image, _host: &mut dyn Host) {}
-}
-/// x
-pub fn install(_: &mut Image) {}
+mod install;
+mod macros;
+mod names;
+pub mod package;
+mod request;
+mod scheduler;
+mod state;
+mod step;
+mod task;
+mod tree;
+
+pub use fluent::{Fluent, FluentRef};
+pub use host::{Advance, Host, NullHost, Outcome, Reply, Ticket};
+pub use install::install;
+pub use scheduler::{Evaluation, Scheduler, TaskInfo};
+pub use state::Plan;
+pub use task::{Status, Task, TaskId, TaskName, TaskRef};
+pub use tree::{NodeObject, TreeNode};
