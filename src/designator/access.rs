@@ -283,29 +283,17 @@ fn prop_value(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(values.car_or_nil())
 }
 
-fn prop_values(image: &mut Image, args: &[Value]) -> Result<Value> {
+fn prop_values(_: &mut Image, args: &[Value]) -> Result<Value> {
     let Some(designator) = value::as_designator(&args[0]) else {
         return Ok(Value::NIL);
     };
-    let key = same_key(image, &args[1]);
     let values = designator
         .properties()
         .into_iter()
-        .filter(|(k, _)| k.is_eql(&key) || crate::lisp::equality::equal(k, &key))
+        .filter(|(k, _)| crate::lisp::equality::equal(k, &args[1]))
         .map(|(_, values)| values.car_or_nil())
         .collect();
     Ok(list(values))
-}
-
-/// A symbol stands for its keyword, as in the forms that make designators.
-fn same_key(image: &mut Image, key: &Value) -> Value {
-    match key {
-        Value::Symbol(sym) if !key.is_nil() && !image.is_keyword(*sym) => {
-            let name = image.name(*sym).to_owned();
-            image.keyword(&name).into()
-        }
-        other => other.clone(),
-    }
 }
 
 fn equate(image: &mut Image, args: &[Value]) -> Result<Value> {

@@ -101,6 +101,20 @@ fn a_designator_prints_its_properties_line_by_line() {
 }
 
 #[test]
+fn designators_in_lists_start_on_lines_of_their_own() {
+    check(&[
+        (
+            "(list (an object (type a)) (an object (type b)) 3)",
+            "(#<A OBJECT\n    (TYPE A)>\n #<A OBJECT\n    (TYPE B)>\n 3)",
+        ),
+        (
+            "(list 1 2 (an object (type a)))",
+            "(1 2 #<A OBJECT\n    (TYPE A)>)",
+        ),
+    ]);
+}
+
+#[test]
 fn values_are_parsed_and_never_called() {
     check(&[
         (
