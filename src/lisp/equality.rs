@@ -3,6 +3,7 @@
 use std::hash::{Hash, Hasher};
 use std::rc::Rc;
 
+use super::array::Vector;
 use super::hash_table::HashTest;
 use super::value::Value;
 
@@ -56,6 +57,14 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
                     return false;
                 }
                 pending.extend(x.into_iter().zip(y));
+            }
+            (Value::Str(s), Value::Vector(v)) | (Value::Vector(v), Value::Str(s)) => {
+                let characters: Vec<Value> = s.borrow().chars().map(Value::Char).collect();
+                let items = v.to_vec();
+                if characters.len() != items.len() {
+                    return false;
+                }
+                pending.extend(characters.into_iter().zip(items));
             }
             (Value::Array(x), Value::Array(y)) => {
                 if x.dimensions != y.dimensions {
@@ -142,11 +151,25 @@ fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H, pending: &m
             pending.push(c.cdr());
             pending.push(c.car());
         }
-        Value::Vector(v) if loosely => v.len().hash(state),
+        Value::Vector(v) if loosely => hash_vector(v, state),
         Value::Array(a) if loosely => a.dimensions.hash(state),
         Value::Instance(_) | Value::Hash(_) | Value::Foreign(_) if structural => {}
         Value::Package(p) => p.hash(state),
         other => address(other).hash(state),
+    }
+}
+
+/// A vector of characters hashes like the string that it equals.
+fn hash_vector<H: Hasher>(vector: &Vector, state: &mut H) {
+    let items = vector.to_vec();
+    if !items.iter().all(|item| matches!(item, Value::Char(_))) {
+        items.len().hash(state);
+        return;
+    }
+    for item in items {
+        if let Value::Char(c) = item {
+            c.to_lowercase().for_each(|c| c.hash(state));
+        }
     }
 }
 

@@ -1,12 +1,10 @@
 //! A new image: standard packages, classes, variables, functions and macros.
 
-use std::rc::Rc;
-
 use super::builtins::{number_theory, numbers, reading, registry};
 use super::image::Image;
 use super::known;
 use super::package::PackageTable;
-use super::stream::{Stream, StreamKind};
+use super::stream;
 use super::symbol::Sym;
 use super::value::Value;
 
@@ -34,8 +32,7 @@ impl Default for Image {
 }
 
 fn define_variables(image: &mut Image) {
-    let output = Value::Stream(Rc::new(Stream::new(StreamKind::StandardOutput)));
-    let input = Value::Stream(Rc::new(Stream::new(StreamKind::StandardInput)));
+    stream::install(image);
     let features: Vec<Value> = ["PLANWRIGHT", "COMMON-LISP", "ANSI-CL", "CRAM"]
         .iter()
         .map(|name| image.keyword(name).into())
@@ -57,13 +54,6 @@ fn define_variables(image: &mut Image) {
     image.define_special(known::MINUS, Value::NIL);
     for (variable, value) in [
         (known::V_PACKAGE, Value::Package(PackageTable::USER)),
-        (known::V_STANDARD_OUTPUT, output.clone()),
-        (known::V_ERROR_OUTPUT, output.clone()),
-        (known::V_TRACE_OUTPUT, output.clone()),
-        (known::V_DEBUG_IO, output.clone()),
-        (known::V_TERMINAL_IO, output.clone()),
-        (known::V_QUERY_IO, output),
-        (known::V_STANDARD_INPUT, input),
         (known::V_PRINT_ESCAPE, Value::T),
         (known::V_PRINT_PRETTY, Value::T),
         (known::V_PRINT_BASE, Value::Int(10)),

@@ -87,10 +87,6 @@ impl Members {
     }
 }
 
-#[expect(
-    clippy::mutable_key_type,
-    reason = "keys that users change are lost, as in any hash table"
-)]
 fn hash_key(value: &Value, test: HashTest) -> HashKey {
     HashKey {
         value: value.clone(),

@@ -331,7 +331,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
         "%PACKAGE-SYMBOLS",
         "package kind",
         "The symbols of a package.",
-        &["(system::%package-symbols :cl :none) => NIL"],
+        &["(system::%package-symbols (make-package :empty-example) :external) => NIL"],
         package_symbols,
     ),
     pure(

@@ -20,6 +20,8 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     list_sets::TABLE,
     list_trees::TABLE,
     lists::TABLE,
+    implementation::TABLE,
+    loading::TABLE,
     mapping::TABLE,
     object_printing::TABLE,
     objects::TABLE,
@@ -123,5 +125,6 @@ pub fn install(image: &mut Image) {
     for table in SYSTEM_OPERATORS {
         image.install_operators(PackageTable::SYSTEM, table);
     }
+    standard_names::install(image);
     alexandria::install(image);
 }

@@ -42,11 +42,21 @@ impl Sequence {
     }
 
     /// Number of elements.
+    #[expect(clippy::len_without_is_empty, reason = "counting may fail")]
     pub fn len(&self) -> Result<usize, Box<Raise>> {
         match self {
             Sequence::List(list) => list_length(list),
             Sequence::Vector(vector) => Ok(vector.len()),
             Sequence::Str(string) => Ok(string.len()),
+        }
+    }
+
+    /// Is there no element?
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Sequence::List(list) => list.is_nil(),
+            Sequence::Vector(vector) => vector.is_empty(),
+            Sequence::Str(string) => string.is_empty(),
         }
     }
 

@@ -130,6 +130,21 @@ fn makunbound(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
+/// Does a form always have the same value: a constant, a quoted object, or what evaluates
+/// to itself?
+fn constantp(image: &mut Image, args: &[Value]) -> Outcome {
+    let constant = match &args[0] {
+        Value::Symbol(sym) => image.symbol(*sym).kind == VariableKind::Constant,
+        Value::Cons(cons) => matches!(cons.car(), Value::Symbol(known::QUOTE)),
+        _ => true,
+    };
+    Ok(Value::bool(constant))
+}
+
+fn compiled_function_p(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(Value::bool(matches!(args[0], Value::Function(_))))
+}
+
 /// A symbol, or the place name in `(setf name)`.
 enum FunctionName {
     Plain(Sym),
@@ -362,6 +377,20 @@ pub static TABLE: &[Builtin] = &[
             "(progn (set 'unset-example 6) (makunbound 'unset-example) (boundp 'unset-example)) => NIL",
         ],
         makunbound,
+    ),
+    pure(
+        "CONSTANTP",
+        "form &optional environment",
+        "Does the form always have the same value?",
+        &["(constantp :a) => T", "(constantp 'x) => NIL"],
+        constantp,
+    ),
+    pure(
+        "COMPILED-FUNCTION-P",
+        "object",
+        "Is the object a function? All functions are compiled.",
+        &["(compiled-function-p #'car) => T"],
+        compiled_function_p,
     ),
     pure(
         "FBOUNDP",

@@ -305,8 +305,10 @@ fn with(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<(), Box<Raise>> {
 fn repeat(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<(), Box<Raise>> {
     let form = parser.form("REPEAT")?;
     let count = parser.fresh("COUNT");
-    let whole = call(support::common(parser.image, "CEILING"), [form]);
-    let rounds = call(known::VALUES, [whole]);
+    let rounds = match form {
+        Value::Int(_) => form,
+        form => call(support::common(parser.image, "CEILING"), [form]),
+    };
     plan.bindings.push(vec![(count.clone(), rounds)]);
     let step = Step {
         tests: vec![call(known::LESS_EQUAL, [count.clone(), Value::Int(0)])],
