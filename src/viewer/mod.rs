@@ -14,6 +14,7 @@ pub mod scene;
 mod shade;
 pub mod surface;
 mod trim;
+mod vessel;
 pub mod view;
 
 pub use image::Image;

@@ -5,9 +5,10 @@ use nalgebra::Vector3;
 
 use super::surface::Surface;
 use super::trim::trim_of;
+use super::vessel::{Part, parts_of};
 use crate::robot::{KinematicTree, LinkId};
 use crate::spatial::{PlacedShape, Pose, Shape};
-use crate::world::World;
+use crate::world::{Object, World};
 
 /// Half the edge length (m) of the floor that is drawn.
 const FLOOR_HALF: f64 = 30.0;
@@ -76,10 +77,7 @@ impl Scene {
             let Ok(pose) = world.object_pose(object.name()) else {
                 continue;
             };
-            for placed in object.shapes() {
-                let color = placed.color.unwrap_or(object.color());
-                scene.add(placed, &pose, color, OBJECT_BEVEL, Finish::Gloss);
-            }
+            scene.add_object(object, &pose);
         }
         scene
     }
@@ -103,6 +101,23 @@ impl Scene {
         }
     }
 
+    fn add_object(&mut self, object: &Object, pose: &Pose) {
+        for part in parts_of(object.shapes()) {
+            match part {
+                Part::Shape(placed) => {
+                    let color = placed.color.unwrap_or(object.color());
+                    self.add(placed, pose, color, OBJECT_BEVEL, Finish::Gloss);
+                }
+                Part::Vessel { surface, at } => self.bodies.push(Body {
+                    surface,
+                    pose: pose * at,
+                    color: object.color(),
+                    finish: Finish::Gloss,
+                }),
+            }
+        }
+    }
+
     fn add_tree(
         &mut self,
         tree: &KinematicTree,
@@ -115,7 +130,7 @@ impl Scene {
             for placed in &link.visuals {
                 self.add(placed, &pose, placed.color.unwrap_or(PLAIN), bevel, finish);
             }
-            for (placed, color) in trim_of(&link.name) {
+            for (placed, color) in trim_of(tree.name(), &link.name) {
                 self.add(&placed, &pose, color, bevel, Finish::Gloss);
             }
         }

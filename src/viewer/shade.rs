@@ -13,13 +13,13 @@ pub(super) type Color = [f32; 3];
 
 /// Towards the lamp.
 const KEY: [f64; 3] = [-0.55, -0.42, 1.25];
-const KEY_COLOR: Color = [1.02, 0.95, 0.84];
+const KEY_COLOR: Color = [0.80, 0.74, 0.65];
 const KEY_GRID: usize = 1536;
 
 /// Colours of the sky's light, of the light that comes back from the floor, and of the rest.
-const SKY_COLOR: Color = [0.50, 0.53, 0.58];
-const BOUNCE_COLOR: Color = [0.17, 0.15, 0.12];
-const REST: f32 = 0.07;
+const SKY_COLOR: Color = [0.42, 0.45, 0.50];
+const BOUNCE_COLOR: Color = [0.14, 0.12, 0.10];
+const REST: f32 = 0.05;
 const SKY_GRID: usize = 400;
 
 /// Rings of directions of the sky: how many, their height over the horizon (degrees), and
@@ -83,8 +83,7 @@ impl Lights {
         let mut light = [0.0; SKY_LAMPS];
         for (share, lamp) in light.iter_mut().zip(&self.sky) {
             if lamp.towards.dot(normal) > 0.0 {
-                let free = point + normal * (1.2 * lamp.grain());
-                *share = lamp.reaches::<2>(&free);
+                *share = lamp.reaches::<2>(point, normal);
             }
         }
         light
@@ -105,8 +104,7 @@ impl Lights {
         let facing = self.key.towards.dot(normal) as f32;
         let mut lit = 0.0;
         if facing > 0.0 {
-            let free = point + normal * (1.6 * self.key.grain());
-            lit = self.key.reaches::<3>(&free);
+            lit = self.key.reaches::<3>(point, normal);
         }
         let (mut open, mut full) = (0.0, 0.0);
         for (share, lamp) in sky.iter().zip(&self.sky) {

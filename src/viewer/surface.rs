@@ -3,13 +3,13 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Vector2, Vector3};
 
 use crate::perception::mesh::Mesh;
 use crate::spatial::{Shape, trig};
 
 /// Rings of a ball between its poles.
-const BALL_RINGS: u32 = 20;
+const BALL_RINGS: u32 = 16;
 
 /// A corner of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,14 +121,15 @@ impl Surface {
 
     fn cylinder(radius: f64, half: f64, bevel: f64) -> Self {
         let (inner, side) = (radius - bevel, half - bevel);
-        Self::turned(&[
+        let line = [
             Profile::new(0.0, -half, 0.0, -1.0),
             Profile::new(inner, -half, 0.0, -1.0),
             Profile::new(radius, -side, 1.0, 0.0),
             Profile::new(radius, side, 1.0, 0.0),
             Profile::new(inner, half, 0.0, 1.0),
             Profile::new(0.0, half, 0.0, 1.0),
-        ])
+        ];
+        Self::turned(line.windows(2).map(|pair| [pair[0], pair[1]]))
     }
 
     fn ball(radius: f64) -> Self {
@@ -136,42 +137,65 @@ impl Surface {
             let (s, c) = trig::sin_cos(TAU / 2.0 * f64::from(ring) / f64::from(BALL_RINGS));
             Profile::new(radius * s, -radius * c, s, -c)
         });
-        Self::turned(&rings.collect::<Vec<_>>())
+        let rings: Vec<_> = rings.collect();
+        Self::turned(rings.windows(2).map(|pair| [pair[0], pair[1]]))
     }
 
-    /// The surface that a line beside the z axis, from below to above, leaves when it is
-    /// turned about the axis.
-    fn turned(profile: &[Profile]) -> Self {
-        let widest = profile.iter().fold(0.0, |r: f64, p| r.max(p.radius));
+    /// The surface that a line beside the z axis leaves when it is turned about the axis.
+    /// The line is given by its points, as distance from the axis and height (m); the solid
+    /// is to the left of it as it goes up.
+    pub(super) fn lathed(line: &[[f64; 2]]) -> Self {
+        let pieces: Vec<_> = line
+            .windows(2)
+            .filter_map(|pair| {
+                let (from, to) = (Vector2::from(pair[0]), Vector2::from(pair[1]));
+                let along = (to - from).try_normalize(1e-9)?;
+                Some((from, to, Vector2::new(along.y, -along.x)))
+            })
+            .collect();
+        let piece = |place: Option<usize>| pieces.get(place?);
+        Self::turned(pieces.iter().enumerate().map(|(i, (from, to, own))| {
+            let end = |point: &Vector2<f64>, neighbour: Option<usize>| {
+                // Gentle bends are rounded, sharp ones stay edges.
+                let other = piece(neighbour).map(|p| p.2).filter(|n| n.dot(own) > 0.6);
+                let normal = (own + other.unwrap_or(*own)).normalize();
+                Profile::new(point.x, point.y, normal.x, normal.y)
+            };
+            [end(from, i.checked_sub(1)), end(to, i.checked_add(1))]
+        }))
+    }
+
+    /// The surface that straight pieces beside the z axis leave when they are turned about it.
+    fn turned(pieces: impl Iterator<Item = [Profile; 2]> + Clone) -> Self {
+        let widest = pieces.clone().flatten().fold(0.0, |r: f64, p| r.max(p.radius));
         let count = match widest {
-            r if r < 0.012 => 16,
+            r if r < 0.012 => 12,
             r if r < 0.06 => 28,
-            _ => 44,
+            _ => 40,
         };
         let mut surface = Self::default();
-        for ring in profile {
-            for i in 0..count {
-                let (s, c) = trig::sin_cos(TAU * f64::from(i) / f64::from(count));
-                surface.corners.push(Corner {
-                    point: Point3::new(ring.radius * c, ring.radius * s, ring.z),
-                    normal: Vector3::new(ring.out * c, ring.out * s, ring.up),
-                });
+        for (piece, ends) in (0u32..).zip(pieces) {
+            for ring in ends {
+                for i in 0..count {
+                    let (s, c) = trig::sin_cos(TAU * f64::from(i) / f64::from(count));
+                    surface.corners.push(Corner {
+                        point: Point3::new(ring.radius * c, ring.radius * s, ring.z),
+                        normal: Vector3::new(ring.out * c, ring.out * s, ring.up),
+                    });
+                }
             }
-        }
-        let mut below = 0;
-        for pair in profile.windows(2) {
-            let above = below + count;
+            let first = 2 * piece * count;
             for i in 0..count {
                 let j = (i + 1) % count;
-                let [a, b, c, d] = [below + i, below + j, above + j, above + i];
-                if pair[0].radius > 0.0 {
+                let (a, b) = (first + i, first + j);
+                let (c, d) = (b + count, a + count);
+                if ends[0].radius > 0.0 {
                     surface.triangles.push([a, b, c]);
                 }
-                if pair[1].radius > 0.0 {
+                if ends[1].radius > 0.0 {
                     surface.triangles.push([a, c, d]);
                 }
             }
-            below = above;
         }
         surface
     }
@@ -195,6 +219,7 @@ impl Surface {
 }
 
 /// A point of a line that is turned about the z axis.
+#[derive(Clone, Copy)]
 struct Profile {
     radius: f64,
     z: f64,
@@ -241,6 +266,10 @@ mod tests {
         assert!((share - 1.0).abs() < 0.01);
         let ball = volume(&Surface::of(&Shape::Sphere { radius: 1.0 }, 0.0));
         assert!((ball / (TAU * 2.0 / 3.0) - 1.0).abs() < 0.02);
+        // A cup with walls and a bottom of 0.1 m.
+        let cup = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.9, 1.0], [0.9, 0.1], [0.0, 0.1]];
+        let share = volume(&Surface::lathed(&cup)) / (TAU / 2.0 * (1.0 - 0.81 * 0.9));
+        assert!((share - 1.0).abs() < 0.01);
         let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let hull = volume(&Surface::of(&Shape::Hull { points }, 0.0));
         assert!((hull - 1.0 / 6.0).abs() < 1e-12);

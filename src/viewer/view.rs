@@ -117,12 +117,12 @@ impl View {
             }
             Self::Island => {
                 let at = self.furniture(world, "kitchen_island_surface", [0.2, 0.2, 0.05])?;
-                look([at.x + 0.75, at.y - 2.6, 1.75], at.into(), FIELD_OF_VIEW)
+                look([at.x + 1.75, at.y - 1.85, 1.95], at.into(), FIELD_OF_VIEW)
             }
             Self::Follow => {
                 let base = world.robot_configuration().base;
-                let from = base * Point3::new(-2.1, 0.9, 2.3);
-                let at = base * Point3::new(0.5, 0.0, 0.75);
+                let from = base * Point3::new(-1.9, 1.7, 2.2);
+                let at = base * Point3::new(0.45, 0.0, 0.72);
                 looking(from, at, Vector3::z()).map(|pose| camera(pose, FIELD_OF_VIEW))
             }
             Self::Free {
