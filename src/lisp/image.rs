@@ -139,14 +139,11 @@ impl Image {
         }
     }
 
-<<<<<<< HEAD
     /// Seeds `random`.
     pub fn seed(&mut self, seed: u64) {
         self.random = rand_pcg::Pcg64::new(u128::from(seed), STREAM);
     }
 
-=======
->>>>>>> plan
     /// Keeps a value of a layer above the language, in place of one of the same type.
     pub fn extend<T: 'static>(&mut self, value: T) -> Rc<T> {
         let value = Rc::new(value);
@@ -160,14 +157,6 @@ impl Image {
         self.extensions
             .iter()
             .find_map(|kept| kept.clone().downcast().ok())
-<<<<<<< HEAD
-=======
-    }
-
-    /// Seeds `random`.
-    pub fn seed(&mut self, seed: u64) {
-        self.random = rand_pcg::Pcg64::new(u128::from(seed), STREAM);
->>>>>>> plan
     }
 
     /// A number that no block or tagbody had before.
