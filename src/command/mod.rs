@@ -12,6 +12,7 @@ mod check;
 mod failure;
 mod open;
 mod paint;
+mod picture;
 mod pipe;
 mod replay;
 mod run;
@@ -71,6 +72,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Replay { files, bless, jobs }) => {
             replay::replay(options, &files, bless, jobs)
         }
+        Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Check { files }) => check::check(options, &files),
         Some(Command::Completions { shell }) => {
             let mut script = Vec::new();

@@ -16,27 +16,37 @@ pub(super) fn run(
     files: &[PathBuf],
     forms: &[String],
 ) -> Result<Status, CommandError> {
+    run_in(options, files, forms, || open(options)).map(|(status, _)| status)
+}
+
+/// As [`run`], in what `open` opens, which is handed back.
+pub(super) fn run_in<E: Evaluate>(
+    options: &Options,
+    files: &[PathBuf],
+    forms: &[String],
+    open: impl FnOnce() -> Result<E, CommandError>,
+) -> Result<(Status, E), CommandError> {
     // A file that cannot be read is told before the robot moves.
     let files: Vec<Text> = files.iter().map(Text::of_file).collect::<Result<_, _>>()?;
     let forms = forms
         .iter()
         .enumerate()
         .map(|(at, form)| Text::of_form(at, form));
-    let mut session = open(options)?;
+    let mut session = open()?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
     for text in files.into_iter().chain(forms) {
         match text.evaluate(&mut session, &mut screen)? {
             Ended::Finished => {}
-            Ended::Quit(code) => return Ok(Status::Left(code)),
+            Ended::Quit(code) => return Ok((Status::Left(code), session)),
             Ended::Aborted(abort) => {
                 let paint = Paint::new(options.color, &io::stderr());
                 // Without standard error, the exit status has to do.
                 let _ = io::stderr().write_all(text.describe(abort.as_ref(), paint).as_bytes());
-                return Ok(Status::Bad);
+                return Ok((Status::Bad, session));
             }
         }
     }
-    Ok(Status::Good)
+    Ok((Status::Good, session))
 }
 
 /// A text to evaluate.
