@@ -8,6 +8,7 @@ pub mod dialogue;
 pub mod lisp;
 pub mod motion;
 pub mod perception;
+pub mod plan;
 pub mod reader;
 pub mod repl;
 pub mod robot;

@@ -18,6 +18,7 @@ mod run;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
+use std::thread;
 
 use clap::{CommandFactory, Parser};
 
@@ -28,8 +29,21 @@ use paint::Paint;
 
 pub use open::open_default;
 
+/// Bytes of the stack on which commands run: the compiler follows the nesting of forms.
+const STACK_BYTES: usize = 64 << 20;
+
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
+    let thread = thread::Builder::new()
+        .stack_size(STACK_BYTES)
+        .spawn(run_command_line);
+    match thread.map(thread::JoinHandle::join) {
+        Ok(Ok(code)) => code,
+        _ => ExitCode::from(Status::Unusable.code()),
+    }
+}
+
+fn run_command_line() -> ExitCode {
     let arguments = Arguments::parse();
     let errors = Paint::new(arguments.options.color, &io::stderr());
     match dispatch(arguments) {

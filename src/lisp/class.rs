@@ -232,3 +232,65 @@ impl Instance {
         }
     }
 }
+
+thread_local! {
+    /// Slot values of dropped instances that wait to be dropped themselves.
+    static DROPPED: RefCell<Vec<Value>> = const { RefCell::new(Vec::new()) };
+    /// Is the queue being emptied?
+    static IS_DROPPING: Cell<bool> = const { Cell::new(false) };
+}
+
+/// A chain of a million instances is freed without recursion: while an instance's slots are
+/// dropped, those of the instances that go with it only join a queue.
+impl Drop for Instance {
+    fn drop(&mut self) {
+        let slots = self.slots.take();
+        if !slots.iter().any(may_own_instances) {
+            return;
+        }
+        // At the end of the thread the queue is gone; then the slots are dropped directly.
+        let _ = DROPPED.try_with(|queue| queue.borrow_mut().extend(slots));
+        let Ok(false) = IS_DROPPING.try_with(|dropping| dropping.replace(true)) else {
+            return;
+        };
+        while let Ok(Some(value)) = DROPPED.try_with(|queue| queue.borrow_mut().pop()) {
+            drop(value);
+        }
+        let _ = IS_DROPPING.try_with(|dropping| dropping.set(false));
+    }
+}
+
+/// Could dropping the value drop an instance?
+fn may_own_instances(value: &Value) -> bool {
+    matches!(
+        value,
+        Value::Instance(_)
+            | Value::Cons(_)
+            | Value::Vector(_)
+            | Value::Array(_)
+            | Value::Hash(_)
+            | Value::Function(_)
+            | Value::Foreign(_)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lisp::symbol::known;
+
+    #[test]
+    fn a_chain_of_a_million_instances_is_freed_without_recursion() {
+        let class = Rc::new(Class::new(known::T, ClassKind::Structure));
+        let mut chain = Value::NIL;
+        for i in 0..1_000_000 {
+            let mut next = chain;
+            if i % 3 == 0 {
+                next = Value::list([next]);
+            }
+            let instance = Instance::with_slots(class.clone(), vec![Value::Int(i), next]);
+            chain = Value::Instance(Rc::new(instance));
+        }
+        drop(chain);
+    }
+}

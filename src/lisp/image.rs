@@ -1,5 +1,6 @@
 //! One Lisp image: everything that global names mean.
 
+use std::any::Any;
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -53,6 +54,8 @@ pub struct Image {
     pub operators: IndexMap<Sym, &'static Operator>,
     /// Made-up addresses of objects that were printed.
     pub printed: RefCell<super::print::identity::Identities>,
+    /// What layers above the language keep in the image: one value per type.
+    extensions: Vec<Rc<dyn Any>>,
 }
 
 /// Standard output: text in order, and the column where the next character goes.
@@ -95,6 +98,8 @@ impl Output {
     }
 }
 
+/// The stream of the random generator: any constant does.
+const STREAM: u128 = 0xa02b_dbf7_bb3c_0a7a;
 /// Conditions whose places are remembered.
 const REMEMBERED_PLACES: usize = 64;
 /// Bytes of the Rust stack that the compiler may use unless told otherwise: a test's
@@ -120,7 +125,7 @@ impl Image {
             types: IndexMap::new(),
             sources: Sources::default(),
             output: Output::default(),
-            random: rand_pcg::Pcg64::new(0xcafe_f00d_d15e_a5e5, 0xa02b_dbf7_bb3c_0a7a),
+            random: rand_pcg::Pcg64::new(0, STREAM),
             setf_expanders: IndexMap::new(),
             interrupt: Arc::default(),
             stack_budget: STACK_BUDGET,
@@ -130,7 +135,28 @@ impl Image {
             printed: RefCell::default(),
             builtins: IndexMap::new(),
             operators: IndexMap::new(),
+            extensions: Vec::new(),
         }
+    }
+
+    /// Seeds `random`.
+    pub fn seed(&mut self, seed: u64) {
+        self.random = rand_pcg::Pcg64::new(u128::from(seed), STREAM);
+    }
+
+    /// Keeps a value of a layer above the language, in place of one of the same type.
+    pub fn extend<T: 'static>(&mut self, value: T) -> Rc<T> {
+        let value = Rc::new(value);
+        self.extensions.retain(|kept| !kept.is::<T>());
+        self.extensions.push(value.clone());
+        value
+    }
+
+    /// The value of a layer above the language, found by its type.
+    pub fn extension<T: 'static>(&self) -> Option<Rc<T>> {
+        self.extensions
+            .iter()
+            .find_map(|kept| kept.clone().downcast().ok())
     }
 
     /// A number that no block or tagbody had before.

@@ -49,6 +49,8 @@ pub struct ArmPathEffort {
     pub resolution: f64,
     /// Greatest number of random configurations.
     pub samples: usize,
+    /// Greatest number of configurations that are checked, for all together.
+    pub checks: usize,
     /// Attempts to shorten the path.
     pub shortcuts: usize,
 }
@@ -58,6 +60,7 @@ impl Default for ArmPathEffort {
         Self {
             resolution: 0.01,
             samples: 1500,
+            checks: 30_000,
             shortcuts: 40,
         }
     }
@@ -93,6 +96,7 @@ pub fn find_arm_path<P>(
         axes,
         effort,
         blocked,
+        checks: 0,
     };
     let Some(blocker) = search.edge(start, goal) else {
         return Ok(vec![start.to_vec(), goal.to_vec()]);
@@ -135,6 +139,7 @@ pub fn blocked_between<P>(
         axes,
         effort,
         blocked,
+        checks: 0,
     }
     .edge(from, to)
 }
@@ -143,6 +148,8 @@ struct Search<'a, P> {
     axes: &'a [PathAxis],
     effort: ArmPathEffort,
     blocked: &'a mut dyn FnMut(&[f64]) -> Option<P>,
+    /// Configurations that were checked.
+    checks: usize,
 }
 
 /// Configurations that are connected to the first one; each with its parent's place.
@@ -177,6 +184,7 @@ impl<P> Search<'_, P> {
         while stride > 1 {
             for i in (stride / 2..parts).step_by(stride) {
                 let point = between(from, to, i as f64 / parts as f64);
+                self.checks += 1;
                 if let Some(p) = (self.blocked)(&point) {
                     return Some(p);
                 }
@@ -242,6 +250,9 @@ impl<P> Search<'_, P> {
         ];
         let share = if chain.is_some() { 3 } else { 1 };
         for round in 0..self.effort.samples / share {
+            if self.checks > self.effort.checks {
+                return None;
+            }
             let side = round % 2;
             let sample: Point = (self.axes.iter().zip(start).zip(goal))
                 .map(|((axis, from), to)| {
@@ -314,7 +325,7 @@ impl<P> Search<'_, P> {
     /// Replaces detours by straight edges: between random places, then between corners.
     fn shorten(&mut self, mut path: Vec<Point>, rng: &mut Pcg64) -> Vec<Point> {
         for _ in 0..self.effort.shortcuts {
-            if path.len() <= 2 {
+            if path.len() <= 2 || self.checks > 2 * self.effort.checks {
                 break;
             }
             let length = self.length(&path);

@@ -12,7 +12,7 @@ use super::failure::MotionFailure;
 use super::follower::Follower;
 use super::guard;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
-use super::patience::Patience;
+use super::patience::{Attempt, Retry};
 use super::trajectory::{AxisGroup, Corners, Trajectory};
 use crate::robot::JointId;
 use crate::spatial::{Pose, pose};
@@ -27,10 +27,11 @@ const LOOK_EVERY: u32 = 12;
 const CHANGING_MARGIN: f64 = 0.10;
 /// A posture is steady when it has not changed for this long (s).
 const STEADY: f64 = 0.05;
-/// Times (s) without any motion of the robot after which a path is searched again; the
-/// failure of the last search is final. The first list is for the very first path.
-const FIRST_TRIES: &[f64] = &[0.1];
-const LATER_TRIES: &[f64] = &[0.05, 0.3, 1.0];
+/// How long (s) the robot may be still without a path before the drive fails: when there has
+/// been none yet, and when there has been one that became blocked. The arms wait shorter, so
+/// that they get out of the way.
+const FIRST_PATIENCE: f64 = 0.1;
+const LATER_PATIENCE: f64 = 1.0;
 /// How often a path is found, and then blocked, before giving up.
 const MOST_PLANS: u32 = 8;
 
@@ -49,9 +50,7 @@ pub struct Drive {
     ahead_is_sure: bool,
     /// Paths that were found.
     plans: u32,
-    /// Searches without a path since the robot moved last.
-    tries: usize,
-    patience: Patience,
+    retry: Retry,
     ended: bool,
 }
 
@@ -68,8 +67,7 @@ impl Drive {
             ahead: None,
             ahead_is_sure: false,
             plans: 0,
-            tries: 0,
-            patience: Patience::default(),
+            retry: Retry::default(),
             ended: false,
         }
     }
@@ -112,37 +110,31 @@ impl Drive {
         Ok(Follower::new(way))
     }
 
-    /// Searches a path at once, and later whenever the robot has been still for a while.
+    /// Searches a path; what is in the way while the posture changes may be gone later.
     fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
-        let still = self.patience.wait(world);
-        if still == 0.0 {
-            self.tries = 0;
-        }
-        let times = if self.plans == 0 {
-            FIRST_TRIES
+        let patience = if self.plans == 0 {
+            FIRST_PATIENCE
         } else {
-            LATER_TRIES
+            LATER_PATIENCE
         };
-        let is_first = self.plans == 0 && self.tries == 0 && self.ticks <= 1;
-        let is_time = times.get(self.tries).is_some_and(|t| still >= *t);
-        if !is_first && !is_time {
-            return None;
+        match self.retry.next(world, patience) {
+            Attempt::Later => return None,
+            Attempt::GiveUp(failure) => return Some(MotionStatus::failed(failure)),
+            Attempt::Now => {}
         }
         match self.plan(world) {
             Ok(way) => {
                 self.plans += 1;
-                self.tries = 0;
-                self.patience.reset();
+                self.retry.reset();
                 self.ahead = None;
                 self.way = Some(way);
                 None
             }
-            Err(_) if is_first => None,
-            Err(failure) => {
-                self.tries += 1;
-                let is_last = self.tries >= times.len();
-                is_last.then(|| MotionStatus::failed(failure))
+            Err(failure) if failure.may_pass() => {
+                self.retry.failed(world, failure);
+                None
             }
+            Err(failure) => Some(MotionStatus::failed(failure)),
         }
     }
 

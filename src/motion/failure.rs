@@ -10,7 +10,7 @@ use thiserror::Error;
 use super::base_path::BasePlace;
 use super::guard::StuckObject;
 use super::job::ProcessModule;
-use super::unreachable::UnreachablePose;
+use super::unreachable::{UnreachablePose, UnreachableReason};
 use crate::perception::Visibility;
 use crate::robot::{LimitViolation, Side};
 use crate::world::{BodyName, CollisionHit};
@@ -224,6 +224,22 @@ pub enum MotionFailure {
 }
 
 impl MotionFailure {
+    /// Whether the reason may pass while other jobs go on to move the robot.
+    pub(super) fn may_pass(&self) -> bool {
+        match self {
+            Self::GoalOccupied { .. }
+            | Self::Enclosed { .. }
+            | Self::DriveStartOccupied { .. }
+            | Self::ArmGoalInCollision { .. }
+            | Self::ArmStartInCollision { .. }
+            | Self::ArmPathNotFound { .. } => true,
+            Self::PoseUnreachable(pose) => {
+                matches!(pose.reason, UnreachableReason::Collisions { .. })
+            }
+            _ => false,
+        }
+    }
+
     /// Name of CRAM's failure class that handlers name to catch this failure.
     pub fn class_name(&self) -> &'static str {
         match self {

@@ -3,8 +3,9 @@
 //! Paths are planned free of collisions, but the world goes on while a path is followed:
 //! other jobs move other joints, objects are pushed about. So every single step is checked
 //! again, whatever was planned. A step is refused when it brings the robot, or what it
-//! holds, deeper into something than [`GUARD_DEPTH`]; a step that leads out of an overlap
-//! that is there already is not.
+//! holds, deeper into something than [`GUARD_DEPTH`]. Where two bodies overlap that much
+//! already, steps that part them or slide along are taken all the same, or the robot could
+//! never get away; but none that leads beyond [`GREATEST_DEPTH`].
 
 use crate::robot::LinkId;
 use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
@@ -15,8 +16,12 @@ pub const GUARD_DEPTH: f64 = 0.0015;
 pub const GREATEST_LAG: f64 = 0.01;
 /// Force (N) between a held object and what it bumps into from which on it is stuck.
 pub const GREATEST_FORCE: f64 = 50.0;
-/// An overlap may grow by this (m) per step without being refused: rounding, not motion.
-const SAME_DEPTH: f64 = 1e-6;
+/// Overlap (m) that no step brings about, however it began.
+const GREATEST_DEPTH: f64 = 0.0019;
+/// A step that slides along may seem to go deeper by this (m): rounding, not motion.
+const SLIDE: f64 = 2e-5;
+/// Pairs that overlap less than this (m) do not overlap already.
+const NOT_YET: f64 = GUARD_DEPTH / 2.0;
 
 /// What forbids the robot to be in the configuration after the next step, if anything does.
 pub(super) fn obstacle(
@@ -26,20 +31,21 @@ pub(super) fn obstacle(
 ) -> Option<CollisionHit> {
     let mut checker = world.collision_checker();
     let first = checker.first_hit(next, allowed, -GUARD_DEPTH)?;
-    let now = checker.all_hits(world.robot_configuration(), allowed, -GUARD_DEPTH);
+    let now = checker.all_hits(world.robot_configuration(), allowed, -NOT_YET);
     if now.is_empty() {
         return Some(first);
     }
-    let deeper = |hit: &CollisionHit| {
+    let is_deeper = |hit: &CollisionHit| {
         let before = now
             .iter()
             .find(|n| n.moving == hit.moving && n.other == hit.other);
-        before.is_none_or(|b| hit.depth > b.depth + SAME_DEPTH)
+        let before = before.map_or(0.0, |b| b.depth);
+        hit.depth > before && hit.depth > (before + SLIDE).min(GREATEST_DEPTH)
     };
     checker
         .all_hits(next, allowed, -GUARD_DEPTH)
         .into_iter()
-        .find(deeper)
+        .find(is_deeper)
 }
 
 /// A held object that does not follow the hand as it should.

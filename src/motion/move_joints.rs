@@ -9,6 +9,7 @@ use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, c
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::joint_limit::violation;
 use super::judge::Judge;
+use super::patience::{Attempt, Retry};
 use crate::robot::{ARM_JOINTS, Side};
 use crate::spatial::trig;
 use crate::world::{AllowedPairs, World};
@@ -23,7 +24,7 @@ const MOST_PLANS: u32 = 4;
 pub struct MoveJoints {
     goals: [Option<Vec<f64>>; 2],
     follow: Option<JointFollow>,
-    patience: super::patience::Patience,
+    retry: Retry,
     plans: u32,
     ended: bool,
 }
@@ -35,7 +36,7 @@ impl MoveJoints {
         Self {
             goals: [left, right],
             follow: None,
-            patience: super::patience::Patience::default(),
+            retry: Retry::default(),
             plans: 0,
             ended: false,
         }
@@ -86,29 +87,31 @@ impl MoveJoints {
         let none = AllowedPairs::none();
         let contacts = ExpectedContacts::default();
         let mut judge = Judge::new(world, axes.joints.clone(), &contacts);
+        judge.accept_goal(&goal);
         let way = plan_way(world, &axes, &goal, &mut judge, ArmPathEffort::default())?;
         Ok(JointFollow::new(axes.joints, way, none))
     }
 
-    /// Plans; a goal that is blocked while the robot still moves may become free.
+    /// Plans; what is in the way while the robot still moves may be gone later.
     fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
-        let failure = match self.plan(world) {
+        match self.retry.next(world, PATIENCE) {
+            Attempt::Later => return None,
+            Attempt::GiveUp(failure) => return Some(MotionStatus::failed(failure)),
+            Attempt::Now => {}
+        }
+        match self.plan(world) {
             Ok(follow) => {
                 self.plans += 1;
                 self.follow = Some(follow);
-                self.patience.reset();
-                return None;
+                self.retry.reset();
+                None
             }
-            Err(failure) => failure,
-        };
-        let may_change = matches!(
-            failure,
-            MotionFailure::ArmGoalInCollision { .. } | MotionFailure::ArmPathNotFound { .. }
-        );
-        if may_change && self.patience.wait(world) < PATIENCE {
-            return None;
+            Err(failure) if failure.may_pass() => {
+                self.retry.failed(world, failure);
+                None
+            }
+            Err(failure) => Some(MotionStatus::failed(failure)),
         }
-        Some(MotionStatus::failed(failure))
     }
 
     fn step(&mut self, world: &mut World) -> Option<MotionStatus> {

@@ -6,7 +6,7 @@ use super::job::{
     Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite, numbers_of,
 };
 use super::joint_follow::{FollowStep, JointFollow};
-use super::patience::Patience;
+use super::patience::{Attempt, Retry};
 use super::tcp_line::tcp_in_base;
 use super::tcp_plan::TcpTask;
 use crate::robot::Side;
@@ -46,7 +46,7 @@ pub struct MoveTcp {
     path: TcpPath,
     mode: CollisionMode,
     follow: Option<JointFollow>,
-    patience: Patience,
+    retry: Retry,
     plans: u32,
     ended: bool,
 }
@@ -64,7 +64,7 @@ impl MoveTcp {
             path,
             mode,
             follow: None,
-            patience: Patience::default(),
+            retry: Retry::default(),
             plans: 0,
             ended: false,
         }
@@ -92,17 +92,22 @@ impl MoveTcp {
         straight.map_or_else(|| task.plan_free(), Ok)
     }
 
-    /// Plans; a goal that is blocked while the robot still moves may become free.
+    /// Plans; what is in the way while the robot still moves may be gone later.
     fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
+        match self.retry.next(world, PATIENCE) {
+            Attempt::Later => return None,
+            Attempt::GiveUp(failure) => return Some(MotionStatus::failed(failure)),
+            Attempt::Now => {}
+        }
         match self.plan(world) {
             Ok(follow) => {
                 self.plans += 1;
                 self.follow = Some(follow);
-                self.patience.reset();
+                self.retry.reset();
                 None
             }
-            Err(failure) if self.plans > 0 && self.patience.wait(world) < PATIENCE => {
-                let _ = failure;
+            Err(failure) if failure.may_pass() => {
+                self.retry.failed(world, failure);
                 None
             }
             Err(failure) => Some(MotionStatus::failed(failure)),

@@ -8,7 +8,7 @@ use super::guard::GREATEST_LAG;
 use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration};
 
 /// A pair may come this much (m) deeper: rounding, not motion.
-const SAME_DEPTH: f64 = 1e-5;
+const SAME_DEPTH: f64 = 5e-5;
 
 /// The pairs that are near each other in the beginning, with how deep they overlap then.
 #[derive(Clone, Debug)]
@@ -44,6 +44,21 @@ impl TouchingPairs {
             allowed: contacts.allowed.clone(),
             relaxed,
             depth,
+        }
+    }
+
+    /// Also lets those pairs touch that touch, but do not overlap, in the configuration.
+    pub(super) fn expect(
+        &mut self,
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+        margin: f64,
+    ) {
+        for hit in checker.all_hits(robot, &self.relaxed, margin) {
+            if hit.depth <= self.depth {
+                let relaxed = std::mem::take(&mut self.relaxed);
+                self.relaxed = relaxed.and(hit.moving, hit.other);
+            }
         }
     }
 

@@ -1,8 +1,13 @@
-//! One session: an image, and what happens when text is evaluated in it.
+//! One session: an image, a world, and what happens when text is evaluated in them.
 //!
 //! A session takes text and tells events; it prints nothing itself.
 
+mod check;
+mod live_host;
+mod options;
+mod plans;
 mod printing;
+pub mod simulation;
 mod text;
 
 use std::sync::Arc;
@@ -12,14 +17,19 @@ use crate::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::package::PackageTable;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
-use crate::lisp::vm::fiber::Fiber;
-use crate::lisp::vm::machine::{self, Machine};
+use crate::plan::{Evaluation, Scheduler};
+use live_host::LiveHost;
+use simulation::Simulation;
+
+pub use options::{SessionError, SessionOptions};
+pub use simulation::LogLevel;
 
 /// A session.
 pub struct Session {
     image: Image,
+    scheduler: Scheduler,
+    simulation: Simulation,
 }
 
 /// How the evaluation of one form ended.
@@ -29,11 +39,22 @@ enum Ended {
 }
 
 impl Session {
-    /// A fresh session.
-    pub fn new() -> Session {
-        Session {
-            image: Image::new(),
-        }
+    /// A fresh session: the robot at the origin, no objects, package `COMMON-LISP-USER`.
+    pub fn new(options: &SessionOptions) -> Result<Session, SessionError> {
+        let mut image = Image::new();
+        image.seed(options.seed);
+        crate::plan::install(&mut image);
+        crate::transform::install(&mut image);
+        crate::designator::install(&mut image);
+        simulation::install(&mut image);
+        let simulation = Simulation::new(Arc::new(options.models()?), options)?;
+        let mut session = Session {
+            image,
+            scheduler: Scheduler::new(),
+            simulation,
+        };
+        session.load_plans()?;
+        Ok(session)
     }
 
     /// Bytes of the Rust stack that the compiler may use: a thread with a large stack can
@@ -42,30 +63,51 @@ impl Session {
         self.image.stack_budget = bytes;
     }
 
+    /// The examples of all builtins and operators, with their names, in order of
+    /// installation.
+    pub fn examples(&self) -> Vec<(String, &'static str)> {
+        let image = &self.image;
+        let builtins = image.builtins.iter().map(|(sym, b)| (sym, b.examples));
+        let operators = image.operators.iter().map(|(sym, o)| (sym, o.examples));
+        builtins
+            .chain(operators)
+            .flat_map(|(sym, examples)| {
+                examples
+                    .iter()
+                    .map(|example| (image.name(*sym).to_owned(), *example))
+            })
+            .collect()
+    }
+
+    /// The robot in its world.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// The robot in its world, to be looked at while it moves.
+    pub fn simulation_mut(&mut self) -> &mut Simulation {
+        &mut self.simulation
+    }
+
     /// Evaluates one form at top level.
     fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
         self.image.set_special(known::MINUS, form.clone());
-        let mut fiber = Fiber::default();
-        let mut machine = Machine::new(&mut self.image, &mut fiber);
-        let event = machine.start(known::EVAL.into(), vec![form.clone()]);
-        let ended = match event {
-            machine::Event::Done(value) => Ended::Values(value.into_values()),
-            machine::Event::Unhandled(condition) => {
+        let mut host = LiveHost {
+            simulation: &mut self.simulation,
+            sink,
+        };
+        let evaluation = self.scheduler.evaluate(&mut self.image, &mut host, form);
+        let ended = match evaluation {
+            Evaluation::Values(values) => Ended::Values(values),
+            Evaluation::Unhandled(condition) => {
                 let abort = self.describe(&condition);
-                Machine::new(&mut self.image, &mut fiber).unwind_all();
+                self.abort(sink);
                 Ended::Aborted(Box::new(abort))
             }
-            machine::Event::Interrupted => {
-                machine.unwind_all();
+            Evaluation::Interrupted => {
+                self.abort(sink);
                 Ended::Aborted(Box::new(interrupted()))
             }
-            machine::Event::Request(_) => {
-                machine.unwind_all();
-                Ended::Aborted(Box::new(
-                    self.raised(Raise::control("Nothing to wait for.")),
-                ))
-            }
-            machine::Event::Unwound => Ended::Values(Vec::new()),
         };
         self.flush(sink);
         self.shift_forms(form);
@@ -75,12 +117,18 @@ impl Session {
         ended
     }
 
+    /// Leaves an evaluation that has stopped: its cleanup forms run.
+    fn abort(&mut self, sink: &mut dyn FnMut(Event)) {
+        let mut host = LiveHost {
+            simulation: &mut self.simulation,
+            sink,
+        };
+        self.scheduler.abort(&mut self.image, &mut host);
+    }
+
     /// Tells what was written to standard output.
     fn flush(&mut self, sink: &mut dyn FnMut(Event)) {
-        let text = self.image.output.take();
-        if !text.is_empty() {
-            sink(Event::Output(text));
-        }
+        live_host::flush(&mut self.image, sink);
     }
 
     /// `+`, `++` and `+++`: the forms evaluated last.
@@ -115,12 +163,6 @@ impl Session {
     }
 }
 
-impl Default for Session {
-    fn default() -> Session {
-        Session::new()
-    }
-}
-
 fn interrupted() -> Abort {
     Abort {
         report: "Interrupted.".to_owned(),
@@ -134,8 +176,8 @@ impl Evaluate for Session {
         self.evaluate_text(source_name, text, sink)
     }
 
-    fn check(&mut self, _: &str, _: &str) -> Vec<Finding> {
-        Vec::new()
+    fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
+        self.check_text(source_name, text)
     }
 
     fn prompt(&self) -> String {

@@ -33,6 +33,9 @@ impl Session {
                     self.flush(sink);
                     sink(Event::Values(printed));
                     self.image.output.begin_line();
+                    if let Some(status) = self.simulation.quit {
+                        return Outcome::Quit(status);
+                    }
                 }
                 Ended::Aborted(abort) => {
                     sink(Event::Aborted(abort));

@@ -45,6 +45,9 @@ fn evaluate(evaluator: &mut impl Evaluate, name: &str, input: &str) -> (String, 
     (output, outcome)
 }
 
+/// Bytes of stack of a thread that runs transcripts.
+const STACK_BYTES: usize = 64 << 20;
+
 /// Runs transcripts on up to `jobs` threads, each in an evaluator of its own, and tells
 /// their verdicts in the order of the transcripts, each as soon as it can be told.
 ///
@@ -64,7 +67,7 @@ pub fn replay_all<V, E>(
     thread::scope(|scope| {
         for _ in 0..jobs.get().min(transcripts.len()) {
             let (sender, next, open) = (sender.clone(), &next, &open);
-            scope.spawn(move || {
+            let run = move || {
                 loop {
                     let number = next.fetch_add(1, Ordering::Relaxed);
                     let Some(transcript) = transcripts.get(number) else {
@@ -75,7 +78,11 @@ pub fn replay_all<V, E>(
                         break;
                     }
                 }
-            });
+            };
+            // Forms may be nested deeply. Where no thread can be had, others do the work.
+            let _ = thread::Builder::new()
+                .stack_size(STACK_BYTES)
+                .spawn_scoped(scope, run);
         }
         drop(sender);
         let mut waiting = BTreeMap::new();

@@ -37,7 +37,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
     ),
     pure(
         "DEFINE-VARIABLE",
-        "name",
+        "name &optional documentation",
         "Makes a variable special.",
         &["(system:define-variable '*v*) => *V*"],
         define_variable,
@@ -156,7 +156,11 @@ fn check_not_constant(image: &Image, name: Sym) -> Result<()> {
 fn define_variable(image: &mut Image, args: &[Value]) -> Result<Value> {
     let name = symbol(&args[0])?;
     check_not_constant(image, name)?;
-    image.symbols.get_mut(name).kind = VariableKind::Special;
+    let data = image.symbols.get_mut(name);
+    data.kind = VariableKind::Special;
+    if let Some(doc) = args.get(1).and_then(Value::as_text) {
+        data.variable_doc = Some(doc.into());
+    }
     Ok(args[0].clone())
 }
 

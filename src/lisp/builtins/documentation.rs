@@ -18,7 +18,7 @@ pub static TABLE: &[Builtin] = &[pure(
     "The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a function, class or method.",
     &[
         "(progn (defun twice (x) \"Doubles.\" (* 2 x)) (documentation 'twice 'function)) => \"Doubles.\"",
-        "(progn (defvar *speed* 1 \"In m/s.\") (documentation '*speed* 'variable)) => \"In m/s.\"",
+        "(progn (defparameter *speed* 1 \"In m/s.\") (documentation '*speed* 'variable)) => \"In m/s.\"",
     ],
     documentation,
 )];

@@ -20,6 +20,8 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
     list_sets::TABLE,
     list_trees::TABLE,
     lists::TABLE,
+    implementation::TABLE,
+    loading::TABLE,
     mapping::TABLE,
     object_printing::TABLE,
     objects::TABLE,

@@ -92,9 +92,16 @@ fn subtypep_operation(
     args: &[Value],
     answers: &mut Answers,
 ) -> Result<Value, Stop> {
-    let a = parse(image, &args[0], answers)?;
-    let b = parse(image, &args[1], answers)?;
-    let verdict = is_subset(image, &a, &b);
+    let mut known = |specifier| match parse(image, specifier, answers) {
+        Ok(found) => Ok(Some(found)),
+        Err(Stop::UnknownType(_)) => Ok(None),
+        Err(stop) => Err(stop),
+    };
+    let verdict = match (known(&args[0])?, known(&args[1])?) {
+        (Some(a), Some(b)) => is_subset(image, &a, &b),
+        // Nothing can be told of a type that is not defined.
+        _ => Verdict::Unknown,
+    };
     Ok(Value::values(vec![
         Value::bool(verdict == Verdict::Yes),
         Value::bool(verdict != Verdict::Unknown),

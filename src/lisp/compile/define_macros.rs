@@ -84,7 +84,11 @@ pub(super) fn defvar(image: &mut Image, form: &Value) -> Expansion {
     // The value is computed only if the variable has none.
     Ok(form![
         known::PROGN,
-        form![known::DEFINE_VARIABLE, quote(name)],
+        form![
+            known::DEFINE_VARIABLE,
+            quote(name),
+            rest.cdr_or_nil().car_or_nil()
+        ],
         form![
             known::UNLESS,
             form![known::BOUNDP, quote(name)],

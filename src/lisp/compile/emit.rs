@@ -154,18 +154,18 @@ impl Emitter<'_> {
 
     fn patch(&mut self, at: usize) {
         let target = self.here();
-        if let Some(op) = self.ops.get_mut(at) {
-            match op {
-                Op::Jump(t)
-                | Op::JumpIfNil(t)
-                | Op::JumpIfTrue(t)
-                | Op::JumpIfTrueOrPop(t)
-                | Op::JumpIfSupplied(_, t)
-                | Op::EnterUnwind(t)
-                | Op::EnterBlock { target: t, .. }
-                | Op::EnterCatch { target: t, .. } => *t = target,
-                _ => {}
-            }
+        if let Some(
+            Op::Jump(t)
+            | Op::JumpIfNil(t)
+            | Op::JumpIfTrue(t)
+            | Op::JumpIfTrueOrPop(t)
+            | Op::JumpIfSupplied(_, t)
+            | Op::EnterUnwind(t)
+            | Op::EnterBlock { target: t, .. }
+            | Op::EnterCatch { target: t, .. },
+        ) = self.ops.get_mut(at)
+        {
+            *t = target;
         }
     }
 

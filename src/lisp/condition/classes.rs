@@ -30,7 +30,8 @@ const fn entry(
     }
 }
 
-/// All standard conditions, and those of the implementation that have a name of their own.
+/// All standard conditions, and those of the implementation that have a name of their own:
+/// such a name ends in that of the standard condition which people handle it by.
 const TABLE: &[Entry] = &[
     entry("CONDITION", &["T"], &["REPORT"]),
     entry("WARNING", &["CONDITION"], &[]),
@@ -116,14 +117,14 @@ const TABLE: &[Entry] = &[
     ),
     entry("%ARG-COUNT-ERROR", &["ERROR"], &[]),
     entry(
-        "%CASE-FAILURE",
+        "%CASE-TYPE-ERROR",
         &["TYPE-ERROR"],
         &["?NAME", "?POSSIBILITIES"],
     ),
-    entry("%INDEX-TOO-LARGE-ERROR", &["TYPE-ERROR"], &[]),
-    entry("%INVALID-ARRAY-INDEX-ERROR", &["TYPE-ERROR"], &[]),
-    entry("%BOUNDING-INDICES-BAD-ERROR", &["TYPE-ERROR"], &[]),
-    entry("%CONTROL-STACK-EXHAUSTED", &["STORAGE-CONDITION"], &[]),
+    entry("%INDEX-TYPE-ERROR", &["TYPE-ERROR"], &[]),
+    entry("%ARRAY-INDEX-TYPE-ERROR", &["TYPE-ERROR"], &[]),
+    entry("%BOUNDING-INDICES-TYPE-ERROR", &["TYPE-ERROR"], &[]),
+    entry("%STACK-STORAGE-CONDITION", &["STORAGE-CONDITION"], &[]),
     entry(
         "%HEAP-EXHAUSTED-ERROR",
         &["ERROR", "STORAGE-CONDITION"],

@@ -22,7 +22,7 @@ pub fn is_of_type(
     loop {
         match typep_with(image, condition, specifier, &mut answers) {
             Ok(answer) => return Ok(answer),
-            Err(Stop::Raise(raise)) => return Err(raise),
+            Err(Stop::Raise(raise) | Stop::UnknownType(raise)) => return Err(raise),
             Err(Stop::Call { function, args }) => {
                 answers.add(machine::call_nested(image, function, args)?);
             }

@@ -3,7 +3,6 @@
 use super::super::known;
 use super::super::raise::Raise;
 use super::super::value::Value;
-use super::convert::{exact_fraction, from_big};
 use super::error::{NumberResult, not_a_float, overflow};
 
 fn like(value: &Value, x: f64) -> Value {
@@ -45,8 +44,9 @@ pub fn integer_decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
         24
     };
     let (mantissa, exponent) = libm::frexp(x.abs());
+    // A whole number of at most 53 bits; infinities and NaN have no mantissa.
     let scaled = libm::ldexp(mantissa, bits);
-    let integer = exact_fraction(scaled).map_or(Value::Int(0), |(n, _)| from_big(n));
+    let integer = Value::Int(if scaled.is_finite() { scaled as i64 } else { 0 });
     let exponent = if x == 0.0 { 0 } else { exponent - bits };
     Ok([
         integer,

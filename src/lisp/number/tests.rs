@@ -184,6 +184,17 @@ fn rationals_of_floats() {
 }
 
 #[test]
+fn floats_come_apart() {
+    let parts = |text: &str| {
+        let parts = integer_decode(&n(text)).ok().unwrap();
+        parts.iter().map(show).collect::<Vec<_>>().join(" ")
+    };
+    assert_eq!(parts("1.0"), "8388608 -23 1");
+    assert_eq!(parts("-1d0"), "4503599627370496 -52 -1");
+    assert_eq!(parts("0.0"), "0 0 1");
+}
+
+#[test]
 fn bits_of_integers() {
     let byte = ByteSpecifier {
         size: 4,

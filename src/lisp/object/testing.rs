@@ -49,3 +49,11 @@ pub fn assert_value(image: &mut Image, text: &str, expected: &str) {
         .collect();
     assert!(is_same, "{text} => {}, not {expected}", shown.join(" ; "));
 }
+
+/// The class of the condition that a text ends in.
+pub fn error_class(image: &mut Image, text: &str) -> String {
+    match eval_values(image, text) {
+        Ok(_) => "no error".to_owned(),
+        Err(class) => class,
+    }
+}

@@ -1,14 +1,6 @@
 //! The object system as programs see it.
 
-use super::testing::{assert_value, eval_values, image};
-use crate::lisp::image::Image;
-
-fn error_class(image: &mut Image, text: &str) -> String {
-    match eval_values(image, text) {
-        Ok(_) => "no error".to_owned(),
-        Err(class) => class,
-    }
-}
+use super::testing::{assert_value, error_class, eval_values, image};
 
 #[test]
 fn initargs_come_before_default_initargs_and_those_before_initforms() {
@@ -387,101 +379,6 @@ fn conditions_have_slots_readers_and_defaults() {
          (handler-case (error 'lost) (lost (c) (list (what c) (where c))))",
         "((:cup) 2)",
     );
-}
-
-#[test]
-fn structures_may_include_others() {
-    let mut image = image();
-    assert_value(
-        &mut image,
-        "(defstruct animal name (legs 4))
-         (defstruct (bird (:include animal (legs 2)) (:conc-name b-)) (song \"tweet\"))
-         (let ((b (make-bird :name 1)))
-           (list (animal-legs b) (b-legs b) (b-song b) (animal-p b) (bird-p (make-animal))))",
-        "(2 2 \"tweet\" t nil)",
-    );
-}
-
-#[test]
-fn structure_slots_keep_their_types_and_may_be_read_only() {
-    let mut image = image();
-    eval_values(
-        &mut image,
-        "(defstruct spot (x 0 :type integer) (y 0 :read-only t))",
-    )
-    .expect("defined");
-    assert_eq!(
-        error_class(&mut image, "(make-spot :x \"a\")"),
-        "TYPE-ERROR"
-    );
-    let text = "(setf (spot-x (make-spot)) 1.5)";
-    assert_eq!(error_class(&mut image, text), "TYPE-ERROR");
-    let text = "(setf (spot-y (make-spot)) 1)";
-    assert_eq!(error_class(&mut image, text), "UNDEFINED-FUNCTION");
-}
-
-#[test]
-fn constructors_by_order_take_defaults_of_slots() {
-    let mut image = image();
-    assert_value(
-        &mut image,
-        "(defstruct (box (:constructor box (a &optional b (c 3) &rest more &key (d 4) &aux e))) a (b 2) c more d e)
-         (let ((x (box 1))) (list (box-a x) (box-b x) (box-c x) (box-d x)))",
-        "(1 2 3 4)",
-    );
-}
-
-#[test]
-fn structures_may_be_vectors_with_gaps() {
-    let mut image = image();
-    assert_value(
-        &mut image,
-        "(defstruct (v (:type vector) :named (:initial-offset 1)) a (b 2))
-         (defstruct (w (:type vector) (:include v (b 3))) c)
-         (let ((x (make-v :a 1)) (y (make-w :c 9)))
-           (setf (v-a x) 5)
-           (list x (v-p x) (v-p 1) y (w-c y)))",
-        "(#(nil v 5 2) t nil #(nil v nil 3 9) 9)",
-    );
-}
-
-#[test]
-fn type_specifiers_may_be_defined_with_arguments() {
-    let mut image = image();
-    assert_value(
-        &mut image,
-        "(deftype within (low &optional high) `(integer ,low ,high))
-         (deftype near () '(or (within 0 3) (member :here)))
-         (list (typep 5 '(within 1)) (typep 5 '(within 1 4)) (typep :here 'near) (typep 3 'near) (typep 4 'near))",
-        "(t nil t t nil)",
-    );
-}
-
-#[test]
-fn subtypep_answers_with_certainty_where_it_can() {
-    let mut image = image();
-    assert_value(
-        &mut image,
-        "(mapcar (lambda (pair) (multiple-value-list (subtypep (first pair) (second pair))))
-           '(((integer 0 5) (integer 0 10)) ((integer 0 10) (or (integer 0 4) (integer 5 20)))
-             ((member a b) symbol) ((satisfies foo) integer) (cons list) ((not list) atom)
-             (string vector) ((and integer (not fixnum)) bignum) ((or null cons) list) (list (or null cons))
-             ((vector t 3) (vector t)) (single-float real) (fixnum (integer 0))))",
-        "((t t) (t t) (t t) (nil nil) (t t) (t t) (t t) (nil nil) (t t) (t t) (t t) (t t) (nil t))",
-    );
-}
-
-#[test]
-fn coercion_goes_between_numbers_sequences_and_characters() {
-    let mut image = image();
-    assert_value(
-        &mut image,
-        "(list (coerce 1/2 'double-float) (coerce '(1 2) 'vector) (coerce #(1 2) 'list)
-           (coerce '(#\\a #\\b) 'string) (coerce \"a\" 'character) (funcall (coerce 'car 'function) '(7)))",
-        "(0.5d0 #(1 2) (1 2) \"ab\" #\\a 7)",
-    );
-    let text = "(coerce \"abc\" 'integer)";
-    assert_eq!(error_class(&mut image, text), "SIMPLE-TYPE-ERROR");
 }
 
 #[test]

@@ -166,7 +166,10 @@ impl Layout<'_> {
         self.write_up_to(op.byte);
         if newline != Newline::Literal {
             let kept = self.out.trim_end_matches(' ').len();
-            self.out.truncate(kept);
+            // The blank of the character `#\ ` is no blank between values.
+            let is_character = self.out.get(..kept).is_some_and(|t| t.ends_with("#\\"));
+            self.out
+                .truncate(kept + usize::from(is_character && kept < self.out.len()));
         }
         self.line += 1;
         if self.settings.lines.is_some_and(|most| self.line >= most) {

@@ -10,3 +10,6 @@ pub mod define;
 pub mod expand;
 pub mod options;
 pub mod typed;
+
+#[cfg(test)]
+mod tests;

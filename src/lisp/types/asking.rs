@@ -37,7 +37,7 @@ impl Asking {
     fn advance(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step, Box<Raise>> {
         match (self.operation)(machine.image, &self.args, &mut self.answers) {
             Ok(value) => Ok(Step::Return(value)),
-            Err(Stop::Raise(raise)) => Err(raise),
+            Err(Stop::Raise(raise) | Stop::UnknownType(raise)) => Err(raise),
             Err(Stop::Call { function, args }) => Ok(Step::Call {
                 function,
                 args,

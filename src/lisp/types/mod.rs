@@ -12,6 +12,9 @@ pub mod subtype;
 pub mod test;
 pub mod type_of;
 
+#[cfg(test)]
+mod tests;
+
 pub use parse::parse;
 pub use specifier::{Answers, Stop, Type};
 pub use test::{TypeCheck, typep, typep_with};

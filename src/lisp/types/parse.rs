@@ -321,7 +321,7 @@ fn dimensions(image: &Image, sizes: Option<&Value>) -> Result<Option<Vec<Option<
 
 fn unknown(image: &Image, specifier: &Value) -> Stop {
     let text = crate::lisp::object::text(image, specifier);
-    Raise::simple(format!("unknown type specifier: {text}")).into()
+    Stop::UnknownType(Raise::simple(format!("unknown type specifier: {text}")))
 }
 
 /// Is the symbol the name of a class that types alone describe?

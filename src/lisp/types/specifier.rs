@@ -91,7 +91,9 @@ pub enum Stop {
         /// The arguments.
         args: Vec<Value>,
     },
-    /// An error.
+    /// A name of no type, with the error that tells so.
+    UnknownType(Box<Raise>),
+    /// Another error.
     Raise(Box<Raise>),
 }
 

@@ -32,7 +32,7 @@ pub fn typep(image: &Image, value: &Value, specifier: &Value) -> Result<TypeChec
         Ok(true) => Ok(TypeCheck::Yes),
         Ok(false) => Ok(TypeCheck::No),
         Err(Stop::Call { function, args }) => Ok(TypeCheck::NeedsCall { function, args }),
-        Err(Stop::Raise(raise)) => Err(raise),
+        Err(Stop::Raise(raise) | Stop::UnknownType(raise)) => Err(raise),
     }
 }
 

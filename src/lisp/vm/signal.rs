@@ -129,7 +129,7 @@ impl Signalling {
         Ok(None)
     }
 
-    fn decline(self: Box<Self>) -> Step {
+    fn decline(self) -> Step {
         match self.declined {
             Declined::Return => Step::Return(Value::NIL),
             Declined::Stop => Step::Unhandled(self.condition),

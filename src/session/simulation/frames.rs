@@ -25,11 +25,11 @@ impl Simulation {
             return Ok(self.world.furniture_pose(link));
         }
         let object = name.to_uppercase().replace('_', "-");
-        if let Some(pose) = self.world.object_pose(&object) {
+        if let Ok(pose) = self.world.object_pose(&object) {
             return Ok(pose);
         }
-        let links = self.models.robot.links().iter();
-        let names = links.map(|l| l.name.as_str()).chain([MAP]);
+        let links = self.models.robot.links();
+        let names = links.map(|(_, link)| link.name.as_str()).chain([MAP]);
         let near = suggestion(name, names, |n| format!("{n:?}"));
         Err(Raise::simple(format!(
             "There is no frame {frame:?}{near}{}",

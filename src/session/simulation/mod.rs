@@ -9,6 +9,7 @@ mod functions;
 mod held;
 mod motions;
 mod names;
+mod pace;
 mod pose_argument;
 mod properties;
 mod raising;
@@ -20,6 +21,7 @@ use std::sync::Arc;
 
 use indexmap::IndexMap;
 
+use super::{SessionError, SessionOptions};
 use crate::lisp::value::Value;
 use crate::motion::{Motion, ProcessModule};
 use crate::plan::Ticket;
@@ -27,6 +29,7 @@ use crate::spatial::Pose;
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::{Models, RobotConfiguration, World};
 
+use pace::Pace;
 pub use tables::install;
 
 /// A motion that a task waits for.
@@ -66,6 +69,7 @@ pub struct Simulation {
     next_ticket: u64,
     axes: Option<Axes>,
     log_level: LogLevel,
+    pace: Option<Pace>,
     /// The exit status, once somebody has asked to leave.
     pub(super) quit: Option<u8>,
     observer: Option<Observer>,
@@ -90,8 +94,12 @@ pub enum LogLevel {
 
 impl Simulation {
     /// The robot as after start-up: at the origin of the map, its arms tucked.
-    pub fn new(models: Arc<Models>, log_level: LogLevel) -> Result<Simulation, String> {
-        let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp").map_err(|e| e.to_string())?;
+    pub(super) fn new(
+        models: Arc<Models>,
+        options: &SessionOptions,
+    ) -> Result<Simulation, SessionError> {
+        let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp")
+            .map_err(|error| SessionError::Models(error.to_string()))?;
         Ok(Simulation {
             world: starting_world(&models),
             models,
@@ -102,7 +110,8 @@ impl Simulation {
             waiting: VecDeque::new(),
             next_ticket: 0,
             axes: None,
-            log_level,
+            log_level: options.log_level,
+            pace: options.realtime.map(Pace::new),
             quit: None,
             observer: None,
             now: 0.0,

@@ -1,14 +1,13 @@
 //! Motion designators as motions.
 
-use crate::session::simulation::properties::property;
-use crate::designator::value::current;
-use crate::designator::failure::no_process_module;
-use crate::designator::value::as_designator;
-use crate::designator::object;
 use super::Simulation;
 use super::frames::BASE;
 use super::names::{name_text, type_text};
 use crate::designator::MotionRequest;
+use crate::designator::failure::no_process_module;
+use crate::designator::object;
+use crate::designator::value::as_designator;
+use crate::designator::value::current;
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::number;
@@ -16,11 +15,12 @@ use crate::lisp::print;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
 use crate::motion::{
-    CollisionMode, Detect, DetectQuery, DetectedObject, Drive, GripperCommand, Look,
-    LookDirection, LookTarget, Motion, MotionOutcome, MotionStatus, MoveGripper, MoveJoints,
-    MoveTcp, MoveTorso, ProcessModule, Progress, Put, TcpGoal, TcpPath,
+    CollisionMode, Detect, DetectQuery, DetectedObject, Drive, GripperCommand, Look, LookDirection,
+    LookTarget, Motion, MotionOutcome, MotionStatus, MoveGripper, MoveJoints, MoveTcp, MoveTorso,
+    ProcessModule, Progress, Put, TcpGoal, TcpPath,
 };
 use crate::robot::Side;
+use crate::session::simulation::properties::property;
 use crate::transform::value::frame_of;
 use crate::world::World;
 
@@ -162,7 +162,9 @@ impl Simulation {
             "MOVING-GRIPPER-JOINT" => {
                 let position = required(image, "JOINT-ANGLE")?;
                 let position = real(&position)?;
-                self.gripper(image, designator, |_| Ok(GripperCommand::Position(position)))?
+                self.gripper(image, designator, |_| {
+                    Ok(GripperCommand::Position(position))
+                })?
             }
             "GRIPPING" => {
                 let object = get(image, "OBJECT").map(|o| current(&o));
@@ -313,7 +315,10 @@ impl Simulation {
         let types = property(image, object, "TYPE");
         Detect::new(DetectQuery {
             name: name.and_then(|n| name_text(image, &n)),
-            types: types.and_then(|t| type_text(image, &t)).into_iter().collect(),
+            types: types
+                .and_then(|t| type_text(image, &t))
+                .into_iter()
+                .collect(),
             description: print::to_string(image, object, false),
         })
     }

@@ -46,7 +46,7 @@ impl Simulation {
         let Some(text) = name_text(image, name) else {
             return Err(Raise::type_error(name, known::SYMBOL));
         };
-        if self.world.object(&text).is_some() {
+        if self.world.object(&text).is_ok() {
             return Ok(text);
         }
         let shown = print::to_string(image, name, true);

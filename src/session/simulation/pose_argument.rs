@@ -1,10 +1,10 @@
 //! Poses as arguments: lists, poses, stamped poses, location designators.
 
-use crate::session::simulation::properties::property;
 use super::Simulation;
 use crate::lisp::image::Image;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::session::simulation::properties::property;
 use crate::spatial::Pose;
 use crate::transform::argument;
 use crate::transform::value::{as_placement, frame_of};

@@ -157,6 +157,9 @@ impl Simulation {
     fn step(&mut self) {
         self.world.step();
         self.observe();
+        if let Some(pace) = &mut self.pace {
+            pace.wait_for_step();
+        }
     }
 
     fn set_paused(&mut self, ticket: Ticket, paused: bool) {

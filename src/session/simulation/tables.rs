@@ -17,9 +17,8 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
 ];
 
 /// Operators by package.
-static OPERATORS: &[(&str, &[Operator])] = &[
-    ("CRAM-PR2-PROJECTION", functions::robot_macros::OPERATORS),
-];
+static OPERATORS: &[(&str, &[Operator])] =
+    &[("CRAM-PR2-PROJECTION", functions::robot_macros::OPERATORS)];
 
 /// Functions of one package that another package offers under the same name.
 static ALIASES: &[(&str, &str, &[&str])] = &[

@@ -44,9 +44,8 @@ fn matrix(image: &Image, value: &Value) -> Result<[[f64; 3]; 3]> {
         .iter_list()
         .map(|row| triple(image, &row, "row of a rotation matrix"))
         .collect::<Result<_>>()?;
-    <[[f64; 3]; 3]>::try_from(rows.as_slice()).map_err(|_| {
-        Raise::simple("A rotation matrix is a list of three rows of three numbers.")
-    })
+    <[[f64; 3]; 3]>::try_from(rows.as_slice())
+        .map_err(|_| Raise::simple("A rotation matrix is a list of three rows of three numbers."))
 }
 
 fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

@@ -1,18 +1,30 @@
 //! Leaving the shell.
 
 use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
 use crate::lisp::number;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::plan::Reply;
 use crate::session::simulation::call::host;
 use crate::session::simulation::{Simulation, call};
-use crate::lisp::image::Image;
-use crate::plan::Reply;
 
 /// Builtins of package `COMMON-LISP`.
 pub static TABLE: &[Builtin] = &[
-    control("QUIT", "&optional status", "Leaves the shell.", &[], host!(quit)),
-    control("EXIT", "&optional status", "Leaves the shell.", &[], host!(quit)),
+    control(
+        "QUIT",
+        "&optional status",
+        "Leaves the shell.",
+        &[],
+        host!(quit),
+    ),
+    control(
+        "EXIT",
+        "&optional status",
+        "Leaves the shell.",
+        &[],
+        host!(quit),
+    ),
 ];
 
 fn quit(simulation: &mut Simulation, _: &mut Image, args: &[Value]) -> Result<Reply, Box<Raise>> {

@@ -23,13 +23,55 @@ const SETTLE: f64 = 5.0;
 
 /// Builtins of package `CRAM-BULLET-REASONING-UTILITIES`.
 pub static TABLE: &[Builtin] = &[
-    control("SPAWN-OBJECT", "name type &key pose color mass", "Puts an object of a type into the world.", &[], host!(spawn_keyword)),
-    control("KILL-OBJECT", "name", "Removes an object.", &[], host!(kill_object)),
-    control("KILL-ALL-OBJECTS", "", "Removes all objects.", &[], host!(kill_all_objects)),
-    control("MOVE-OBJECT", "name &optional pose", "Puts an object somewhere else.", &[], host!(move_object)),
-    control("OBJECT-POSE", "name", "The pose of an object in the map frame.", &[], host!(object_pose)),
-    control("OBJECT-EXISTS", "name", "Is there an object of that name?", &[], host!(object_exists)),
-    control("MOVE-ROBOT", "&optional pose", "Puts the robot somewhere else at once.", &[], host!(move_robot)),
+    control(
+        "SPAWN-OBJECT",
+        "name type &key pose color mass",
+        "Puts an object of a type into the world.",
+        &[],
+        host!(spawn_keyword),
+    ),
+    control(
+        "KILL-OBJECT",
+        "name",
+        "Removes an object.",
+        &[],
+        host!(kill_object),
+    ),
+    control(
+        "KILL-ALL-OBJECTS",
+        "",
+        "Removes all objects.",
+        &[],
+        host!(kill_all_objects),
+    ),
+    control(
+        "MOVE-OBJECT",
+        "name &optional pose",
+        "Puts an object somewhere else.",
+        &[],
+        host!(move_object),
+    ),
+    control(
+        "OBJECT-POSE",
+        "name",
+        "The pose of an object in the map frame.",
+        &[],
+        host!(object_pose),
+    ),
+    control(
+        "OBJECT-EXISTS",
+        "name",
+        "Is there an object of that name?",
+        &[],
+        host!(object_exists),
+    ),
+    control(
+        "MOVE-ROBOT",
+        "&optional pose",
+        "Puts the robot somewhere else at once.",
+        &[],
+        host!(move_robot),
+    ),
 ];
 
 /// What is to be spawned.
@@ -50,7 +92,7 @@ impl Simulation {
         let Some(kind) = type_text(image, spawning.kind) else {
             return Err(Raise::type_error(spawning.kind, known::SYMBOL));
         };
-        if self.world.object(&name).is_none() && self.models.objects.get(&kind).is_none() {
+        if self.world.object(&name).is_err() && self.models.objects.get(&kind).is_none() {
             let types = self.models.objects.types();
             let near = suggestion(&kind, types.map(|t| t.name.as_str()), |n| {
                 format!(":{}", n.to_uppercase())
@@ -97,12 +139,12 @@ fn color(value: &Value) -> Result<[f32; 4]> {
     }
 }
 
-fn spawn_keyword(
-    simulation: &mut Simulation,
-    image: &mut Image,
-    args: &[Value],
-) -> Result<Reply> {
-    let keys = [image.keyword("POSE"), image.keyword("COLOR"), image.keyword("MASS")];
+fn spawn_keyword(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let keys = [
+        image.keyword("POSE"),
+        image.keyword("COLOR"),
+        image.keyword("MASS"),
+    ];
     let [pose, color, mass] = keywords::parse(image, &args[2..], keys)?;
     let pose = match pose {
         Some(pose) => simulation.pose_as_given(image, &pose)?,
@@ -152,13 +194,13 @@ fn move_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -
 
 fn object_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = simulation.object_named(image, &args[0])?;
-    let pose = simulation.world.object_pose(&name);
-    done(pose.map_or(Value::NIL, |pose| pose_stamped("map", &pose)))
+    let pose = simulation.world.object_pose(&name).map_err(world_error)?;
+    done(pose_stamped("map", &pose))
 }
 
 fn object_exists(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = name_text(image, &args[0]).unwrap_or_default();
-    done(simulation.world.object(&name).is_some())
+    done(simulation.world.object(&name).is_ok())
 }
 
 fn move_robot(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

@@ -1,7 +1,7 @@
 //! What the plans of picking up and placing ask of the world and of the grasp library.
 
-use crate::session::simulation::properties::property;
 use crate::designator::value::current;
+use crate::session::simulation::properties::property;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use crate::lisp::builtin::{Builtin, control};
@@ -27,18 +27,90 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
 pub static TABLE: &[Builtin] = &[
-    control("ARM-POSTURE", "arm posture", "The joint angles of an arm's posture: :CARRY, :TUCKED, ….", &[], host!(arm_posture)),
-    control("OBJECTS-IN-HAND", "arm", "Names of the objects that a hand holds.", &[], host!(objects_in_hand)),
-    control("GRASPS-OF-OBJECT", "object arm", "The grasps that are defined for an object and an arm.", &[], host!(grasps_of_object)),
-    control("GRASPING-POSES", "object arm grasp", "Poses of the hand for a grasp: pregrasp, second pregrasp, grasp, lift, second lift.", &[], host!(grasping_poses)),
-    control("GRIPPER-OPENING", "object", "How wide a hand opens (m) to grasp an object.", &[], host!(gripper_opening)),
-    control("GRIPPING-EFFORT", "object", "How hard an object is gripped (N).", &[], host!(gripping_effort)),
-    control("ATTACH-OBJECT", "object arm grasp", "Notes that a hand holds an object.", &[], host!(attach_object)),
-    control("DETACH-OBJECT", "name arm", "Lets go of an object and waits until it rests.", &[], host!(detach_object)),
-    control("OBJECT-TO-PLACE", "object arm", "The name of the object to be placed, and the arm that holds it.", &[], host!(object_to_place)),
-    control("PLACING-TARGET", "object target", "The pose where an object is to be placed.", &[], host!(placing_target)),
-    control("PUTTING-POSES", "name arm target", "Poses of the hand for placing: lift, grasp, second pregrasp, pregrasp.", &[], host!(putting_poses)),
-    control("RAISE-POSE", "pose height", "A pose so much higher (m).", &[], host!(raise_pose)),
+    control(
+        "ARM-POSTURE",
+        "arm posture",
+        "The joint angles of an arm's posture: :CARRY, :TUCKED, ….",
+        &[],
+        host!(arm_posture),
+    ),
+    control(
+        "OBJECTS-IN-HAND",
+        "arm",
+        "Names of the objects that a hand holds.",
+        &[],
+        host!(objects_in_hand),
+    ),
+    control(
+        "GRASPS-OF-OBJECT",
+        "object arm",
+        "The grasps that are defined for an object and an arm.",
+        &[],
+        host!(grasps_of_object),
+    ),
+    control(
+        "GRASPING-POSES",
+        "object arm grasp",
+        "Poses of the hand for a grasp: pregrasp, second pregrasp, grasp, lift, second lift.",
+        &[],
+        host!(grasping_poses),
+    ),
+    control(
+        "GRIPPER-OPENING",
+        "object",
+        "How wide a hand opens (m) to grasp an object.",
+        &[],
+        host!(gripper_opening),
+    ),
+    control(
+        "GRIPPING-EFFORT",
+        "object",
+        "How hard an object is gripped (N).",
+        &[],
+        host!(gripping_effort),
+    ),
+    control(
+        "ATTACH-OBJECT",
+        "object arm grasp",
+        "Notes that a hand holds an object.",
+        &[],
+        host!(attach_object),
+    ),
+    control(
+        "DETACH-OBJECT",
+        "name arm",
+        "Lets go of an object and waits until it rests.",
+        &[],
+        host!(detach_object),
+    ),
+    control(
+        "OBJECT-TO-PLACE",
+        "object arm",
+        "The name of the object to be placed, and the arm that holds it.",
+        &[],
+        host!(object_to_place),
+    ),
+    control(
+        "PLACING-TARGET",
+        "object target",
+        "The pose where an object is to be placed.",
+        &[],
+        host!(placing_target),
+    ),
+    control(
+        "PUTTING-POSES",
+        "name arm target",
+        "Poses of the hand for placing: lift, grasp, second pregrasp, pregrasp.",
+        &[],
+        host!(putting_poses),
+    ),
+    control(
+        "RAISE-POSE",
+        "pose height",
+        "A pose so much higher (m).",
+        &[],
+        host!(raise_pose),
+    ),
 ];
 
 /// Headings (degrees) at which an object that looks the same from all sides may be put
@@ -107,8 +179,8 @@ impl Simulation {
         grasp: &Value,
     ) -> Result<GraspDefinition> {
         let wanted = type_text(image, grasp).unwrap_or_default();
-        let kinds = self.models.objects.lineage(kind);
-        let found = kinds.iter().find_map(|k| self.grasps.get(k, arm, &wanted));
+        let mut kinds = self.models.objects.lineage(kind);
+        let found = kinds.find_map(|k| self.grasps.get(k, arm, &wanted));
         if let Some(definition) = found {
             return Ok(definition.clone());
         }
@@ -137,7 +209,7 @@ impl Simulation {
     /// they are tried.
     fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
         let kinds = self.models.objects.lineage(kind);
-        for kind in &kinds {
+        for kind in kinds {
             let names: Vec<String> = self
                 .grasps
                 .grasps(kind)
@@ -175,7 +247,11 @@ fn in_base(pose: &Pose) -> Value {
 fn arm_posture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let side = side(image, &args[0])?;
     let name = type_text(image, &args[1]).unwrap_or_default();
-    let name = if name == "carry" { "park" } else { name.as_str() };
+    let name = if name == "carry" {
+        "park"
+    } else {
+        name.as_str()
+    };
     match simulation.models.description.arm(side).posture(name) {
         Some(angles) => done(Value::list(angles.iter().map(|a| Value::Double(*a)))),
         None => Err(Raise::simple(format!(
@@ -228,12 +304,20 @@ fn grasping_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     ))
 }
 
-fn gripper_opening(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn gripper_opening(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
     let object = simulation.perceived(image, &args[0])?;
     done(simulation.grip(&object.kind).opening)
 }
 
-fn gripping_effort(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn gripping_effort(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
     let object = simulation.perceived(image, &args[0])?;
     done(simulation.grip(&object.kind).effort)
 }
@@ -300,7 +384,11 @@ fn object_to_place(
                 .find_map(|s| Some((simulation.held_by(s).into_iter().next()?, s)));
             match holding {
                 Some(found) => found,
-                None => return Err(Raise::simple("There is nothing to place: both hands are empty.")),
+                None => {
+                    return Err(Raise::simple(
+                        "There is nothing to place: both hands are empty.",
+                    ));
+                }
             }
         }
     };
@@ -338,9 +426,10 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         Some("base_footprint") => simulation.pose_as_given(image, &args[2])?,
         _ => simulation.base().inverse() * simulation.pose_in_map(image, &args[2])?,
     };
-    let Some(object_in_map) = simulation.world.object_pose(&name) else {
-        return Err(Raise::simple(format!("There is no object named {name}.")));
-    };
+    let object_in_map = simulation
+        .world
+        .object_pose(&name)
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
     // The grasps speak of a tool frame of their own, ahead of the wrist.
     let arm = simulation.models.description.arm(side);
     let wrist_in_map = simulation.world.link_pose(arm.wrist);

@@ -13,20 +13,48 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `ROSLISP`.
 pub static LOG_TABLE: &[Builtin] = &[
-    control("LOG-LINE", "level tags text", "Writes a log line.", &[], host!(log_line)),
-    control("ROS-TIME", "", "Simulated time in seconds.", &[], host!(ros_time)),
+    control(
+        "LOG-LINE",
+        "level tags text",
+        "Writes a log line.",
+        &[],
+        host!(log_line),
+    ),
+    control(
+        "ROS-TIME",
+        "",
+        "Simulated time in seconds.",
+        &[],
+        host!(ros_time),
+    ),
 ];
 
 /// Builtins of package `ROSLISP-UTILITIES`.
 pub static UTILITIES_TABLE: &[Builtin] = &[
-    control("STARTUP-ROS", "&rest options", "Nothing to start: the robot is here already. Takes the world back to its start.", &[], host!(startup_ros)),
-    control("SHUTDOWN-ROS", "", "Nothing to stop.", &[], host!(shutdown_ros)),
+    control(
+        "STARTUP-ROS",
+        "&rest options",
+        "Nothing to start: the robot is here already. Takes the world back to its start.",
+        &[],
+        host!(startup_ros),
+    ),
+    control(
+        "SHUTDOWN-ROS",
+        "",
+        "Nothing to stop.",
+        &[],
+        host!(shutdown_ros),
+    ),
 ];
 
 /// Builtins of package `ROS-LOAD`.
-pub static LOAD_TABLE: &[Builtin] = &[
-    control("LOAD-SYSTEM", "package &optional system", "Nothing to load: everything is built in.", &[], host!(load_system)),
-];
+pub static LOAD_TABLE: &[Builtin] = &[control(
+    "LOAD-SYSTEM",
+    "package &optional system",
+    "Nothing to load: everything is built in.",
+    &[],
+    host!(load_system),
+)];
 
 impl Simulation {
     /// Writes a log line: `[(TAG …) LEVEL] seconds: text`.
@@ -80,7 +108,8 @@ fn ros_time(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<R
 
 fn startup_ros(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
     simulation.restart();
-    let text = "The robot and the kitchen are simulated in this process: there is nothing to start.";
+    let text =
+        "The robot and the kitchen are simulated in this process: there is nothing to start.";
     simulation.log(image, LogLevel::Info, "(ROSLISP TOP)", text);
     done(Value::NIL)
 }

@@ -1,8 +1,7 @@
 //! The functions of the tutorial's package that look at the world or change it.
 
-use crate::session::simulation::properties::property;
-use crate::designator::value::current;
 use super::objects::Spawning;
+use crate::designator::value::current;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
 use crate::lisp::foreign::Foreign;
@@ -15,6 +14,7 @@ use crate::lisp::value::Value;
 use crate::plan::Reply;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
+use crate::session::simulation::properties::property;
 use crate::session::simulation::{Axes, LogLevel, Simulation};
 use crate::transform::value::{as_placement, frame_of, pose_stamped, transform_stamped};
 
@@ -22,18 +22,90 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-PICK-PLACE-TUTORIAL`.
 pub static TABLE: &[Builtin] = &[
-    control("INIT-PROJECTION", "", "Takes the world back to its start: no objects, the robot at the origin with its arms tucked.", &[], host!(init_projection)),
-    control("SPAWN-OBJECT", "pose &optional type name color", "Puts an object (a red bottle named BOTTLE-1 unless told) into the world and lets it come to rest. An object of that name is moved.", &[], host!(spawn_object)),
-    control("LIST-AVAILABLE-OBJECTS", "", "The types of objects that can be spawned.", &[], host!(list_available_objects)),
-    control("LIST-DEFINED-GRASPS", "type", "The grasps that are defined for a type of objects.", &[], host!(list_defined_grasps)),
-    control("VISUALIZE-COORDINATES", "object-or-pose &optional size", "Shows coordinate axes at an object or a pose.", &[], host!(visualize_coordinates)),
-    control("GET-KITCHEN-URDF", "", "The description of the kitchen.", &[], host!(get_kitchen_urdf)),
-    control("MOVE-KITCHEN-JOINT", "&key joint-name joint-angle kitchen-name", "Opens or closes a drawer or a door.", &[], host!(move_kitchen_joint)),
-    control("GET-ROBOT-TRANSFORMATION", "", "The transform from the map to the robot's base.", &[], host!(get_robot_transformation)),
-    control("GET-CURRENT-POSE-OF-OBJECT", "name", "The pose of an object in the map frame.", &[], host!(get_current_pose)),
-    control("GET-OBJ-NAME", "object", "The name of a perceived object.", &[], host!(get_object_name)),
-    control("GET-OBJECT-NAME", "object", "The name of a perceived object.", &[], host!(get_object_name)),
-    control("LOOK-UP-TRANSFORMATION", "parent child", "The transform from one frame to another.", &[], host!(look_up_transformation)),
+    control(
+        "INIT-PROJECTION",
+        "",
+        "Takes the world back to its start: no objects, the robot at the origin with its arms tucked.",
+        &[],
+        host!(init_projection),
+    ),
+    control(
+        "SPAWN-OBJECT",
+        "pose &optional type name color",
+        "Puts an object (a red bottle named BOTTLE-1 unless told) into the world and lets it come to rest. An object of that name is moved.",
+        &[],
+        host!(spawn_object),
+    ),
+    control(
+        "LIST-AVAILABLE-OBJECTS",
+        "",
+        "The types of objects that can be spawned.",
+        &[],
+        host!(list_available_objects),
+    ),
+    control(
+        "LIST-DEFINED-GRASPS",
+        "type",
+        "The grasps that are defined for a type of objects.",
+        &[],
+        host!(list_defined_grasps),
+    ),
+    control(
+        "VISUALIZE-COORDINATES",
+        "object-or-pose &optional size",
+        "Shows coordinate axes at an object or a pose.",
+        &[],
+        host!(visualize_coordinates),
+    ),
+    control(
+        "GET-KITCHEN-URDF",
+        "",
+        "The description of the kitchen.",
+        &[],
+        host!(get_kitchen_urdf),
+    ),
+    control(
+        "MOVE-KITCHEN-JOINT",
+        "&key joint-name joint-angle kitchen-name",
+        "Opens or closes a drawer or a door.",
+        &[],
+        host!(move_kitchen_joint),
+    ),
+    control(
+        "GET-ROBOT-TRANSFORMATION",
+        "",
+        "The transform from the map to the robot's base.",
+        &[],
+        host!(get_robot_transformation),
+    ),
+    control(
+        "GET-CURRENT-POSE-OF-OBJECT",
+        "name",
+        "The pose of an object in the map frame.",
+        &[],
+        host!(get_current_pose),
+    ),
+    control(
+        "GET-OBJ-NAME",
+        "object",
+        "The name of a perceived object.",
+        &[],
+        host!(get_object_name),
+    ),
+    control(
+        "GET-OBJECT-NAME",
+        "object",
+        "The name of a perceived object.",
+        &[],
+        host!(get_object_name),
+    ),
+    control(
+        "LOOK-UP-TRANSFORMATION",
+        "parent child",
+        "The transform from one frame to another.",
+        &[],
+        host!(look_up_transformation),
+    ),
 ];
 
 fn init_projection(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
@@ -124,11 +196,11 @@ fn visualize_coordinates(
                     "{shown} cannot be visualized: the name or type of an object, or a pose, was expected."
                 )));
             };
-            let named = simulation.world.object_pose(&name);
+            let named = simulation.world.object_pose(&name).ok();
             let typed = || {
                 let kind = name.to_lowercase();
                 let object = simulation.world.objects().find(|o| o.type_name() == kind)?;
-                simulation.world.object_pose(object.name())
+                simulation.world.object_pose(object.name()).ok()
             };
             match named.or_else(typed) {
                 Some(pose) => pose,
@@ -188,8 +260,10 @@ fn move_kitchen_joint(
     };
     let angle = angle.as_ref().and_then(number::to_f64).unwrap_or(0.2);
     if simulation.models.kitchen.joint_named(&name).is_none() {
-        let joints = simulation.models.kitchen.joints().iter();
-        let near = suggestion(&name, joints.map(|j| j.name.as_str()), |n| format!("{n:?}"));
+        let joints = simulation.models.kitchen.joints();
+        let near = suggestion(&name, joints.map(|(_, joint)| joint.name.as_str()), |n| {
+            format!("{n:?}")
+        });
         return Err(Raise::simple(format!(
             "The kitchen has no joint {name:?}{near}{}",
             if near.is_empty() { "." } else { "" }
@@ -221,11 +295,18 @@ fn get_current_pose(
     args: &[Value],
 ) -> Result<Reply> {
     let name = simulation.object_named(image, &args[0])?;
-    let pose = simulation.world.object_pose(&name);
-    done(pose.map_or(Value::NIL, |pose| pose_stamped("map", &pose)))
+    let pose = simulation
+        .world
+        .object_pose(&name)
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    done(pose_stamped("map", &pose))
 }
 
-fn get_object_name(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn get_object_name(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
     let current = current(&args[0]);
     match property(image, &current, "NAME") {
         Some(name) => done(name),

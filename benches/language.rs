@@ -1,0 +1,74 @@
+//! How fast the language is: calls, handling failures, reading and compiling plans.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use planwright::dialogue::{Evaluate, Event, Outcome};
+use planwright::session::{Session, SessionOptions};
+
+fn session() -> Session {
+    // The built-in models are known to be right.
+    Session::new(&SessionOptions::default()).unwrap()
+}
+
+fn run(session: &mut Session, text: &str) {
+    let outcome = session.evaluate("bench", text, &mut |event| {
+        if let Event::Aborted(abort) = event {
+            panic!("{}", abort.report);
+        }
+    });
+    assert_eq!(outcome, Outcome::Finished);
+}
+
+/// `(fib 20)` makes 21891 calls.
+fn calls(c: &mut Criterion) {
+    let mut session = session();
+    let definition = "(defun fib (n) (if (< n 2) n (+ (fib (- n 1)) (fib (- n 2)))))";
+    run(&mut session, definition);
+    c.bench_function("fib 20: 21891 calls", |b| {
+        b.iter(|| run(&mut session, "(fib 20)"));
+    });
+}
+
+/// A thousand failures, each handled and retried.
+fn failures(c: &mut Criterion) {
+    let mut session = session();
+    let definition = "(defun retry-often (n)
+        (let ((tries 0))
+          (cpl:with-failure-handling
+              ((cpl:plan-failure (e)
+                 (declare (ignore e))
+                 (when (< tries n) (cpl:retry))
+                 (return tries)))
+            (incf tries)
+            (cpl:fail \"again\"))))";
+    run(&mut session, definition);
+    c.bench_function("1000 failures handled and retried", |b| {
+        b.iter(|| run(&mut session, "(retry-often 1000)"));
+    });
+}
+
+/// Parallel branches that do nothing.
+fn branches(c: &mut Criterion) {
+    let mut session = session();
+    let form = format!("(cpl:top-level (cpl:par {}))", "nil ".repeat(100));
+    c.bench_function("par of 100 empty branches", |b| {
+        b.iter(|| run(&mut session, &form));
+    });
+}
+
+/// A plan file of about 10 KB.
+fn files(c: &mut Criterion) {
+    let mut session = session();
+    let plan = include_str!("../plans/tutorial/move-bottle.plan");
+    let definitions = plan.split("(move-bottle '(").next().unwrap_or_default();
+    let text = definitions.repeat(10_000 / definitions.len() + 1);
+    let name = format!("a plan of {} bytes, read and compiled", text.len());
+    c.bench_function(&name, |b| b.iter(|| run(&mut session, &text)));
+}
+
+/// From nothing to a prompt.
+fn start(c: &mut Criterion) {
+    c.bench_function("start of a session", |b| b.iter(session));
+}
+
+criterion_group!(benches, calls, failures, branches, files, start);
+criterion_main!(benches);

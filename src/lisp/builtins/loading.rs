@@ -1,0 +1,125 @@
+//! Loading files of forms.
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::fiber::Dynamic;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+use crate::reader::{Outcome, ReadError, Reader};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `COMMON-LISP`.
+pub static TABLE: &[Builtin] = &[control(
+    "LOAD",
+    "file &key verbose print if-does-not-exist external-format",
+    "Evaluates all forms of a file; T.",
+    &[],
+    load,
+)];
+
+/// A file of which some forms have been evaluated.
+pub struct Loading {
+    reader: Reader,
+}
+
+impl Loading {
+    /// The step that evaluates all forms of a text, which places call by a name.
+    pub fn start(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
+        let source = machine.image.sources.add(name, text);
+        let reader = Reader::new(machine.image, source);
+        // The file may choose its package; the caller's is in force again afterwards.
+        let package = machine.image.special(known::V_PACKAGE).clone();
+        machine
+            .fiber
+            .dynamic
+            .push(Dynamic::Bind(known::V_PACKAGE, package));
+        Box::new(Loading { reader }).next(machine)
+    }
+
+    fn next(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step> {
+        let outcome = self.reader.next(machine.image);
+        self.go_on(machine, outcome)
+    }
+
+    fn go_on(
+        self: Box<Self>,
+        machine: &mut Machine<'_>,
+        outcome: std::result::Result<Outcome, ReadError>,
+    ) -> Result<Step> {
+        match outcome.map_err(|error| error.raise())? {
+            Outcome::Form(form, _) => Ok(Step::Call {
+                function: known::EVAL.into(),
+                args: vec![form],
+                then: self,
+            }),
+            Outcome::Evaluate(form) => Ok(Step::Call {
+                function: known::EVAL.into(),
+                args: vec![form],
+                then: Box::new(Supplying { loading: self }),
+            }),
+            Outcome::End => {
+                restore_package(machine);
+                Ok(Step::Return(Value::T))
+            }
+        }
+    }
+}
+
+/// Undoes the binding of `*package*` that loading made: the innermost dynamic entry.
+fn restore_package(machine: &mut Machine<'_>) {
+    if let Some(Dynamic::Bind(known::V_PACKAGE, _)) = machine.fiber.dynamic.last()
+        && let Some(Dynamic::Bind(sym, outside)) = machine.fiber.dynamic.pop()
+    {
+        machine.image.set_special(sym, outside);
+    }
+}
+
+impl Resume for Loading {
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step> {
+        self.next(machine)
+    }
+
+    fn name(&self) -> &'static str {
+        "LOAD"
+    }
+}
+
+/// A file whose reader waits for the value of a `#.` form.
+struct Supplying {
+    loading: Box<Loading>,
+}
+
+impl Resume for Supplying {
+    fn resume(mut self: Box<Self>, machine: &mut Machine<'_>, value: Value) -> Result<Step> {
+        let outcome = self.loading.reader.supply(machine.image, value);
+        self.loading.go_on(machine, outcome)
+    }
+
+    fn name(&self) -> &'static str {
+        "LOAD"
+    }
+}
+
+fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let Some(path) = args[0].as_text() else {
+        return Err(Raise::type_error(&args[0], known::STRING));
+    };
+    match read_file(machine.image, &path) {
+        Ok(text) => Loading::start(machine, &path, &text),
+        Err(raise) => Err(raise),
+    }
+}
+
+fn read_file(_: &Image, path: &str) -> Result<String> {
+    std::fs::read_to_string(path).map_err(|error| {
+        Raise::new(
+            known::FILE_ERROR,
+            format!("The file {path:?} cannot be read: {error}."),
+        )
+        .with(known::K_PATHNAME, path.into())
+    })
+}

@@ -1,0 +1,133 @@
+//! Failing, and what the macros of failure handling expand into.
+
+use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::builtins::signalling;
+use crate::lisp::class::ClassKind;
+use crate::lisp::condition;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::signal::Declined;
+use crate::lisp::vm::step::Step;
+use crate::plan::state::Plan;
+use crate::plan::step::Result;
+
+/// The builtins.
+pub static TABLE: &[Builtin] = &[control(
+    "FAIL",
+    "&rest failure",
+    "Fails: with a text and its arguments, with the name of a condition class and initargs, with a condition object, or just so.",
+    &[
+        "(cpl:with-failure-handling ((cpl:plan-failure (e) (return (princ-to-string e)))) (cpl:fail \"no ~a\" 'cup)) => \"no CUP\"",
+    ],
+    fail,
+)];
+
+/// Builtins of package `PLAN-SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "EXPAND-DO-RETRY",
+        "counters counter body",
+        "The expansion of DO-RETRY.",
+        &[],
+        |_, args| Ok(crate::plan::macros::do_retry(&args[0], &args[1], &args[2])),
+    ),
+    pure(
+        "EXPAND-GET-COUNTER",
+        "counters counter",
+        "The expansion of GET-COUNTER.",
+        &[],
+        |_, args| Ok(crate::plan::macros::get_counter(&args[0], &args[1])),
+    ),
+    pure(
+        "EXPAND-RESET-COUNTER",
+        "counters counter",
+        "The expansion of RESET-COUNTER.",
+        &[],
+        |image, args| crate::plan::macros::reset_counter(image, &args[0], &args[1]),
+    ),
+];
+
+fn fail(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let plan = Plan::of(machine.image);
+    let simple = plan.names.simple_plan_failure;
+    let condition = match args.first() {
+        None => {
+            let initargs = [known::K_FORMAT_CONTROL.into(), "Plan failure.".into()];
+            condition::make_condition(machine.image, simple, &initargs)?
+        }
+        Some(Value::Str(_)) => {
+            let initargs = [
+                known::K_FORMAT_CONTROL.into(),
+                args[0].clone(),
+                known::K_FORMAT_ARGUMENTS.into(),
+                Value::list(args[1..].iter().cloned()),
+            ];
+            condition::make_condition(machine.image, simple, &initargs)?
+        }
+        Some(Value::Symbol(class)) => {
+            let is_condition = machine
+                .image
+                .class(*class)
+                .is_some_and(|c| c.kind == ClassKind::Condition);
+            if !is_condition {
+                return Err(no_condition_class(machine.image, &args[0]));
+            }
+            let draft = condition::draft(machine.image, *class, &args[1..])?;
+            if !draft.pending.is_empty() {
+                // Some initial value must be computed.
+                return signalling::signal_with(machine, args, simple, Declined::Stop);
+            }
+            Value::Instance(draft.condition)
+        }
+        Some(Value::Instance(instance)) if instance.is_a(known::CONDITION) => {
+            if args.len() > 1 {
+                return Err(Raise::simple(
+                    "The assertion (NULL CRAM-LANGUAGE-IMPLEMENTATION::ARGUMENTS) failed: a condition object takes no arguments.",
+                ));
+            }
+            args[0].clone()
+        }
+        Some(Value::Class(class)) => {
+            let mut args = args.clone();
+            args[0] = class.name.into();
+            return fail(machine, args);
+        }
+        Some(other) => return Err(no_failure(machine.image, other)),
+    };
+    let place = machine.place();
+    machine.note_place(&condition, place);
+    let breaks = machine.image.special(plan.names.break_on_failures).clone();
+    let at_prompt = machine.image.special(plan.names.current_task).is_nil();
+    if breaks.is_true() && at_prompt && condition::is_of_type(machine.image, &condition, &breaks)? {
+        return Ok(Step::Unhandled(condition));
+    }
+    machine.signal(condition, Declined::Stop)
+}
+
+fn no_condition_class(image: &Image, name: &Value) -> Box<Raise> {
+    let shown = print::to_string(image, name, true);
+    Raise::new(
+        known::SIMPLE_TYPE_ERROR,
+        format!("{shown} does not designate a condition class."),
+    )
+    .with(known::K_DATUM, name.clone())
+    .with(known::K_EXPECTED_TYPE, known::CONDITION.into())
+}
+
+fn no_failure(image: &Image, value: &Value) -> Box<Raise> {
+    let shown = print::to_string(image, value, true);
+    let wanted = [known::CONDITION, known::SYMBOL, known::STRING].map(Value::from);
+    let expected = Value::cons(known::OR.into(), Value::list(wanted));
+    Raise::new(
+        known::CASE_FAILURE,
+        format!(
+            "{shown} fell through ETYPECASE expression.\nWanted one of (CONDITION SYMBOL STRING)."
+        ),
+    )
+    .with(known::K_DATUM, value.clone())
+    .with(known::K_EXPECTED_TYPE, expected)
+}

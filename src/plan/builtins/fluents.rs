@@ -1,0 +1,258 @@
+//! Fluents: making, reading, storing, waiting, callbacks.
+
+use super::arithmetic::seconds;
+use super::networks::fluent_argument;
+use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::builtins::calls::builtin_name;
+use crate::lisp::builtins::keywords;
+use crate::lisp::equality;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+use crate::plan::fluent::{self, FluentRef};
+use crate::plan::request::Request;
+use crate::plan::state::Plan;
+use crate::plan::step::{Result, call_then, request_then};
+use crate::plan::task::TaskRef;
+
+/// The builtins.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "MAKE-FLUENT",
+        "&key name value test",
+        "A fluent that holds a value; TEST (EQL) tells whether a new value is a change.",
+        &["(cpl:make-fluent :name 'door :value :open) => #<FLUENT DOOR [:OPEN]>"],
+        make_fluent,
+    ),
+    control(
+        "VALUE",
+        "fluent",
+        "The value of a fluent; anything else is its own value. It can be set with SETF.",
+        &[
+            "(let ((f (cpl:make-fluent :value 1))) (incf (cpl:value f)) (cpl:value f)) => 2",
+            "(cpl:value 5) => 5",
+        ],
+        |m, args| value(m, &args, false),
+    ),
+    control(
+        "PEEK-VALUE",
+        "fluent",
+        "The value of a fluent without taking notice of a pulse.",
+        &[
+            "(let* ((f (cpl:make-fluent)) (p (cpl:pulsed f))) (cpl:pulse f) (list (cpl:peek-value p) (cpl:value p) (cpl:value p))) => (T T NIL)",
+        ],
+        |m, args| value(m, &args, true),
+    ),
+    control(
+        "PULSE",
+        "fluent",
+        "Wakes those who wait for pulses of the fluent; its value stays.",
+        &["(cpl:pulse (cpl:make-fluent)) => NIL"],
+        |m, args| {
+            let fluent = fluent_argument(m, &args[0])?;
+            fluent::pulse(m, &fluent)
+        },
+    ),
+    control(
+        "WAIT-FOR",
+        "fluent &key timeout",
+        "Waits until the fluent's value is not NIL and returns it; NIL after so many simulated seconds.",
+        &[
+            "(cpl:wait-for (cpl:make-fluent :value 7)) => 7",
+            "(cpl:wait-for (cpl:make-fluent) :timeout 10) => NIL",
+        ],
+        wait_for,
+    ),
+    control(
+        "REGISTER-UPDATE-CALLBACK",
+        "fluent name function",
+        "Calls the function with the value at each change and pulse of the fluent.",
+        &[
+            "(let ((f (cpl:make-fluent)) (seen nil)) (cpl:register-update-callback f 'see (lambda (v) (push v seen))) (setf (cpl:value f) 1) seen) => (1)",
+        ],
+        register_callback,
+    ),
+    control(
+        "REMOVE-UPDATE-CALLBACK",
+        "fluent name",
+        "Forgets the callback of that name; was there one?",
+        &["(cpl:remove-update-callback (cpl:make-fluent) 'see) => NIL"],
+        |m, args| {
+            let fluent = fluent_argument(m, &args[0])?;
+            let removed = fluent.get().remove_callback(&args[1]);
+            Ok(Step::Return(Value::bool(removed)))
+        },
+    ),
+    control(
+        "GET-UPDATE-CALLBACK",
+        "fluent name",
+        "The callback of that name, or NIL.",
+        &["(cpl:get-update-callback (cpl:make-fluent) 'see) => NIL"],
+        |m, args| {
+            let fluent = fluent_argument(m, &args[0])?;
+            let callback = fluent.get().callback(&args[1]);
+            Ok(Step::Return(callback.unwrap_or(Value::NIL)))
+        },
+    ),
+    pure(
+        "NAME",
+        "object",
+        "The name of a fluent, a task or a policy.",
+        &["(cpl-impl:name (cpl:make-fluent :name 'door)) => DOOR"],
+        name,
+    ),
+];
+
+/// Places.
+pub static SETTERS: &[Builtin] = &[control(
+    "VALUE",
+    "new-value fluent",
+    "Stores a value in a fluent.",
+    &[],
+    set_value,
+)];
+
+fn make_fluent(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let plan = Plan::of(image);
+    let names = &plan.names;
+    let wanted = [
+        names.name,
+        names.value_key,
+        names.test,
+        names.allow_tracing,
+        names.max_tracing_freq,
+        names.class,
+        names.pulse_count,
+    ];
+    let [name, value, test, ..] = keywords::parse(image, args, wanted)?;
+    let value = value.unwrap_or(Value::NIL);
+    let test = test.unwrap_or(Value::NIL);
+    Ok(FluentRef::value_fluent(&plan, name, value, test).value())
+}
+
+fn value(machine: &mut Machine<'_>, args: &[Value], peek: bool) -> Result<Step> {
+    match FluentRef::from_value(&args[0]) {
+        Some(fluent) => fluent::read(machine, &fluent, peek),
+        None => Ok(Step::Return(args[0].clone())),
+    }
+}
+
+fn set_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let new = args[0].clone();
+    let fluent = FluentRef::from_value(&args[1]).filter(|f| f.get().is_settable());
+    let Some(fluent) = fluent else {
+        let expected = Plan::of(machine.image).names.value_fluent;
+        return Err(Raise::type_error(&args[1], expected));
+    };
+    let old = fluent.get().known_value().unwrap_or(Value::NIL);
+    let test = fluent.get().test();
+    let same = match builtin_name(&test) {
+        _ if test.is_nil() => old.is_eql(&new),
+        Some(known::EQL) => old.is_eql(&new),
+        Some(known::EQ) => old.is_eq(&new),
+        Some(known::EQUAL) => equality::equal(&old, &new),
+        Some(known::EQUALP) => equality::equalp(&old, &new),
+        _ => {
+            let args = vec![old, new.clone()];
+            return Ok(call_then("VALUE", test, args, move |machine, same| {
+                if same.is_true() {
+                    return Ok(Step::Return(new));
+                }
+                fluent::store(machine, &fluent, new)
+            }));
+        }
+    };
+    if same {
+        return Ok(Step::Return(new));
+    }
+    fluent::store(machine, &fluent, new)
+}
+
+fn wait_for(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let plan = Plan::of(machine.image);
+    let names = [plan.names.timeout, plan.names.wait_status];
+    let [timeout, _] = keywords::parse(machine.image, &args[1..], names)?;
+    let Some(fluent) = FluentRef::from_value(&args[0]) else {
+        if args[0].is_nil() {
+            return Err(Raise::simple("wait-for called with nil argument."));
+        }
+        return Ok(Step::Return(args[0].clone()));
+    };
+    let until = match timeout {
+        Some(timeout) if timeout.is_true() => {
+            // A timeout of zero or less has passed already.
+            let seconds = if is_negative(&timeout) {
+                0.0
+            } else {
+                seconds(&timeout)?
+            };
+            Some(plan.now() + seconds)
+        }
+        _ => None,
+    };
+    wait_until_true(machine, fluent, until)
+}
+
+fn is_negative(value: &Value) -> bool {
+    crate::lisp::number::to_f64(value).is_some_and(|x| x < 0.0)
+}
+
+/// Waits until the fluent's value is not `NIL`, at most until a time.
+fn wait_until_true(
+    machine: &mut Machine<'_>,
+    fluent: FluentRef,
+    until: Option<f64>,
+) -> Result<Step> {
+    fluent::then_read(machine, &fluent.clone(), move |machine, value| {
+        if value.is_true() {
+            return Ok(Step::Return(value));
+        }
+        let now = Plan::of(machine.image).now();
+        if until.is_some_and(|until| until <= now) {
+            return Ok(Step::Return(Value::NIL));
+        }
+        let request = Request::Wait {
+            fluent: fluent.clone(),
+            until,
+        };
+        Ok(request_then("WAIT-FOR", request, move |machine, _| {
+            wait_until_true(machine, fluent, until)
+        }))
+    })
+}
+
+fn register_callback(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let fluent = fluent_argument(machine, &args[0])?;
+    // Changes of a network are told from its value now.
+    fluent::then_read(machine, &fluent.clone(), move |machine, _| {
+        if fluent.get().add_callback(&args[1], &args[2]) {
+            return Ok(Step::Return(args[2].clone()));
+        }
+        let name = crate::lisp::print::to_string(machine.image, &args[1], false);
+        Err(Raise::simple(format!(
+            "Callback with name {name} is already registered."
+        )))
+    })
+}
+
+fn name(image: &mut Image, args: &[Value]) -> Result<Value> {
+    if let Some(fluent) = FluentRef::from_value(&args[0]) {
+        return Ok(match fluent.get().given_name() {
+            Some(name) => name,
+            None => {
+                let name = fluent.get().name(image);
+                image.make_symbol(&name).into()
+            }
+        });
+    }
+    if let Some(task) = TaskRef::from_value(&args[0]) {
+        return Ok(Value::string(task.get().name.to_string()));
+    }
+    if let Some(name) = super::policies::policy_name(&args[0]) {
+        return Ok(name);
+    }
+    Err(Raise::type_error(&args[0], Plan::of(image).names.fluent))
+}

@@ -1,0 +1,310 @@
+//! Computing the value of a fluent.
+//!
+//! The computation keeps its own stack, for chains of networks may be long, and stops at
+//! each call of a Lisp function.
+
+use super::{FluentRef, Kind, Missed, Operation};
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// The value of a fluent being computed.
+pub(crate) struct Reading {
+    stack: Vec<Frame>,
+    /// Shall pulses and changes stay unread?
+    peek: bool,
+}
+
+struct Frame {
+    fluent: FluentRef,
+    args: Vec<Value>,
+    next: usize,
+    values: Vec<Value>,
+    /// The function of the network has been called.
+    is_called: bool,
+}
+
+/// How far a computation has come.
+pub(crate) enum Progress {
+    Done(Value),
+    Call { function: Value, args: Vec<Value> },
+}
+
+impl Reading {
+    /// The value of the fluent; if `fresh`, what it keeps is computed anew.
+    pub fn new(fluent: &FluentRef, peek: bool, fresh: bool) -> Reading {
+        let mut reading = Reading {
+            stack: Vec::new(),
+            peek,
+        };
+        if fresh && let Kind::Net { cache, .. } = &fluent.get().kind {
+            cache.set(Value::Unbound);
+        }
+        reading.push(fluent.clone());
+        reading
+    }
+
+    fn push(&mut self, fluent: FluentRef) {
+        let args = match &fluent.get().kind {
+            Kind::Net {
+                args, operation, ..
+            } => {
+                let mut args = args.borrow().clone();
+                if matches!(operation, Operation::Apply(_))
+                    && let Some(last) = args.pop()
+                {
+                    args.extend(last.iter_list());
+                }
+                args
+            }
+            _ => Vec::new(),
+        };
+        self.stack.push(Frame {
+            fluent,
+            args,
+            next: 0,
+            values: Vec::new(),
+            is_called: false,
+        });
+    }
+
+    /// Goes on; `answer` is the value of the call that it stopped at.
+    pub fn advance(&mut self, image: &mut Image, answer: Option<Value>) -> Result<Progress> {
+        let mut incoming = answer;
+        loop {
+            let Some(frame) = self.stack.last_mut() else {
+                return Ok(Progress::Done(incoming.unwrap_or(Value::NIL)));
+            };
+            let fluent = frame.fluent.clone();
+            if let Some(value) = incoming.take() {
+                if frame.is_called {
+                    incoming = Some(self.finish(value));
+                    continue;
+                }
+                frame.values.push(value);
+            }
+            match &fluent.get().kind {
+                Kind::Value { value, .. } => incoming = Some(self.finish(value.get())),
+                Kind::Net {
+                    operation, cache, ..
+                } => {
+                    let known = cache.get();
+                    if !known.is_unbound() {
+                        self.stack.pop();
+                        incoming = Some(known);
+                        continue;
+                    }
+                    match net_step(operation, frame) {
+                        NetStep::Value(value) => incoming = Some(self.finish(value)),
+                        NetStep::Read(source) => self.push(source),
+                        NetStep::Pure(function, args) => {
+                            let value = function(image, &args)?.primary();
+                            incoming = Some(self.finish(value));
+                        }
+                        NetStep::Call(function, args) => {
+                            frame.is_called = true;
+                            return Ok(Progress::Call { function, args });
+                        }
+                    }
+                }
+                Kind::Pulses {
+                    source,
+                    mode,
+                    processed,
+                } => {
+                    let reference = source.get().pulses.get();
+                    let is_pulsed = processed.get() < reference;
+                    if is_pulsed && !self.peek {
+                        processed.set(match mode {
+                            Missed::Always => processed.get() + 1,
+                            Missed::Once | Missed::Never => reference,
+                        });
+                    }
+                    incoming = Some(self.finish(Value::bool(is_pulsed)));
+                }
+                Kind::Change {
+                    source,
+                    test,
+                    key,
+                    old,
+                } => match change_step(frame, source, test, key, old) {
+                    ChangeStep::Read(source) => self.push(source),
+                    ChangeStep::Call(function, args) => {
+                        return Ok(Progress::Call { function, args });
+                    }
+                    ChangeStep::Value { now, is_same } => {
+                        if !is_same && !self.peek {
+                            old.set(now);
+                        }
+                        incoming = Some(self.finish(Value::bool(!is_same)));
+                    }
+                },
+            }
+        }
+    }
+
+    /// Ends the topmost fluent's part.
+    fn finish(&mut self, value: Value) -> Value {
+        if let Some(frame) = self.stack.pop()
+            && let Kind::Net {
+                cache,
+                is_cacheable: true,
+                ..
+            } = &frame.fluent.get().kind
+        {
+            cache.set(value.clone());
+        }
+        value
+    }
+}
+
+enum NetStep {
+    Value(Value),
+    Read(FluentRef),
+    Pure(crate::lisp::function::PureFn, Vec<Value>),
+    Call(Value, Vec<Value>),
+}
+
+fn net_step(operation: &Operation, frame: &mut Frame) -> NetStep {
+    loop {
+        let decided = match (operation, frame.values.last()) {
+            (Operation::And, Some(value)) if value.is_nil() => Some(Value::NIL),
+            (Operation::Or, Some(value)) if value.is_true() => Some(value.clone()),
+            _ => None,
+        };
+        if let Some(value) = decided {
+            return NetStep::Value(value);
+        }
+        let Some(arg) = frame.args.get(frame.next) else {
+            break;
+        };
+        frame.next += 1;
+        match FluentRef::from_value(arg) {
+            Some(source) => match source.get().known_value() {
+                Some(value) => frame.values.push(value),
+                None => return NetStep::Read(source),
+            },
+            None => frame.values.push(arg.clone()),
+        }
+    }
+    let mut values = std::mem::take(&mut frame.values);
+    match operation {
+        Operation::And => NetStep::Value(values.pop().unwrap_or(Value::T)),
+        Operation::Or => NetStep::Value(values.pop().unwrap_or(Value::NIL)),
+        Operation::Pure(function) => NetStep::Pure(*function, values),
+        Operation::Call(function) => NetStep::Call(function.clone(), values),
+        Operation::Apply(function) => {
+            let Kind::Net { args, .. } = &frame.fluent.get().kind else {
+                return NetStep::Value(Value::NIL);
+            };
+            let spread = args.borrow().len().saturating_sub(1);
+            let list = Value::list(values.split_off(spread.min(values.len())));
+            values.push(list);
+            NetStep::Call(function.clone(), values)
+        }
+    }
+}
+
+enum ChangeStep {
+    Read(FluentRef),
+    Call(Value, Vec<Value>),
+    Value { now: Value, is_same: bool },
+}
+
+/// The values of the frame are the source's value, its key, and the answer of the test.
+fn change_step(
+    frame: &mut Frame,
+    source: &FluentRef,
+    test: &Value,
+    key: &Value,
+    old: &crate::lisp::slot::Slot,
+) -> ChangeStep {
+    let Some(value) = frame.values.first().cloned() else {
+        return ChangeStep::Read(source.clone());
+    };
+    if frame.values.len() == 1 {
+        if key.is_true() {
+            return ChangeStep::Call(key.clone(), vec![value]);
+        }
+        frame.values.push(value);
+    }
+    let now = frame.values.get(1).cloned().unwrap_or(Value::NIL);
+    if frame.values.len() == 2 {
+        if test.is_true() {
+            return ChangeStep::Call(test.clone(), vec![now, old.get()]);
+        }
+        frame.values.push(Value::bool(now.is_eql(&old.get())));
+    }
+    let is_same = frame.values.get(2).is_some_and(Value::is_true);
+    ChangeStep::Value { now, is_same }
+}
+
+/// Reads a fluent in the middle of a builtin, then goes on with the value.
+pub(crate) fn then_read(
+    machine: &mut Machine<'_>,
+    fluent: &FluentRef,
+    then: impl FnOnce(&mut Machine<'_>, Value) -> Result<Step> + 'static,
+) -> Result<Step> {
+    if let Some(value) = fluent.get().known_value() {
+        return then(machine, value);
+    }
+    Box::new(ThenRead {
+        reading: Reading::new(fluent, false, false),
+        then,
+    })
+    .go_on(machine, None)
+}
+
+/// The step that returns the value of a fluent.
+pub(crate) fn read(machine: &mut Machine<'_>, fluent: &FluentRef, peek: bool) -> Result<Step> {
+    if let Some(value) = fluent.get().known_value() {
+        return Ok(Step::Return(value));
+    }
+    Box::new(ThenRead {
+        reading: Reading::new(fluent, peek, false),
+        then: |_: &mut Machine<'_>, value| Ok(Step::Return(value)),
+    })
+    .go_on(machine, None)
+}
+
+struct ThenRead<F> {
+    reading: Reading,
+    then: F,
+}
+
+impl<F> ThenRead<F>
+where
+    F: FnOnce(&mut Machine<'_>, Value) -> Result<Step> + 'static,
+{
+    fn go_on(
+        mut self: Box<Self>,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<Step> {
+        match self.reading.advance(machine.image, answer)? {
+            Progress::Done(value) => (self.then)(machine, value),
+            Progress::Call { function, args } => Ok(Step::Call {
+                function,
+                args,
+                then: self,
+            }),
+        }
+    }
+}
+
+impl<F> Resume for ThenRead<F>
+where
+    F: FnOnce(&mut Machine<'_>, Value) -> Result<Step> + 'static,
+{
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, value: Value) -> Result<Step> {
+        self.go_on(machine, Some(value))
+    }
+
+    fn name(&self) -> &'static str {
+        "VALUE"
+    }
+}

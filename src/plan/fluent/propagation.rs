@@ -1,0 +1,236 @@
+//! Spreading a change: waking tasks, computing networks, calling callbacks.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::rc::Rc;
+
+use super::evaluation::{Progress, Reading};
+use super::{FluentRef, Kind};
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+use crate::plan::state::Plan;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// A change that spreads.
+pub(crate) struct Propagation {
+    plan: Rc<Plan>,
+    /// Networks to look at, by rank and age.
+    pending: BTreeMap<(u32, u64), FluentRef>,
+    /// Callbacks to call, with the value.
+    calls: VecDeque<(Value, Value)>,
+    /// The network that is being computed, and its value before.
+    current: Option<(FluentRef, Value, Reading, Purpose)>,
+    /// What the builtin returns in the end.
+    result: Value,
+}
+
+/// Why a fluent is computed.
+#[derive(Clone, Copy, PartialEq)]
+enum Purpose {
+    /// To see whether it has changed.
+    Update,
+    /// To tell its callbacks.
+    Report,
+}
+
+/// Stores a value that differs from the old one.
+pub(crate) fn store(machine: &mut Machine<'_>, fluent: &FluentRef, new: Value) -> Result<Step> {
+    if let Kind::Value { value, .. } = &fluent.get().kind {
+        value.set(new.clone());
+    }
+    spread(machine, fluent, new)
+}
+
+/// Pulses a fluent.
+pub(crate) fn pulse(machine: &mut Machine<'_>, fluent: &FluentRef) -> Result<Step> {
+    spread(machine, fluent, Value::NIL)
+}
+
+fn spread(machine: &mut Machine<'_>, fluent: &FluentRef, result: Value) -> Result<Step> {
+    let plan = Plan::of(machine.image);
+    let inner = fluent.get();
+    if inner.dependents.borrow().is_empty() && inner.callbacks.borrow().is_empty() {
+        inner.pulses.set(inner.pulses.get() + 1);
+        wake(&plan, fluent);
+        return Ok(Step::Return(result));
+    }
+    let mut propagation = Box::new(Propagation::new(plan, result));
+    propagation.pulse(fluent, None);
+    propagation.go_on(machine, None)
+}
+
+/// Stores a value and spreads the change as far as no Lisp function is needed; what is
+/// left, if anything is, must go on in a fiber.
+pub(crate) fn settle(image: &mut Image, fluent: &FluentRef, new: Value) -> Option<Propagation> {
+    let plan = Plan::of(image);
+    if let Kind::Value { value, .. } = &fluent.get().kind {
+        value.set(new.clone());
+    }
+    let mut propagation = Propagation::new(plan, Value::NIL);
+    propagation.pulse(fluent, Some(new));
+    match propagation.advance(image, None) {
+        Ok(None) => None,
+        Ok(Some((function, args))) => {
+            // The call has been taken out: put it back as the next one.
+            propagation.restart_with(function, args);
+            Some(propagation)
+        }
+        Err(_) => None,
+    }
+}
+
+fn wake(plan: &Plan, fluent: &FluentRef) {
+    let mut waiters = fluent.get().waiters.borrow_mut();
+    if !waiters.is_empty() {
+        plan.wake(&mut waiters);
+    }
+}
+
+impl Propagation {
+    fn new(plan: Rc<Plan>, result: Value) -> Propagation {
+        Propagation {
+            plan,
+            pending: BTreeMap::new(),
+            calls: VecDeque::new(),
+            current: None,
+            result,
+        }
+    }
+
+    /// Counts a pulse, wakes who waits for it, notes the networks that depend on it, and
+    /// the callbacks if the value is known.
+    fn pulse(&mut self, fluent: &FluentRef, value: Option<Value>) {
+        let inner = fluent.get();
+        inner.pulses.set(inner.pulses.get() + 1);
+        wake(&self.plan, fluent);
+        for dependent in inner.dependents.borrow().iter() {
+            if let Some(dependent) = FluentRef::upgrade(dependent) {
+                let key = (dependent.get().rank, dependent.get().serial);
+                self.pending.insert(key, dependent);
+            }
+        }
+        let value = value.or_else(|| inner.known_value());
+        let callbacks = inner.callbacks.borrow();
+        match value {
+            Some(value) => {
+                for (_, function) in callbacks.iter() {
+                    self.calls.push_back((function.clone(), value.clone()));
+                }
+            }
+            None if !callbacks.is_empty() => {
+                let reading = Reading::new(fluent, true, false);
+                self.current = Some((fluent.clone(), Value::Unbound, reading, Purpose::Report));
+            }
+            None => {}
+        }
+    }
+
+    /// Does what can be done; a call that is needed, or nothing when all is done.
+    fn advance(
+        &mut self,
+        image: &mut Image,
+        mut answer: Option<Value>,
+    ) -> Result<Option<(Value, Vec<Value>)>> {
+        loop {
+            if let Some((fluent, before, mut reading, purpose)) = self.current.take() {
+                match reading.advance(image, answer.take()) {
+                    Ok(Progress::Done(value)) => match purpose {
+                        Purpose::Report => {
+                            for (_, function) in fluent.get().callbacks.borrow().iter() {
+                                self.calls.push_back((function.clone(), value.clone()));
+                            }
+                        }
+                        Purpose::Update if !value.is_eql(&before) => {
+                            self.pulse(&fluent, Some(value));
+                        }
+                        Purpose::Update => {}
+                    },
+                    Ok(Progress::Call { function, args }) => {
+                        self.current = Some((fluent, before, reading, purpose));
+                        return Ok(Some((function, args)));
+                    }
+                    // Whoever reads the network gets the error; it has changed, at least.
+                    Err(_) => self.pulse_broken(&fluent),
+                }
+                continue;
+            }
+            if let Some((function, value)) = self.calls.pop_front() {
+                return Ok(Some((function, vec![value])));
+            }
+            let Some((_, fluent)) = self.pending.pop_first() else {
+                return Ok(None);
+            };
+            match &fluent.get().kind {
+                Kind::Net {
+                    is_cacheable: true,
+                    cache,
+                    ..
+                } => {
+                    let before = cache.get();
+                    let reading = Reading::new(&fluent, false, true);
+                    self.current = Some((fluent, before, reading, Purpose::Update));
+                }
+                _ => self.pulse(&fluent, None),
+            }
+        }
+    }
+
+    /// A network whose value cannot be computed: its callbacks get nothing.
+    fn pulse_broken(&mut self, fluent: &FluentRef) {
+        let inner = fluent.get();
+        inner.pulses.set(inner.pulses.get() + 1);
+        wake(&self.plan, fluent);
+        for dependent in inner.dependents.borrow().iter() {
+            if let Some(dependent) = FluentRef::upgrade(dependent) {
+                let key = (dependent.get().rank, dependent.get().serial);
+                self.pending.insert(key, dependent);
+            }
+        }
+    }
+
+    /// Makes a call that was taken out the next thing to do.
+    fn restart_with(&mut self, function: Value, args: Vec<Value>) {
+        match self.current.take() {
+            // The network is computed from the start.
+            Some((fluent, before, _, purpose)) => {
+                let reading = Reading::new(&fluent, purpose == Purpose::Report, true);
+                self.current = Some((fluent, before, reading, purpose));
+            }
+            None => {
+                let value = args.into_iter().next().unwrap_or(Value::NIL);
+                self.calls.push_front((function, value));
+            }
+        }
+    }
+
+    /// Goes on in a fiber.
+    pub fn go_on(
+        mut self: Box<Self>,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<Step> {
+        match self.advance(machine.image, answer)? {
+            None => Ok(Step::Return(std::mem::take(&mut self.result))),
+            Some((function, args)) => Ok(Step::Call {
+                function,
+                args,
+                then: self,
+            }),
+        }
+    }
+}
+
+impl Resume for Propagation {
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, value: Value) -> Result<Step> {
+        // Without a network under way, the value is that of a callback.
+        let answer = self.current.is_some().then_some(value);
+        self.go_on(machine, answer)
+    }
+
+    fn name(&self) -> &'static str {
+        "PULSE"
+    }
+}

@@ -1,0 +1,131 @@
+//! Bringing the plan language into an image.
+
+use super::names::{Names, Packages};
+use super::package::reexport;
+use super::state::Plan;
+use super::{builtins, failure_table, macros};
+use crate::lisp::class::ClassKind;
+use crate::lisp::function::{Function, NativeCall};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::object::define::ClassDefinition;
+use crate::lisp::package::PackageTable;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::reader;
+use std::rc::Rc;
+
+/// Lisp text that is evaluated in every image.
+const PRELUDE: &str = include_str!("prelude.lisp");
+
+/// Makes the packages of the plan language in an image that has the standard ones, and
+/// everything in them.
+pub fn install(image: &mut Image) {
+    let packages = Packages::make(image);
+    // Arithmetic on fluents comes before Common Lisp's is exported from the same package.
+    for table in builtins::LANGUAGE {
+        image.install(packages.cpl, table);
+    }
+    let names = Names::make(image, packages);
+    image.extend(Plan::new(names));
+    for table in builtins::FUNCTIONS {
+        image.install(packages.implementation, table);
+    }
+    for table in builtins::SETTERS {
+        image.install_setf(packages.implementation, table);
+    }
+    for table in builtins::SYSTEM {
+        image.install(packages.system, table);
+    }
+    image.install(PackageTable::CL, builtins::COMMON_LISP);
+    for table in macros::OPERATORS {
+        image.install_operators(packages.implementation, table);
+    }
+    image.install_operators(PackageTable::KEYWORD, macros::KEYWORD_OPERATORS);
+    define_variables(image, &names);
+    define_types(image, &names);
+    // The tables are consistent: every superclass is defined before.
+    let _ = failure_table::define(image, packages);
+    evaluate_prelude(image);
+    reexport(image, packages.cpl, "CRAM-LANGUAGE-IMPLEMENTATION");
+    reexport(image, packages.cpl, "COMMON-LISP");
+}
+
+fn define_variables(image: &mut Image, names: &Names) {
+    let keywords =
+        |list: &[Sym]| Value::list(list.iter().map(|s| Value::from(*s)).collect::<Vec<_>>());
+    for (variable, value) in [
+        (names.current_task, Value::NIL),
+        (names.current_path, Value::NIL),
+        (names.break_on_failures, Value::NIL),
+        (names.debug_on_errors, Value::T),
+        (names.pprint_verbosity, Value::Int(0)),
+        (
+            names.alive,
+            keywords(&[names.created, names.running, names.waiting, names.suspended]),
+        ),
+        (
+            names.dead,
+            keywords(&[names.failed, names.succeeded, names.evaporated]),
+        ),
+        (names.done, keywords(&[names.succeeded, names.evaporated])),
+    ] {
+        image.define_special(variable, value);
+    }
+    let plan = Plan::of(image);
+    let mut variables = plan.task_variables.borrow_mut();
+    variables.push((names.break_on_failures, None));
+    variables.push((names.debug_on_errors, None));
+    let inherit: fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>> =
+        |_, args| Ok(args[2].clone());
+    let inherit = Function::native(
+        names.inherit_parent_value,
+        3,
+        Some(3),
+        NativeCall::Pure(inherit),
+    );
+    image.set_function(names.inherit_parent_value, Rc::new(inherit));
+}
+
+/// The classes of fluents, tasks and what else is not an instance.
+fn define_types(image: &mut Image, names: &Names) {
+    for (name, parent) in [
+        (names.fluent, known::T),
+        (names.value_fluent, names.fluent),
+        (names.pulse_fluent, names.fluent),
+        (names.net_fluent, names.fluent),
+        (names.cached_net_fluent, names.fluent),
+        (names.abstract_task, known::T),
+        (names.task, names.abstract_task),
+        (names.toplevel_task, names.abstract_task),
+        (names.task_tree_node, known::T),
+        (names.policy, known::T),
+    ] {
+        // Parents come first in the list.
+        let _ = image.define_unchecked(ClassDefinition {
+            name,
+            kind: ClassKind::Builtin,
+            superclasses: vec![parent],
+            slots: Vec::new(),
+            default_initargs: Vec::new(),
+            doc: None,
+        });
+    }
+}
+
+/// Evaluates the text of the prelude. It is part of the program and tested: it neither
+/// fails nor waits.
+fn evaluate_prelude(image: &mut Image) {
+    let outer = image.special(known::V_PACKAGE).clone();
+    if let Some(package) = image.packages.find("CRAM-LANGUAGE-IMPLEMENTATION") {
+        image.set_special(known::V_PACKAGE, Value::Package(package));
+    }
+    let mut reader = reader::Reader::of_text(PRELUDE);
+    while let Ok(Some((form, _))) = reader.next_form(image) {
+        let evaluated =
+            crate::lisp::vm::machine::call_nested(image, known::EVAL.into(), vec![form]);
+        debug_assert!(evaluated.is_ok(), "the prelude fails");
+    }
+    image.set_special(known::V_PACKAGE, outer);
+}

@@ -1,0 +1,57 @@
+//! What builtins of the plan language ask of the scheduler.
+
+use super::fluent::FluentRef;
+use super::task::TaskRef;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// A function and its arguments.
+pub(crate) type Call = (Value, Vec<Value>);
+
+/// A request to the scheduler.
+pub(crate) enum Request {
+    /// Wait for so many simulated seconds; the answer is `NIL`.
+    Sleep(f64),
+    /// Wait until the fluent is pulsed (the answer is `T`) or until a time (`NIL`).
+    Wait {
+        fluent: FluentRef,
+        until: Option<f64>,
+    },
+    /// Start a plan and wait for its values.
+    TopLevel { name: Option<Sym>, function: Value },
+    /// Run functions in tasks of their own, and wait until it is clear what comes of it.
+    Group {
+        kind: GroupKind,
+        functions: Vec<Call>,
+        /// The name of the form.
+        name: &'static str,
+    },
+    /// Run a function in a task that has not begun, and wait for its values.
+    Run { task: TaskRef, function: Value },
+    /// Wait for the end of a task; its values or its failure are the answer.
+    Join(TaskRef),
+    /// End a task; with `sync`, wait until it has ended.
+    Evaporate { task: TaskRef, sync: bool },
+    /// Stop a task and all below it until it is woken up.
+    Suspend(TaskRef),
+    /// Let a suspended task go on.
+    WakeUp(TaskRef),
+    /// Remember what to call when the current task is suspended, or forget the last.
+    Hook(Option<Value>),
+    /// The hooks have been called: wait on as before.
+    HooksDone,
+    /// Forbid (-1), allow again, or allow in between (+1) that the current task is
+    /// suspended or evaporated while it waits.
+    Scheduling(i32),
+}
+
+/// When a group of tasks has ended, and how.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum GroupKind {
+    /// All must succeed.
+    All,
+    /// The first to succeed decides; a failure fails.
+    First,
+    /// The first to succeed decides; only failure of all fails.
+    Any,
+}

@@ -1,0 +1,79 @@
+//! Ending tasks before their time.
+
+use super::Scheduler;
+use super::live::{Answer, Ending, Slot, Told, Wait};
+use crate::lisp::image::Image;
+use crate::plan::host::Host;
+
+impl Scheduler {
+    /// Tells a task and all below it to end: each unwinds, when all below it have ended.
+    /// Those that are ending already, or must not be disturbed, are left alone.
+    pub(super) fn evaporate(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
+        let mut doomed = Vec::new();
+        let mut pending = vec![slot];
+        while let Some(slot) = pending.pop() {
+            let Some(live) = self.live_mut(slot) else {
+                continue;
+            };
+            if live.ending.is_some() {
+                continue;
+            }
+            if live.scheduling < 0 {
+                live.told = Told::Evaporate;
+                continue;
+            }
+            live.ending = Some(Ending::Evaporated);
+            live.is_suspended = false;
+            live.hooks.clear();
+            doomed.push(slot);
+            pending.extend(live.children.iter().rev().copied());
+        }
+        for slot in doomed {
+            self.give_up_wait(image, host, slot);
+            let Some(live) = self.live_mut(slot) else {
+                continue;
+            };
+            if matches!(live.answer, Some(Answer::Start(..))) {
+                live.answer = None;
+                self.end(image, slot);
+                continue;
+            }
+            live.answer = None;
+            if live.children.is_empty() {
+                self.make_ready(slot, Answer::Unwind);
+            } else {
+                self.block(slot, Wait::LastChildren, None);
+            }
+        }
+    }
+
+    /// Tells all children of an entry to end.
+    pub(super) fn evaporate_children(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host,
+        slot: Slot,
+    ) {
+        let children = self.live(slot).map(|l| l.children.clone());
+        for child in children.unwrap_or_default() {
+            self.evaporate(image, host, child);
+        }
+    }
+
+    /// Ends those that are dying but will never come to an end, without their cleanup
+    /// code. Was there one?
+    pub(super) fn bury(&mut self, image: &mut Image, host: &mut dyn Host) -> bool {
+        let stuck: Vec<Slot> = self
+            .entries
+            .iter()
+            .flatten()
+            .filter(|l| l.task.is_some() && l.ending.is_some() && l.children.is_empty())
+            .filter_map(|l| l.task.as_ref().and_then(|t| t.get().slot.get()))
+            .collect();
+        for slot in &stuck {
+            self.give_up_wait(image, host, *slot);
+            self.end(image, *slot);
+        }
+        !stuck.is_empty()
+    }
+}

@@ -1,0 +1,218 @@
+//! How tasks begin and end.
+
+use super::Scheduler;
+use super::live::{Answer, Ending, Live, Slot, Wait};
+use crate::lisp::function::Function;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::package::PackageTable;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::lisp::vm::fiber::{Dynamic, Fiber};
+use crate::plan::builtins;
+use crate::plan::fluent;
+use crate::plan::request::Call;
+use crate::plan::state::Plan;
+use crate::plan::task::{Status, TaskRef};
+
+/// The value of a special variable in a fiber that is not running.
+fn value_in(image: &Image, fiber: &Fiber, sym: Sym) -> Value {
+    let bound = fiber.dynamic.iter().rev().find_map(|entry| match entry {
+        Dynamic::Bind(s, value) if *s == sym => Some(value.clone()),
+        _ => None,
+    });
+    bound.unwrap_or_else(|| image.special(sym).clone())
+}
+
+impl Scheduler {
+    /// Begins a task as a child of an entry, whose fiber is `parent_fiber`.
+    pub(super) fn begin(
+        &mut self,
+        image: &Image,
+        parent: Slot,
+        parent_fiber: &Fiber,
+        task: &TaskRef,
+        (mut function, mut args): Call,
+    ) {
+        let plan = Plan::of(image);
+        let names = &plan.names;
+        let inner = task.get();
+        let id = self.next_id();
+        let mut fiber = Fiber::default();
+        fiber.bind(known::V_PACKAGE, Value::Package(PackageTable::USER));
+        fiber.bind(names.current_task, task.value());
+        fiber.bind(names.current_path, inner.node.path.clone());
+        let mut initialisers = Vec::new();
+        for (variable, init) in plan.task_variables.borrow().iter() {
+            let value = value_in(image, parent_fiber, *variable);
+            if let Some(init) = init {
+                let owner = value_in(image, parent_fiber, names.current_task);
+                let args = vec![task.value(), owner, value.clone()];
+                initialisers.push((*variable, init.clone(), args));
+            }
+            fiber.bind(*variable, value);
+        }
+        let constraints = inner.constraints.take();
+        if !constraints.is_empty() {
+            function = builtins::constrained(&plan, (function, args), constraints);
+            args = Vec::new();
+        }
+        if !initialisers.is_empty() {
+            function = builtins::initialised(&plan, (function, args), initialisers);
+            args = Vec::new();
+        }
+        let mut live = Live::new(id, Answer::Start(function, args));
+        live.fiber = fiber;
+        live.task = Some(task.clone());
+        live.parent = Some(parent);
+        live.is_suspended = inner.is_held.take();
+        let slot = self.add(live);
+        inner.slot.set(Some(slot));
+        if let Some(parent) = self.live_mut(parent) {
+            parent.children.push(slot);
+        }
+        self.enqueue(slot);
+    }
+
+    /// Sets a task's status; whoever waits for its fluent is woken.
+    pub(super) fn set_status(&mut self, image: &mut Image, task: &TaskRef, status: Status) {
+        if task.get().status() == status {
+            return;
+        }
+        task.get().set_status(status);
+        let Some(fluent) = task.get().known_fluent().cloned() else {
+            return;
+        };
+        let keyword = status.keyword(&Plan::of(image).names).into();
+        if let Some(rest) = fluent::settle(image, &fluent, keyword) {
+            self.add_helper(image, rest);
+        }
+    }
+
+    /// A fiber of its own for what a change of status sets off in Lisp functions.
+    fn add_helper(&mut self, image: &Image, rest: fluent::Propagation) {
+        let names = Plan::of(image).names;
+        let rest = std::cell::Cell::new(Some(Box::new(rest)));
+        let function = Function::made_control(names.sys_propagate, (0, Some(0)), move |m, _| {
+            match rest.take() {
+                Some(rest) => rest.go_on(m, None),
+                None => Ok(crate::lisp::vm::step::Step::Return(Value::NIL)),
+            }
+        });
+        let id = self.next_id();
+        let start = Answer::Start(Value::Function(function), Vec::new());
+        let slot = self.add(Live::new(id, start));
+        self.enqueue(slot);
+    }
+
+    /// An entry's function has returned: it ends when its children have ended.
+    pub(super) fn returned(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn crate::plan::host::Host,
+        slot: Slot,
+        value: Value,
+    ) {
+        let Some(live) = self.live_mut(slot) else {
+            return;
+        };
+        if live.ending.is_none() {
+            live.ending = Some(Ending::Succeeded(value));
+        }
+        if live.children.is_empty() {
+            self.end(image, slot);
+        } else {
+            self.evaporate_children(image, host, slot);
+            // Some may have ended at once.
+            let is_alone = self.live(slot).is_some_and(|l| l.children.is_empty());
+            if is_alone {
+                self.end(image, slot);
+            } else {
+                self.block(slot, Wait::LastChildren, None);
+            }
+        }
+    }
+
+    /// An entry has ended. Children that are alive, which is so after a failure only, end
+    /// under its parent's eyes.
+    pub(super) fn end(&mut self, image: &mut Image, slot: Slot) {
+        let mut ended = Some(slot);
+        while let Some(slot) = ended {
+            ended = self.end_one(image, slot);
+        }
+    }
+
+    /// Ends an entry; returns the parent if that has only waited for this to end, too.
+    fn end_one(&mut self, image: &mut Image, slot: Slot) -> Option<Slot> {
+        if self.roots.contains(&slot) {
+            // Roots are looked after by whoever evaluates.
+            let live = self.live_mut(slot)?;
+            live.wait = Wait::Nothing;
+            live.answer = None;
+            return None;
+        }
+        let live = self.remove(slot)?;
+        let ending = live.ending.unwrap_or(Ending::Evaporated);
+        let (status, result) = match ending {
+            Ending::Succeeded(value) => (Status::Succeeded, value),
+            Ending::Failed(condition) => (Status::Failed, condition),
+            Ending::Evaporated => (Status::Evaporated, Value::values(Vec::new())),
+        };
+        if let Some(task) = &live.task {
+            *task.get().result.borrow_mut() = result;
+            task.get().slot.set(None);
+        }
+        for child in &live.children {
+            if let Some(child) = self.live_mut(*child) {
+                child.parent = live.parent;
+            }
+        }
+        // The status counts before anybody runs; the parent runs before others who wait.
+        if let Some(task) = &live.task {
+            task.get().set_status(status);
+        }
+        let ended = live
+            .parent
+            .filter(|parent| self.child_has_ended(*parent, slot, &live.children));
+        for (joiner, token) in live.joiners {
+            let is_current = self.live(joiner).is_some_and(|l| l.token == token);
+            if !is_current {
+                continue;
+            }
+            let answer = match self.leave_wait(joiner) {
+                Wait::Join(group) => Answer::Decide(group),
+                _ => Answer::Value(Value::NIL),
+            };
+            self.make_ready(joiner, answer);
+        }
+        if let Some(task) = &live.task
+            && let Some(fluent) = task.get().known_fluent().cloned()
+        {
+            let keyword = status.keyword(&Plan::of(image).names).into();
+            if let Some(rest) = fluent::settle(image, &fluent, keyword) {
+                self.add_helper(image, rest);
+            }
+        }
+        ended
+    }
+
+    /// Tells an entry that a child has ended; is that the end of the entry?
+    fn child_has_ended(&mut self, parent: Slot, child: Slot, orphans: &[Slot]) -> bool {
+        let Some(live) = self.live_mut(parent) else {
+            return false;
+        };
+        live.children.retain(|c| *c != child);
+        live.children.extend_from_slice(orphans);
+        let is_alone = live.children.is_empty();
+        match std::mem::take(&mut live.wait) {
+            Wait::Group(group) => self.make_ready(parent, Answer::Decide(group)),
+            Wait::Drain(answer) if is_alone => self.make_ready(parent, *answer),
+            Wait::LastChildren if is_alone => match &live.ending {
+                Some(Ending::Evaporated) => self.make_ready(parent, Answer::Unwind),
+                _ => return true,
+            },
+            wait => live.wait = wait,
+        }
+        false
+    }
+}

@@ -1,0 +1,226 @@
+//! Evaluating forms at the prompt.
+
+use std::sync::atomic::Ordering;
+
+use super::Scheduler;
+use super::advance::Passed;
+use super::live::{Answer, Ending, Live, Slot, Wait};
+use super::run::Stopped;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::fiber::Fiber;
+use crate::plan::host::Host;
+use crate::plan::state::Plan;
+
+/// How an evaluation ended, or why it stopped.
+pub enum Evaluation {
+    /// It has ended with these values.
+    Values(Vec<Value>),
+    /// A condition found no handler. The evaluation stays where it is until
+    /// [`Scheduler::call`] or [`Scheduler::abort`].
+    Unhandled(Value),
+    /// It was interrupted; [`Scheduler::go_on`] or [`Scheduler::abort`].
+    Interrupted,
+}
+
+impl Scheduler {
+    /// Evaluates a form at top level, to its end. If an earlier evaluation has stopped, it
+    /// stays so, and this one runs on top of it.
+    pub fn evaluate(&mut self, image: &mut Image, host: &mut dyn Host, form: &Value) -> Evaluation {
+        self.apply(image, host, known::EVAL.into(), vec![form.clone()])
+    }
+
+    /// Calls a function at top level, like [`Scheduler::evaluate`].
+    pub fn apply(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host,
+        function: Value,
+        args: Vec<Value>,
+    ) -> Evaluation {
+        let id = self.next_id();
+        let slot = self.add(Live::new(id, Answer::Start(function, args)));
+        self.roots.push(slot);
+        self.enqueue(slot);
+        self.go_on(image, host)
+    }
+
+    /// Goes on after an interrupt.
+    pub fn go_on(&mut self, image: &mut Image, host: &mut dyn Host) -> Evaluation {
+        if let Some(slot) = self.interrupted.take()
+            && let Some(live) = self.live_mut(slot)
+        {
+            live.is_queued = true;
+            let id = live.id;
+            self.ready.push_front((slot, id));
+        }
+        let Some(root) = self.roots.last().copied() else {
+            return Evaluation::Values(Vec::new());
+        };
+        loop {
+            if let Some(evaluation) = self.ended(image, host, root) {
+                return evaluation;
+            }
+            match self.turn(image, host) {
+                Turn::Done => {}
+                Turn::Interrupted => return Evaluation::Interrupted,
+                Turn::Stuck => self.stuck(image, host, root),
+            }
+        }
+    }
+
+    /// Goes on with a call on top of the evaluation that stopped last: its value stands in
+    /// place of the failed call, unless it leaves that (as a restart's function does).
+    pub fn call(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host,
+        function: Value,
+        args: Vec<Value>,
+    ) -> Evaluation {
+        if let Some(root) = self.roots.last().copied()
+            && let Some(live) = self.live_mut(root)
+        {
+            if matches!(live.wait, Wait::Debugger) {
+                live.ending = None;
+            }
+            self.make_ready(root, Answer::Call(function, args));
+        }
+        self.go_on(image, host)
+    }
+
+    /// Leaves the evaluation that stopped last: its tasks end first, then its own cleanup
+    /// code runs, which may take simulated time. An interrupt cuts that short.
+    pub fn abort(&mut self, image: &mut Image, host: &mut dyn Host) {
+        let Some(root) = self.roots.last().copied() else {
+            return;
+        };
+        if let Some(slot) = self.interrupted.take() {
+            // What was interrupted may unwind like what waits.
+            if let Some(live) = self.live_mut(slot) {
+                live.answer = None;
+            }
+        }
+        self.evaporate_children(image, host, root);
+        self.drain(image, host, root);
+        if let Some(live) = self.live_mut(root) {
+            live.ending = Some(Ending::Evaporated);
+        }
+        self.give_up_wait(image, host, root);
+        self.make_ready(root, Answer::Unwind);
+        while self.is_unfinished(root) {
+            match self.turn(image, host) {
+                Turn::Done => {}
+                Turn::Interrupted | Turn::Stuck => break,
+            }
+        }
+        self.evaporate_children(image, host, root);
+        self.drain(image, host, root);
+        self.discard(root);
+    }
+
+    /// The number of evaluations that have stopped and not been left.
+    pub fn depth(&self) -> usize {
+        self.roots.len()
+    }
+
+    /// The fiber of the evaluation that stopped last, for a debugger to look at.
+    pub fn stopped_fiber(&mut self) -> Option<&mut Fiber> {
+        let root = self.roots.last().copied()?;
+        self.live_mut(root).map(|l| &mut l.fiber)
+    }
+
+    /// One step: an entry runs, or time passes.
+    fn turn(&mut self, image: &mut Image, host: &mut dyn Host) -> Turn {
+        if image.interrupt.swap(false, Ordering::Relaxed) {
+            return Turn::Interrupted;
+        }
+        let plan = Plan::of(image);
+        self.collect_woken(&plan);
+        let passed = match self.next_ready() {
+            Some(slot) => {
+                return match self.run(image, host, slot) {
+                    Stopped::Waiting => Turn::Done,
+                    Stopped::Interrupted => Turn::Interrupted,
+                };
+            }
+            None => self.pass_time(&plan, image, host),
+        };
+        match passed {
+            Passed::Something => Turn::Done,
+            Passed::Nothing if image.interrupt.swap(false, Ordering::Relaxed) => Turn::Interrupted,
+            Passed::Nothing => Turn::Stuck,
+        }
+    }
+
+    /// Has the root's evaluation come to an end, and how?
+    fn ended(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) -> Option<Evaluation> {
+        let live = self.live(root)?;
+        if matches!(live.wait, Wait::Debugger) {
+            let condition = match &live.ending {
+                Some(Ending::Failed(condition)) => condition.clone(),
+                _ => Value::NIL,
+            };
+            self.evaporate_children(image, host, root);
+            self.drain(image, host, root);
+            return Some(Evaluation::Unhandled(condition));
+        }
+        if self.is_unfinished(root) {
+            return None;
+        }
+        let live = self.discard(root)?;
+        Some(Evaluation::Values(match live.ending {
+            Some(Ending::Succeeded(value)) => value.into_values(),
+            _ => Vec::new(),
+        }))
+    }
+
+    fn is_unfinished(&self, root: Slot) -> bool {
+        self.live(root).is_some_and(|live| {
+            live.ending.is_none()
+                || !live.children.is_empty()
+                || live.answer.is_some()
+                || !matches!(live.wait, Wait::Nothing)
+        })
+    }
+
+    fn discard(&mut self, root: Slot) -> Option<Box<Live>> {
+        self.roots.retain(|r| *r != root);
+        self.remove(root)
+    }
+
+    /// Lets the children of a root, which have all been told to end, come to their end.
+    fn drain(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
+        while self.live(root).is_some_and(|l| !l.children.is_empty()) {
+            match self.turn(image, host) {
+                Turn::Done => {}
+                // Cleanup code that was interrupted, or waits for ever, is cut short.
+                Turn::Interrupted | Turn::Stuck => {
+                    self.interrupted = None;
+                    if !self.bury(image, host) {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Nobody can go on: those that are dying are buried; else the root hears of it.
+    fn stuck(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
+        if self.bury(image, host) {
+            return;
+        }
+        let text = self.describe_deadlock(image);
+        self.evaporate_children(image, host, root);
+        self.give_up_wait(image, host, root);
+        self.make_ready(root, Answer::Raise(Raise::simple(text)));
+    }
+}
+
+enum Turn {
+    Done,
+    Interrupted,
+    Stuck,
+}

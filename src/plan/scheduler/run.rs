@@ -1,0 +1,127 @@
+//! Running an entry until it waits or ends.
+
+use super::Scheduler;
+use super::group::{unwrapped, wrapped};
+use super::live::{Answer, Ending, Slot, Wait};
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::vm::fiber::Fiber;
+use crate::lisp::vm::machine::{Event, Machine};
+use crate::plan::host::Host;
+use crate::plan::state::Plan;
+use crate::plan::task::Status;
+
+/// Why an entry stopped running.
+#[derive(PartialEq, Eq, Debug)]
+pub(super) enum Stopped {
+    /// It waits, or has ended.
+    Waiting,
+    /// The interrupt flag was set.
+    Interrupted,
+}
+
+impl Scheduler {
+    /// Runs an entry that is ready until it waits or ends.
+    pub(super) fn run(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) -> Stopped {
+        let Some(live) = self.live_mut(slot) else {
+            return Stopped::Waiting;
+        };
+        let Some(answer) = live.answer.take() else {
+            return Stopped::Waiting;
+        };
+        let mut fiber = std::mem::take(&mut live.fiber);
+        if let Some(task) = live.task.clone()
+            && task.get().status() == Status::Created
+        {
+            self.set_status(image, &task, Status::Running);
+        }
+        let mut next = Some(answer);
+        while let Some(answer) = next {
+            let event = match answer {
+                Answer::Decide(group) => {
+                    next = self.decide(image, host, slot, group);
+                    continue;
+                }
+                Answer::Start(function, args) => {
+                    Machine::new(image, &mut fiber).start(function, args)
+                }
+                Answer::Value(value) => Machine::new(image, &mut fiber).resume(value),
+                Answer::Raise(raise) => Machine::new(image, &mut fiber).resume_with_error(raise),
+                Answer::GoOn => Machine::new(image, &mut fiber).run(),
+                Answer::Call(function, args) => {
+                    Machine::new(image, &mut fiber).resume_with_call(function, args)
+                }
+                Answer::Unwind => {
+                    if let Some(live) = self.live_mut(slot) {
+                        live.is_unwinding = true;
+                    }
+                    Machine::new(image, &mut fiber).unwind_all()
+                }
+            };
+            match event {
+                Event::Interrupted => {
+                    self.put_back(slot, fiber);
+                    if let Some(live) = self.live_mut(slot) {
+                        live.answer = Some(Answer::GoOn);
+                    }
+                    self.interrupted = Some(slot);
+                    return Stopped::Interrupted;
+                }
+                Event::Done(value) => {
+                    self.put_back(slot, fiber);
+                    self.returned(image, host, slot, value);
+                    return Stopped::Waiting;
+                }
+                Event::Unwound => {
+                    self.put_back(slot, fiber);
+                    self.end(image, slot);
+                    return Stopped::Waiting;
+                }
+                Event::Unhandled(condition) => {
+                    next = self.unhandled(image, slot, condition);
+                }
+                Event::Request(_) if self.escaped(slot, &fiber) => next = Some(Answer::Unwind),
+                Event::Request(request) => {
+                    next = self.handle(image, host, slot, &fiber, request);
+                }
+            }
+        }
+        self.put_back(slot, fiber);
+        Stopped::Waiting
+    }
+
+    fn put_back(&mut self, slot: Slot, fiber: Fiber) {
+        if let Some(live) = self.live_mut(slot) {
+            live.fiber = fiber;
+        }
+    }
+
+    /// Has the entry's cleanup code left the unwinding that it was called by?
+    fn escaped(&self, slot: Slot, fiber: &Fiber) -> bool {
+        self.live(slot)
+            .is_some_and(|live| live.is_unwinding && fiber.pending.is_empty())
+    }
+
+    /// A condition that no handler in the fiber took.
+    fn unhandled(&mut self, image: &mut Image, slot: Slot, condition: Value) -> Option<Answer> {
+        let plan = Plan::of(image);
+        let is_root = self.roots.contains(&slot);
+        let live = self.live_mut(slot)?;
+        if live.is_unwinding {
+            // An error in cleanup code: the rest is cleaned up.
+            return Some(Answer::Unwind);
+        }
+        if is_root {
+            let condition = unwrapped(&plan, condition);
+            self.block(slot, Wait::Debugger, None);
+            if let Some(live) = self.live_mut(slot) {
+                live.ending = Some(Ending::Failed(condition));
+            }
+            return None;
+        }
+        if live.ending.is_none() {
+            live.ending = Some(Ending::Failed(wrapped(&plan, image, condition)));
+        }
+        Some(Answer::Unwind)
+    }
+}

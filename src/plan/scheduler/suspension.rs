@@ -1,0 +1,114 @@
+//! Suspending tasks and waking them up.
+
+use super::Scheduler;
+use super::live::{Answer, SetAside, Slot, Told, Wait};
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::plan::builtins;
+use crate::plan::host::Host;
+use crate::plan::state::Plan;
+use crate::plan::task::Status;
+
+impl Scheduler {
+    /// An entry and all below it, outermost first.
+    fn subtree(&self, slot: Slot) -> Vec<Slot> {
+        let mut found = Vec::new();
+        let mut pending = vec![slot];
+        while let Some(slot) = pending.pop() {
+            if let Some(live) = self.live(slot) {
+                found.push(slot);
+                pending.extend(live.children.iter().rev());
+            }
+        }
+        found
+    }
+
+    /// Lets a task and all below it hold still.
+    pub(super) fn suspend(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
+        for slot in self.subtree(slot) {
+            let Some(live) = self.live_mut(slot) else {
+                continue;
+            };
+            if live.is_suspended || live.ending.is_some() {
+                continue;
+            }
+            if live.scheduling < 0 {
+                live.told = Told::Suspend;
+                continue;
+            }
+            live.is_suspended = true;
+            if let Wait::Ticket(ticket) = live.wait {
+                host.pause(image, ticket);
+            }
+            if let Some(live) = self.live_mut(slot)
+                && !live.hooks.is_empty()
+            {
+                let hooks = live.hooks.clone();
+                self.set_aside(image, slot, hooks);
+            }
+            if let Some(task) = self.live(slot).and_then(|l| l.task.clone()) {
+                self.set_status(image, &task, Status::Suspended);
+            }
+        }
+    }
+
+    /// Interrupts an entry's wait for its hooks.
+    fn set_aside(&mut self, image: &Image, slot: Slot, hooks: Vec<Value>) {
+        let (answer, until) = match self.live_mut(slot) {
+            Some(live) => (live.answer.take(), live.until),
+            None => return,
+        };
+        let wait = self.leave_wait(slot);
+        let runner = builtins::hook_runner(&Plan::of(image), hooks);
+        if let Some(live) = self.live_mut(slot) {
+            live.set_aside = Some(Box::new(SetAside {
+                wait,
+                until,
+                answer,
+            }));
+        }
+        self.make_ready(slot, Answer::Call(runner, Vec::new()));
+    }
+
+    /// The hooks have run: the entry waits on as before.
+    pub(super) fn resume_aside(&mut self, slot: Slot) {
+        let Some(aside) = self.live_mut(slot).and_then(|l| l.set_aside.take()) else {
+            return;
+        };
+        let aside = *aside;
+        if let Some(answer) = aside.answer {
+            self.make_ready(slot, answer);
+            return;
+        }
+        match aside.wait {
+            // The fluent may have changed meanwhile.
+            Wait::Fluent(_) => self.make_ready(slot, Answer::Value(Value::T)),
+            wait => self.block(slot, wait, aside.until),
+        }
+    }
+
+    /// Lets a suspended task and all below it go on.
+    pub(super) fn wake_up(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
+        for slot in self.subtree(slot) {
+            let Some(live) = self.live_mut(slot) else {
+                continue;
+            };
+            if live.told == Told::Suspend {
+                live.told = Told::Nothing;
+            }
+            if !live.is_suspended {
+                continue;
+            }
+            live.is_suspended = false;
+            match live.wait {
+                Wait::Ticket(ticket) => host.wake(image, ticket),
+                Wait::WakeUp => self.make_ready(slot, Answer::Value(Value::NIL)),
+                _ => {}
+            }
+            if let Some(task) = self.live(slot).and_then(|l| l.task.clone()) {
+                self.set_status(image, &task, Status::Running);
+            }
+            self.enqueue(slot);
+        }
+    }
+}

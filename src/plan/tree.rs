@@ -1,0 +1,178 @@
+//! The task tree: which plans were called from which, by path.
+//!
+//! A path is a list of parts, innermost first. The second call of the same part in the same
+//! node gets the part `(part… :CALL 2)`. A node remembers the last node of each part and
+//! how many there were, so a loop over a plan does not fill memory.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use crate::lisp::foreign::{Foreign, ForeignBox};
+use crate::lisp::hash_table::{HashTable, HashTest};
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// A node of a task tree.
+pub struct TreeNode {
+    /// The path, innermost part first.
+    pub path: Value,
+    children: RefCell<Vec<Child>>,
+    /// Position of each part in `children`.
+    parts: HashTable,
+    object: RefCell<std::rc::Weak<ForeignBox>>,
+}
+
+struct Child {
+    first: Rc<TreeNode>,
+    /// The node of the last call but the first.
+    last: Option<Rc<TreeNode>>,
+    /// Calls in this run of the tree.
+    calls: i64,
+    /// Most calls in any run.
+    most: i64,
+}
+
+impl TreeNode {
+    /// A node without children.
+    pub fn new(path: Value) -> Rc<TreeNode> {
+        Rc::new(TreeNode {
+            path,
+            children: RefCell::default(),
+            parts: HashTable::new(HashTest::Equal),
+            object: RefCell::default(),
+        })
+    }
+
+    /// Starts a new run: calls are counted from one again, the structure stays.
+    pub fn restart(&self) {
+        let mut pending: Vec<Rc<TreeNode>> = Vec::new();
+        self.restart_children(&mut pending);
+        while let Some(node) = pending.pop() {
+            node.restart_children(&mut pending);
+        }
+    }
+
+    fn restart_children(&self, pending: &mut Vec<Rc<TreeNode>>) {
+        for child in self.children.borrow_mut().iter_mut() {
+            child.calls = 0;
+            child.last = None;
+            pending.push(child.first.clone());
+        }
+    }
+
+    /// The node for the next call of a part; `call_marker` is the symbol `:CALL`.
+    pub fn enter(&self, part: &Value, call_marker: Sym) -> Rc<TreeNode> {
+        let mut children = self.children.borrow_mut();
+        let position = match self.parts.get(part) {
+            Some(Value::Int(i)) => usize::try_from(i).ok(),
+            _ => None,
+        };
+        if let Some(child) = position.and_then(|i| children.get_mut(i)) {
+            child.calls += 1;
+            child.most = child.most.max(child.calls);
+            if child.calls == 1 {
+                return child.first.clone();
+            }
+            let part = numbered(part, child.calls, call_marker);
+            let node = TreeNode::new(Value::cons(part, self.path.clone()));
+            child.last = Some(node.clone());
+            return node;
+        }
+        let node = TreeNode::new(Value::cons(part.clone(), self.path.clone()));
+        self.parts.insert(part.clone(), Value::from(children.len()));
+        children.push(Child {
+            first: node.clone(),
+            last: None,
+            calls: 1,
+            most: 1,
+        });
+        node
+    }
+
+    /// The nodes below that are remembered, in order of their parts' first call.
+    pub fn children(&self) -> Vec<Rc<TreeNode>> {
+        let children = self.children.borrow();
+        let both = |c: &Child| std::iter::once(c.first.clone()).chain(c.last.clone());
+        children.iter().flat_map(both).collect()
+    }
+
+    /// How many nodes there were below.
+    pub fn child_count(&self) -> i64 {
+        self.children.borrow().iter().map(|c| c.most).sum()
+    }
+
+    /// The node as a value: always the same object while somebody holds it.
+    pub fn value(self: &Rc<TreeNode>, type_symbol: Sym) -> Value {
+        if let Some(object) = self.object.borrow().upgrade() {
+            return Value::Foreign(object);
+        }
+        let object = Rc::new(ForeignBox::new(NodeObject {
+            node: self.clone(),
+            type_symbol,
+        }));
+        *self.object.borrow_mut() = Rc::downgrade(&object);
+        Value::Foreign(object)
+    }
+}
+
+/// `(part… :CALL n)`.
+fn numbered(part: &Value, n: i64, call_marker: Sym) -> Value {
+    let mut items: Vec<Value> = match part {
+        Value::Cons(_) => part.iter_list().collect(),
+        other => vec![other.clone()],
+    };
+    items.push(call_marker.into());
+    items.push(Value::Int(n));
+    Value::list(items)
+}
+
+/// A tree node as a Lisp value.
+pub struct NodeObject {
+    /// The node.
+    pub node: Rc<TreeNode>,
+    type_symbol: Sym,
+}
+
+impl Foreign for NodeObject {
+    fn type_symbol(&self) -> Sym {
+        self.type_symbol
+    }
+
+    fn print(&self, image: &Image, _: bool) -> String {
+        let identity = match self.node.object.borrow().upgrade() {
+            Some(object) => print::identity(image, &Value::Foreign(object)),
+            None => String::new(),
+        };
+        format!(
+            "#<TASK-TREE-NODE :PATH {} :CHILD-COUNT {} {identity}>",
+            print::to_string(image, &self.node.path, true),
+            self.node.child_count(),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lisp::known;
+
+    #[test]
+    fn the_second_call_of_a_part_is_numbered() {
+        let root = TreeNode::new(Value::NIL);
+        let part = Value::list([Value::Symbol(known::CAR)]);
+        let image = Image::new();
+        let shown = |node: &Rc<TreeNode>| print::to_string(&image, &node.path, true);
+        assert_eq!(shown(&root.enter(&part, known::K_COUNT)), "((CAR))");
+        assert_eq!(
+            shown(&root.enter(&part, known::K_COUNT)),
+            "((CAR :COUNT 2))"
+        );
+        assert_eq!(root.child_count(), 2);
+        root.restart();
+        assert_eq!(root.child_count(), 2);
+        root.enter(&part, known::K_COUNT);
+        assert_eq!(root.child_count(), 2);
+    }
+}

@@ -1,0 +1,56 @@
+//! The plans that come with the program: `plans/lib`.
+
+use super::{Ended, Session, SessionError};
+use crate::lisp::known;
+use crate::lisp::package::PackageTable;
+use crate::lisp::value::Value;
+use crate::reader::Reader;
+
+/// Name and text of each file, in the order in which they are loaded.
+const LIBRARY: &[(&str, &str)] = &[
+    ("log.plan", include_str!("../../plans/lib/log.plan")),
+    ("going.plan", include_str!("../../plans/lib/going.plan")),
+    (
+        "perceiving.plan",
+        include_str!("../../plans/lib/perceiving.plan"),
+    ),
+    ("gripper.plan", include_str!("../../plans/lib/gripper.plan")),
+    ("arms.plan", include_str!("../../plans/lib/arms.plan")),
+    (
+        "picking-up.plan",
+        include_str!("../../plans/lib/picking-up.plan"),
+    ),
+    ("placing.plan", include_str!("../../plans/lib/placing.plan")),
+    (
+        "tutorial-package.plan",
+        include_str!("../../plans/lib/tutorial-package.plan"),
+    ),
+];
+
+impl Session {
+    /// Loads the built-in plans. The current package is the same afterwards.
+    pub(super) fn load_plans(&mut self) -> Result<(), SessionError> {
+        for (name, text) in LIBRARY {
+            let failed = |report: String| SessionError::Plan {
+                name: (*name).to_owned(),
+                report,
+            };
+            let source = self.image.sources.add(&format!("plans/lib/{name}"), text);
+            let mut reader = Reader::new(&self.image, source);
+            loop {
+                let form = match reader.next_form(&mut self.image) {
+                    Ok(Some((form, _))) => form,
+                    Ok(None) => break,
+                    Err(error) => return Err(failed(error.to_string())),
+                };
+                if let Ended::Aborted(abort) = self.evaluate_form(&form, &mut |_| {}) {
+                    let place = abort.place.map(|p| format!("{p}: ")).unwrap_or_default();
+                    return Err(failed(format!("{place}{}", abort.report)));
+                }
+            }
+        }
+        let user = Value::Package(PackageTable::USER);
+        self.image.set_special(known::V_PACKAGE, user);
+        Ok(())
+    }
+}

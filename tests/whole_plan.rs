@@ -1,0 +1,108 @@
+//! The first whole plan, as a person runs it: what comes of it, that it is the same every
+//! time, and that nothing goes through anything on the way.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use nalgebra::Vector3;
+use planwright::dialogue::{Evaluate, Event, Outcome};
+use planwright::robot::Side;
+use planwright::session::{Session, SessionOptions};
+use planwright::world::{AllowedPairs, BodyName, World};
+
+const PLAN: &str = include_str!("../plans/tutorial/move-bottle.plan");
+
+fn session() -> Session {
+    Session::new(&SessionOptions::default()).unwrap()
+}
+
+/// Evaluates a text; what is printed, and how it ended.
+fn run(session: &mut Session, text: &str) -> (String, Outcome) {
+    let mut printed = String::new();
+    let outcome = session.evaluate("plan", text, &mut |event| match event {
+        Event::Output(text) => printed.push_str(&text),
+        Event::Values(values) => printed.push_str(&format!("{}\n", values.join("\n"))),
+        Event::Aborted(abort) => {
+            printed.push_str(&format!("{}\n{}\n", abort.report, abort.condition));
+        }
+    });
+    (printed, outcome)
+}
+
+/// The pairs that may always overlap: hands and objects, which grasping presses together.
+fn hands_and_objects(world: &World) -> AllowedPairs {
+    let models = world.models();
+    let hands: Vec<BodyName> = [Side::Left, Side::Right]
+        .iter()
+        .flat_map(|side| models.description.arm(*side).gripper.links())
+        .map(|link| models.robot_body(link))
+        .collect();
+    world.objects().fold(AllowedPairs::none(), |pairs, object| {
+        pairs.and_all(hands.clone(), &BodyName::Object(object.name().to_owned()))
+    })
+}
+
+#[test]
+fn the_bottle_stands_on_the_island_and_nothing_went_through_anything() {
+    let mut session = session();
+    let worst: Rc<RefCell<Option<String>>> = Rc::default();
+    let steps = Rc::new(RefCell::new(0u32));
+    let (seen, counted) = (worst.clone(), steps.clone());
+    session
+        .simulation_mut()
+        .set_observer(Box::new(move |world| {
+            *counted.borrow_mut() += 1;
+            let allowed = hands_and_objects(world);
+            if let Some(hit) = world.deepest_penetration(&allowed, 0.002) {
+                seen.borrow_mut()
+                    .get_or_insert_with(|| format!("{:.2} s: {hit:?}", world.time()));
+            }
+        }));
+    let (printed, outcome) = run(&mut session, PLAN);
+    assert_eq!(outcome, Outcome::Finished, "{printed}");
+    assert_eq!(*worst.borrow(), None);
+    assert!(*steps.borrow() > 1000);
+
+    let world = session.simulation().world();
+    let pose = world.object_pose("BOTTLE-1").unwrap();
+    let t = pose.translation;
+    assert!((t.x + 0.8).hypot(t.y - 2.0) < 0.02, "{t}");
+    assert!(t.z > 0.86, "{t}");
+    let up = pose * Vector3::z();
+    assert!(up.z > 3f64.to_radians().cos(), "{up}");
+    let arm = world.models().description.arm(Side::Right);
+    let parked = arm.posture("park").unwrap();
+    let positions = arm.positions(&world.robot_configuration().joints);
+    for (is, wanted) in positions.iter().zip(parked) {
+        let turns = (is - wanted) / std::f64::consts::TAU;
+        assert!((turns - turns.round()).abs() < 1e-6, "{positions:?}");
+    }
+}
+
+#[test]
+fn two_runs_print_the_same_bytes_and_leave_the_same_world() {
+    let runs: Vec<(String, u64)> = (0..2)
+        .map(|_| {
+            let mut session = session();
+            let (printed, _) = run(&mut session, PLAN);
+            (printed, session.simulation().world().hash())
+        })
+        .collect();
+    assert_eq!(runs[0], runs[1]);
+}
+
+#[test]
+fn a_bottle_that_is_out_of_sight_ends_in_a_failure_after_four_warnings() {
+    let mut session = session();
+    let definitions = PLAN.split("(move-bottle '(").next().unwrap();
+    run(&mut session, definitions);
+    let (printed, outcome) = run(&mut session, "(move-bottle '((-2 -0.9 0.860) (0 0 0 1)))");
+    assert_eq!(outcome, Outcome::Aborted);
+    assert_eq!(
+        printed.matches("[(PICK-AND-PLACE PERCEIVE) WARN]").count(),
+        4
+    );
+    assert!(printed.contains("PERCEPTION-OBJECT-NOT-FOUND"), "{printed}");
+    let (printed, outcome) = run(&mut session, "(+ 1 2)");
+    assert_eq!((printed.as_str(), outcome), ("3\n", Outcome::Finished));
+}
