@@ -5,12 +5,17 @@
 
 pub mod access;
 pub mod check;
+mod continuation;
 pub mod failure;
 pub mod ground;
+pub mod lists;
+pub mod location;
 pub mod names;
 pub mod object;
 pub mod packages;
 pub mod perform;
+pub mod prolog;
+pub mod reference;
 pub mod request;
 pub mod schema;
 pub mod syntax;
@@ -48,6 +53,17 @@ pub fn install(image: &mut Image) {
     failure::define(image);
     let executive = packages::ensure(image, "CRAM-EXECUTIVE", &["EXE"]);
     image.install(executive, perform::TABLE);
+    image.install(executive, reference::EXECUTIVE_TABLE);
+    image.install(desig, reference::TABLE);
+    image.install(desig, location::TABLE);
+    location::define(image);
+    let lists = packages::ensure(image, "CRAM-UTILITIES", &["CUT"]);
+    image.install(lists, lists::TABLE);
+    image.install_operators(lists, lists::OPERATORS);
+    let prolog = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
+    image.install(prolog, prolog::builtins::TABLE);
+    image.install(prolog, prolog::facts::TABLE);
+    image.install_operators(prolog, prolog::facts::OPERATORS);
     let names = packages::ensure(image, "ROSLISP-UTILITIES", &[]);
     image.install(names, names::TABLE);
 }
@@ -78,4 +94,4 @@ fn define_class(image: &mut Image, name: Sym, superclass: Sym) {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -46,7 +46,12 @@ pub static PACKAGES: &[PackageRow] = &[
          LISP-FUN LISP-PRED LISP-TYPE ASSERT-TYPE BOUND GROUND == EQUAL MEMBER ONCE FORALL FINDALL \
          SETOF BAGOF -> *-> TRUE TAKE LENGTH APPEND",
     ),
-    row("CRAM-DESIGNATORS", &["DESIG"], ""),
+    row(
+        "CRAM-DESIGNATORS",
+        &["DESIG"],
+        "ACTION-GROUNDING MOTION-GROUNDING LOCATION-GROUNDING DESIG-PROP CURRENT-DESIGNATOR \
+         DESIGNATOR-GROUNDINGS DESIGNATOR-ERROR",
+    ),
     row(
         "CRAM-DESIGNATOR-SPECIFICATION",
         &["SPEC"],
@@ -198,7 +203,7 @@ pub static PACKAGES: &[PackageRow] = &[
     row("QUICKLISP-CLIENT", &["QL", "QUICKLISP"], "QUICKLOAD"),
     row("SWANK", &[], ""),
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
-    row("CRAM-PR2-PICK-PLACE-DEMO", &["DEMO"], ""),
+    row("CRAM-PR2-PICK-PLACE-DEMO", &[], ""),
     row("CRAM-BEGINNER-TUTORIAL", &["TUT"], ""),
 ];
 
@@ -208,6 +213,7 @@ const USES: &[(&str, &[&str])] = &[
         "CRAM-PICK-PLACE-TUTORIAL",
         &["CRAM-PROLOG", "CRAM-COMMON-FAILURES"],
     ),
+    ("CRAM-MOBILE-PICK-PLACE-PLANS", &["CRAM-COMMON-FAILURES"]),
     ("CRAM-BULLET-WORLD-TUTORIAL", &["CRAM-PROLOG"]),
 ];
 
@@ -221,6 +227,18 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
     ),
     (
         "CRAM-PICK-PLACE-TUTORIAL",
+        "CRAM-EXECUTIVE",
+        "PERFORM",
+        false,
+    ),
+    (
+        "CRAM-MOBILE-PICK-PLACE-PLANS",
+        "CRAM-DESIGNATORS",
+        "A AN ALL DESIG-PROP-VALUE CURRENT-DESIG",
+        false,
+    ),
+    (
+        "CRAM-MOBILE-PICK-PLACE-PLANS",
         "CRAM-EXECUTIVE",
         "PERFORM",
         false,

@@ -25,6 +25,8 @@ const LOOK_AHEAD: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
 const LOOK_EVERY: u32 = 12;
 /// Free distance (m) that is kept ahead while the posture changes.
 const CHANGING_MARGIN: f64 = 0.10;
+/// How often the base slows down for that reason.
+const MOST_YIELDS: u32 = 3;
 /// A posture is steady when it has not changed for this long (s).
 const STEADY: f64 = 0.05;
 /// How long (s) the robot may be still without a path before the drive fails: when there has
@@ -46,6 +48,8 @@ pub struct Drive {
     ticks: u32,
     /// What the robot would come too near to on the way ahead.
     ahead: Option<CollisionHit>,
+    /// How often the base has slowed down because of a changing posture.
+    yields: u32,
     /// Whether the posture was steady when that was found out.
     ahead_is_sure: bool,
     /// Paths that were found.
@@ -65,6 +69,7 @@ impl Drive {
             steady: 0.0,
             ticks: 0,
             ahead: None,
+            yields: 0,
             ahead_is_sure: false,
             plans: 0,
             retry: Retry::default(),
@@ -144,10 +149,13 @@ impl Drive {
             return;
         }
         let Some(way) = &self.way else { return };
-        let margin = if self.is_steady() {
-            -guard::GUARD_DEPTH
-        } else {
+        // Arms that wait for the base and a base that waits for the arms would creep along
+        // together; so the base yields a few times only.
+        let yields = !self.is_steady() && self.yields < MOST_YIELDS;
+        let margin = if yields {
             CHANGING_MARGIN
+        } else {
+            -guard::GUARD_DEPTH
         };
         let robot = world.robot_configuration();
         let mut checker = world.collision_checker();
@@ -156,10 +164,14 @@ impl Drive {
         let allowed = near.into_iter().fold(AllowedPairs::none(), |all, hit| {
             all.and(hit.moving, hit.other)
         });
-        self.ahead_is_sure = self.is_steady();
+        let was_free = self.ahead.is_none();
+        self.ahead_is_sure = !yields;
         self.ahead = LOOK_AHEAD.iter().find_map(|seconds| {
             checker.first_hit(&at_place(robot, &way.ahead(*seconds)), &allowed, margin)
         });
+        if yields && was_free && self.ahead.is_some() {
+            self.yields += 1;
+        }
     }
 
     fn step(&mut self, world: &mut World) -> Option<MotionStatus> {

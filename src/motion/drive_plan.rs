@@ -1,11 +1,13 @@
 //! Planning a drive: the path of the base for the robot as it stands.
 
+use std::f64::consts::FRAC_PI_8;
+
 use super::base_path::{BasePathFailure, BasePlace, FloorArea, MARGIN, find_base_path};
 use super::expected_contacts::ExpectedContacts;
 use super::failure::MotionFailure;
 use super::touching::TouchingPairs;
 use super::trajectory::Trajectory;
-use crate::spatial::{Pose, pose};
+use crate::spatial::{Pose, pose, trig};
 use crate::world::{
     AllowedPairs, BodyName, CollisionChecker, CollisionHit, RobotConfiguration, World,
 };
@@ -14,6 +16,10 @@ use crate::world::{
 const LINK_EXTENT: f64 = 0.15;
 /// Free floor (m) that is searched around robot, goal and furniture.
 const AREA_BORDER: f64 = 1.0;
+/// Places to get out of a contact that are tried (m): spacing and number of steps.
+const WAY_OUT: (f64, u32) = (0.01, 12);
+/// Gap (m) to everything with which the robot is out of a contact.
+const WAY_OUT_GAP: f64 = 0.005;
 /// Time (s) between two places of a trajectory that are checked.
 const CHECK_EVERY: f64 = 0.04;
 /// Places around an occupied goal that are tried (m): spacing and number of rings.
@@ -37,6 +43,8 @@ pub(super) struct BaseJudge<'w> {
     in_base: Vec<Pose>,
     in_map: Vec<Pose>,
     touching: TouchingPairs,
+    /// Pairs that belong to the robot and ride along.
+    own: AllowedPairs,
 }
 
 impl<'w> BaseJudge<'w> {
@@ -57,7 +65,7 @@ impl<'w> BaseJudge<'w> {
                 all.and(hit.moving, hit.other)
             });
         let contacts = ExpectedContacts {
-            allowed: own,
+            allowed: own.clone(),
             ..ExpectedContacts::default()
         };
         let touching = TouchingPairs::new(&mut checker, &robot, &contacts, 0.0, 0.0);
@@ -70,6 +78,7 @@ impl<'w> BaseJudge<'w> {
             in_map: in_base.clone(),
             in_base,
             touching,
+            own,
         }
     }
 
@@ -87,6 +96,39 @@ impl<'w> BaseJudge<'w> {
         }
         self.touching
             .first_hit(&mut self.checker, &self.robot, margin)
+    }
+
+    /// Where the robot, which touches something at the start, does not touch it any more; the
+    /// straight way there leads out of the contact from the first centimetre on.
+    fn way_out(&mut self, start: &BasePlace) -> Option<BasePlace> {
+        if self.touching.is_empty() {
+            return None;
+        }
+        let [x, y, yaw] = *start;
+        let at = |r: f64, turn: u32| {
+            let (s, c) = trig::sin_cos(f64::from(turn) * FRAC_PI_8);
+            [x + r * c, y + r * s, yaw]
+        };
+        let (spacing, steps) = WAY_OUT;
+        for step in 1..=steps {
+            for turn in 0..16 {
+                let end = at(f64::from(step) * spacing, turn);
+                if self.touches(&end) {
+                    continue;
+                }
+                let on_way = |i: u32| at(f64::from(i) * spacing, turn);
+                if (1..step).all(|i| self.blocked(&on_way(i), 0.0).is_none()) {
+                    return Some(end);
+                }
+            }
+        }
+        None
+    }
+
+    /// Whether the robot touches anything at the place, whatever it touches now.
+    fn touches(&mut self, place: &BasePlace) -> bool {
+        self.robot = at_place(&self.robot, place);
+        !self.checker.is_free(&self.robot, &self.own, WAY_OUT_GAP)
     }
 
     /// The greatest distance (m) of any part of the robot from the axis of the base.
@@ -115,9 +157,12 @@ pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, Moti
     let area = floor_area(world, &start, &goal);
     let mut judge = BaseJudge::new(world);
     let reach = judge.reach();
-    let found = find_base_path(start, goal, area, reach, &mut |place, margin| {
+    let away = judge.way_out(&start);
+    let from = away.unwrap_or(start);
+    let found = find_base_path(from, goal, area, reach, &mut |place, margin| {
         judge.blocked(place, margin).map(Obstacle)
     });
+    let found = found.map(|path| away.map(|_| start).into_iter().chain(path).collect());
     found.map_err(|failure| match failure {
         BasePathFailure::StartOccupied(hit) => {
             MotionFailure::DriveStartOccupied { hit: hit.0.into() }
@@ -154,8 +199,7 @@ fn nearby(goal: &BasePlace) -> Vec<BasePlace> {
     let mut places = Vec::new();
     for ring in 1..=rings {
         for turn in 0..16 {
-            let (s, c) =
-                crate::spatial::trig::sin_cos(f64::from(turn) * std::f64::consts::FRAC_PI_8);
+            let (s, c) = trig::sin_cos(f64::from(turn) * FRAC_PI_8);
             let r = f64::from(ring) * spacing;
             places.push([goal[0] + r * c, goal[1] + r * s, goal[2]]);
         }

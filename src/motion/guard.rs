@@ -10,8 +10,9 @@
 use crate::robot::LinkId;
 use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
 
-/// Overlap (m) that a step may bring about: less than the 2 mm that are never exceeded.
-pub const GUARD_DEPTH: f64 = 0.0015;
+/// Overlap (m) that a step may bring about: much less than the 2 mm that are
+/// never exceeded, to leave room for sliding away.
+pub const GUARD_DEPTH: f64 = 0.0008;
 /// Lag (m) of a held object behind the hand from which on it is taken to be stuck.
 pub const GREATEST_LAG: f64 = 0.01;
 /// Force (N) between a held object and what it bumps into from which on it is stuck.

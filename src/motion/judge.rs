@@ -9,7 +9,7 @@ use crate::world::{CollisionChecker, CollisionHit, RobotConfiguration, World};
 /// Gap (m) that planned postures keep to everything.
 pub(super) const PLAN_MARGIN: f64 = 0.004;
 /// Overlap (m) of pairs that are near at the start, up to which postures pass.
-const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0005;
+const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0003;
 
 /// Tells which postures are free. Pairs that are near each other at the start, such as a
 /// held object and what it stands on, may stay near, but not overlap more.

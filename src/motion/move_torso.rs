@@ -10,8 +10,9 @@ use crate::world::{AllowedPairs, World};
 
 /// A goal farther outside of the limits than this (m) is a failure.
 const CROPPED: f64 = 1e-4;
-/// How long (s) the way may be blocked while nothing moves.
-const PATIENCE: f64 = 0.3;
+/// How long (s) the way may be blocked while nothing moves: longer than the arms wait before
+/// they look for another way.
+const PATIENCE: f64 = 1.0;
 
 /// Moves the torso to a height. A goal beyond the joint's limits is first cropped and
 /// reached as far as possible, then reported.

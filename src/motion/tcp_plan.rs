@@ -123,6 +123,7 @@ impl TcpTask<'_> {
                     let mut positions = before.positions.clone();
                     let mut cost = before.cost;
                     for (q, limits) in solution.iter().zip(kinematics.limits()) {
+                        // One axis per joint of all goals' arms: there is one left.
                         let from = now[positions.len()];
                         let to = match limits {
                             Some(_) => *q,

@@ -149,7 +149,8 @@ fn quaternion_to_euler(image: &mut Image, args: &[Value]) -> Result<Value> {
     let roll = trig::atan2(m[(2, 1)], m[(2, 2)]);
     let pitch = trig::asin(-m[(2, 0)]);
     let yaw = trig::atan2(m[(1, 0)], m[(0, 0)]);
-    let angles = [roll, pitch, yaw].map(Value::Double);
+    // Adding zero turns -0 into 0.
+    let angles = [roll, pitch, yaw].map(|a| Value::Double(a + 0.0));
     if just_values.is_some_and(|v| v.is_true()) {
         return Ok(Value::values(angles.to_vec()));
     }

@@ -3,6 +3,7 @@
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::known;
+use crate::lisp::print;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
 use crate::lisp::vm::step::Step;
@@ -76,6 +77,23 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
             let part = Value::list([tagged(m.image), args[0].clone()]);
             let task = task_at(m.image, name, &part)?;
             Ok(Step::Return(task.value()))
+        },
+    ),
+    pure(
+        "TAG-OUTSIDE",
+        "name",
+        "The error of a tag outside WITH-TAGS.",
+        &[],
+        |image, args| {
+            let shown = print::to_string(image, &args[0], true);
+            let text = format!("(:TAG {shown} ..) used outside of WITH-TAGS.");
+            let current = Plan::of(image).names.current_task;
+            // Inside a plan the form has been compiled.
+            Err(if image.special(current).is_nil() {
+                Raise::simple(text)
+            } else {
+                Raise::new(known::COMPILED_PROGRAM_ERROR, text)
+            })
         },
     ),
     control(

@@ -10,8 +10,6 @@ use crate::lisp::compile;
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::object::form::form;
-use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::value::Value;
 
@@ -38,10 +36,7 @@ pub static KEYWORD_OPERATORS: &[Operator] = &[macro_(
     &["(cpl:top-level (cpl:with-tags (:tag a 1))) => 1"],
     |image, form| {
         let (name, _) = first_rest(form);
-        let shown = print::to_string(image, &name, true);
-        Err(Raise::simple(format!(
-            "(:TAG {shown} ..) used outside of WITH-TAGS."
-        )))
+        Ok(form![plan(image).names.sys_tag_outside, quoted(name)])
     },
 )];
 

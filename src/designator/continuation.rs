@@ -1,0 +1,40 @@
+//! What is done with the value of a call, as a function.
+
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::{Resume, Step};
+
+pub(super) type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// The rest of a builtin after a value is known.
+pub(super) type Next = Box<dyn FnOnce(&mut Machine<'_>, Value) -> Result<Step>>;
+
+struct Then {
+    next: Next,
+    name: &'static str,
+}
+
+impl Resume for Then {
+    fn resume(self: Box<Self>, machine: &mut Machine<'_>, value: Value) -> Result<Step> {
+        (self.next)(machine, value)
+    }
+
+    fn name(&self) -> &'static str {
+        self.name
+    }
+}
+
+/// Calls a function and goes on with its primary value; `name` is shown in backtraces.
+pub(super) fn call(function: Value, args: Vec<Value>, name: &'static str, next: Next) -> Step {
+    Step::Call {
+        function,
+        args,
+        then: Box::new(Then { next, name }),
+    }
+}
+
+/// Ends with the value.
+pub(super) fn done() -> Next {
+    Box::new(|_, value| Ok(Step::Return(value)))
+}

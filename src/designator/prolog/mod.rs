@@ -1,0 +1,12 @@
+//! A small Prolog over Lisp values: fact groups, and proofs that may call Lisp functions.
+//!
+//! Variables are symbols that begin with `?`. Functors of the language itself are
+//! recognised by name in whatever package they are written; those of fact groups by
+//! identity. Proofs run depth first, in the order of the facts, and backtrack without
+//! recursion, so that a function that is called by a goal may wait.
+
+pub mod builtins;
+pub mod engine;
+pub mod facts;
+mod functors;
+pub mod term;
