@@ -24,9 +24,8 @@ impl Seen {
         let [a, b, c] = self.corners;
         let here = [x, y, 0.0];
         let area = twice_area(a, b, c);
-        let weight = |one, two, corner: Corner| {
-            (twice_area(one, two, here) / area).max(0.0) * corner[2]
-        };
+        let weight =
+            |one, two, corner: Corner| (twice_area(one, two, here) / area).max(0.0) * corner[2];
         let weights = [weight(b, c, a), weight(c, a, b), weight(a, b, c)];
         let sum = weights[0] + weights[1] + weights[2];
         let weights = if sum > 0.0 {

@@ -29,7 +29,11 @@ const TONES: usize = 4096;
 
 /// The scene as the camera sees it. The camera's far limit does not count.
 pub fn render(scene: &Scene, camera: &Camera) -> Image {
-    render_with(scene, camera, thread::available_parallelism().map_or(1, usize::from))
+    render_with(
+        scene,
+        camera,
+        thread::available_parallelism().map_or(1, usize::from),
+    )
 }
 
 fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
@@ -145,7 +149,8 @@ impl Painter<'_> {
                 let nearest = &mut nearest[places][columns.clone()];
                 for (j, (near, who)) in nearness.iter_mut().zip(nearest).enumerate() {
                     let here = start + slope * j as f32;
-                    let wins = here > *near && (alpha == 1.0 || shows(columns.start + j, row, alpha));
+                    let wins =
+                        here > *near && (alpha == 1.0 || shows(columns.start + j, row, alpha));
                     *near = if wins { here } else { *near };
                     *who = if wins { i } else { *who };
                 }
@@ -311,6 +316,6 @@ mod tests {
             height: 0,
             ..camera()
         };
-        assert_eq!(render(&Scene::default(), &camera).bytes(), []);
+        assert!(render(&Scene::default(), &camera).bytes().is_empty());
     }
 }

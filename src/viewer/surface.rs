@@ -167,7 +167,10 @@ impl Surface {
 
     /// The surface that straight pieces beside the z axis leave when they are turned about it.
     fn turned(pieces: impl Iterator<Item = [Profile; 2]> + Clone) -> Self {
-        let widest = pieces.clone().flatten().fold(0.0, |r: f64, p| r.max(p.radius));
+        let widest = pieces
+            .clone()
+            .flatten()
+            .fold(0.0, |r: f64, p| r.max(p.radius));
         let count = match widest {
             r if r < 0.012 => 12,
             r if r < 0.06 => 28,
@@ -267,7 +270,14 @@ mod tests {
         let ball = volume(&Surface::of(&Shape::Sphere { radius: 1.0 }, 0.0));
         assert!((ball / (TAU * 2.0 / 3.0) - 1.0).abs() < 0.02);
         // A cup with walls and a bottom of 0.1 m.
-        let cup = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.9, 1.0], [0.9, 0.1], [0.0, 0.1]];
+        let cup = [
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [1.0, 1.0],
+            [0.9, 1.0],
+            [0.9, 0.1],
+            [0.0, 0.1],
+        ];
         let share = volume(&Surface::lathed(&cup)) / (TAU / 2.0 * (1.0 - 0.81 * 0.9));
         assert!((share - 1.0).abs() < 0.01);
         let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

@@ -87,9 +87,9 @@ fn is_around(ring: &Ring, [x, y, _]: [f64; 3]) -> bool {
 fn rings(mut shapes: &[PlacedShape]) -> (Vec<Ring>, &[PlacedShape]) {
     let mut rings: Vec<Ring> = Vec::new();
     while let Some((ring, rest)) = ring(shapes) {
-        let goes_on = rings.last().is_none_or(|below| {
-            is_around(below, ring.middle) && below.middle[2] < ring.middle[2]
-        });
+        let goes_on = rings
+            .last()
+            .is_none_or(|below| is_around(below, ring.middle) && below.middle[2] < ring.middle[2]);
         if !goes_on {
             break;
         }
@@ -111,16 +111,19 @@ fn ring(shapes: &[PlacedShape]) -> Option<(Ring, &[PlacedShape])> {
     let is_stave = |s: &&PlacedShape| s.shape == first.shape && is_upright(&s.pose);
     let same = shapes.iter().take_while(is_stave).count();
     // Two rings of the same boxes are told apart by their heights.
-    let level = |s: &&PlacedShape| {
-        (s.pose.translation.z - first.pose.translation.z).abs() < RING_TOLERANCE
-    };
+    let level =
+        |s: &&PlacedShape| (s.pose.translation.z - first.pose.translation.z).abs() < RING_TOLERANCE;
     let count = shapes.iter().take(same).take_while(level).count();
     let (staves, rest) = shapes.split_at(count);
     if count < LEAST_COUNT {
         return None;
     }
     let mean = |axis: usize| {
-        staves.iter().map(|s| s.pose.translation.vector[axis]).sum::<f64>() / count as f64
+        staves
+            .iter()
+            .map(|s| s.pose.translation.vector[axis])
+            .sum::<f64>()
+            / count as f64
     };
     let middle = [mean(0), mean(1), mean(2)];
     let distance = |s: &PlacedShape| {

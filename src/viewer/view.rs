@@ -45,7 +45,9 @@ pub enum View {
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum ViewError {
     /// The kitchen lacks what the view looks at.
-    #[error("the view {view} looks at {link}, which this kitchen lacks; say --from and --at instead")]
+    #[error(
+        "the view {view} looks at {link}, which this kitchen lacks; say --from and --at instead"
+    )]
     NothingThere {
         /// The view.
         view: View,
@@ -109,7 +111,10 @@ impl View {
             }
             Self::Robot => {
                 let through = world.models().description.camera();
-                Ok(camera(world.link_pose(through.frame), through.vertical_view))
+                Ok(camera(
+                    world.link_pose(through.frame),
+                    through.vertical_view,
+                ))
             }
             Self::Table => {
                 let at = self.furniture(world, "table_area_main", [0.0, 0.0, 0.75])?;
