@@ -98,16 +98,27 @@ fn no_arguments_make_a_builtin_panic() {
         }
         let package = image.symbol(*sym).package.expect("builtins have packages");
         let package = image.packages.get(package).name.clone();
-        names.push((format!("{package}::{}", builtin.name), usize::from(builtin.arity().0)));
+        names.push((
+            format!("{package}::{}", builtin.name),
+            usize::from(builtin.arity().0),
+        ));
     }
     for (name, least) in names {
         let mut session = Session::new();
         for round in 0..40 {
-            let count = if round % 3 == 0 { least + numbers.below(4) } else { least + round % 2 * 2 };
+            let count = if round % 3 == 0 {
+                least + numbers.below(4)
+            } else {
+                least + round % 2 * 2
+            };
             let arguments: Vec<&str> = (0..count)
                 .map(|_| ARGUMENTS[numbers.below(ARGUMENTS.len())])
                 .collect();
-            let form = format!("(ignore-errors (|{}| {}) nil)", name.replace("::", "|::|"), arguments.join(" "));
+            let form = format!(
+                "(ignore-errors (|{}| {}) nil)",
+                name.replace("::", "|::|"),
+                arguments.join(" ")
+            );
             session.evaluate("robustness", &form, &mut |event| {
                 if let Event::Aborted(abort) = event {
                     // Conditions that are no errors may reach the top.
