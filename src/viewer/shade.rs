@@ -190,7 +190,7 @@ fn tone(row: f64, column: f64) -> f64 {
 
 /// The number brought into 0..1; 0 for what is no number.
 pub(super) fn unit(value: f32) -> f32 {
-    value.max(0.0).min(1.0)
+    value.clamp(0.0, 1.0)
 }
 
 /// From 0 to 1 without a kink, as the value goes from 0 to 1.

@@ -42,7 +42,6 @@ impl Sequence {
     }
 
     /// Number of elements.
-    #[expect(clippy::len_without_is_empty, reason = "counting may fail")]
     pub fn len(&self) -> Result<usize, Box<Raise>> {
         match self {
             Sequence::List(list) => list_length(list),
