@@ -39,7 +39,7 @@ const IMPLEMENTATION: PackageDefinition = PackageDefinition {
     nicknames: &["CPL-IMPL"],
     doc: "The plan language: home of its symbols.",
     uses: &["COMMON-LISP"],
-    exports: &[],
+    exports: &["TIMEOUT-POLICY"],
     reexports: &[],
 };
 
