@@ -10,7 +10,8 @@ use planwright::dialogue::Evaluate;
 use planwright::transcript::{Transcript, Verdict, replay_all};
 
 const KNOWN: &str = "tests/conformance/known-differences.txt";
-const FOLDERS: [(&str, &str); 3] = [
+const FOLDERS: [(&str, &str); 4] = [
+    (".", "md"),
     ("tests/conformance", "transcript"),
     ("tests/transcripts", "transcript"),
     ("docs", "md"),

@@ -298,6 +298,9 @@ impl Bounds {
         start: Option<&Value>,
         end: Option<&Value>,
     ) -> Result<Bounds, Box<Raise>> {
+        if let Some(start @ Value::Symbol(known::NIL)) = start {
+            return Err(Raise::type_error(start, known::UNSIGNED_BYTE));
+        }
         let start_index = index_or(start, Some(0))?;
         let end_index = index_or(end, None)?;
         if start_index == Some(0) && end_index.is_none() && end.is_none_or(Value::is_nil) {

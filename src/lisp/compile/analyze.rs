@@ -266,7 +266,12 @@ impl<'a> Compiler<'a> {
                     self.place,
                 ));
             }
-            _ => return Err(self.program_error("illegal function call")),
+            _ => {
+                let shown = crate::lisp::print::to_string(self.image, head, true);
+                return Err(self.program_error(format!(
+                    "illegal function call\n{shown} is not the name of a function; a list that is data needs a quote: '(…)"
+                )));
+            }
         };
         match scope.function(name, false) {
             Some(FunctionMeaning::Local(var)) => {
