@@ -211,13 +211,26 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Macros of package `CRAM-DESIGNATORS`.
-pub static OPERATORS: &[Operator] = &[Operator {
-    name: "WITH-DESIG-PROPS",
-    lambda_list: "properties designator &body body",
-    doc: "Binds variables to the values of the properties of those names.",
-    examples: &["(desig:with-desig-props (type) (desig:an object (type bottle)) type) => :BOTTLE"],
-    expand: Some(with_desig_props),
-}];
+pub static OPERATORS: &[Operator] = &[
+    Operator {
+        name: "WITH-DESIGNATORS",
+        lambda_list: "((variable class properties)…) &body body",
+        doc: "Binds variables to designators made of lists of properties.",
+        examples: &[
+            "(desig:with-designators ((cup :object '((:type :cup)))) (desig:desig-prop-value cup :type)) => :CUP",
+        ],
+        expand: Some(with_designators),
+    },
+    Operator {
+        name: "WITH-DESIG-PROPS",
+        lambda_list: "properties designator &body body",
+        doc: "Binds variables to the values of the properties of those names.",
+        examples: &[
+            "(desig:with-desig-props (type) (desig:an object (type bottle)) type) => :BOTTLE",
+        ],
+        expand: Some(with_desig_props),
+    },
+];
 
 fn list(items: Vec<Value>) -> Value {
     Value::list(items)
@@ -400,6 +413,30 @@ fn newest_effective(_: &mut Image, args: &[Value]) -> Result<Value> {
         at = parent.unwrap_or(Value::NIL);
     }
     Ok(Value::NIL)
+}
+
+/// `(let* ((variable (make-designator class properties)) …) body…)`.
+fn with_designators(image: &mut Image, form: &Value) -> Result<Value> {
+    let rest = form.cdr_or_nil();
+    let maker = packages::symbol(image, "CRAM-DESIGNATORS", "MAKE-DESIGNATOR");
+    let mut bindings = Vec::new();
+    for definition in rest.car_or_nil().iter_list() {
+        let variable = definition.car_or_nil();
+        let mut class = definition.cdr_or_nil().car_or_nil();
+        let mut properties = definition.cdr_or_nil().cdr_or_nil().car_or_nil();
+        // Also (variable (class properties)).
+        if let Value::Cons(inner) = &class {
+            properties = inner.cdr().car_or_nil();
+            class = inner.car();
+        }
+        let class = list(vec![known::QUOTE.into(), class]);
+        let made = list(vec![maker.into(), class, properties]);
+        bindings.push(list(vec![variable, made]));
+    }
+    Ok(Value::list_with_tail(
+        [known::LET_STAR.into(), list(bindings)],
+        rest.cdr_or_nil(),
+    ))
 }
 
 /// `(let* ((d designator) (key (desig-prop-value d :key)) …) body…)`.

@@ -79,7 +79,8 @@ fn designator_form(
             return Err(Raise::new(
                 known::ARG_COUNT_ERROR,
                 format!(
-                    "Error while parsing arguments to DEFMACRO {name}: too few elements in () to satisfy lambda list (TYPE &REST PROPERTIES): at least 1 expected, but got 0. As in ({name} motion (type going))."
+                    "Error while parsing arguments to DEFMACRO {name}: too few elements in () to satisfy lambda list (TYPE &REST PROPERTIES): at least 1 expected, but got 0. As in ({} motion (type going)).",
+                    name.to_lowercase()
                 ),
             ));
         }
