@@ -9,6 +9,7 @@ mod continuation;
 pub mod failure;
 pub mod ground;
 pub mod lists;
+mod literal;
 pub mod location;
 pub mod names;
 pub mod object;
