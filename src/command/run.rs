@@ -4,10 +4,11 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use super::arguments::Options;
+use super::check::described;
 use super::failure::{CommandError, Status, read};
 use super::open::open;
 use super::paint::Paint;
-use crate::dialogue::{Abort, Evaluate, Outcome, Screen, evaluate_keeping_abort};
+use crate::dialogue::{Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort};
 
 /// Loads the files, then evaluates the forms, up to the first condition that nobody
 /// handles. Output goes to standard output, that condition to standard error.
@@ -22,6 +23,8 @@ pub(super) fn run(
         .iter()
         .enumerate()
         .map(|(at, form)| Text::of_form(at, form));
+    let paint = Paint::new(options.color, &io::stderr());
+    warn(options, &files, paint)?;
     let mut session = open(options)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
     for text in files.into_iter().chain(forms) {
@@ -29,7 +32,6 @@ pub(super) fn run(
             Ended::Finished => {}
             Ended::Quit(code) => return Ok(Status::Left(code)),
             Ended::Aborted(abort) => {
-                let paint = Paint::new(options.color, &io::stderr());
                 // Without standard error, the exit status has to do.
                 let _ = io::stderr().write_all(text.describe(abort.as_ref(), paint).as_bytes());
                 return Ok(Status::Bad);
@@ -37,6 +39,27 @@ pub(super) fn run(
         }
     }
     Ok(Status::Good)
+}
+
+/// Tells on standard error what looks wrong in the files before anything of them is
+/// evaluated. What cannot be read or compiled is told when it is its turn.
+///
+/// The files are checked in a world of their own, because their definitions take effect.
+fn warn(options: &Options, files: &[Text], paint: Paint) -> Result<(), CommandError> {
+    if files.is_empty() {
+        return Ok(());
+    }
+    let mut session = open(options)?;
+    for file in files {
+        for finding in session.check(&file.name, &file.text) {
+            if finding.severity == Severity::Warning {
+                let text = format!("warning: {}", described(&file.name, &finding, paint));
+                // Without standard error nobody can be warned.
+                let _ = io::stderr().write_all(text.as_bytes());
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A text to evaluate.

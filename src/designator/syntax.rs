@@ -207,7 +207,7 @@ fn nested_quantifier(image: &Image, head: &Value, form: &Value) -> Option<Quanti
     if quantifier == Quantifier::All {
         name = name.trim_end_matches('S').to_owned();
     }
-    super::value::Class::named(&name).map(|_| quantifier)
+    Class::named(&name).map(|_| quantifier)
 }
 
 /// `?variables` are evaluated; what is bound globally counts as its value; everything else

@@ -260,8 +260,11 @@ impl<'a> Compiler<'a> {
         }
         let image = &*self.image;
         let bound: Vec<Sym> = scope.variables().collect();
+        let wanted = image.name(name);
+        // Among one or two letters everything is near.
+        let is_long = wanted.chars().count() > 2;
         let names = bound.iter().map(|sym| image.name(*sym));
-        let near = closest_name(image.name(name), names);
+        let near = closest_name(wanted, names).filter(|_| is_long);
         let near = near.and_then(|near| bound.iter().copied().find(|sym| image.name(*sym) == near));
         let place = self.place;
         self.image.note(place, || NoteKind::Variable(name, near));

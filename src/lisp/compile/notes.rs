@@ -9,7 +9,7 @@ use crate::lisp::value::Value;
 use crate::reader::source::Place;
 
 /// Something that was noticed.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Note {
     /// The innermost form with a place.
     pub place: Place,
@@ -18,7 +18,7 @@ pub struct Note {
 }
 
 /// What was noticed.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub enum NoteKind {
     /// A global function is called with so many arguments, or only named.
     Function(Sym, Option<usize>),

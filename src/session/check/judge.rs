@@ -2,6 +2,7 @@
 //! whole text has been seen, so that the order of definitions does not matter.
 
 use super::known::KnownNames;
+use crate::closest_name::closest_name;
 use crate::lisp::compile::notes::NoteKind;
 use crate::lisp::function::{Body, Function};
 use crate::lisp::image::Image;
@@ -9,7 +10,6 @@ use crate::lisp::known;
 use crate::lisp::package::{Access, PackageTable};
 use crate::lisp::print;
 use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
-use crate::reader::suggest::nearest;
 
 /// A mistake: what is wrong, and the name that it is about, in upper case, unless the
 /// whole form is wrong.
@@ -153,7 +153,9 @@ fn asking(text: String, image: &Image, name: Sym, is_kind: impl Fn(Sym) -> bool)
         let is_visible = sym != name && found.is_some_and(|(found, _)| found == sym);
         (is_visible && sym != known::NIL && is_kind(sym)).then_some(&*data.name)
     });
-    match nearest(wanted, visible) {
+    // Among one or two letters everything is near.
+    let is_long = wanted.chars().count() > 2;
+    match closest_name(wanted, visible).filter(|_| is_long) {
         Some(near) => format!("{text}; did you mean {near}?"),
         None => format!("{text}."),
     }
