@@ -10,6 +10,7 @@ pub mod failure;
 pub mod ground;
 pub mod lint;
 pub mod lists;
+mod literal;
 pub mod location;
 pub mod names;
 pub mod object;

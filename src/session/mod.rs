@@ -30,6 +30,8 @@ pub struct Session {
     image: Image,
     scheduler: Scheduler,
     simulation: Simulation,
+    /// What checked texts define.
+    checked: check::KnownNames,
 }
 
 /// How the evaluation of one form ended.
@@ -52,6 +54,7 @@ impl Session {
             image,
             scheduler: Scheduler::new(),
             simulation,
+            checked: check::KnownNames::default(),
         };
         session.load_plans()?;
         Ok(session)
