@@ -59,7 +59,7 @@ fn warn(options: &Options, files: &[Text], paint: Paint) -> Result<(), CommandEr
     if files.is_empty() {
         return Ok(());
     }
-    let mut session = super::open::open(options)?;
+    let mut session = open(options)?;
     for file in files {
         for finding in session.check(&file.name, &file.text) {
             if finding.severity == Severity::Warning {
