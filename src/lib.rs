@@ -18,4 +18,5 @@ pub mod sexp;
 pub mod spatial;
 pub mod transcript;
 pub mod transform;
+pub mod viewer;
 pub mod world;

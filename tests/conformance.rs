@@ -10,7 +10,8 @@ use planwright::dialogue::Evaluate;
 use planwright::transcript::{Transcript, Verdict, replay_all};
 
 const KNOWN: &str = "tests/conformance/known-differences.txt";
-const FOLDERS: [(&str, &str); 3] = [
+const FOLDERS: [(&str, &str); 4] = [
+    (".", "md"),
     ("tests/conformance", "transcript"),
     ("tests/transcripts", "transcript"),
     ("docs", "md"),
@@ -20,7 +21,6 @@ const FOLDERS: [(&str, &str); 3] = [
 type Place = String;
 
 #[test]
-#[ignore = "waits for the session"]
 fn only_known_entries_differ() {
     let transcripts: Vec<Transcript> = FOLDERS
         .iter()

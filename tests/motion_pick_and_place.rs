@@ -156,7 +156,7 @@ fn the_same_motions_end_with_the_same_bits() {
 
 /// The tutorial's grasp from the front left: its second pregrasp is the grasp itself.
 fn diagonal() -> GraspDefinition {
-    let s = 0.7071;
+    let s = std::f64::consts::FRAC_1_SQRT_2;
     GraspDefinition {
         translation: [-0.02, -0.02, 0.005],
         rotation: [[s, 0.0, -s], [-s, 0.0, -s], [0.0, 1.0, 0.0]],

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use super::picture::PictureArguments;
+
 /// Program a simulated kitchen robot in a Common-Lisp-like plan language.
 ///
 /// Without a command: the prompt. With input that is not a terminal: evaluates it and
@@ -80,6 +82,10 @@ pub(super) enum Command {
         #[arg(long, value_name = "N")]
         jobs: Option<NonZeroUsize>,
     },
+    /// Load plan files, then draw the world as it is then; without files: as it is at the start
+    ///
+    /// The picture is drawn even when a condition was not handled, which exits with 1.
+    Picture(PictureArguments),
     /// Look for mistakes that can be found without running anything
     Check {
         /// Plan files

@@ -36,7 +36,8 @@ fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-fn described(name: &str, finding: &Finding, paint: Paint) -> String {
+/// A finding with its place and the form underlined.
+pub(super) fn described(name: &str, finding: &Finding, paint: Paint) -> String {
     let message = paint.bad(&finding.message);
     match &finding.place {
         Some(place) => format!("{place}: {message}\n{}\n", place.underlined()),

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::repl::ReplError;
+use crate::viewer::ViewError;
 
 /// The end of a command that could do its work.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -40,9 +41,12 @@ pub(super) enum CommandError {
     /// A file that the command line names.
     #[error("cannot read {}: {error}", path.display())]
     Read { path: PathBuf, error: io::Error },
-    /// A blessed transcript.
+    /// A blessed transcript, or a picture.
     #[error("cannot write {}: {error}", path.display())]
     Rewrite { path: PathBuf, error: io::Error },
+    /// A picture from nowhere.
+    #[error("{0}")]
+    View(#[from] ViewError),
     /// The robot and its world cannot be set up.
     #[error("{0}")]
     Open(String),

@@ -12,6 +12,7 @@ mod check;
 mod failure;
 mod open;
 mod paint;
+mod picture;
 mod pipe;
 mod reference;
 mod replay;
@@ -72,6 +73,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Replay { files, bless, jobs }) => {
             replay::replay(options, &files, bless, jobs)
         }
+        Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Check { files }) => check::check(options, &files),
         Some(Command::Reference) => reference::print(),
         Some(Command::Completions { shell }) => {

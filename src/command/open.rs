@@ -15,6 +15,11 @@ const COMPILER_STACK: usize = 48 << 20;
 
 /// A fresh evaluator with a world of its own. For threads with a large stack.
 pub(super) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {
+    Ok(Box::new(open_session(options)?))
+}
+
+/// As [`open`], for those who want to see the world.
+pub(super) fn open_session(options: &Options) -> Result<Session, CommandError> {
     let read = |path: &Path| -> Result<(String, String), CommandError> {
         let text = fs::read_to_string(path)
             .map_err(|error| CommandError::Open(format!("{}: {error}", path.display())))?;
@@ -36,7 +41,7 @@ pub(super) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError>
     let mut session =
         Session::new(&options).map_err(|error| CommandError::Open(error.to_string()))?;
     session.set_stack_budget(COMPILER_STACK);
-    Ok(Box::new(session))
+    Ok(session)
 }
 
 /// A fresh evaluator as a command line without options has it.

@@ -4,10 +4,11 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use super::arguments::Options;
+use super::check::described;
 use super::failure::{CommandError, Status, read};
 use super::open::open;
 use super::paint::Paint;
-use crate::dialogue::{Abort, Evaluate, Outcome, Screen, evaluate_keeping_abort};
+use crate::dialogue::{Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort};
 
 /// Loads the files, then evaluates the forms, up to the first condition that nobody
 /// handles. Output goes to standard output, that condition to standard error.
@@ -16,27 +17,59 @@ pub(super) fn run(
     files: &[PathBuf],
     forms: &[String],
 ) -> Result<Status, CommandError> {
+    run_in(options, files, forms, || open(options)).map(|(status, _)| status)
+}
+
+/// As [`run`], in what `open` opens, which is handed back.
+pub(super) fn run_in<E: Evaluate>(
+    options: &Options,
+    files: &[PathBuf],
+    forms: &[String],
+    open: impl FnOnce() -> Result<E, CommandError>,
+) -> Result<(Status, E), CommandError> {
     // A file that cannot be read is told before the robot moves.
     let files: Vec<Text> = files.iter().map(Text::of_file).collect::<Result<_, _>>()?;
     let forms = forms
         .iter()
         .enumerate()
         .map(|(at, form)| Text::of_form(at, form));
-    let mut session = open(options)?;
+    let paint = Paint::new(options.color, &io::stderr());
+    warn(options, &files, paint)?;
+    let mut session = open()?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
     for text in files.into_iter().chain(forms) {
         match text.evaluate(&mut session, &mut screen)? {
             Ended::Finished => {}
-            Ended::Quit(code) => return Ok(Status::Left(code)),
+            Ended::Quit(code) => return Ok((Status::Left(code), session)),
             Ended::Aborted(abort) => {
-                let paint = Paint::new(options.color, &io::stderr());
                 // Without standard error, the exit status has to do.
                 let _ = io::stderr().write_all(text.describe(abort.as_ref(), paint).as_bytes());
-                return Ok(Status::Bad);
+                return Ok((Status::Bad, session));
             }
         }
     }
-    Ok(Status::Good)
+    Ok((Status::Good, session))
+}
+
+/// Tells on standard error what looks wrong in the files before anything of them is
+/// evaluated. What cannot be read or compiled is told when it is its turn.
+///
+/// The files are checked in a world of their own, because their definitions take effect.
+fn warn(options: &Options, files: &[Text], paint: Paint) -> Result<(), CommandError> {
+    if files.is_empty() {
+        return Ok(());
+    }
+    let mut session = open(options)?;
+    for file in files {
+        for finding in session.check(&file.name, &file.text) {
+            if finding.severity == Severity::Warning {
+                let text = format!("warning: {}", described(&file.name, &finding, paint));
+                // Without standard error nobody can be warned.
+                let _ = io::stderr().write_all(text.as_bytes());
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A text to evaluate.

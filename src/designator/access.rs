@@ -215,13 +215,26 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Macros of package `CRAM-DESIGNATORS`.
-pub static OPERATORS: &[Operator] = &[Operator {
-    name: "WITH-DESIG-PROPS",
-    lambda_list: "properties designator &body body",
-    doc: "Binds variables to the values of the properties of those names.",
-    examples: &["(desig:with-desig-props (type) (desig:an object (type bottle)) type) => :BOTTLE"],
-    expand: Some(with_desig_props),
-}];
+pub static OPERATORS: &[Operator] = &[
+    Operator {
+        name: "WITH-DESIGNATORS",
+        lambda_list: "((variable class properties)…) &body body",
+        doc: "Binds variables to designators made of lists of properties.",
+        examples: &[
+            "(desig:with-designators ((cup :object '((:type :cup)))) (desig:desig-prop-value cup :type)) => :CUP",
+        ],
+        expand: Some(with_designators),
+    },
+    Operator {
+        name: "WITH-DESIG-PROPS",
+        lambda_list: "properties designator &body body",
+        doc: "Binds variables to the values of the properties of those names.",
+        examples: &[
+            "(desig:with-desig-props (type) (desig:an object (type bottle)) type) => :BOTTLE",
+        ],
+        expand: Some(with_desig_props),
+    },
+];
 
 fn list(items: Vec<Value>) -> Value {
     Value::list(items)
@@ -287,29 +300,17 @@ fn prop_value(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(values.car_or_nil())
 }
 
-fn prop_values(image: &mut Image, args: &[Value]) -> Result<Value> {
+fn prop_values(_: &mut Image, args: &[Value]) -> Result<Value> {
     let Some(designator) = value::as_designator(&args[0]) else {
         return Ok(Value::NIL);
     };
-    let key = same_key(image, &args[1]);
     let values = designator
         .properties()
         .into_iter()
-        .filter(|(k, _)| k.is_eql(&key) || crate::lisp::equality::equal(k, &key))
+        .filter(|(k, _)| crate::lisp::equality::equal(k, &args[1]))
         .map(|(_, values)| values.car_or_nil())
         .collect();
     Ok(list(values))
-}
-
-/// A symbol stands for its keyword, as in the forms that make designators.
-fn same_key(image: &mut Image, key: &Value) -> Value {
-    match key {
-        Value::Symbol(sym) if !key.is_nil() && !image.is_keyword(*sym) => {
-            let name = image.name(*sym).to_owned();
-            image.keyword(&name).into()
-        }
-        other => other.clone(),
-    }
 }
 
 fn equate(image: &mut Image, args: &[Value]) -> Result<Value> {
@@ -416,6 +417,30 @@ fn newest_effective(_: &mut Image, args: &[Value]) -> Result<Value> {
         at = parent.unwrap_or(Value::NIL);
     }
     Ok(Value::NIL)
+}
+
+/// `(let* ((variable (make-designator class properties)) …) body…)`.
+fn with_designators(image: &mut Image, form: &Value) -> Result<Value> {
+    let rest = form.cdr_or_nil();
+    let maker = packages::symbol(image, "CRAM-DESIGNATORS", "MAKE-DESIGNATOR");
+    let mut bindings = Vec::new();
+    for definition in rest.car_or_nil().iter_list() {
+        let variable = definition.car_or_nil();
+        let mut class = definition.cdr_or_nil().car_or_nil();
+        let mut properties = definition.cdr_or_nil().cdr_or_nil().car_or_nil();
+        // Also (variable (class properties)).
+        if let Value::Cons(inner) = &class {
+            properties = inner.cdr().car_or_nil();
+            class = inner.car();
+        }
+        let class = list(vec![known::QUOTE.into(), class]);
+        let made = list(vec![maker.into(), class, properties]);
+        bindings.push(list(vec![variable, made]));
+    }
+    Ok(Value::list_with_tail(
+        [known::LET_STAR.into(), list(bindings)],
+        rest.cdr_or_nil(),
+    ))
 }
 
 /// `(let* ((d designator) (key (desig-prop-value d :key)) …) body…)`.

@@ -117,6 +117,7 @@ pub(super) fn define(image: &mut Image) {
     image.define_special(sym, Value::Int(RETRIES));
 }
 
+/// A symbol of `CRAM-DESIGNATORS`.
 fn variable(image: &mut Image, name: &str) -> Sym {
     packages::symbol(image, "CRAM-DESIGNATORS", name)
 }
@@ -245,10 +246,11 @@ fn first_solution(
         return next(machine, pose);
     }
     let designator = designator.clone();
+    let functor = variable(machine.image, "LOCATION-GROUNDING");
     solutions_of(
         machine,
-        "CRAM-DESIGNATORS",
-        "LOCATION-GROUNDING",
+        functor,
+        None,
         &designator.clone(),
         Box::new(move |machine, grounded| {
             let mut generators = enabled(machine.image, GENERATORS);

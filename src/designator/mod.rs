@@ -8,7 +8,9 @@ pub mod check;
 mod continuation;
 pub mod failure;
 pub mod ground;
+pub mod lint;
 pub mod lists;
+mod literal;
 pub mod location;
 pub mod names;
 pub mod object;
@@ -31,8 +33,13 @@ use crate::lisp::known;
 use crate::lisp::object::define::ClassDefinition;
 use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::vm::machine;
+use crate::reader::Reader;
 
-/// Makes the packages, classes, variables, functions and macros.
+/// Process modules in Lisp.
+const PROCESS_MODULES: &str = include_str!("process_modules.lisp");
+
+/// Makes the packages, classes, variables, functions and macros; after the plan language.
 pub fn install(image: &mut Image) {
     packages::install(image);
     let desig = packages::ensure(image, "CRAM-DESIGNATORS", &["DESIG"]);
@@ -66,6 +73,23 @@ pub fn install(image: &mut Image) {
     image.install_operators(prolog, prolog::facts::OPERATORS);
     let names = packages::ensure(image, "ROSLISP-UTILITIES", &[]);
     image.install(names, names::TABLE);
+    if image.packages.find("CRAM-LANGUAGE").is_some() {
+        evaluate(image, "CRAM-PROCESS-MODULES", PROCESS_MODULES);
+    }
+}
+
+/// Evaluates a text of the program's own in a package. It is tested: it neither fails nor
+/// waits.
+fn evaluate(image: &mut Image, package: &str, text: &str) {
+    let outer = image.special(known::V_PACKAGE).clone();
+    let package = packages::ensure(image, package, &[]);
+    image.set_special(known::V_PACKAGE, Value::Package(package));
+    let mut reader = Reader::of_text(text);
+    while let Ok(Some((form, _))) = reader.next_form(image) {
+        let evaluated = machine::call_nested(image, known::EVAL.into(), vec![form]);
+        debug_assert!(evaluated.is_ok(), "the text of a package fails");
+    }
+    image.set_special(known::V_PACKAGE, outer);
 }
 
 /// The first value of a property, by the key's name in upper case; `None` if it is absent,

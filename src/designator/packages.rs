@@ -204,7 +204,7 @@ pub static PACKAGES: &[PackageRow] = &[
     row("SWANK", &[], ""),
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
     row("CRAM-PR2-PICK-PLACE-DEMO", &[], ""),
-    row("CRAM-BEGINNER-TUTORIAL", &["TUT"], ""),
+    row("CRAM-BEGINNER-TUTORIAL", &[], ""),
 ];
 
 /// Packages that inherit from others than `COMMON-LISP`.

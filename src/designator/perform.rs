@@ -14,7 +14,7 @@ use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::print;
 use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, Sym};
+use crate::lisp::symbol::FunctionCell;
 use crate::lisp::value::Value;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
@@ -214,18 +214,25 @@ fn call_plan(
 /// A process module of the plan's own, or a request to whoever runs the plan.
 fn perform_motion(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
     let motion = designator.clone();
+    let symbol = |image: &mut Image, name| packages::symbol(image, "CRAM-PROCESS-MODULES", name);
+    let matching = symbol(machine.image, "MATCHING-PROCESS-MODULE");
+    let available = symbol(machine.image, "AVAILABLE-PROCESS-MODULE");
+    let execute = symbol(machine.image, "PM-EXECUTE");
     solutions_of(
         machine,
-        "CRAM-PROCESS-MODULES",
-        "MATCHING-PROCESS-MODULE",
+        matching,
+        Some(available),
         designator,
         Box::new(move |machine, modules| {
             let module = modules.iter_list().find(|module| {
                 let name = module.as_symbol();
-                name.is_some_and(|s: Sym| machine.image.function(s).is_some())
+                name.is_some_and(|s| machine.image.function(s).is_some())
             });
             match module {
-                Some(module) => Ok(call(module, vec![motion], "PERFORM", done())),
+                Some(module) => {
+                    let args = vec![module, motion];
+                    Ok(call(execute.into(), args, "PERFORM", done()))
+                }
                 None => request_motion(machine, &motion),
             }
         }),

@@ -14,8 +14,10 @@ use super::prolog::facts;
 use super::value::{self, Class, Designator};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
+use crate::lisp::known;
 use crate::lisp::print;
 use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
@@ -95,25 +97,30 @@ pub(super) fn groundings(
     } else {
         "MOTION-GROUNDING"
     };
-    solutions_of(machine, "CRAM-DESIGNATORS", name, designator, next)
+    let functor = packages::symbol(machine.image, "CRAM-DESIGNATORS", name);
+    solutions_of(machine, functor, None, designator, next)
 }
 
-/// Goes on with the list of values that a rule `(name designator ?value)` gives.
+/// Goes on with the list of values that rules `(functor designator ?value)` give, and of
+/// which `(condition ?value)` holds if rules speak of that.
 pub(super) fn solutions_of(
     machine: &mut Machine<'_>,
-    package: &str,
-    name: &str,
+    functor: Sym,
+    condition: Option<Sym>,
     designator: &Value,
     next: Next,
 ) -> Result<Step> {
     let image = &mut *machine.image;
-    let functor = packages::symbol(image, package, name);
     if !facts::of(image).knows(functor) {
         return next(machine, Value::NIL);
     }
     let id = packages::ensure(image, "CRAM-DESIGNATORS", &["DESIG"]);
     let variable = image.intern(id, "?GROUNDING");
-    let query = Value::list([functor.into(), designator.clone(), variable.into()]);
+    let mut query = Value::list([functor.into(), designator.clone(), variable.into()]);
+    if let Some(condition) = condition.filter(|c| facts::of(image).knows(*c)) {
+        let condition = Value::list([condition.into(), variable.into()]);
+        query = Value::list([known::AND.into(), query, condition]);
+    }
     let engine = Engine::new(image, &query)?;
     let finish = Box::new(move |machine: &mut Machine<'_>, solutions: Value| {
         let values: Vec<Value> = solutions

@@ -4,8 +4,9 @@
 //! become keywords unless they are `?variables` or bound globally, lists are parsed item by
 //! item and never called, nested designator forms make designators.
 
+use super::literal;
 use super::packages;
-use super::value::Quantifier;
+use super::value::{Class, Quantifier};
 use crate::lisp::builtin::Operator;
 use crate::lisp::image::Image;
 use crate::lisp::known;
@@ -13,6 +14,7 @@ use crate::lisp::print;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::{Sym, VariableKind};
 use crate::lisp::value::Value;
+use crate::reader::source::Place;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -79,7 +81,8 @@ fn designator_form(
             return Err(Raise::new(
                 known::ARG_COUNT_ERROR,
                 format!(
-                    "Error while parsing arguments to DEFMACRO {name}: too few elements in () to satisfy lambda list (TYPE &REST PROPERTIES): at least 1 expected, but got 0. As in ({name} motion (type going))."
+                    "Error while parsing arguments to DEFMACRO {name}: too few elements in () to satisfy lambda list (TYPE &REST PROPERTIES): at least 1 expected, but got 0. As in ({} motion (type going)).",
+                    name.to_lowercase()
                 ),
             ));
         }
@@ -94,6 +97,11 @@ fn designator_form(
     let mut name = image.name(kind).to_owned();
     if quantifier == Quantifier::All {
         name = name.trim_end_matches(['S', 's']).to_owned();
+    }
+    if image.notes.is_some()
+        && let Some(class) = Class::named(&name.to_uppercase())
+    {
+        literal::note_mistakes(image, class, properties, place_of(form));
     }
     let mut code = vec![Value::from(known::LIST)];
     for property in properties {
@@ -146,6 +154,10 @@ fn property_code(image: &mut Image, property: &Value, depth: usize) -> Result<Va
     Ok(list(code))
 }
 
+fn place_of(form: &Value) -> Place {
+    form.as_cons().map_or(Place::NONE, |cons| cons.place())
+}
+
 fn keyword_of(image: &mut Image, sym: Sym) -> Sym {
     if image.is_keyword(sym) {
         return sym;
@@ -196,7 +208,7 @@ fn nested_quantifier(image: &Image, head: &Value, form: &Value) -> Option<Quanti
     if quantifier == Quantifier::All {
         name = name.trim_end_matches('S').to_owned();
     }
-    super::value::Class::named(&name).map(|_| quantifier)
+    Class::named(&name).map(|_| quantifier)
 }
 
 /// `?variables` are evaluated; what is bound globally counts as its value; everything else

@@ -101,6 +101,20 @@ fn a_designator_prints_its_properties_line_by_line() {
 }
 
 #[test]
+fn designators_in_lists_start_on_lines_of_their_own() {
+    check(&[
+        (
+            "(list (an object (type a)) (an object (type b)) 3)",
+            "(#<A OBJECT\n    (TYPE A)>\n #<A OBJECT\n    (TYPE B)>\n 3)",
+        ),
+        (
+            "(list 1 2 (an object (type a)))",
+            "(1 2 #<A OBJECT\n    (TYPE A)>)",
+        ),
+    ]);
+}
+
+#[test]
 fn values_are_parsed_and_never_called() {
     check(&[
         (
@@ -402,4 +416,87 @@ fn perceived_objects_keep_what_was_asked_for() {
         ),
         "#<\"base_footprint\" \"bottle_1\" ((1.00000 0.00000 0.50000) (0.00000 0.00000 0.00000 1.00000))>"
     );
+}
+
+#[test]
+fn designators_nested_without_end_print_and_are_freed() {
+    check(&[(
+        "(let ((d nil)) (dotimes (i 200000) (let ((?d d)) (setf d (an object (in ?d)))))
+           (list (> (length (prin1-to-string d)) 100) (setf d nil)))",
+        "(T NIL)",
+    )]);
+    let shown = evaluate_in(
+        &mut image(),
+        "(let ((d (make-designator :object (list (list :k 1)))))
+           (setf (second (first (description d))) d)
+           d)",
+    );
+    assert!(shown.contains("#<A OBJECT …>"), "{shown}");
+}
+
+#[test]
+fn with_designators_binds_them_in_order() {
+    check(&[(
+        "(with-designators ((cup :object '((:type :cup)))
+                            (grasp :action `((:type :grasping) (:object ,cup))))
+           (desig-prop-value (desig-prop-value grasp :object) :type))",
+        ":CUP",
+    )]);
+}
+
+/// The mistakes that are found in a text without running it.
+fn mistakes(text: &str) -> Vec<String> {
+    let mut image = image();
+    let mut lint = super::lint::Lint::new(&mut image);
+    let source = image.sources.add("test", text);
+    let mut reader = Reader::new(&image, source);
+    let mut found = Vec::new();
+    while let Ok(Some((form, _))) = reader.next_form(&mut image) {
+        found.extend(lint.form(&image, &form).into_iter().map(|m| m.message));
+    }
+    found
+}
+
+#[test]
+fn mistakes_in_forms_are_found_without_running_them() {
+    for (text, expected) in [
+        (
+            "(defun f (?p) (an action (type going) (target (a location (pose ?p)))))",
+            "",
+        ),
+        (
+            "(defun f () (an action (type goign)))",
+            "There is no action of type GOIGN; did you mean GOING?",
+        ),
+        (
+            "(a motoin (type x))",
+            "There is no designator of kind MOTOIN; did you mean MOTION?",
+        ),
+        (
+            "(an action (type going) (targt 1))",
+            "The action GOING has no key TARGT; did you mean TARGET?",
+        ),
+        (
+            "(a motion (type going))",
+            "The motion GOING needs (target …): where to",
+        ),
+        (
+            "(a location (pose '(1 2)))",
+            "Nothing is quoted inside a designator: bind a variable such as ?pose and write (pose ?pose)",
+        ),
+        (
+            "(a location (pose (pp-tut:make-pose \"map\" x)))",
+            "(make-pose …) is not called inside a designator: bind a variable such as ?pose and write (pose ?pose)",
+        ),
+        ("'(an action (type goign))", ""),
+        ("(let ((?type :x)) (an action (type ?type)))", ""),
+        (
+            "(def-fact-group g () (<- (desig:action-grounding ?d (p)) (desig:desig-prop ?d (:type :goign)))) (an action (type goign))",
+            "",
+        ),
+        ("(an action (type looking) (when ?d (direction ?d)))", ""),
+        ("`(an action (type going) ,@more)", ""),
+    ] {
+        assert_eq!(mistakes(text).join("\n"), expected, "{text}");
+    }
 }

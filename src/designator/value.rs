@@ -4,6 +4,7 @@
 //! member is what is known best; both ends keep each other alive.
 
 use std::cell::{Cell, RefCell};
+use std::rc::Rc;
 
 use super::packages;
 use crate::lisp::foreign::Foreign;
@@ -234,6 +235,69 @@ pub fn make(image: &mut Image, class: Class, properties: &[(&str, Value)]) -> Va
     Value::foreign(designator)
 }
 
+impl Drop for Designator {
+    /// Frees designators inside designators with a loop: the depth of nesting costs no
+    /// Rust stack.
+    fn drop(&mut self) {
+        let mut pending = Vec::new();
+        self.release(&mut pending);
+        while let Some(value) = pending.pop() {
+            match &value {
+                Value::Cons(cons) if Rc::strong_count(cons) == 1 => {
+                    pending.push(cons.car());
+                    pending.push(cons.cdr());
+                    cons.set_car(Value::NIL);
+                    cons.set_cdr(Value::NIL);
+                }
+                Value::Foreign(object) if Rc::strong_count(object) == 1 => {
+                    if let Some(inner) = as_designator(&value) {
+                        inner.release(&mut pending);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+impl Designator {
+    /// Moves everything that the designator holds elsewhere.
+    fn release(&self, pending: &mut Vec<Value>) {
+        pending.push(self.description.replace(Value::NIL));
+        let links = [&self.parent, &self.successor, &self.data, &self.solutions];
+        pending.extend(links.into_iter().filter_map(|link| link.take()));
+    }
+}
+
+/// How many designators inside each other are being printed.
+struct Level;
+
+thread_local! {
+    static LEVELS: Cell<usize> = const { Cell::new(0) };
+}
+
+/// Designators inside each other that are printed; those below appear without their
+/// properties, and printing one that contains itself ends.
+const MOST_LEVELS: usize = 32;
+
+impl Level {
+    fn enter() -> Option<Level> {
+        LEVELS.with(|levels| {
+            let level = levels.get();
+            (level < MOST_LEVELS).then(|| {
+                levels.set(level + 1);
+                Level
+            })
+        })
+    }
+}
+
+impl Drop for Level {
+    fn drop(&mut self) {
+        LEVELS.with(|levels| levels.set(levels.get().saturating_sub(1)));
+    }
+}
+
 impl Foreign for Designator {
     fn type_symbol(&self) -> Sym {
         self.class_symbol
@@ -243,6 +307,9 @@ impl Foreign for Designator {
         if !is_description_printed(image) {
             return "#<>".to_owned();
         }
+        let Some(_level) = Level::enter() else {
+            return format!("#<{} {} …>", self.quantifier.name(), self.class.name());
+        };
         let mut text = format!("#<{} {}", self.quantifier.name(), self.class.name());
         for (key, values) in self.properties() {
             let key = bare(image, &key, escape);

@@ -34,6 +34,18 @@ pub struct Finding {
     pub message: String,
     /// Where it is.
     pub place: Option<Location>,
+    /// How sure it is.
+    pub severity: Severity,
+}
+
+/// How sure a mistake is that was found without evaluating.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Severity {
+    /// The text cannot be read or compiled.
+    Error,
+    /// The text will fail if evaluation comes there, unless it defines what is missing in
+    /// a way that only running it shows.
+    Warning,
 }
 
 /// How the evaluation of an input ended.

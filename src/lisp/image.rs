@@ -11,6 +11,7 @@ use indexmap::IndexMap;
 
 use super::builtin::{Builtin, Operator};
 use super::class::Class;
+use super::compile::notes::{Note, NoteKind};
 use super::compile::setf::SetfExpander;
 use super::function::Function;
 use super::known;
@@ -43,6 +44,8 @@ pub struct Image {
     pub interrupt: Arc<AtomicBool>,
     /// Bytes of the Rust stack that the compiler may use for nested forms.
     pub stack_budget: usize,
+    /// What the compiler notices, while somebody wants to know.
+    pub notes: Option<Vec<Note>>,
     /// Runs of macro functions inside each other.
     pub nesting: usize,
     /// Where the conditions signalled last were signalled, newest last.
@@ -129,6 +132,7 @@ impl Image {
             setf_expanders: IndexMap::new(),
             interrupt: Arc::default(),
             stack_budget: STACK_BUDGET,
+            notes: None,
             nesting: 0,
             condition_places: VecDeque::new(),
             identities: 0,
@@ -136,6 +140,14 @@ impl Image {
             builtins: IndexMap::new(),
             operators: IndexMap::new(),
             extensions: Vec::new(),
+        }
+    }
+
+    /// Takes a note about a form, if notes are wanted.
+    pub fn note(&mut self, place: Place, kind: impl FnOnce() -> NoteKind) {
+        if let Some(notes) = &mut self.notes {
+            let kind = kind();
+            notes.push(Note { place, kind });
         }
     }
 

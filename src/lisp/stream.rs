@@ -68,6 +68,8 @@ pub enum StreamKind {
     Concatenated {
         /// The streams that are not used up, the next one first.
         inputs: Vec<Rc<Stream>>,
+        /// A character given back.
+        unread: Option<char>,
     },
     /// Reads one stream and writes another.
     TwoWay {
@@ -353,9 +355,12 @@ fn peek_at(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<Option<char
         }
         StreamKind::TwoWay {
             unread: Some(c), ..
+        }
+        | StreamKind::Concatenated {
+            unread: Some(c), ..
         } => return Ok(Some(*c)),
         StreamKind::TwoWay { input, .. } => vec![input.clone()],
-        StreamKind::Concatenated { inputs } => inputs.clone(),
+        StreamKind::Concatenated { inputs, .. } => inputs.clone(),
         StreamKind::Closed => return Err(closed(stream)),
         _ => return Err(not_usable(stream, "INPUT-STREAM-P", image)),
     };
@@ -399,7 +404,10 @@ fn rest_of(
             collected.extend(unread);
             vec![input.clone()]
         }
-        StreamKind::Concatenated { inputs } => inputs.clone(),
+        StreamKind::Concatenated { inputs, unread } => {
+            collected.extend(unread);
+            inputs.clone()
+        }
         StreamKind::Closed => return Err(closed(stream)),
         _ => return Err(not_usable(stream, "INPUT-STREAM-P", image)),
     };
@@ -447,7 +455,12 @@ fn advance_in(
             }
             (vec![input.clone()], echo.then(|| output.clone()))
         }
-        StreamKind::Concatenated { inputs } => (inputs.clone(), None),
+        StreamKind::Concatenated { inputs, unread } => {
+            if let Some(c) = unread.take() {
+                left = left.saturating_sub(c.len_utf8());
+            }
+            (inputs.clone(), None)
+        }
         _ => return Ok(bytes),
     };
     if let Some(output) = echo_to {
@@ -465,23 +478,21 @@ fn advance_in(
     Ok(left)
 }
 
-/// Lets a concatenated stream forget the parts that are at their end, except the last
-/// one, so that the character read last can be given back.
+/// Lets a concatenated stream forget the parts that are at their end.
 fn drop_used_up(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<(), Box<Raise>> {
     let inputs = match &*stream.kind.borrow() {
-        StreamKind::Concatenated { inputs } => inputs.clone(),
+        StreamKind::Concatenated { inputs, .. } => inputs.clone(),
         _ => return Ok(()),
     };
     let mut used_up = 0_usize;
-    for input in inputs.iter().take(inputs.len().saturating_sub(1)) {
+    for input in &inputs {
         if peek_at(image, input, depth + 1)?.is_some() {
             break;
         }
         used_up += 1;
     }
-    if let StreamKind::Concatenated { inputs } = &mut *stream.kind.borrow_mut() {
-        // The part before the next one gave the last character.
-        inputs.drain(..used_up.saturating_sub(1).min(inputs.len()));
+    if let StreamKind::Concatenated { inputs, .. } = &mut *stream.kind.borrow_mut() {
+        inputs.drain(..used_up.min(inputs.len()));
     }
     Ok(())
 }
@@ -500,44 +511,24 @@ pub fn unread_char(image: &mut Image, designator: &Value, c: char) -> Result<(),
                     }
                     None => Err(Raise::new(
                         known::STREAM_ERROR,
-                        format!("{c:?} is not the character that was read last."),
+                        format!("The character {c} was not read last, so it cannot be given back."),
                     )),
                 };
             }
             StreamKind::TwoWay {
                 unread, echo: true, ..
-            } => {
+            }
+            | StreamKind::Concatenated { unread, .. } => {
                 *unread = Some(c);
                 return Ok(());
             }
             StreamKind::TwoWay { input, .. } => input.clone(),
-            StreamKind::Concatenated { inputs } => {
-                let gave = inputs
-                    .iter()
-                    .rev()
-                    .find(|input| gave_last(input, c))
-                    .or(inputs.first());
-                match gave {
-                    Some(input) => input.clone(),
-                    None => return Ok(()),
-                }
-            }
             StreamKind::Closed => return Err(closed(&stream)),
             _ => return Err(not_usable(&stream, "INPUT-STREAM-P", image)),
         };
         stream = followed(image, &next)?;
     }
     Err(endless_synonym(&Value::Stream(stream)))
-}
-
-/// Did a string stream just give this character?
-fn gave_last(stream: &Rc<Stream>, c: char) -> bool {
-    match &*stream.kind.borrow() {
-        StreamKind::StringInput { text, position } => text
-            .get(..*position)
-            .is_some_and(|before| before.ends_with(c)),
-        _ => false,
-    }
 }
 
 /// Writes out what a file stream holds back.

@@ -237,6 +237,9 @@ impl Value {
         match (self, other) {
             (Value::Big(a), Value::Big(b)) => a == b,
             (Value::Ratio(a), Value::Ratio(b)) => a == b,
+            (Value::Foreign(a), Value::Foreign(_)) if super::number::is_complex(self) => {
+                a.object().is_equal(other)
+            }
             _ => self.is_eq(other),
         }
     }

@@ -51,11 +51,10 @@ impl fmt::Display for UnreachablePose {
         } = self;
         let t = wrist.translation;
         let q = wrist.rotation.quaternion();
-        let [x, y, z] = [t.x, t.y, t.z].map(double);
-        let [i, j, k, w] = [q.i, q.j, q.k, q.w].map(double);
         write!(
             f,
-            "#<\"{frame}\" (({x} {y} {z}) ({i} {j} {k} {w}))> is unreachable for EE."
+            "#<\"{frame}\" (({:.5} {:.5} {:.5}) ({:.5} {:.5} {:.5} {:.5}))> is unreachable for EE.",
+            t.x, t.y, t.z, q.i, q.j, q.k, q.w
         )?;
         write!(f, "\nthe {side} arm, torso from {low:.2} to {high:.2} m: ")?;
         match reason {
@@ -68,30 +67,5 @@ impl fmt::Display for UnreachablePose {
                 hit.moving, hit.other
             ),
         }
-    }
-}
-
-/// A double float as Common Lisp prints it when single floats are the default.
-fn double(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || (1e-3..1e7).contains(&size) {
-        return format!("{value:?}d0");
-    }
-    let text = format!("{value:e}");
-    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let point = if digits.contains('.') { "" } else { ".0" };
-    format!("{digits}{point}d{exponent}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn doubles_are_printed_as_in_common_lisp() {
-        assert_eq!(
-            [0.0, -0.25, 1.0, 1e-17, 2.5e9].map(double).join(" "),
-            "0.0d0 -0.25d0 1.0d0 1.0d-17 2.5d9"
-        );
     }
 }

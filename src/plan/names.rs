@@ -39,7 +39,7 @@ const IMPLEMENTATION: PackageDefinition = PackageDefinition {
     nicknames: &["CPL-IMPL"],
     doc: "The plan language: home of its symbols.",
     uses: &["COMMON-LISP"],
-    exports: &[],
+    exports: &["TIMEOUT-POLICY"],
     reexports: &[],
 };
 
@@ -106,18 +106,13 @@ names! {
         alive = "+ALIVE+", dead = "+DEAD+", done = "+DONE+",
         tagged = "TAGGED", goal = "GOAL", top_level = "TOP-LEVEL", retry = "RETRY", succeed = "SUCCEED",
         do_retry = "DO-RETRY", get_counter = "GET-COUNTER", reset_counter = "RESET-COUNTER",
-        seq = "SEQ", par = "PAR", with_tags = "WITH-TAGS", wait_for = "WAIT-FOR", fail = "FAIL",
-        value = "VALUE", status = "STATUS", suspend = "SUSPEND", wake_up = "WAKE-UP",
-        pursue = "PURSUE", with_policy = "WITH-POLICY", named_policy = "NAMED-POLICY",
-        with_policies = "WITH-POLICIES", policy = "POLICY", policy_not_found = "POLICY-NOT-FOUND",
+        with_tags = "WITH-TAGS", wait_for = "WAIT-FOR", fail = "FAIL",
+        suspend = "SUSPEND", wake_up = "WAKE-UP",
+        with_policy = "WITH-POLICY", named_policy = "NAMED-POLICY",
+        policy = "POLICY", policy_not_found = "POLICY-NOT-FOUND",
         policy_init_failed = "POLICY-INIT-FAILED", policy_met = "POLICY-CHECK-CONDITION-MET",
         policy_setf = "POLICY-SETF", policy_get = "POLICY-GET",
-
-        try_all = "TRY-ALL", try_in_order = "TRY-IN-ORDER", try_each_in_order = "TRY-EACH-IN-ORDER",
-        par_loop = "PAR-LOOP", partial_order = "PARTIAL-ORDER",
-        with_task_suspended = "WITH-TASK-SUSPENDED",
     }
-    cpl { fl_eq = "EQ" }
     keyword {
         tag = "TAG", call = "CALL", order = "ORDER", path_part = "PATH-PART", name = "NAME",
         error = "ERROR", failures = "FAILURES", timeout = "TIMEOUT", value_key = "VALUE",
@@ -127,8 +122,8 @@ names! {
         failed = "FAILED", evaporated = "EVAPORATED", waiting = "WAITING",
         allow_tracing = "ALLOW-TRACING", max_tracing_freq = "MAX-TRACING-FREQ", class = "CLASS",
         pulse_count = "PULSE-COUNT", init = "INIT", check = "CHECK", recover = "RECOVER", clean_up = "CLEAN-UP",
-        init_function = "INIT-FUNCTION", type_key = "TYPE", parameters = "PARAMETERS",
-        description = "DESCRIPTION", wait_status = "WAIT-STATUS", lambda_list = "LAMBDA-LIST",
+        init_function = "INIT-FUNCTION", parameters = "PARAMETERS",
+        wait_status = "WAIT-STATUS", lambda_list = "LAMBDA-LIST",
     }
     system {
         sys_top_level = "START", sys_par = "PAR", sys_pursue = "PURSUE", sys_try_all = "TRY-ALL",

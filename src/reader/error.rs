@@ -185,7 +185,7 @@ pub enum ReadErrorKind {
     /// `#n=` of a label that is taken, or `#n#` of one that does not exist.
     #[error("{0}")]
     BadLabel(String),
-    /// A complex number.
+    /// `#C` of something else than two real numbers.
     #[error("#C: {0}")]
     BadComplex(&'static str),
     /// A quotation mark of a word processor.

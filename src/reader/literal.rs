@@ -12,6 +12,7 @@ use crate::lisp::array::{Array, Vector};
 use crate::lisp::class::{ClassKind, Instance};
 use crate::lisp::image::Image;
 use crate::lisp::known;
+use crate::lisp::number;
 use crate::lisp::value::Value;
 
 /// Longest vector that `#n(` fills up.
@@ -245,9 +246,11 @@ pub(super) fn structure(image: &mut Image, contents: &Value) -> Result<Structure
     Ok(Structure::ToEvaluate(Value::list(call)))
 }
 
-/// Complex numbers are not part of the language.
-pub(super) fn complex(_parts: &Value) -> Result<Value, ReadErrorKind> {
-    Err(ReadErrorKind::BadComplex(
-        "complex numbers are not supported; the language has integers, ratios and floats",
-    ))
+/// A complex number from the list of its parts.
+pub(super) fn complex(parts: &Value) -> Result<Value, ReadErrorKind> {
+    const SHAPE: ReadErrorKind = ReadErrorKind::BadComplex("a list of two real numbers is needed");
+    match parts.list_to_vec().as_deref() {
+        Some([re, im]) => number::complex(re, im).map_err(|_| SHAPE),
+        _ => Err(SHAPE),
+    }
 }

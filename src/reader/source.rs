@@ -106,9 +106,27 @@ impl Sources {
         Place(offset(self.spans.len()))
     }
 
+    /// The text that a place covers.
+    pub fn text(&self, place: Place) -> Option<&str> {
+        let span = self.span(place)?;
+        let source = self.get(span.source)?;
+        source.text.get(span.start as usize..span.end as usize)
+    }
+
+    /// The place of the bytes `start..end` of the text that a place covers.
+    pub fn within(&mut self, place: Place, start: usize, end: usize) -> Option<Place> {
+        let span = self.span(place)?;
+        let (source, first) = (span.source, span.start as usize);
+        Some(self.place(source, first + start, first + end))
+    }
+
+    fn span(&self, place: Place) -> Option<&Span> {
+        self.spans.get((place.0 as usize).checked_sub(1)?)
+    }
+
     /// Line and column of a place.
     pub fn locate(&self, place: Place) -> Option<Location> {
-        let span = self.spans.get((place.0 as usize).checked_sub(1)?)?;
+        let span = self.span(place)?;
         let source = self.get(span.source)?;
         let line = source
             .line_starts

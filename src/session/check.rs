@@ -1,40 +1,141 @@
 //! Looking for mistakes without running anything.
+//!
+//! A text is read and compiled form by form. Definitions take effect, so that later forms
+//! can be read and compiled with them and calls can be checked; nothing else is evaluated,
+//! and the values of variables are not computed. What the compiler noted is judged at the
+//! end, when all definitions are known.
+
+mod judge;
+mod known;
+mod tokens;
+
+#[cfg(test)]
+mod tests;
+
+pub(super) use known::KnownNames;
 
 use super::Session;
-use crate::dialogue::Finding;
+use crate::dialogue::{Finding, Severity};
 use crate::lisp::compile;
-use crate::lisp::known;
+use crate::lisp::compile::notes::{Note, NoteKind};
+use crate::lisp::known as names;
 use crate::lisp::raise::Raise;
+use crate::lisp::symbol::VariableKind;
 use crate::lisp::value::Value;
 use crate::lisp::vm::machine;
 use crate::reader::Reader;
+use crate::reader::source::Place;
 
 impl Session {
-    /// Reads and compiles all forms of a text. Definitions that later forms are read or
-    /// expanded with (packages, macros) take effect; nothing else is evaluated.
+    /// The mistakes in a text, in its order.
     pub(super) fn check_text(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
         let source = self.image.sources.add(source_name, text);
         let mut reader = Reader::new(&self.image, source);
         let mut findings = Vec::new();
+        self.image.notes = Some(Vec::new());
+        let was_open = self.checked.is_open;
         loop {
             let form = match reader.next_form(&mut self.image) {
                 Ok(Some((form, _))) => form,
-                Ok(None) => return findings,
+                Ok(None) => break,
                 Err(error) => {
                     let finding = self.finding(error.raise());
                     findings.push(finding);
-                    return findings;
+                    // What the rest defines is not known.
+                    self.checked.is_open = true;
+                    break;
                 }
             };
-            let result = if shapes_reading(&form) {
-                machine::call_nested(&mut self.image, known::EVAL.into(), vec![form]).map(|_| ())
-            } else {
-                compile::compile_form(&mut self.image, &form).map(|_| ())
-            };
-            if let Err(raise) = result {
-                let finding = self.finding(raise);
-                findings.push(finding);
+            self.checked.note_form(&self.image, &form);
+            self.check_form(&form, &mut findings);
+        }
+        let notes = self.image.notes.take().unwrap_or_default();
+        for note in &notes {
+            match &note.kind {
+                NoteKind::Definition(form) => self.checked.note_definition(&self.image, form),
+                NoteKind::Assigned(name) => {
+                    self.checked.defined.insert(*name);
+                }
+                _ => {}
             }
+        }
+        for note in notes {
+            let finding = self.warning(&note);
+            findings.extend(finding.filter(|finding| !findings.contains(finding)));
+        }
+        self.checked.is_open = was_open;
+        findings.sort_by_key(|f| f.place.as_ref().map(|place| (place.line, place.column)));
+        findings
+    }
+
+    /// Checks one form at top level.
+    fn check_form(&mut self, form: &Value, findings: &mut Vec<Finding>) {
+        let head = form.car_or_nil().as_symbol();
+        let inner = match head {
+            Some(names::PROGN | names::LOCALLY) => form.cdr_or_nil(),
+            Some(names::EVAL_WHEN) => form.cdr_or_nil().cdr_or_nil(),
+            _ => return self.check_single(form, findings),
+        };
+        for form in inner.iter_list() {
+            self.check_form(&form, findings);
+        }
+    }
+
+    fn check_single(&mut self, form: &Value, findings: &mut Vec<Finding>) {
+        let effect = self.effect(form);
+        if effect != Effect::Reading
+            && let Err(raise) = compile::compile_form(&mut self.image, form)
+        {
+            let finding = self.finding(raise);
+            return findings.push(finding);
+        }
+        let form = match effect {
+            Effect::None => return,
+            Effect::Reading | Effect::Definition => form.clone(),
+            Effect::Variable => {
+                let name = form.cdr_or_nil().car_or_nil();
+                Value::list([names::DEFVAR.into(), name])
+            }
+        };
+        let notes = self.image.notes.take();
+        let result = machine::call_nested(&mut self.image, names::EVAL.into(), vec![form]);
+        self.image.output.take();
+        self.image.notes = notes;
+        if let (Effect::Reading, Err(raise)) = (effect, result) {
+            let finding = self.finding(raise);
+            findings.push(finding);
+        }
+    }
+
+    /// What must be done for the forms after this one to be read and compiled.
+    fn effect(&self, form: &Value) -> Effect {
+        let Some(head) = form.car_or_nil().as_symbol() else {
+            return Effect::None;
+        };
+        match head {
+            names::IN_PACKAGE
+            | names::DEFPACKAGE
+            | names::DEFMACRO
+            | names::DEFSTRUCT
+            | names::DEFINE_SYMBOL_MACRO
+            | names::DEFSETF => return Effect::Reading,
+            _ => {}
+        }
+        let operator = self.image.operators.get(&head);
+        match operator.map(|operator| operator.name) {
+            Some("DEFVAR" | "DEFPARAMETER" | "DEFCONSTANT" | "DEFINE-CONSTANT") => {
+                let name = form.cdr_or_nil().car_or_nil().as_symbol();
+                let is_fresh =
+                    name.is_some_and(|name| self.image.symbol(name).kind == VariableKind::Lexical);
+                if is_fresh {
+                    Effect::Variable
+                } else {
+                    Effect::None
+                }
+            }
+            Some("DECLAIM") => Effect::Definition,
+            Some(name) if name.starts_with("DEF") => Effect::Definition,
+            _ => Effect::None,
         }
     }
 
@@ -43,21 +144,42 @@ impl Session {
         Finding {
             message: abort.report,
             place: abort.place,
+            severity: Severity::Error,
         }
+    }
+
+    fn warning(&mut self, note: &Note) -> Option<Finding> {
+        let mistake = judge::judge(&self.image, &self.checked, &note.kind)?;
+        let place = match mistake.name {
+            Some(name) => self.place_of_name(note.place, &name),
+            None => note.place,
+        };
+        Some(Finding {
+            message: mistake.text,
+            place: self.image.sources.locate(place),
+            severity: Severity::Warning,
+        })
+    }
+
+    /// The place of a name in a form, or that of the form.
+    fn place_of_name(&mut self, form: Place, name: &str) -> Place {
+        let sources = &mut self.image.sources;
+        let range = sources.text(form).and_then(|text| tokens::find(text, name));
+        range
+            .and_then(|range| sources.within(form, range.start, range.end))
+            .unwrap_or(form)
     }
 }
 
-/// Must the form be evaluated for those after it to be read and compiled?
-fn shapes_reading(form: &Value) -> bool {
-    form.car_or_nil().as_symbol().is_some_and(|head| {
-        matches!(
-            head,
-            known::IN_PACKAGE
-                | known::DEFPACKAGE
-                | known::DEFMACRO
-                | known::DEFSTRUCT
-                | known::DEFINE_SYMBOL_MACRO
-                | known::DEFSETF
-        )
-    })
+/// What a form does for those after it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Effect {
+    /// Nothing that matters here.
+    None,
+    /// Later forms cannot be read or expanded without it.
+    Reading,
+    /// It defines something.
+    Definition,
+    /// It defines a variable, whose value must not be computed.
+    Variable,
 }

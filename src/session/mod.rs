@@ -31,6 +31,8 @@ pub struct Session {
     image: Image,
     scheduler: Scheduler,
     simulation: Simulation,
+    /// What checked texts define.
+    checked: check::KnownNames,
 }
 
 /// How the evaluation of one form ended.
@@ -53,6 +55,7 @@ impl Session {
             image,
             scheduler: Scheduler::new(),
             simulation,
+            checked: check::KnownNames::default(),
         };
         session.load_plans()?;
         Ok(session)

@@ -58,7 +58,8 @@ pub(super) fn apply(
         }
         ("!", []) => Action::Then(vec![Goal::Cut(clause)]),
         ("TRUE", []) => Action::Succeed,
-        ("FAIL", []) => Action::Fail,
+        // Nothing is projected: what runs is the simulation itself.
+        ("FAIL", []) | ("PROJECTION-RUNNING", [_]) => Action::Fail,
         ("CALL", [goal]) => Action::Then(vec![prove(goal)]),
         ("CALL", [functor, more @ ..]) => {
             let goal = Value::list_with_tail([functor.clone()], Value::list(more.to_vec()));

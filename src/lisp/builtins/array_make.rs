@@ -133,7 +133,7 @@ pub fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Rais
             let items = Sequence::of(&part)?.all()?;
             if items.len() != *size {
                 return Err(Raise::simple(format!(
-                    "There are {} elements in the :INITIAL-CONTENTS, but the dimension is {size}.",
+                    "A dimension of size {size} needs that many elements in :INITIAL-CONTENTS, not {}.",
                     items.len()
                 )));
             }

@@ -6,76 +6,29 @@ use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::reader::char_name::{char_name as special_name, char_named};
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// Names of characters that print by name, the preferred one first for each code.
-const NAMES: &[(char, &str)] = &[
-    ('\0', "Nul"),
-    ('\u{1}', "Soh"),
-    ('\u{2}', "Stx"),
-    ('\u{3}', "Etx"),
-    ('\u{4}', "Eot"),
-    ('\u{5}', "Enq"),
-    ('\u{6}', "Ack"),
-    ('\u{7}', "Bel"),
-    ('\u{8}', "Backspace"),
-    ('\t', "Tab"),
-    ('\n', "Newline"),
-    ('\u{b}', "Vt"),
-    ('\u{c}', "Page"),
-    ('\r', "Return"),
-    ('\u{e}', "So"),
-    ('\u{f}', "Si"),
-    ('\u{10}', "Dle"),
-    ('\u{11}', "Dc1"),
-    ('\u{12}', "Dc2"),
-    ('\u{13}', "Dc3"),
-    ('\u{14}', "Dc4"),
-    ('\u{15}', "Nak"),
-    ('\u{16}', "Syn"),
-    ('\u{17}', "Etb"),
-    ('\u{18}', "Can"),
-    ('\u{19}', "Em"),
-    ('\u{1a}', "Sub"),
-    ('\u{1b}', "Esc"),
-    ('\u{1c}', "Fs"),
-    ('\u{1d}', "Gs"),
-    ('\u{1e}', "Rs"),
-    ('\u{1f}', "Us"),
-    (' ', "Space"),
-    ('\u{7f}', "Rubout"),
-    ('\u{a0}', "No-break_space"),
-    // Other spellings that are understood.
-    ('\0', "Null"),
-    ('\u{8}', "Bs"),
-    ('\n', "Linefeed"),
-    ('\n', "Nl"),
-    ('\n', "Lf"),
-    ('\r', "Cr"),
-    ('\u{c}', "Ff"),
-    ('\t', "Ht"),
-    ('\u{1b}', "Escape"),
-    ('\u{7f}', "Delete"),
-    ('\u{7f}', "Del"),
-    (' ', "Sp"),
-];
+/// The name of a character.
+fn name_of(c: char) -> String {
+    let ascii = || {
+        let index = usize::try_from(u32::from(c)).ok()?.checked_sub(33)?;
+        ASCII.get(index).map(|name| (*name).to_owned())
+    };
+    special_name(c)
+        .or_else(ascii)
+        .or_else(|| letter_name(c))
+        .unwrap_or_else(|| format!("U{:X}", u32::from(c)))
+}
 
-/// The name of a character that has one.
-pub fn name_of(c: char) -> Option<String> {
-    match NAMES.iter().find(|(named, _)| *named == c) {
-        Some((_, name)) => Some((*name).to_owned()),
-        None if c.is_ascii_graphic() => LATIN
-            .get((c as usize).checked_sub(33)?)
-            .filter(|n| !n.is_empty())
-            .map(|n| (*n).to_owned())
-            .or_else(|| letter_name(c)),
-        None => Some(format!("U{:04X}", u32::from(c))),
-    }
+/// The character of a name, in any case.
+fn named(name: &str) -> Option<char> {
+    char_named(name).or_else(|| ('!'..='~').find(|c| name_of(*c).eq_ignore_ascii_case(name)))
 }
 
 /// Unicode names of the printing ASCII characters that are no letters, from `!` on.
-const LATIN: &[&str] = &[
+const ASCII: &[&str] = &[
     "EXCLAMATION_MARK",
     "QUOTATION_MARK",
     "NUMBER_SIGN",
@@ -127,22 +80,6 @@ fn letter_name(c: char) -> Option<String> {
         _ => return None,
     };
     Some(rest.to_owned())
-}
-
-/// The character of a name, in any case.
-pub fn named(name: &str) -> Option<char> {
-    if let Some((c, _)) = NAMES.iter().find(|(_, n)| n.eq_ignore_ascii_case(name)) {
-        return Some(*c);
-    }
-    if let Some(code) = name.strip_prefix(['U', 'u']) {
-        let digits = code.strip_prefix('+').unwrap_or(code);
-        if digits.len() >= 4 {
-            return u32::from_str_radix(digits, 16)
-                .ok()
-                .and_then(char::from_u32);
-        }
-    }
-    ('!'..='~').find(|c| name_of(*c).is_some_and(|n| n.eq_ignore_ascii_case(name)))
 }
 
 /// The upper-case form, where that is one character.
@@ -217,7 +154,7 @@ fn code_char(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn char_name(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(name_of(character(&args[0])?).map_or(Value::NIL, Value::string))
+    Ok(Value::string(name_of(character(&args[0])?)))
 }
 
 fn name_char(image: &mut Image, args: &[Value]) -> Outcome {

@@ -55,9 +55,15 @@ fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
     if done {
         Ok(args[0].clone())
     } else {
-        Err(Raise::simple(format!(
-            "The fill pointer {pointer} is beyond the vector's size {size}."
-        )))
+        Err(Raise::new(
+            known::SIMPLE_TYPE_ERROR,
+            format!("The fill pointer {pointer} is beyond the vector's size {size}."),
+        )
+        .with(known::K_DATUM, args[0].clone())
+        .with(
+            known::K_EXPECTED_TYPE,
+            Value::list([known::INTEGER.into(), Value::Int(0), size.into()]),
+        ))
     }
 }
 

@@ -15,7 +15,7 @@ type Outcome = Result<Value, Box<Raise>>;
 
 /// The longest list that `make-list` makes, and the largest array: more does not fit in
 /// memory.
-pub const MAX_LENGTH: usize = 1 << 28;
+pub const MAX_LENGTH: usize = 1 << 25;
 
 fn list(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(args.iter().cloned()))

@@ -221,9 +221,9 @@ pub static TABLE: &[Builtin] = &[
     pure(
         "COMPLEXP",
         "object",
-        "Is the object a complex number? There are none.",
-        &["(complexp 1) => NIL"],
-        |_, _| Ok(Value::NIL),
+        "Is the object a complex number that is not real?",
+        &["(complexp #c(1 2)) => T", "(complexp 1) => NIL"],
+        |_, args| Ok(Value::bool(number::is_complex(&args[0]))),
     ),
     pure(
         "FLOOR",
@@ -300,7 +300,35 @@ pub static TABLE: &[Builtin] = &[
         "limit &optional random-state",
         "A random number from zero up to, but not including, the limit.",
         &["(random 1) => 0"],
-        |image, args| number::random(&mut image.random, &args[0]),
+        |image, args| {
+            let state = args.get(1).unwrap_or(image.special(known::V_RANDOM_STATE));
+            let state = state.clone();
+            number::random_from(image, &args[0], &state)
+        },
+    ),
+    pure(
+        "MAKE-RANDOM-STATE",
+        "&optional state",
+        "A copy of a random state, of the current one, or (T) one of its own.",
+        &["(random-state-p (make-random-state t)) => T"],
+        |image, args| {
+            let state = match args.first() {
+                Some(state) if state.is_true() => state,
+                _ => image.special(known::V_RANDOM_STATE),
+            };
+            let state = state.clone();
+            number::make_random_state(image, &state)
+        },
+    ),
+    pure(
+        "RANDOM-STATE-P",
+        "object",
+        "Is the object a random state?",
+        &["(random-state-p *random-state*) => T"],
+        |_, args| {
+            let is_state = args[0].as_foreign::<number::RandomState>().is_some();
+            Ok(Value::bool(is_state))
+        },
     ),
 ];
 
@@ -488,6 +516,8 @@ pub fn define_constants(image: &mut Image) {
             Value::Double(f64::from_bits(0x3C90_0000_0000_0001)),
         ),
     ];
+    let state = number::RandomState { generator: None };
+    image.define_special(known::V_RANDOM_STATE, Value::foreign(state));
     for (name, value) in constants {
         let sym = image.export_symbol(PackageTable::CL, name);
         image.define_constant(sym, value.clone());

@@ -1,5 +1,6 @@
 //! Packages: finding, making, using, exporting, importing, shadowing.
 
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::keywords;
@@ -75,17 +76,20 @@ pub fn one_or_more(value: &Value) -> Result<Vec<Value>, Box<Raise>> {
     }
 }
 
-/// The symbols accessible in a package, those present first, each group by name.
+/// The symbols accessible in a package, those present first, then the inherited ones, by
+/// name.
 pub fn accessible(image: &Image, package: PackageId) -> Vec<Sym> {
     let this = image.packages.get(package);
     let mut found: Vec<Sym> = this.symbols.values().map(|(sym, _)| *sym).collect();
+    let mut inherited: BTreeMap<&str, Sym> = BTreeMap::new();
     for used in &this.uses {
         for (name, (sym, external)) in &image.packages.get(*used).symbols {
             if *external && !this.symbols.contains_key(name) {
-                found.push(*sym);
+                inherited.entry(name).or_insert(*sym);
             }
         }
     }
+    found.extend(inherited.into_values());
     found
 }
 

@@ -138,15 +138,26 @@ pub static SYSTEM_TABLE: &[Builtin] = &[control(
 )];
 
 /// Macros of package `COMMON-LISP`.
-pub static OPERATORS: &[Operator] = &[Operator {
-    name: "PRINT-UNREADABLE-OBJECT",
-    lambda_list: "(object stream &key type identity) &body body",
-    doc: "Writes #<…> around what the body writes.",
-    examples: &[
-        "(with-output-to-string (s) (print-unreadable-object (1 s) (princ \"one\" s))) => \"#<one>\"",
-    ],
-    expand: Some(expand_print_unreadable),
-}];
+pub static OPERATORS: &[Operator] = &[
+    Operator {
+        name: "PRINT-UNREADABLE-OBJECT",
+        lambda_list: "(object stream &key type identity) &body body",
+        doc: "Writes #<…> around what the body writes.",
+        examples: &[
+            "(with-output-to-string (s) (print-unreadable-object (1 s) (princ \"one\" s))) => \"#<one>\"",
+        ],
+        expand: Some(expand_print_unreadable),
+    },
+    Operator {
+        name: "WITH-STANDARD-IO-SYNTAX",
+        lambda_list: "&body body",
+        doc: "Runs the body with the standard values of the variables of printer and reader.",
+        examples: &[
+            "(let ((*print-base* 2)) (with-standard-io-syntax (prin1-to-string 5))) => \"5\"",
+        ],
+        expand: Some(expand_standard_syntax),
+    },
+];
 
 #[derive(Clone, Copy, PartialEq)]
 enum Manner {
@@ -407,6 +418,41 @@ fn expand_print_unreadable(image: &mut Image, form: &Value) -> Outcome {
         identity.unwrap_or(Value::NIL),
         body,
     ]))
+}
+
+/// A `let` of the variables of printer and reader.
+fn expand_standard_syntax(_: &mut Image, form: &Value) -> Outcome {
+    let quoted = |sym: Sym| Value::list([known::QUOTE.into(), sym.into()]);
+    let bindings: Vec<Value> = [
+        (known::V_PRINT_ARRAY, Value::T),
+        (known::V_PRINT_BASE, Value::Int(10)),
+        (known::V_PRINT_CASE, known::K_UPCASE.into()),
+        (known::V_PRINT_CIRCLE, Value::NIL),
+        (known::V_PRINT_ESCAPE, Value::T),
+        (known::V_PRINT_GENSYM, Value::T),
+        (known::V_PRINT_LENGTH, Value::NIL),
+        (known::V_PRINT_LEVEL, Value::NIL),
+        (known::V_PRINT_LINES, Value::NIL),
+        (known::V_PRINT_MISER_WIDTH, Value::NIL),
+        (known::V_PRINT_PRETTY, Value::NIL),
+        (known::V_PRINT_RADIX, Value::NIL),
+        (known::V_PRINT_READABLY, Value::T),
+        (known::V_PRINT_RIGHT_MARGIN, Value::NIL),
+        (known::V_READ_BASE, Value::Int(10)),
+        (
+            known::V_READ_DEFAULT_FLOAT_FORMAT,
+            quoted(known::SINGLE_FLOAT),
+        ),
+        (known::V_READ_EVAL, Value::T),
+    ]
+    .into_iter()
+    .map(|(variable, value)| Value::list([variable.into(), value]))
+    .collect();
+    let head = [known::LET.into(), Value::list(bindings)];
+    let body: Vec<Value> = form.iter_list().skip(1).collect();
+    Ok(Value::list(
+        head.into_iter().chain(body).collect::<Vec<_>>(),
+    ))
 }
 
 /// After the body of `print-unreadable-object`: the end of the text.

@@ -42,7 +42,6 @@ impl Sequence {
     }
 
     /// Number of elements.
-    #[expect(clippy::len_without_is_empty, reason = "counting may fail")]
     pub fn len(&self) -> Result<usize, Box<Raise>> {
         match self {
             Sequence::List(list) => list_length(list),
@@ -298,6 +297,9 @@ impl Bounds {
         start: Option<&Value>,
         end: Option<&Value>,
     ) -> Result<Bounds, Box<Raise>> {
+        if let Some(start @ Value::Symbol(known::NIL)) = start {
+            return Err(Raise::type_error(start, known::UNSIGNED_BYTE));
+        }
         let start_index = index_or(start, Some(0))?;
         let end_index = index_or(end, None)?;
         if start_index == Some(0) && end_index.is_none() && end.is_none_or(Value::is_nil) {

@@ -74,6 +74,7 @@ fn make_concatenated_stream(_: &mut Image, args: &[Value]) -> Outcome {
     let inputs = parts(args)?;
     let kind = StreamKind::Concatenated {
         inputs: inputs.clone(),
+        unread: None,
     };
     Stream::compound(kind, &inputs).map(made)
 }
@@ -300,7 +301,7 @@ fn stream_list(streams: &[Rc<Stream>]) -> Value {
 fn components(value: &Value) -> Result<Value, Box<Raise>> {
     match &*stream_of(value)?.kind.borrow() {
         StreamKind::Broadcast { targets } => Ok(stream_list(targets)),
-        StreamKind::Concatenated { inputs } => Ok(stream_list(inputs)),
+        StreamKind::Concatenated { inputs, .. } => Ok(stream_list(inputs)),
         StreamKind::TwoWay { input, output, .. } => {
             Ok(stream_list(&[input.clone(), output.clone()]))
         }

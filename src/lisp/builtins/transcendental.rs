@@ -1,10 +1,7 @@
 //! Powers, roots, logarithms, trigonometric and hyperbolic functions.
 
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::known;
 use crate::lisp::number;
-use crate::lisp::raise::Raise;
-use crate::lisp::value::Value;
 
 /// Builtins of package `COMMON-LISP`.
 pub static TABLE: &[Builtin] = &[
@@ -22,8 +19,11 @@ pub static TABLE: &[Builtin] = &[
     pure(
         "SQRT",
         "number",
-        "The square root; a negative number has none.",
-        &["(sqrt 2d0) => 1.4142135623730951d0", "(sqrt 16) => 4.0"],
+        "The square root; that of a negative number is complex.",
+        &[
+            "(sqrt 2d0) => 1.4142135623730951d0",
+            "(sqrt -1) => #C(0.0 1.0)",
+        ],
         |_, args| number::sqrt(&args[0]),
     ),
     pure(
@@ -131,39 +131,48 @@ pub static TABLE: &[Builtin] = &[
         |_, args| number::atanh(&args[0]),
     ),
     pure(
+        "COMPLEX",
+        "realpart &optional imagpart",
+        "The complex number with these parts.",
+        &["(complex 1 2) => #C(1 2)", "(complex 1 0) => 1"],
+        |_, args| match args.get(1) {
+            Some(imaginary) => number::complex(&args[0], imaginary),
+            None => number::complex(&args[0], &number::imaginary_part(&args[0])?),
+        },
+    ),
+    pure(
         "REALPART",
         "number",
-        "The real part: the number itself.",
-        &["(realpart 5) => 5"],
-        |_, args| checked(&args[0]).cloned(),
+        "The real part.",
+        &["(realpart #c(1 2)) => 1"],
+        |_, args| number::real_part(&args[0]),
     ),
     pure(
         "IMAGPART",
         "number",
-        "The imaginary part: zero in the type of the number.",
-        &["(imagpart 5) => 0"],
-        |_, args| number::mul(checked(&args[0])?, &Value::Int(0)),
+        "The imaginary part.",
+        &["(imagpart #c(1 2)) => 2", "(imagpart 5) => 0"],
+        |_, args| number::imaginary_part(&args[0]),
     ),
     pure(
         "CONJUGATE",
         "number",
-        "The complex conjugate: the number itself.",
-        &["(conjugate 5) => 5"],
-        |_, args| checked(&args[0]).cloned(),
+        "The complex conjugate.",
+        &["(conjugate #c(1 2)) => #C(1 -2)"],
+        |_, args| number::conjugate(&args[0]),
     ),
     pure(
         "PHASE",
         "number",
-        "The angle in rad of the number in the plane: zero, or pi of a negative one.",
+        "The angle in rad of the number in the plane.",
         &["(phase -1) => 3.1415927"],
-        |_, args| number::atan2(&Value::Int(0), checked(&args[0])?),
+        |_, args| number::phase(&args[0]),
+    ),
+    pure(
+        "CIS",
+        "radians",
+        "The complex number of magnitude one at an angle in rad.",
+        &["(cis 0) => #C(1.0 0.0)"],
+        |_, args| number::cis(&args[0]),
     ),
 ];
-
-fn checked(value: &Value) -> Result<&Value, Box<Raise>> {
-    if number::is_number(value) {
-        Ok(value)
-    } else {
-        Err(Raise::type_error(value, known::NUMBER))
-    }
-}

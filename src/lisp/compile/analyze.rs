@@ -6,10 +6,12 @@ use std::rc::Rc;
 use super::emit;
 use super::environment::Environment;
 use super::node::{Binding, LambdaNode, Node, Target};
+use super::notes::NoteKind;
 use super::scope::{
     DynamicKind, Entry, FunctionContext, FunctionMeaning, Scope, Var, VariableMeaning,
 };
 use super::special_forms;
+use crate::closest_name::closest_name;
 use crate::lisp::function::Function;
 use crate::lisp::image::Image;
 use crate::lisp::known;
@@ -245,7 +247,27 @@ impl<'a> Compiler<'a> {
         if data.kind == VariableKind::Constant {
             return Ok(Node::Const(data.value.clone()));
         }
+        if data.kind == VariableKind::Lexical && data.value.is_unbound() {
+            self.note_variable(name, scope);
+        }
         Ok(Node::Global(name, self.place))
+    }
+
+    /// Notes the reference to a variable that nothing binds so far.
+    fn note_variable(&mut self, name: Sym, scope: &Scope) {
+        if self.image.notes.is_none() {
+            return;
+        }
+        let image = &*self.image;
+        let bound: Vec<Sym> = scope.variables().collect();
+        let wanted = image.name(name);
+        // Among one or two letters everything is near.
+        let is_long = wanted.chars().count() > 2;
+        let names = bound.iter().map(|sym| image.name(*sym));
+        let near = closest_name(wanted, names).filter(|_| is_long);
+        let near = near.and_then(|near| bound.iter().copied().find(|sym| image.name(*sym) == near));
+        let place = self.place;
+        self.image.note(place, || NoteKind::Variable(name, near));
     }
 
     fn analyze_compound(
@@ -266,7 +288,12 @@ impl<'a> Compiler<'a> {
                     self.place,
                 ));
             }
-            _ => return Err(self.program_error("illegal function call")),
+            _ => {
+                let shown = crate::lisp::print::to_string(self.image, head, true);
+                return Err(self.program_error(format!(
+                    "illegal function call\n{shown} is not the name of a function; a list that is data needs a quote: '(…)"
+                )));
+            }
         };
         match scope.function(name, false) {
             Some(FunctionMeaning::Local(var)) => {
@@ -296,7 +323,13 @@ impl<'a> Compiler<'a> {
                 if let Some(special) = special_forms::lookup(name) {
                     return special(self, rest, scope);
                 }
-                let expander = self.image.operators.get(&name).and_then(|o| o.expand);
+                let operator = self.image.operators.get(&name).copied();
+                if operator.is_some_and(|o| o.name.starts_with("DEF")) {
+                    let place = self.place;
+                    self.image
+                        .note(place, || NoteKind::Definition(form.clone()));
+                }
+                let expander = operator.and_then(|o| o.expand);
                 match expander {
                     Some(expand) => {
                         let expansion = expand(self.image, form).map_err(|r| r.at(self.place))?;
@@ -309,6 +342,10 @@ impl<'a> Compiler<'a> {
                 }
             }
             FunctionCell::Function(_) | FunctionCell::Unbound => {
+                let place = self.place;
+                let count = rest.iter_list().count();
+                self.image
+                    .note(place, || NoteKind::Function(name, Some(count)));
                 let args = self.analyze_list(rest, scope)?;
                 Ok(Node::Call(Target::Global(name), args, self.place))
             }

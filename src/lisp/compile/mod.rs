@@ -15,6 +15,7 @@ mod expand;
 pub(crate) mod form;
 pub mod lambda_list;
 mod node;
+pub mod notes;
 mod operators;
 mod quasiquote;
 mod scope;

@@ -149,6 +149,14 @@ impl Scope {
         })
     }
 
+    /// The names of lexical variables, innermost first.
+    pub fn variables(&self) -> impl Iterator<Item = Sym> {
+        self.entries().filter_map(|e| match e {
+            Entry::Variable(name, VariableMeaning::Lexical(_)) => Some(*name),
+            _ => None,
+        })
+    }
+
     /// The meaning of a function name, if it is not global.
     pub fn function(&self, name: Sym, is_setf: bool) -> Option<&FunctionMeaning> {
         self.entries().find_map(|e| match e {

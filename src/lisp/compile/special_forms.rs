@@ -5,6 +5,7 @@ use std::rc::Rc;
 use super::analyze::{Compiled, Compiler};
 use super::body::parse_body;
 use super::node::{Binding, Node};
+use super::notes::NoteKind;
 use super::scope::{DynamicKind, Entry, FunctionMeaning, Scope, Tagbody, VariableMeaning};
 use crate::lisp::known;
 use crate::lisp::print;
@@ -75,7 +76,11 @@ fn function(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node>
                 let text = format!("{} is a macro, not a function.", c.image.name(sym));
                 Err(c.program_error(text))
             }
-            None => Ok(Node::Function(sym, c.place)),
+            None => {
+                let place = c.place;
+                c.image.note(place, || NoteKind::Function(sym, None));
+                Ok(Node::Function(sym, place))
+            }
         };
     }
     let head = name.car_or_nil().as_symbol();
@@ -263,6 +268,8 @@ pub(super) fn assign_variable(
         let shown = print::to_string(c.image, name, true);
         return Err(c.program_error(format!("{shown} is a constant and thus can't be set.")));
     }
+    let place = c.place;
+    c.image.note(place, || NoteKind::Assigned(sym));
     let value = c.analyze(form, scope)?;
     Ok(Node::SetGlobal(sym, Box::new(value)))
 }

@@ -35,7 +35,6 @@ const CLAUSES: &[&str] = &[
     "NEVER",
     "INITIALLY",
     "FINALLY",
-    "NAMED",
 ];
 
 /// Words that begin what may stand after a condition.
@@ -86,6 +85,9 @@ fn clause(
     previous: &str,
 ) -> Result<(), Box<Raise>> {
     match word {
+        "NAMED" => Err(Raise::program(
+            "NAMED in LOOP stands before all other clauses.",
+        )),
         "FOR" | "AS" => {
             parser.accept(&[word]);
             iteration::parse(parser, plan)

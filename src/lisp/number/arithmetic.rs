@@ -5,9 +5,8 @@ use num_bigint::BigInt;
 use super::super::known;
 use super::super::symbol::Sym;
 use super::super::value::Value;
-use super::convert::{
-    fraction_of, from_big, is_number, is_rational, ratio, to_big, to_f32, to_f64,
-};
+use super::complex;
+use super::convert::{fraction_of, from_big, is_rational, is_real, ratio, to_big, to_f32, to_f64};
 use super::error::{NumberResult, division_by_zero, invalid, not_a_number, overflow};
 
 /// Two operands brought to one type.
@@ -21,7 +20,7 @@ enum Pair {
 /// Applies the contagion rules.
 fn pair(operation: Sym, a: &Value, b: &Value) -> Result<Pair, Box<super::super::raise::Raise>> {
     for operand in [a, b] {
-        if !is_number(operand) {
+        if !is_real(operand) {
             return Err(not_a_number(operand));
         }
     }
@@ -104,6 +103,9 @@ pub fn add(a: &Value, b: &Value) -> NumberResult {
 }
 
 fn add_slowly(a: &Value, b: &Value) -> NumberResult {
+    if let Some(result) = complex::operate(known::PLUS, a, b) {
+        return result;
+    }
     match pair(known::PLUS, a, b)? {
         Pair::Double(x, y) => double(x + y, known::PLUS, a, b),
         Pair::Single(x, y) => single(x + y, known::PLUS, a, b),
@@ -126,6 +128,9 @@ pub fn sub(a: &Value, b: &Value) -> NumberResult {
 }
 
 fn sub_slowly(a: &Value, b: &Value) -> NumberResult {
+    if let Some(result) = complex::operate(known::MINUS, a, b) {
+        return result;
+    }
     match pair(known::MINUS, a, b)? {
         Pair::Double(x, y) => double(x - y, known::MINUS, a, b),
         Pair::Single(x, y) => single(x - y, known::MINUS, a, b),
@@ -148,6 +153,9 @@ pub fn mul(a: &Value, b: &Value) -> NumberResult {
 }
 
 fn mul_slowly(a: &Value, b: &Value) -> NumberResult {
+    if let Some(result) = complex::operate(known::TIMES, a, b) {
+        return result;
+    }
     match pair(known::TIMES, a, b)? {
         Pair::Double(x, y) => double(x * y, known::TIMES, a, b),
         Pair::Single(x, y) => single(x * y, known::TIMES, a, b),
@@ -167,6 +175,9 @@ pub fn div(a: &Value, b: &Value) -> NumberResult {
 }
 
 fn div_slowly(a: &Value, b: &Value) -> NumberResult {
+    if let Some(result) = complex::operate(known::DIVIDE, a, b) {
+        return result;
+    }
     let by_zero = || division_by_zero(known::DIVIDE, &[a, b]);
     match pair(known::DIVIDE, a, b)? {
         Pair::Double(_, 0.0) | Pair::Single(_, 0.0) => Err(by_zero()),
@@ -204,6 +215,7 @@ pub fn abs(a: &Value) -> NumberResult {
     match a {
         Value::Double(x) => Ok(Value::Double(x.abs())),
         Value::Single(x) => Ok(Value::Single(x.abs())),
+        z if complex::is_complex(z) => complex::magnitude(z),
         other if super::compare::is_minus(other).map_err(|_| not_a_number(other))? => negate(other),
         other => Ok(other.clone()),
     }
@@ -216,6 +228,7 @@ pub fn signum(a: &Value) -> NumberResult {
         Value::Double(x) => Ok(Value::Double(x.signum())),
         Value::Single(x) if *x == 0.0 => Ok(a.clone()),
         Value::Single(x) => Ok(Value::Single(x.signum())),
+        z if complex::is_complex(z) => div(z, &complex::magnitude(z)?),
         other => {
             let zero = Value::Int(0);
             let ordering =

@@ -6,6 +6,7 @@ use num_integer::Integer;
 
 use super::super::raise::Raise;
 use super::super::value::Value;
+use super::complex::{self, is_complex};
 use super::convert::{exact, fraction_of, is_number, is_rational, is_real};
 use super::error::{NumberResult, not_a_number, not_an_integer, not_real};
 
@@ -71,7 +72,7 @@ fn compare_rationals(a: &Value, b: &Value) -> Option<Ordering> {
 
 /// Are two numbers of whatever types equal in value? False unless both are numbers.
 pub fn equal_by_value(a: &Value, b: &Value) -> bool {
-    is_number(a) && is_number(b) && matches!(compare(a, b), Ok(Some(Ordering::Equal)))
+    is_number(a) && is_number(b) && matches!(number_equal(a, b), Ok(true))
 }
 
 /// `(= a b)`.
@@ -85,6 +86,9 @@ pub fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
                 if !is_number(operand) {
                     return Err(not_a_number(operand));
                 }
+            }
+            if is_complex(a) || is_complex(b) {
+                return complex::equal(a, b);
             }
             Ok(compare(a, b)? == Some(Ordering::Equal))
         }
@@ -148,6 +152,7 @@ pub fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
         Value::Double(x) => Ok(*x == 0.0),
         Value::Single(x) => Ok(*x == 0.0),
         other if is_rational(other) => Ok(false),
+        z if is_complex(z) => complex::equal(z, &Value::Int(0)),
         other => Err(not_a_number(other)),
     }
 }

@@ -55,7 +55,7 @@ pub fn to_big(value: &Value) -> Option<BigInt> {
 
 /// Is this a number?
 pub fn is_number(value: &Value) -> bool {
-    is_real(value)
+    is_real(value) || super::complex::is_complex(value)
 }
 
 /// Is this a real number?

@@ -65,13 +65,12 @@ pub fn invalid(operation: Sym, operands: &[&Value]) -> Box<Raise> {
     arithmetic(known::FLOATING_POINT_INVALID_OPERATION, operation, operands)
 }
 
-/// A result that would be a complex number.
+/// A function outside the real numbers for which it is defined here.
 #[cold]
-pub fn complex_result(operation: &str, operand: &str) -> Box<Raise> {
-    Raise::new(
-        known::ARITHMETIC_ERROR,
-        format!(
-            "The result of ({operation} {operand}) is a complex number; the language has integers, ratios and floats."
-        ),
+pub fn complex_result(operation: Sym, operand: &Value) -> Box<Raise> {
+    arithmetic(
+        known::FLOATING_POINT_INVALID_OPERATION,
+        operation,
+        &[operand],
     )
 }

@@ -1,4 +1,4 @@
-//! Numbers: integers of any size, ratios, single and double floats.
+//! Numbers: integers of any size, ratios, single and double floats, complex numbers.
 //!
 //! Integers are immediate while they fit 64 bits, and every result is brought back to its
 //! simplest form. Mixed operands follow Lisp's contagion: a double makes the result
@@ -9,6 +9,7 @@
 mod arithmetic;
 mod bits;
 mod compare;
+mod complex;
 mod convert;
 mod division;
 pub mod error;
@@ -26,6 +27,7 @@ pub use compare::{
     compare, equal_by_value, greater, greater_equal, is_even, is_minus, is_plus, is_zero, less,
     less_equal, maximum, minimum, number_equal,
 };
+pub use complex::{Complex, cis, complex, conjugate, imaginary_part, is_complex, phase, real_part};
 pub use convert::{
     denominator, from_big, from_usize, is_fixnum, is_integer, is_number, is_rational, is_real,
     numerator, ratio, rational, rationalize, to_big, to_double, to_f32, to_f64, to_float_like,
@@ -36,7 +38,7 @@ pub use division::{
 };
 pub use float_parts::{decode, digits, integer_decode, precision, scale, sign_of};
 pub use power::{expt, gcd, isqrt, lcm, sqrt};
-pub use random::random;
+pub use random::{RandomState, make_random_state, random, random_from};
 pub use ratio::Ratio;
 pub use transcendental::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, exp, log, log_base, sin, sinh, tan,

@@ -9,11 +9,12 @@ use super::super::raise::Raise;
 use super::super::value::Value;
 use super::arithmetic::div;
 use super::compare::{is_minus, is_zero};
+use super::complex::{self, is_complex};
 use super::convert::{
-    fraction_of, from_big, is_integer, is_number, is_rational, ratio, to_big, to_f64,
+    fraction_of, from_big, is_integer, is_number, is_rational, is_real, ratio, to_big, to_f64,
 };
 use super::error::{
-    NumberResult, complex_result, division_by_zero, invalid, not_a_number, not_an_integer, overflow,
+    NumberResult, division_by_zero, invalid, not_a_number, not_an_integer, overflow,
 };
 
 /// Integers of more bits than this (8 MB) are not computed.
@@ -38,6 +39,9 @@ pub fn expt(base: &Value, power: &Value) -> NumberResult {
     if is_integer(power) && is_rational(base) {
         return exact_power(base, power);
     }
+    if is_complex(base) || is_complex(power) {
+        return complex::power(base, power);
+    }
     let is_double = matches!(base, Value::Double(_)) || matches!(power, Value::Double(_));
     let (Some(x), Some(y)) = (to_f64(base), to_f64(power)) else {
         return Err(not_a_number(base));
@@ -46,7 +50,7 @@ pub fn expt(base: &Value, power: &Value) -> NumberResult {
         return Ok(float(1.0, is_double));
     }
     if x < 0.0 && y != libm::trunc(y) {
-        return Err(complex_result("EXPT", "negative-number fraction"));
+        return complex::power(base, power);
     }
     if x == 0.0 && y < 0.0 {
         return Err(division_by_zero(known::EXPT, &[base, power]));
@@ -129,12 +133,12 @@ fn exact_power(base: &Value, power: &Value) -> NumberResult {
     result.ok_or_else(|| division_by_zero(known::DIVIDE, &[&Value::Int(1), &Value::Int(0)]))
 }
 
-/// `(sqrt x)`; a negative number has none here.
+/// `(sqrt x)`; complex for a negative number.
 pub fn sqrt(value: &Value) -> NumberResult {
-    let x = to_f64(value).ok_or_else(|| not_a_number(value))?;
-    if is_minus(value)? {
-        return Err(complex_result("SQRT", "negative-number"));
+    if is_complex(value) || is_real(value) && is_minus(value)? {
+        return complex::square_root(value);
     }
+    let x = to_f64(value).ok_or_else(|| not_a_number(value))?;
     finite(
         x.sqrt(),
         matches!(value, Value::Double(_)),

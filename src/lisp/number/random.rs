@@ -1,15 +1,67 @@
 //! Pseudo-random numbers from the image's generator.
 
+use std::cell::RefCell;
+
 use num_bigint::BigInt;
 use num_traits::Signed;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 
+use super::super::foreign::Foreign;
+use super::super::image::Image;
 use super::super::known;
 use super::super::raise::Raise;
+use super::super::symbol::Sym;
 use super::super::value::Value;
 use super::convert::from_big;
 use super::error::NumberResult;
+
+/// A generator of its own, or the image's: the value of `*random-state*`.
+pub struct RandomState {
+    /// None for the image's generator.
+    pub generator: Option<RefCell<Pcg64>>,
+}
+
+impl Foreign for RandomState {
+    fn type_symbol(&self) -> Sym {
+        known::RANDOM_STATE
+    }
+
+    fn print(&self, _: &Image, _: bool) -> String {
+        "#<RANDOM-STATE>".to_owned()
+    }
+}
+
+/// `(make-random-state state)`: a generator that goes on as another one would (`NIL` is
+/// the image's), or, for `T`, as no other does.
+pub fn make_random_state(image: &mut Image, state: &Value) -> NumberResult {
+    let copy = match (state, state.as_foreign::<RandomState>()) {
+        (Value::Symbol(known::NIL), _) => image.random.clone(),
+        (Value::Symbol(known::T), _) => {
+            let (seed, stream) = (image.random.next_u64(), image.random.next_u64());
+            Pcg64::new(seed.into(), stream.into())
+        }
+        (_, Some(RandomState { generator })) => match generator {
+            Some(generator) => generator.borrow().clone(),
+            None => image.random.clone(),
+        },
+        _ => return Err(Raise::type_error(state, known::RANDOM_STATE)),
+    };
+    Ok(Value::foreign(RandomState {
+        generator: Some(RefCell::new(copy)),
+    }))
+}
+
+/// `(random limit state)`
+pub fn random_from(image: &mut Image, limit: &Value, state: &Value) -> NumberResult {
+    match state.as_foreign::<RandomState>() {
+        Some(RandomState {
+            generator: Some(generator),
+        }) => random(&mut generator.borrow_mut(), limit),
+        Some(RandomState { generator: None }) => random(&mut image.random, limit),
+        None => Err(Raise::type_error(state, known::RANDOM_STATE)),
+    }
+}
 
 /// `(random limit)`: an integer or float from zero up to, but not including, the limit.
 pub fn random(generator: &mut Pcg64, limit: &Value) -> NumberResult {

@@ -222,3 +222,26 @@ fn random_numbers_stay_below_the_limit() {
     }
     assert_eq!(ok(random(&mut generator, &n("0"))), "type error");
 }
+
+#[test]
+fn negative_numbers_have_complex_roots_and_logarithms() {
+    let parts = |value: error::NumberResult| match value {
+        Ok(z) if is_complex(&z) => format!("{} {}", ok(real_part(&z)), ok(imaginary_part(&z))),
+        other => ok(other),
+    };
+    let z = |re: &str, im: &str| complex(&n(re), &n(im)).ok().unwrap();
+    assert_eq!(parts(sqrt(&n("-1"))), "0.0 1.0");
+    assert_eq!(parts(sqrt(&n("-4d0"))), "0.0d0 2.0d0");
+    assert_eq!(parts(log(&n("-1"))), "0.0 3.1415927");
+    assert_eq!(parts(add(&z("1", "2"), &z("3", "-2"))), "4");
+    assert_eq!(parts(mul(&z("0", "1"), &z("0", "1"))), "-1");
+    assert_eq!(parts(div(&z("1", "2"), &z("3", "4"))), "11/25 2/25");
+    assert_eq!(parts(expt(&z("0", "1"), &n("3"))), "0 -1");
+    assert_eq!(parts(expt(&n("-8"), &n("1/3"))), "1.0 1.7320508");
+    assert_eq!(parts(abs(&z("3", "4"))), "5.0");
+    assert_eq!(parts(complex(&n("1.0"), &n("2"))), "1.0 2.0");
+    assert!(number_equal(&z("1", "2"), &z("1.0", "2.0")).ok().unwrap());
+    assert!(z("1", "2").is_eql(&z("1", "2")));
+    assert!(less(&z("1", "2"), &n("1")).is_err());
+    assert_eq!(ok(acos(&n("2"))), "another error");
+}

@@ -12,6 +12,7 @@ use super::super::symbol::Sym;
 use super::super::value::Value;
 use super::arithmetic::div;
 use super::compare::{is_minus, is_zero};
+use super::complex;
 use super::convert::to_f64;
 use super::error::{NumberResult, complex_result, division_by_zero, not_a_number};
 use super::power::finite;
@@ -35,8 +36,6 @@ macro_rules! functions {
 }
 
 functions! {
-    /// `(exp x)`.
-    exp = EXP;
     /// `(sin x)`, x in rad.
     sin = SIN;
     /// `(cos x)`, x in rad.
@@ -55,41 +54,46 @@ functions! {
     asinh = ASINH;
 }
 
+/// `(exp x)`.
+pub fn exp(value: &Value) -> NumberResult {
+    if complex::is_complex(value) {
+        return complex::exponential(value);
+    }
+    apply(value, known::EXP, libm::exp)
+}
+
 /// A function that is real only where `holds` is true.
 fn apply_within(
     value: &Value,
     operation: Sym,
-    name: &str,
     function: fn(f64) -> f64,
     holds: fn(f64) -> bool,
 ) -> NumberResult {
     let x = to_f64(value).ok_or_else(|| not_a_number(value))?;
     if !holds(x) {
-        return Err(complex_result(name, "number"));
+        return Err(complex_result(operation, value));
     }
     finite(function(x), is_double(value), operation, &[value])
 }
 
 /// `(asin x)`, in rad.
 pub fn asin(value: &Value) -> NumberResult {
-    apply_within(value, known::ASIN, "ASIN", libm::asin, |x| x.abs() <= 1.0)
+    apply_within(value, known::ASIN, libm::asin, |x| x.abs() <= 1.0)
 }
 
 /// `(acos x)`, in rad.
 pub fn acos(value: &Value) -> NumberResult {
-    apply_within(value, known::ACOS, "ACOS", libm::acos, |x| x.abs() <= 1.0)
+    apply_within(value, known::ACOS, libm::acos, |x| x.abs() <= 1.0)
 }
 
 /// `(acosh x)`.
 pub fn acosh(value: &Value) -> NumberResult {
-    apply_within(value, known::ACOSH, "ACOSH", libm::acosh, |x| x >= 1.0)
+    apply_within(value, known::ACOSH, libm::acosh, |x| x >= 1.0)
 }
 
 /// `(atanh x)`.
 pub fn atanh(value: &Value) -> NumberResult {
-    apply_within(value, known::ATANH, "ATANH", libm::atanh, |x| {
-        x.abs() <= 1.0
-    })
+    apply_within(value, known::ATANH, libm::atanh, |x| x.abs() <= 1.0)
 }
 
 /// `(atan y x)`: the angle (rad) of the vector (x, y).
@@ -120,13 +124,13 @@ fn natural(value: &Value) -> Option<f64> {
     }
 }
 
-/// `(log x)`; a negative number has none here, nor has zero.
+/// `(log x)`; complex for a negative number; zero has none.
 pub fn log(value: &Value) -> NumberResult {
     if is_zero(value)? {
         return Err(division_by_zero(known::LOG, &[value]));
     }
-    if is_minus(value)? {
-        return Err(complex_result("LOG", "negative-number"));
+    if complex::is_complex(value) || is_minus(value)? {
+        return complex::logarithm(value);
     }
     let x = natural(value).ok_or_else(|| not_a_number(value))?;
     finite(x, is_double(value), known::LOG, &[value])
@@ -141,7 +145,7 @@ pub fn log_base(value: &Value, base: &Value) -> NumberResult {
         let result = libm::log2(*x as f64) / libm::log2(*b as f64);
         return Ok(Value::Single(result as f32));
     }
-    if is_double(value) != is_double(base) {
+    if is_double(value) != is_double(base) && !complex::is_complex(value) {
         let x = natural_checked(value)?;
         let b = natural_checked(base)?;
         return div(&Value::Double(x), &Value::Double(b));

@@ -1,5 +1,8 @@
 //! Floats as the shortest decimal that is read back as the same float.
 
+use num_bigint::BigInt;
+use num_traits::Signed;
+
 use super::settings::Settings;
 use crate::lisp::known;
 
@@ -26,12 +29,50 @@ fn decimal(scientific: &str) -> Decimal {
 
 /// The shortest digits of a double float's magnitude.
 pub(crate) fn of_double(x: f64) -> Decimal {
+    if x.is_subnormal() {
+        return of_subnormal(x.abs(), f64::MANTISSA_DIGITS);
+    }
     decimal(&format!("{:e}", x.abs()))
 }
 
 /// The shortest digits of a single float's magnitude.
 pub(crate) fn of_single(x: f32) -> Decimal {
+    if x.is_subnormal() {
+        return of_subnormal(f64::from(x.abs()), f32::MANTISSA_DIGITS);
+    }
     decimal(&format!("{:e}", x.abs()))
+}
+
+/// The shortest digits of a subnormal float, as if its mantissa had all its bits: SBCL
+/// prints `least-positive-double-float` as `4.940656458412465d-324`.
+fn of_subnormal(x: f64, mantissa_bits: u32) -> Decimal {
+    let (_, exponent) = libm::frexp(x);
+    // The digits are exact enough within two to the power of this.
+    let bits = i64::from(mantissa_bits) + 1 - i64::from(exponent);
+    for places in 0..mantissa_bits as usize {
+        let text = format!("{x:.places$e}");
+        if is_within(&text, x, bits) {
+            return decimal(&text);
+        }
+    }
+    decimal(&format!("{x:e}"))
+}
+
+/// Is the decimal at most two to the power of minus `bits` away from the float?
+fn is_within(text: &str, x: f64, bits: i64) -> bool {
+    let Decimal { digits, point } = decimal(text);
+    let places = i64::try_from(digits.len()).unwrap_or(0) - i64::from(point);
+    let Ok(places) = usize::try_from(places) else {
+        return false;
+    };
+    let digits: BigInt = digits.parse().unwrap_or_default();
+    let ten = num_traits::pow(BigInt::from(10), places);
+    let (mantissa, exponent, _) = num_traits::float::FloatCore::integer_decode(x);
+    let shift = usize::from(exponent.unsigned_abs());
+    // Both times ten to the power of `places` and two to the power of `shift`.
+    let difference = (digits << shift) - BigInt::from(mantissa) * &ten;
+    let spare = usize::try_from(bits).unwrap_or(0);
+    (difference.abs() << spare) <= (ten << shift)
 }
 
 /// Magnitudes from this one to [`PLAIN_BELOW`] are printed without an exponent.

@@ -140,6 +140,8 @@ pub struct Fiber {
     pub dynamic: Vec<Dynamic>,
     /// Unwindings that wait for cleanup code, innermost last.
     pub pending: Vec<Pending>,
+    /// Does whoever made the request that waits want all values of the answer?
+    pub(super) wants_all: bool,
     /// Are the fiber's bindings of special variables in force?
     in_force: bool,
 }

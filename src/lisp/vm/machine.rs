@@ -78,6 +78,11 @@ impl<'a> Machine<'a> {
     /// Gives the answer to a request, or a value in place of a failed call, and goes on.
     pub fn resume(&mut self, value: Value) -> Event {
         self.fiber.enter(self.image);
+        let value = if self.fiber.wants_all {
+            value
+        } else {
+            value.primary()
+        };
         self.go_on(Next::Deliver(value))
     }
 
@@ -92,7 +97,8 @@ impl<'a> Machine<'a> {
     /// the request, or stands in place of the failed call.
     pub fn resume_with_call(&mut self, function: Value, args: Vec<Value>) -> Event {
         self.fiber.enter(self.image);
-        let next = self.call_value(function, args, false);
+        let multi = self.fiber.wants_all;
+        let next = self.call_value(function, args, multi);
         self.go_on(next)
     }
 
@@ -173,13 +179,20 @@ impl<'a> Machine<'a> {
                 self.call_value(function, args, true)
             }
             Step::TailCall { function, args } => self.call_value(function, args, multi),
-            Step::Request(request) => Next::Stop(Event::Request(request)),
+            Step::Request(request) => {
+                self.fiber.wants_all = multi;
+                Next::Stop(Event::Request(request))
+            }
             Step::RequestThen(request, then) => {
+                self.fiber.wants_all = true;
                 self.push_native(then, true, multi);
                 Next::Stop(Event::Request(request))
             }
             Step::Unwind(target, value) => self.unwind(target, value),
-            Step::Unhandled(condition) => Next::Stop(Event::Unhandled(condition)),
+            Step::Unhandled(condition) => {
+                self.fiber.wants_all = multi;
+                Next::Stop(Event::Unhandled(condition))
+            }
         }
     }
 

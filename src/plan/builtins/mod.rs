@@ -68,7 +68,8 @@ fn wait_for_all(wait_for: Sym, mut constraints: Vec<Value>, call: Call) -> Step 
         Some(constraint) => call_then("WAIT-FOR", wait_for, vec![constraint], move |_, _| {
             Ok(wait_for_all(wait_for, constraints, call))
         }),
-        None => tail_call(call),
+        // If what it waited for has failed, its parent comes first and ends it.
+        None => request_then("SLEEP", Request::Sleep(0.0), |_, _| Ok(tail_call(call))),
     }
 }
 

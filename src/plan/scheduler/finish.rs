@@ -1,7 +1,7 @@
 //! How tasks begin and end.
 
 use super::Scheduler;
-use super::live::{Answer, Ending, Live, Slot, Wait};
+use super::live::{Answer, Ending, Live, Slot, Told, Wait};
 use crate::lisp::function::Function;
 use crate::lisp::image::Image;
 use crate::lisp::known;
@@ -65,7 +65,9 @@ impl Scheduler {
         live.fiber = fiber;
         live.task = Some(task.clone());
         live.parent = Some(parent);
-        live.is_suspended = inner.is_held.take();
+        if inner.is_held.take() {
+            live.told = Told::Suspend;
+        }
         let slot = self.add(live);
         inner.slot.set(Some(slot));
         if let Some(parent) = self.live_mut(parent) {

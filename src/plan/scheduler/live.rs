@@ -149,11 +149,6 @@ impl Live {
     pub fn runs_hooks(&self) -> bool {
         self.set_aside.is_some()
     }
-
-    /// Is it about to end, or ending, before its time?
-    pub fn is_dying(&self) -> bool {
-        matches!(self.ending, Some(Ending::Evaporated | Ending::Failed(_)))
-    }
 }
 
 impl Scheduler {

@@ -87,6 +87,7 @@ impl Scheduler {
             }
         }
         self.put_back(slot, fiber);
+        self.suspend_if_told(image, host, slot);
         Stopped::Waiting
     }
 

@@ -32,7 +32,9 @@ impl Scheduler {
             if live.is_suspended || live.ending.is_some() {
                 continue;
             }
-            if live.scheduling < 0 {
+            // A task that has not begun holds still when it first waits.
+            let has_begun = !matches!(live.answer, Some(Answer::Start(..)));
+            if live.scheduling < 0 || !has_begun {
                 live.told = Told::Suspend;
                 continue;
             }
@@ -49,6 +51,17 @@ impl Scheduler {
             if let Some(task) = self.live(slot).and_then(|l| l.task.clone()) {
                 self.set_status(image, &task, Status::Suspended);
             }
+        }
+    }
+
+    /// Lets an entry that now waits hold still, if it was told to before.
+    pub(super) fn suspend_if_told(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
+        let Some(live) = self.live_mut(slot) else {
+            return;
+        };
+        if live.told == Told::Suspend && live.scheduling >= 0 {
+            live.told = Told::Nothing;
+            self.suspend(image, host, slot);
         }
     }
 

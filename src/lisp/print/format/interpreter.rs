@@ -917,19 +917,25 @@ impl Interpreter<'_> {
         }
     }
 
+    /// The symbol that a name between slashes means; in `COMMON-LISP-USER` unless it says
+    /// otherwise.
     fn function_named(&self, name: &str) -> Result<Sym> {
         let upper = name.to_uppercase();
-        let (package, symbol) = match upper.split_once(':') {
-            Some((package, symbol)) => (
-                self.image.packages.find(package),
-                symbol.trim_start_matches(':'),
-            ),
-            None => (self.image.packages.find("COMMON-LISP-USER"), upper.as_str()),
-        };
-        package
+        let (package, symbol) = upper
+            .split_once(':')
+            .unwrap_or(("COMMON-LISP-USER", upper.as_str()));
+        let symbol = symbol.trim_start_matches(':');
+        self.image
+            .packages
+            .find(package)
             .and_then(|package| self.image.packages.find_symbol(package, symbol))
             .map(|(sym, _)| sym)
-            .ok_or_else(|| Raise::undefined_function(Value::string(upper.clone())))
+            .ok_or_else(|| {
+                Raise::new(
+                    known::UNDEFINED_FUNCTION,
+                    format!("The function {package}::{symbol} is undefined."),
+                )
+            })
     }
 }
 

@@ -462,11 +462,16 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
             tool(offsets.2),
         ]
     };
-    // What cannot be reached at any heading fails later, and says why.
-    let poses = headings
-        .iter()
-        .map(|heading| poses_at(*heading))
-        .find(|poses| simulation.is_reachable(side, &poses[..2]))
+    // Best is a heading at which the hand can also retract; what cannot be reached at any
+    // heading fails later, and says why.
+    let reachable = |count: usize| {
+        headings
+            .iter()
+            .map(|heading| poses_at(*heading))
+            .find(|poses| simulation.is_reachable(side, &poses[..count]))
+    };
+    let poses = reachable(4)
+        .or_else(|| reachable(2))
         .unwrap_or_else(|| poses_at(0.0));
     done(Value::list(poses.map(|pose| in_base(&pose))))
 }

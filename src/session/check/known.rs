@@ -1,0 +1,89 @@
+//! What the texts checked so far define or mention, beside what their definitions, which
+//! are evaluated, put into the image.
+
+use std::collections::BTreeSet;
+
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// Names that checks must not call unknown.
+#[derive(Default)]
+pub(in crate::session) struct KnownNames {
+    /// Names of functions, macros and variables.
+    pub defined: BTreeSet<Sym>,
+    /// Names in rules for designators, in upper case.
+    pub in_rules: BTreeSet<String>,
+    /// Another file is loaded, or a form made at run time evaluated: anything may be
+    /// defined.
+    pub is_open: bool,
+}
+
+impl KnownNames {
+    /// Notes what the definitions in a form, at any depth, define.
+    pub fn note_form(&mut self, image: &Image, form: &Value) {
+        let mut pending = vec![form.clone()];
+        while let Some(form) = pending.pop() {
+            let Some(head) = form.as_cons().map(|cons| cons.car()) else {
+                continue;
+            };
+            if let Some(head) = head.as_symbol() {
+                let name = image.name(head);
+                if name.starts_with("DEF") {
+                    self.note_definition(image, &form);
+                }
+                self.is_open |= matches!(name, "LOAD" | "REQUIRE" | "QUICKLOAD" | "LOAD-SYSTEM");
+            }
+            pending.extend(form.iter_list().filter(|v| v.as_cons().is_some()));
+        }
+    }
+
+    /// Notes what one definition defines.
+    pub fn note_definition(&mut self, image: &Image, form: &Value) {
+        let head = form.car_or_nil().as_symbol();
+        let name = form.cdr_or_nil().car_or_nil();
+        let named = match &name {
+            // `(defstruct (name …) …)`, `(defun (setf name) …)`.
+            Value::Cons(cons) if cons.car().as_symbol() == Some(known::SETF) => {
+                cons.cdr().car_or_nil().as_symbol()
+            }
+            Value::Cons(cons) => cons.car().as_symbol(),
+            other => other.as_symbol(),
+        };
+        self.defined.extend(named);
+        match head.map(|head| image.name(head)) {
+            Some("DEFCLASS" | "DEFINE-CONDITION") => self.note_accessors(image, form),
+            Some("DEF-FACT-GROUP") => self.note_rules(image, form),
+            _ => {}
+        }
+    }
+
+    fn note_accessors(&mut self, image: &Image, form: &Value) {
+        let slots = form.cdr_or_nil().cdr_or_nil().cdr_or_nil().car_or_nil();
+        for slot in slots.iter_list() {
+            let mut options = slot.cdr_or_nil();
+            while options.as_cons().is_some() {
+                let key = options.car_or_nil().as_symbol().map(|key| image.name(key));
+                options = options.cdr_or_nil();
+                if matches!(key, Some("ACCESSOR" | "READER" | "WRITER")) {
+                    self.defined.extend(options.car_or_nil().as_symbol());
+                }
+                options = options.cdr_or_nil();
+            }
+        }
+    }
+
+    fn note_rules(&mut self, image: &Image, form: &Value) {
+        let mut pending = vec![form.clone()];
+        while let Some(form) = pending.pop() {
+            match &form {
+                Value::Symbol(sym) => {
+                    self.in_rules.insert(image.name(*sym).to_uppercase());
+                }
+                Value::Cons(cons) => pending.extend([cons.car(), cons.cdr()]),
+                _ => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Finds a name in the text of a form.
+
+use std::ops::Range;
+
+/// The bytes of the first token with that name (case and package prefix do not count):
+/// one that is an element of the form itself, if there is one, else any inside it.
+pub(super) fn find(form: &str, name: &str) -> Option<Range<usize>> {
+    let matching = || {
+        Tokens::new(form).filter(|(range, _)| {
+            let token = form.get(range.clone()).unwrap_or_default();
+            let bare = token.rsplit(':').next().unwrap_or(token);
+            bare.to_uppercase() == name
+        })
+    };
+    let found = matching().find(|(_, depth)| *depth == 1);
+    found.or_else(|| matching().next()).map(|(range, _)| range)
+}
+
+/// The tokens of a text with their depths in parentheses. Strings and comments are left
+/// out.
+struct Tokens<'a> {
+    text: &'a str,
+    at: usize,
+    depth: usize,
+}
+
+impl<'a> Tokens<'a> {
+    fn new(text: &'a str) -> Self {
+        Tokens {
+            text,
+            at: 0,
+            depth: 0,
+        }
+    }
+
+    fn rest(&self) -> &'a str {
+        self.text.get(self.at..).unwrap_or_default()
+    }
+
+    /// Skips to behind the first of the ends found at or after `from`, or to the end.
+    fn skip_to(&mut self, from: usize, end: &str) {
+        let rest = self.rest().get(from..).unwrap_or_default();
+        self.at += from + rest.find(end).map_or(rest.len(), |i| i + end.len());
+    }
+
+    fn skip_string(&mut self) {
+        let mut is_escaped = false;
+        let closing = self.rest().char_indices().skip(1).find(|(_, c)| {
+            let closes = *c == '"' && !is_escaped;
+            is_escaped = *c == '\\' && !is_escaped;
+            closes
+        });
+        self.at = closing.map_or(self.text.len(), |(i, _)| self.at + i + 1);
+    }
+}
+
+impl Iterator for Tokens<'_> {
+    type Item = (Range<usize>, usize);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let rest = self.rest();
+            let first = rest.chars().next()?;
+            match first {
+                '(' => {
+                    self.depth += 1;
+                    self.at += 1;
+                }
+                ')' => {
+                    self.depth = self.depth.saturating_sub(1);
+                    self.at += 1;
+                }
+                '"' => self.skip_string(),
+                ';' => self.skip_to(0, "\n"),
+                '#' if rest.starts_with("#|") => self.skip_to(2, "|#"),
+                '#' if rest.starts_with("#'") => self.at += 2,
+                _ if is_delimiter(first) => self.at += first.len_utf8(),
+                _ => {
+                    let length = rest.find(is_delimiter).unwrap_or(rest.len());
+                    let start = self.at;
+                    self.at += length;
+                    return Some((start..self.at, self.depth));
+                }
+            }
+        }
+    }
+}
+
+fn is_delimiter(c: char) -> bool {
+    c.is_whitespace() || matches!(c, '(' | ')' | '"' | '\'' | '`' | ',' | ';')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_found_at_the_outermost_level_first() {
+        let form = "(f (g ?x) \"?x\" ; ?x\n pkg:?x)";
+        let range = find(form, "?X").unwrap();
+        assert_eq!(&form[range.clone()], "pkg:?x");
+        assert_eq!(range.start, 21);
+    }
+
+    #[test]
+    fn a_name_further_in_is_found_too() {
+        assert_eq!(find("(f (g #'h \"\\\" h\") #|h|#)", "H"), Some(8..9));
+        assert_eq!(find("(f (g x))", "H"), None);
+    }
+}

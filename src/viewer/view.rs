@@ -1,0 +1,186 @@
+//! From where the world is looked at.
+
+use std::fmt;
+
+use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use thiserror::Error;
+
+use crate::perception::camera::Camera;
+use crate::spatial::Pose;
+use crate::world::World;
+
+/// Angle (rad) between the upper and the lower border where nothing else is asked for.
+pub const FIELD_OF_VIEW: f64 = 0.72;
+
+/// Nothing nearer to a viewer than this is seen (m).
+const NEAR: f64 = 0.05;
+
+/// A place to look from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum View {
+    /// The whole kitchen from its open corner.
+    Kitchen,
+    /// Straight down, x to the right.
+    Top,
+    /// Through the robot's camera.
+    Robot,
+    /// The table.
+    Table,
+    /// The kitchen island.
+    Island,
+    /// The robot, from behind and above.
+    Follow,
+    /// From anywhere.
+    Free {
+        /// Where the eye is (m, map frame).
+        from: Point3<f64>,
+        /// What is in the middle of the picture (m, map frame).
+        at: Point3<f64>,
+        /// Angle (rad) between the upper and the lower border.
+        vertical_fov: f64,
+    },
+}
+
+/// Why there is no such view.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum ViewError {
+    /// The kitchen lacks what the view looks at.
+    #[error(
+        "the view {view} looks at {link}, which this kitchen lacks; say --from and --at instead"
+    )]
+    NothingThere {
+        /// The view.
+        view: View,
+        /// The link that it looks at.
+        link: &'static str,
+    },
+    /// The eye is where it looks.
+    #[error("the view is from and at the same place, ({}, {}, {})", .0.x, .0.y, .0.z)]
+    NoDirection(Point3<f64>),
+    /// A coordinate is no number or far too large, or the field of view is no angle that
+    /// a picture can have.
+    #[error("{0} is impossible for a view")]
+    Impossible(f64),
+}
+
+/// Coordinates (m) beyond which there is nothing to be seen.
+const REACH: f64 = 1000.0;
+
+impl View {
+    /// All views that have a name.
+    pub const NAMED: [Self; 6] = [
+        Self::Kitchen,
+        Self::Top,
+        Self::Robot,
+        Self::Table,
+        Self::Island,
+        Self::Follow,
+    ];
+
+    /// Name of the view.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Kitchen => "kitchen",
+            Self::Top => "top",
+            Self::Robot => "robot",
+            Self::Table => "table",
+            Self::Island => "island",
+            Self::Follow => "follow",
+            Self::Free { .. } => "free",
+        }
+    }
+
+    /// The camera that has the view, for a picture of that size (pixels).
+    pub fn camera(&self, world: &World, width: usize, height: usize) -> Result<Camera, ViewError> {
+        let camera = |pose: Pose, vertical_fov: f64| Camera {
+            pose,
+            width,
+            height,
+            vertical_fov,
+            near: NEAR,
+            far: f64::INFINITY,
+        };
+        let look = |from: [f64; 3], at: [f64; 3], fov: f64| {
+            looking(from.into(), at.into(), Vector3::z()).map(|pose| camera(pose, fov))
+        };
+        match *self {
+            Self::Kitchen => look([-4.25, -3.0, 2.75], [-0.5, 0.55, 0.55], 0.78),
+            Self::Top => {
+                let (from, at) = ([-1.0, 0.55, 9.5], [-1.0, 0.55, 0.0]);
+                looking(from.into(), at.into(), Vector3::y()).map(|pose| camera(pose, 0.6))
+            }
+            Self::Robot => {
+                let through = world.models().description.camera();
+                Ok(camera(
+                    world.link_pose(through.frame),
+                    through.vertical_view,
+                ))
+            }
+            Self::Table => {
+                let at = self.furniture(world, "table_area_main", [0.0, 0.0, 0.75])?;
+                look([at.x - 1.75, at.y - 1.9, 1.75], at.into(), FIELD_OF_VIEW)
+            }
+            Self::Island => {
+                let at = self.furniture(world, "kitchen_island_surface", [0.2, 0.2, 0.05])?;
+                look([at.x + 1.75, at.y - 1.85, 1.95], at.into(), FIELD_OF_VIEW)
+            }
+            Self::Follow => {
+                let base = world.robot_configuration().base;
+                let from = base * Point3::new(-1.9, 1.7, 2.2);
+                let at = base * Point3::new(0.45, 0.0, 0.72);
+                looking(from, at, Vector3::z()).map(|pose| camera(pose, FIELD_OF_VIEW))
+            }
+            Self::Free {
+                from,
+                at,
+                vertical_fov,
+            } => {
+                let is_angle = vertical_fov > 0.0 && vertical_fov < 3.0;
+                let is_place = |v: &&f64| !(-REACH..=REACH).contains(*v);
+                let wrong = from.iter().chain(at.iter()).find(is_place);
+                if let Some(value) = wrong.or((!is_angle).then_some(&vertical_fov)) {
+                    return Err(ViewError::Impossible(*value));
+                }
+                looking(from, at, Vector3::z()).map(|pose| camera(pose, vertical_fov))
+            }
+        }
+    }
+
+    /// A point of a link of the kitchen, in the map frame.
+    fn furniture(
+        self,
+        world: &World,
+        link: &'static str,
+        point: [f64; 3],
+    ) -> Result<Point3<f64>, ViewError> {
+        match world.models().kitchen.link_named(link) {
+            Some(id) => Ok(world.furniture_pose(id) * Point3::from(point)),
+            None => Err(ViewError::NothingThere { view: self, link }),
+        }
+    }
+}
+
+impl fmt::Display for View {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The optical frame of an eye that looks from one point to the other (m, map frame), with
+/// `up` upwards in the picture as far as possible.
+fn looking(from: Point3<f64>, at: Point3<f64>, up: Vector3<f64>) -> Result<Pose, ViewError> {
+    let forward = (at - from)
+        .try_normalize(1e-6)
+        .ok_or(ViewError::NoDirection(from))?;
+    let right = forward
+        .cross(&up)
+        .try_normalize(1e-6)
+        .unwrap_or_else(Vector3::x);
+    let axes = Matrix3::from_columns(&[right, forward.cross(&right), forward]);
+    Ok(Pose::from_parts(from.into(), rotation(&axes)))
+}
+
+/// The rotation with these axes, which are at right angles; the same bits on every platform.
+fn rotation(axes: &Matrix3<f64>) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*axes))
+}
