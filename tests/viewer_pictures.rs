@@ -34,7 +34,7 @@ fn picture(world: &World, view: View) -> Image {
 
 /// Columns and rows of the pixels that are clearly red.
 fn red(image: &Image) -> Vec<[f64; 2]> {
-    let is_red = |[r, g, b]: [u8; 3]| r > 60 && r > 3 * g && r > 3 * b;
+    let is_red = |[r, g, b]: [u8; 3]| r > 60 && r / 3 > g && r / 3 > b;
     let pixels = (0..HEIGHT).flat_map(|row| (0..WIDTH).map(move |column| (column, row)));
     pixels
         .filter(|&(column, row)| is_red(image.pixel(column, row).unwrap()))
@@ -49,7 +49,7 @@ fn the_bottle_is_seen_where_it_stands() {
     let found = red(&picture(&world, View::Table));
     let pose = world.object_pose("BOTTLE").unwrap();
     let corner = |i: usize| {
-        let side = |bit: usize, size: f64| if i >> bit & 1 == 0 { -size } else { size };
+        let side = |bit: usize, size: f64| if (i >> bit) & 1 == 0 { -size } else { size };
         let corner = Point3::new(side(0, 0.0375), side(1, 0.0375), side(2, 0.101));
         camera.pixel_of(&(pose * corner)).unwrap()
     };

@@ -325,6 +325,8 @@ impl Foreign for Designator {
 fn bare(image: &Image, value: &Value, escape: bool) -> String {
     match value {
         Value::Symbol(sym) if image.is_keyword(*sym) => image.name(*sym).to_owned(),
+        // Inside of lists, keywords keep their colon.
+        Value::Cons(_) => print::to_string(image, value, true),
         other => print::to_string(image, other, escape),
     }
 }

@@ -117,6 +117,20 @@ impl TreeNode {
     }
 }
 
+impl Drop for TreeNode {
+    /// Frees deep trees with a loop.
+    fn drop(&mut self) {
+        let mut pending = self.children.take();
+        while let Some(child) = pending.pop() {
+            for node in std::iter::once(child.first).chain(child.last) {
+                if Rc::strong_count(&node) == 1 {
+                    pending.append(&mut node.children.borrow_mut());
+                }
+            }
+        }
+    }
+}
+
 /// `(part… :CALL n)`.
 fn numbered(part: &Value, n: i64, call_marker: Sym) -> Value {
     let mut items: Vec<Value> = match part {

@@ -30,7 +30,7 @@ fn mistakes_are_told_with_their_places() {
 const TABLE: &[(&str, &str)] = &[
     ("(print b)", "1:8: The variable B is unbound."),
     (
-        "(in-package :pp-tut)\n(a motion (type goiing) (pose ?p))",
+        "(in-package :pp-tut)\n(a motion (type goiing) (pose nil))",
         "2:17: There is no motion of type GOIING; did you mean GOING?",
     ),
 ];
