@@ -118,7 +118,7 @@ fn the_robot_is_white_in_the_middle_of_its_base() {
 fn axes_are_red_green_and_blue() {
     let world = world();
     let view = View::Free {
-        from: Point3::new(-2.0, -2.0, 5.0),
+        from: Point3::new(0.5, -2.0, 5.0),
         at: Point3::new(-2.0, 1.0, 2.0),
         vertical_fov: 0.5,
     };
