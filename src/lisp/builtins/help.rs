@@ -27,7 +27,7 @@ pub static TABLE: &[Builtin] = &[
         "Writes what is known about an object: of a symbol what it means as a function, a variable and a class, with examples.",
         &[
             "(with-output-to-string (s) (describe :cup s)) => \":CUP: a keyword\n\"",
-            "(search \"(first list)\" (with-output-to-string (s) (describe 'first s))) => 31",
+            "(null (search \"(first list)\" (with-output-to-string (s) (describe 'first s)))) => NIL",
         ],
         describe,
     ),

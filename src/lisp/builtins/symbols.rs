@@ -3,7 +3,7 @@
 use super::calls::callable;
 use super::property_lists::symbol;
 use super::sequence::index;
-use super::strings::{designated, string};
+use super::strings::string;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::function::Function;
 use crate::lisp::image::Image;

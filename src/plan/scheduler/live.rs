@@ -33,6 +33,8 @@ pub(super) struct Live {
     pub ending: Option<Ending>,
     /// Has it begun to unwind?
     pub is_unwinding: bool,
+    /// How often cleanup code has left the unwinding that called it.
+    pub escapes: u32,
     /// Is it suspended?
     pub is_suspended: bool,
     /// Negative: it may not be suspended or evaporated now.
@@ -135,6 +137,7 @@ impl Live {
             is_queued: false,
             ending: None,
             is_unwinding: false,
+            escapes: 0,
             is_suspended: false,
             scheduling: 0,
             told: Told::Nothing,

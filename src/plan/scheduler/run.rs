@@ -11,6 +11,9 @@ use crate::plan::host::Host;
 use crate::plan::state::Plan;
 use crate::plan::task::Status;
 
+/// How often cleanup code may leave the unwinding that called it.
+const MOST_ESCAPES: u32 = 16;
+
 /// Why an entry stopped running.
 #[derive(PartialEq, Eq, Debug)]
 pub(super) enum Stopped {
@@ -80,7 +83,14 @@ impl Scheduler {
                 Event::Unhandled(condition) => {
                     next = self.unhandled(image, slot, condition);
                 }
-                Event::Request(_) if self.escaped(slot, &fiber) => next = Some(Answer::Unwind),
+                Event::Request(_) if self.has_escaped(slot, &fiber) => {
+                    if self.may_escape(slot) {
+                        next = Some(Answer::Unwind);
+                        continue;
+                    }
+                    self.end(image, slot);
+                    return Stopped::Waiting;
+                }
                 Event::Request(request) => {
                     next = self.handle(image, host, slot, &fiber, request);
                 }
@@ -98,9 +108,18 @@ impl Scheduler {
     }
 
     /// Has the entry's cleanup code left the unwinding that it was called by?
-    fn escaped(&self, slot: Slot, fiber: &Fiber) -> bool {
+    fn has_escaped(&self, slot: Slot, fiber: &Fiber) -> bool {
         self.live(slot)
             .is_some_and(|live| live.is_unwinding && fiber.pending.is_empty())
+    }
+
+    /// Counts an escape: after a few of them the entry ends without the rest of its cleanup
+    /// code, lest a loop around such code keep it alive.
+    fn may_escape(&mut self, slot: Slot) -> bool {
+        self.live_mut(slot).is_some_and(|live| {
+            live.escapes += 1;
+            live.escapes <= MOST_ESCAPES
+        })
     }
 
     /// A condition that no handler in the fiber took.

@@ -19,7 +19,7 @@ pub static OPERATORS: &[Operator] = &[
         name: "WITH-PROJECTED-ROBOT",
         lambda_list: "&body body",
         doc: "The same as WITH-SIMULATED-ROBOT.",
-        examples: &["(pr2-proj:with-projected-robot (values 1 2)) => 1 ; 2"],
+        examples: &["(pr2-proj:with-projected-robot (values 1 2)) => 1"],
         expand: Some(with_simulated_robot),
     },
 ];
