@@ -125,8 +125,8 @@ impl Session {
         match operator.map(|operator| operator.name) {
             Some("DEFVAR" | "DEFPARAMETER" | "DEFCONSTANT" | "DEFINE-CONSTANT") => {
                 let name = form.cdr_or_nil().car_or_nil().as_symbol();
-                let is_fresh = name
-                    .is_some_and(|name| self.image.symbol(name).kind == VariableKind::Lexical);
+                let is_fresh =
+                    name.is_some_and(|name| self.image.symbol(name).kind == VariableKind::Lexical);
                 if is_fresh {
                     Effect::Variable
                 } else {

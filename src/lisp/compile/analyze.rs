@@ -5,8 +5,8 @@ use std::rc::Rc;
 
 use super::emit;
 use super::environment::Environment;
-use super::notes::NoteKind;
 use super::node::{Binding, LambdaNode, Node, Target};
+use super::notes::NoteKind;
 use super::scope::{
     DynamicKind, Entry, FunctionContext, FunctionMeaning, Scope, Var, VariableMeaning,
 };

@@ -24,22 +24,15 @@ pub(super) fn judge(image: &Image, names: &KnownNames, note: &NoteKind) -> Optio
     match note {
         NoteKind::Function(name, count) => function(image, names, *name, *count),
         NoteKind::Variable(name, near) => variable(image, names, *name, *near),
-        NoteKind::Mistake { name, text } => {
-            (!names.in_rules.contains(name)).then(|| Mistake {
-                text: text.clone(),
-                name: Some(name.clone()),
-            })
-        }
+        NoteKind::Mistake { name, text } => (!names.in_rules.contains(name)).then(|| Mistake {
+            text: text.clone(),
+            name: Some(name.clone()),
+        }),
         NoteKind::Assigned(_) | NoteKind::Definition(_) => None,
     }
 }
 
-fn function(
-    image: &Image,
-    names: &KnownNames,
-    name: Sym,
-    count: Option<usize>,
-) -> Option<Mistake> {
+fn function(image: &Image, names: &KnownNames, name: Sym, count: Option<usize>) -> Option<Mistake> {
     match &image.symbol(name).function {
         FunctionCell::Function(function) => {
             let (count, (min, max)) = (count?, arity(function)?);
