@@ -119,6 +119,10 @@ impl Text {
             text.push_str(&place.underlined());
             text.push('\n');
         }
+        for line in abort.context() {
+            text.push_str(&line);
+            text.push('\n');
+        }
         text.push_str(&format!("; Evaluation aborted on {}.\n", abort.condition));
         text
     }
@@ -135,6 +139,7 @@ mod tests {
             report: "The variable B is unbound.".to_owned(),
             condition: "#<UNBOUND-VARIABLE B>".to_owned(),
             place,
+            ..Abort::default()
         }
     }
 
