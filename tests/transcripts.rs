@@ -25,7 +25,7 @@ impl Evaluate for Words {
                     sink(Event::Aborted(Box::new(Abort {
                         report: format!("There is no {what}."),
                         condition: format!("#<NO-{}>", what.to_uppercase()),
-                        place: None,
+                        ..Abort::default()
                     })));
                     return Outcome::Aborted;
                 }

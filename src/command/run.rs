@@ -129,6 +129,10 @@ impl Text {
             text.push_str(&place.underlined());
             text.push('\n');
         }
+        for line in abort.context() {
+            text.push_str(&line);
+            text.push('\n');
+        }
         text.push_str(&format!("; Evaluation aborted on {}.\n", abort.condition));
         text
     }
@@ -145,6 +149,7 @@ mod tests {
             report: "The variable B is unbound.".to_owned(),
             condition: "#<UNBOUND-VARIABLE B>".to_owned(),
             place,
+            ..Abort::default()
         }
     }
 

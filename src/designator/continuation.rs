@@ -13,6 +13,7 @@ pub(super) type Next = Box<dyn FnOnce(&mut Machine<'_>, Value) -> Result<Step>>;
 struct Then {
     next: Next,
     name: &'static str,
+    subject: Option<Value>,
 }
 
 impl Resume for Then {
@@ -23,14 +24,37 @@ impl Resume for Then {
     fn name(&self) -> &'static str {
         self.name
     }
+
+    fn subject(&self) -> Option<&Value> {
+        self.subject.as_ref()
+    }
 }
 
 /// Calls a function and goes on with its primary value; `name` is shown in backtraces.
 pub(super) fn call(function: Value, args: Vec<Value>, name: &'static str, next: Next) -> Step {
+    let subject = None;
     Step::Call {
         function,
         args,
-        then: Box::new(Then { next, name }),
+        then: Box::new(Then {
+            next,
+            name,
+            subject,
+        }),
+    }
+}
+
+/// Calls the plan of an action for `PERFORM`: a condition inside it is told with the
+/// action.
+pub(super) fn call_for(action: Value, plan: Value, args: Vec<Value>, next: Next) -> Step {
+    Step::Call {
+        function: plan,
+        args,
+        then: Box::new(Then {
+            next,
+            name: "PERFORM",
+            subject: Some(action),
+        }),
     }
 }
 

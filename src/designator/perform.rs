@@ -1,6 +1,6 @@
 //! `perform`: an action calls its plan, a motion becomes a request to whoever runs the plan.
 
-use super::continuation::{Next, Result, call, done};
+use super::continuation::{Next, Result, call, call_for, done};
 use super::failure::{self, Unresolved};
 use super::ground::{self, Refusal};
 use super::location;
@@ -208,7 +208,7 @@ fn call_plan(
             ),
         ));
     }
-    Ok(call(plan, args, "PERFORM", next))
+    Ok(call_for(designator.clone(), plan, args, next))
 }
 
 /// A process module of the plan's own, or a request to whoever runs the plan.

@@ -17,7 +17,7 @@ pub enum Event {
 }
 
 /// What is known about a condition that nobody handled.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Default, Debug)]
 pub struct Abort {
     /// The report of the condition, for people; may span lines.
     pub report: String,
@@ -25,6 +25,33 @@ pub struct Abort {
     pub condition: String,
     /// The innermost form with a known place.
     pub place: Option<Location>,
+    /// If that is in a plan that comes with the program: the innermost form outside them.
+    pub user_place: Option<Location>,
+    /// The actions that were being carried out, innermost first.
+    pub actions: Vec<ActionStep>,
+}
+
+/// An action that was being carried out when a condition was signalled.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ActionStep {
+    /// The call that carries it out, on one line.
+    pub call: String,
+    /// Where that call stands.
+    pub place: Option<Location>,
+}
+
+impl Abort {
+    /// What is told beside report and place, as lines: where the user's own text comes in,
+    /// and the actions around.
+    pub fn context(&self) -> Vec<String> {
+        let user = self.user_place.iter();
+        let user = user.map(|place| format!("called at {place}:\n{}", place.underlined()));
+        let actions = self.actions.iter().map(|action| match &action.place {
+            Some(place) => format!("in {} at {place}", action.call),
+            None => format!("in {}", action.call),
+        });
+        user.chain(actions).collect()
+    }
 }
 
 /// A mistake that was found without evaluating.

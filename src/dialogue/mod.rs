@@ -11,7 +11,7 @@ mod input;
 pub mod prompt_line;
 pub mod screen;
 
-pub use evaluate::{Abort, Evaluate, Event, Finding, Outcome, Severity};
+pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity};
 pub use evaluate_on::{evaluate_keeping_abort, evaluate_on};
 pub use input::is_whole;
 pub use screen::Screen;

@@ -15,6 +15,7 @@ pub struct Screen<W> {
     echo: bool,
     source_name: String,
     source_has_lines: bool,
+    is_detailed: bool,
 }
 
 impl<W: Write> Screen<W> {
@@ -26,7 +27,13 @@ impl<W: Write> Screen<W> {
             echo: true,
             source_name: String::new(),
             source_has_lines: false,
+            is_detailed: false,
         }
+    }
+
+    /// From here on, tells the actions around a condition, or leaves them out.
+    pub fn set_detailed(&mut self, is_detailed: bool) {
+        self.is_detailed = is_detailed;
     }
 
     /// From here on, shows the values of forms or leaves them out.
@@ -100,6 +107,11 @@ impl<W: Write> Screen<W> {
         if let Some(place) = self.place(abort) {
             self.line(&place)?;
         }
+        if self.is_detailed {
+            for line in abort.context().iter().flat_map(|text| text.lines()) {
+                self.line(&format!("; {line}"))?;
+            }
+        }
         self.line(&format!("; Evaluation aborted on {}.", abort.condition))
     }
 
@@ -160,6 +172,7 @@ mod tests {
                 line_text: "  b".to_owned(),
                 width: 1,
             }),
+            ..Abort::default()
         }))
     }
 

@@ -20,6 +20,7 @@ use super::package::{Access, PackageId, PackageTable};
 use super::raise::Raise;
 use super::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
 use super::value::Value;
+use super::vm::call::Call;
 use crate::reader::source::{Place, Sources};
 
 /// An image.
@@ -48,8 +49,8 @@ pub struct Image {
     pub notes: Option<Vec<Note>>,
     /// Runs of macro functions inside each other.
     pub nesting: usize,
-    /// Where the conditions signalled last were signalled, newest last.
-    condition_places: VecDeque<(Value, Place)>,
+    /// The calls in which the conditions signalled last were signalled, newest last.
+    condition_calls: VecDeque<(Value, Vec<Call>)>,
     identities: i64,
     /// Builtins by the symbol that names them: help and the manual read them.
     pub builtins: IndexMap<Sym, &'static Builtin>,
@@ -103,8 +104,10 @@ impl Output {
 
 /// The stream of the random generator: any constant does.
 const STREAM: u128 = 0xa02b_dbf7_bb3c_0a7a;
-/// Conditions whose places are remembered.
-const REMEMBERED_PLACES: usize = 64;
+/// Conditions whose calls are remembered.
+const REMEMBERED_CONDITIONS: usize = 64;
+/// Calls that are remembered of one condition.
+const MOST_CALLS: usize = 512;
 /// Bytes of the Rust stack that the compiler may use unless told otherwise: a test's
 /// thread has two megabytes.
 const STACK_BUDGET: usize = 1 << 20;
@@ -134,7 +137,7 @@ impl Image {
             stack_budget: STACK_BUDGET,
             notes: None,
             nesting: 0,
-            condition_places: VecDeque::new(),
+            condition_calls: VecDeque::new(),
             identities: 0,
             printed: RefCell::default(),
             builtins: IndexMap::new(),
@@ -177,21 +180,32 @@ impl Image {
         self.identities
     }
 
-    /// Where a condition was signalled, if that is known.
-    pub fn condition_place(&self, condition: &Value) -> Option<Place> {
-        self.condition_places
+    /// The calls that were open where a condition was signalled, innermost first; none if
+    /// that is not known.
+    pub fn condition_calls(&self, condition: &Value) -> Option<&[Call]> {
+        self.condition_calls
             .iter()
             .rev()
             .find(|(other, _)| other.is_eq(condition))
-            .map(|(_, place)| *place)
+            .map(|(_, calls)| calls.as_slice())
     }
 
-    /// Remembers where a condition was signalled.
-    pub fn set_condition_place(&mut self, condition: &Value, place: Place) {
-        if self.condition_places.len() == REMEMBERED_PLACES {
-            self.condition_places.pop_front();
+    /// Remembers the calls that were open where a condition was signalled.
+    pub fn set_condition_calls(&mut self, condition: &Value, calls: Vec<Call>) {
+        if self.condition_calls.len() == REMEMBERED_CONDITIONS {
+            self.condition_calls.pop_front();
         }
-        self.condition_places.push_back((condition.clone(), place));
+        self.condition_calls.push_back((condition.clone(), calls));
+    }
+
+    /// Adds the calls of the code that a condition has come to from a task of its own.
+    pub fn add_condition_calls(&mut self, condition: &Value, calls: Vec<Call>) {
+        let known = self.condition_calls.iter_mut().rev();
+        let mut known = known.filter(|(other, _)| other.is_eq(condition));
+        if let Some((_, inner)) = known.next() {
+            inner.extend(calls);
+            inner.truncate(MOST_CALLS);
+        }
     }
 
     /// The function that a function or a symbol designates.

@@ -53,6 +53,7 @@ pub fn run(mut evaluator: impl Evaluate, colored: bool) -> Result<u8, ReplError>
 
     let mut editor = LineEditor::new(colored)?;
     let mut screen = Screen::new(io::stdout());
+    screen.set_detailed(true);
     io::stdout().write_all(BANNER.as_bytes())?;
     let mut number = 0;
     loop {

@@ -180,7 +180,7 @@ fn interrupted() -> Abort {
     Abort {
         report: "Interrupted.".to_owned(),
         condition: "#<INTERACTIVE-INTERRUPT>".to_owned(),
-        place: None,
+        ..Abort::default()
     }
 }
 

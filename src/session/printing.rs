@@ -1,14 +1,40 @@
 //! Values and conditions as text.
 
 use super::Session;
-use crate::dialogue::Abort;
+use crate::dialogue::{Abort, ActionStep};
 use crate::lisp::condition;
 use crate::lisp::known;
 use crate::lisp::print;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::vm::call::Call;
 use crate::lisp::vm::machine;
+use crate::reader::source::Location;
+
+/// Actions that are told around a condition.
+const MOST_ACTIONS: usize = 8;
+/// Characters of an action that are told.
+const LONGEST_ACTION: usize = 100;
+
+/// Is the place in a plan that comes with the program?
+fn is_built_in(place: &Location) -> bool {
+    place.name.starts_with("plans/lib/")
+}
+
+/// `#<AN ACTION …>` as `(AN ACTION …)`, line breaks as blanks, cut where it gets long.
+fn on_one_line(shown: &str) -> String {
+    let words: Vec<&str> = shown.split_whitespace().collect();
+    let line = words.join(" ");
+    let line = match line.strip_prefix("#<").and_then(|l| l.strip_suffix('>')) {
+        Some(inner) => format!("({inner})"),
+        None => line,
+    };
+    match line.char_indices().nth(LONGEST_ACTION) {
+        Some((end, _)) => format!("{} …)", line.get(..end).unwrap_or(&line)),
+        None => line,
+    }
+}
 
 impl Session {
     /// A value as the prompt prints it.
@@ -18,12 +44,34 @@ impl Session {
 
     /// What is told of a condition that nobody handled.
     pub(super) fn describe(&mut self, condition: &Value) -> Abort {
-        let place = self.image.condition_place(condition);
+        let calls = self.image.condition_calls(condition);
+        let calls: Vec<Call> = calls.unwrap_or_default().to_vec();
+        let sources = &self.image.sources;
+        let mut places = calls.iter().filter_map(|call| sources.locate(call.place));
+        let place = places.next();
+        let is_own = place.as_ref().is_some_and(is_built_in);
+        let user_place = places.find(|place| is_own && !is_built_in(place));
         Abort {
             report: self.printed_by(known::PRINC_TO_STRING, condition),
             condition: self.printed(condition),
-            place: place.and_then(|p| self.image.sources.locate(p)),
+            place,
+            user_place,
+            actions: self.actions(&calls),
         }
+    }
+
+    /// The actions among the calls, each with the place where it is performed.
+    fn actions(&self, calls: &[Call]) -> Vec<ActionStep> {
+        let image = &self.image;
+        let steps = calls.iter().enumerate().filter_map(|(at, call)| {
+            let shown = print::to_string(image, call.subject.as_ref()?, false);
+            let outer = calls.get(at + 1..).unwrap_or_default();
+            Some(ActionStep {
+                call: format!("(PERFORM {})", on_one_line(&shown)),
+                place: outer.iter().find_map(|c| image.sources.locate(c.place)),
+            })
+        });
+        steps.take(MOST_ACTIONS).collect()
     }
 
     /// What is told of an error in Rust code.
@@ -34,7 +82,7 @@ impl Session {
             Err(_) => Abort {
                 report: "An error could not be described.".to_owned(),
                 condition: "#<ERROR>".to_owned(),
-                place: None,
+                ..Abort::default()
             },
         };
         if abort.place.is_none() {

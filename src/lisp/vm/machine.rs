@@ -89,6 +89,10 @@ impl<'a> Machine<'a> {
     /// Raises an error where a request was made, and goes on.
     pub fn resume_with_error(&mut self, raise: Box<Raise>) -> Event {
         self.fiber.enter(self.image);
+        if let Raise::Condition(condition) = &*raise {
+            let calls = self.calls();
+            self.image.add_condition_calls(condition, calls);
+        }
         let next = self.raise(raise);
         self.go_on(next)
     }

@@ -1,5 +1,6 @@
 //! The machine that runs compiled code: explicit frames, no recursion on the Rust stack.
 
+pub mod call;
 pub mod code;
 pub mod fiber;
 pub mod machine;

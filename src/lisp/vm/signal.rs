@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::call::Call;
 use super::fiber::{Dynamic, Handler};
 use super::machine::{Machine, Next};
 use super::step::{Resume, Step};
@@ -59,8 +60,13 @@ impl Machine<'_> {
 
     /// Remembers where a condition was signalled, unless that is known.
     pub fn note_place(&mut self, condition: &Value, place: Place) {
-        if place.is_some() && self.image.condition_place(condition).is_none() {
-            self.image.set_condition_place(condition, place);
+        if place.is_some() && self.image.condition_calls(condition).is_none() {
+            let mut calls = self.calls();
+            if calls.iter().find(|c| c.place.is_some()).map(|c| c.place) != Some(place) {
+                let subject = None;
+                calls.insert(0, Call { place, subject });
+            }
+            self.image.set_condition_calls(condition, calls);
         }
     }
 

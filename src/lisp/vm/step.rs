@@ -55,4 +55,10 @@ pub trait Resume {
 
     /// The builtin's name, for backtraces.
     fn name(&self) -> &'static str;
+
+    /// What the builtin is about, if that is worth telling when something goes wrong
+    /// inside it: the action that a plan carries out.
+    fn subject(&self) -> Option<&Value> {
+        None
+    }
 }

@@ -1,12 +1,15 @@
 //! Wrong inputs and what is said about them.
 
+use std::fs;
+use std::path::Path;
+
 use crate::dialogue::Evaluate;
 use crate::session::{Session, SessionOptions};
 
-fn found(text: &str) -> Vec<String> {
+fn found(name: &str, text: &str) -> Vec<String> {
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     session
-        .check("a.plan", text)
+        .check(name, text)
         .into_iter()
         .map(|f| match f.place {
             Some(p) => format!("{}:{}: {}", p.line, p.column, f.message),
@@ -19,7 +22,7 @@ fn found(text: &str) -> Vec<String> {
 fn mistakes_are_told_with_their_places() {
     let mut wrong = Vec::new();
     for (text, expected) in TABLE {
-        let found = found(text).join("\n");
+        let found = found("a.plan", text).join("\n");
         if found != *expected {
             wrong.push(format!("{text}\n  expected {expected}\n  found    {found}"));
         }
@@ -27,10 +30,91 @@ fn mistakes_are_told_with_their_places() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+#[test]
+fn the_plans_that_come_with_the_program_have_no_mistakes() {
+    for folder in ["plans/lib", "plans/tutorial"] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let text = fs::read_to_string(&path).unwrap();
+            let name = path.display().to_string();
+            assert_eq!(found(&name, &text), [""; 0], "{name}");
+        }
+    }
+}
+
 const TABLE: &[(&str, &str)] = &[
     ("(print b)", "1:8: The variable B is unbound."),
     (
-        "(in-package :pp-tut)\n(a motion (type goiing) (pose nil))",
-        "2:17: There is no motion of type GOIING; did you mean GOING?",
+        "(in-package :pp-tut) (let ((?p 1)) (a motion (type goiing) (pose ?p)))",
+        "1:52: There is no motion of type GOIING; did you mean GOING?",
     ),
+    (
+        "(in-package :pp-tut) (let ((?p 1)) (an action (type goin) (target (a location (pose ?p)))))",
+        "1:53: There is no action of type GOIN; did you mean GOING?",
+    ),
+    (
+        "(in-package :pp-tut) (let ((?o 1)) (an action (type picking-up) (arm left) (objct ?o)))",
+        "1:77: The action PICKING-UP has no key OBJCT; did you mean OBJECT?",
+    ),
+    (
+        "(in-package :pp-tut) (defun f (?bottle) (an action (type picking-up) (object ?botle) (arm left)) ?bottle)",
+        "1:78: The variable ?BOTLE is unbound; did you mean ?BOTTLE?",
+    ),
+    (
+        "(defun f (x y) (list x y)) (f 1)",
+        "1:28: F takes 2 arguments, but is called with 1.",
+    ),
+    (
+        "(car 1 2)",
+        "1:1: CAR takes 1 argument, but is called with 2.",
+    ),
+    (
+        "(frobnicate 1)",
+        "1:2: The function FROBNICATE is not defined.",
+    ),
+    (
+        "(lenght (list 1))",
+        "1:2: The function LENGHT is not defined; did you mean LENGTH?",
+    ),
+    (
+        "(mapcar #'evnp (list 1 2))",
+        "1:11: The function EVNP is not defined; did you mean EVENP?",
+    ),
+    (
+        "(g 1) (defun g (&optional a b) (list a b)) (g 1 2 3)",
+        "1:44: G takes at most 2 arguments, but is called with 3.",
+    ),
+    ("(nopackage:foo)", "Package NOPACKAGE does not exist."),
+    (
+        "(pp-tut:nosuch)",
+        "Symbol \"NOSUCH\" not found in the CRAM-PICK-PLACE-TUTORIAL package.",
+    ),
+    (
+        "(defvar *speed* 1) (print *sped*)",
+        "1:27: The variable *SPED* is unbound; did you mean *SPEED*?",
+    ),
+    (
+        "(defmacro twice (x) `(progn ,x ,x)) (twice (nosuch 1))",
+        "1:45: The function NOSUCH is not defined.",
+    ),
+    ("(list 1", "end of file in a list that starts on line 1"),
+    (
+        "(defun one () 1) (one 1 2)",
+        "1:18: ONE takes no arguments, but is called with 2.",
+    ),
+    // What is defined in other ways, or later, is known.
+    (
+        "(defclass a () ((x :accessor a-x))) (defun h (o) (a-x o) (helper)) \
+         (setf *q* 1) (print *q*) (let ((y 1)) (declare (special y)) y) \
+         (labels ((k (n) n)) (k 1)) (defmacro d (n) `(defun ,n () 1)) (d helper)",
+        "",
+    ),
+    (
+        "(in-package :pp-tut) (def-fact-group mine (desig:action-grounding) \
+         (<- (desig:action-grounding ?d (dance ?d)) (desig:desig-prop ?d (:type :dancing)))) \
+         (defun dance (d) d) (an action (type dancing) (speed 1))",
+        "",
+    ),
+    ("(load \"other.plan\") (from-there from-there)", ""),
 ];

@@ -1,0 +1,42 @@
+//! The calls that are open in a fiber, as they are told to people.
+
+use super::fiber::FrameKind;
+use super::machine::Machine;
+use crate::lisp::function::Body;
+use crate::lisp::value::Value;
+use crate::reader::source::Place;
+
+/// A call that has not returned.
+#[derive(Clone)]
+pub struct Call {
+    /// The place in the source of what it was doing; none for a builtin.
+    pub place: Place,
+    /// What a builtin is about: the action that a plan carries out.
+    pub subject: Option<Value>,
+}
+
+/// Frames that are looked at.
+const MOST_FRAMES: usize = 256;
+
+impl Machine<'_> {
+    /// The open calls that people can be told about, innermost first.
+    pub(super) fn calls(&self) -> Vec<Call> {
+        let frames = self.fiber.frames.iter().rev().take(MOST_FRAMES);
+        frames
+            .filter_map(|frame| match &frame.kind {
+                FrameKind::Code { function, pc } => match &function.body {
+                    Body::Closure { code, .. } => {
+                        let place = code.place_at(pc.saturating_sub(1));
+                        let subject = None;
+                        place.is_some().then_some(Call { place, subject })
+                    }
+                    _ => None,
+                },
+                FrameKind::Native { then, .. } => then.subject().map(|subject| Call {
+                    place: Place::NONE,
+                    subject: Some(subject.clone()),
+                }),
+            })
+            .collect()
+    }
+}
