@@ -109,18 +109,27 @@ impl<'a> Machine<'a> {
     /// Goes on after an interrupt.
     pub fn run(&mut self) -> Event {
         self.fiber.enter(self.image);
-        self.go_on(Next::Run)
+        let undelivered = self.fiber.undelivered.take();
+        self.go_on(undelivered.map_or(Next::Run, Next::Deliver))
     }
 
     /// Unwinds the whole fiber, running its cleanup code.
     pub fn unwind_all(&mut self) -> Event {
         self.fiber.enter(self.image);
+        self.fiber.undelivered = None;
         let next = self.unwind(super::fiber::Target::Everything, Value::NIL);
         self.go_on(next)
     }
 
     fn go_on(&mut self, mut next: Next) -> Event {
+        let mut budget = INTERRUPT_INTERVAL;
         loop {
+            // Code that calls builtins that call code is here more often than it jumps back.
+            budget -= 1;
+            if budget == 0 {
+                next = self.or_interrupt(next, budget);
+                budget = INTERRUPT_INTERVAL;
+            }
             next = match next {
                 Next::Run => self.run_code(),
                 Next::Deliver(value) => self.deliver(value),
@@ -833,11 +842,15 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn or_interrupt(&self, next: Next, budget: u32) -> Next {
-        match next {
-            Next::Run if budget == 0 && self.is_interrupted() => Next::Stop(Event::Interrupted),
-            next => next,
+    /// What to do next, which is to stop if the budget is used up and there is an interrupt.
+    fn or_interrupt(&mut self, next: Next, budget: u32) -> Next {
+        if budget > 0 || matches!(next, Next::Stop(_)) || !self.is_interrupted() {
+            return next;
         }
+        if let Next::Deliver(value) = next {
+            self.fiber.undelivered = Some(value);
+        }
+        Next::Stop(Event::Interrupted)
     }
 
     fn is_interrupted(&self) -> bool {
