@@ -275,7 +275,7 @@ impl Value {
 /// algorithm).
 pub struct Rounds {
     /// A pair visited before: the list is circular when it comes again.
-    mark: Value,
+    mark: Option<Value>,
     steps: usize,
     next_mark: usize,
 }
@@ -283,7 +283,7 @@ pub struct Rounds {
 impl Default for Rounds {
     fn default() -> Rounds {
         Rounds {
-            mark: Value::NIL,
+            mark: None,
             steps: 0,
             next_mark: 1024,
         }
@@ -293,12 +293,12 @@ impl Default for Rounds {
 impl Rounds {
     /// To be asked for each pair of the list in turn.
     pub fn is_closed_by(&mut self, pair: &Value) -> bool {
-        if pair.is_eq(&self.mark) {
+        if self.mark.as_ref().is_some_and(|mark| mark.is_eq(pair)) {
             return true;
         }
         self.steps += 1;
         if self.steps == self.next_mark {
-            self.mark = pair.clone();
+            self.mark = Some(pair.clone());
             self.next_mark *= 2;
         }
         false
