@@ -1,6 +1,6 @@
 //! Loading files of forms.
 
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::known;
@@ -120,7 +120,24 @@ fn beside(machine: &Machine<'_>, path: &str) -> Option<String> {
     let loader = machine.image.sources.locate(machine.place())?;
     let neighbour = Path::new(&*loader.name).parent()?.join(path);
     (Path::new(path).is_relative() && neighbour.is_file())
-        .then(|| neighbour.to_string_lossy().into_owned())
+        .then(|| without_detours(&neighbour))
+        .filter(|plain| plain.is_file())
+        .map(|plain| plain.to_string_lossy().into_owned())
+}
+
+/// The path without `folder/..`.
+fn without_detours(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match (part, plain.components().next_back()) {
+            (Component::ParentDir, Some(Component::Normal(_))) => {
+                plain.pop();
+            }
+            (Component::CurDir, _) => {}
+            _ => plain.push(part),
+        }
+    }
+    plain
 }
 
 fn read_file(path: &str) -> Result<String> {
