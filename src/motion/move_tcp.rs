@@ -91,9 +91,19 @@ impl MoveTcp {
                 return Ok(straight);
             }
             // A hand that comes straight may touch an object; one that goes around would
-            // sweep it away.
+            // sweep it away. So it takes another posture first, from which it can go
+            // straight in the next plan, or goes around without touching.
             if self.mode == CollisionMode::AllowHand {
-                task.contacts.allowed = AllowedPairs::none();
+                let careful = ExpectedContacts {
+                    allowed: AllowedPairs::none(),
+                    touching: task.contacts.touching.clone(),
+                };
+                if self.plans == 0
+                    && let Some(first) = task.plan_start_of_line(&careful)
+                {
+                    return Ok(first);
+                }
+                task.contacts = careful;
             }
         }
         task.plan_free()
