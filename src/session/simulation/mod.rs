@@ -7,6 +7,7 @@ pub mod call;
 mod frames;
 mod functions;
 mod held;
+mod imagined;
 mod motions;
 mod names;
 mod pace;

@@ -8,6 +8,7 @@ use crate::lisp::package::PackageTable;
 /// Builtins by package.
 static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("CRAM-PICK-PLACE-TUTORIAL", functions::tutorial::TABLE),
+    ("CRAM-PICK-PLACE-TUTORIAL", functions::reaching::TABLE),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::plans::TABLE),
     ("CRAM-BULLET-REASONING-UTILITIES", functions::objects::TABLE),
     ("CRAM-OBJECT-INTERFACES", functions::grasps::TABLE),

@@ -4,6 +4,7 @@ pub mod grasps;
 pub mod leaving;
 pub mod objects;
 pub mod plans;
+pub mod reaching;
 pub mod robot_macros;
 pub mod ros;
 pub mod tutorial;

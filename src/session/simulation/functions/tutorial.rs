@@ -8,6 +8,7 @@ use crate::lisp::foreign::Foreign;
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::number;
+use crate::lisp::print;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
@@ -17,6 +18,9 @@ use crate::session::simulation::names::{name_text, suggestion, type_keyword, typ
 use crate::session::simulation::properties::property;
 use crate::session::simulation::{Axes, LogLevel, Simulation};
 use crate::transform::value::{as_placement, frame_of, pose_stamped, transform_stamped};
+
+/// Length of coordinate axes (m) unless told.
+const AXES_SIZE: f64 = 0.3;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -55,8 +59,10 @@ pub static TABLE: &[Builtin] = &[
     control(
         "VISUALIZE-COORDINATES",
         "object-or-pose &optional size",
-        "Shows coordinate axes at an object or a pose.",
-        &[],
+        "Shows coordinate axes, as long as SIZE (m), at an object, given by its name or type, or at a pose; x is red, y green, z blue. They stay until others are shown.",
+        &[
+            "(pp-tut:visualize-coordinates (pp-tut:make-pose \"map\" '((0 1 0) (0 0 0 1))) 0.5) => NIL",
+        ],
         host!(visualize_coordinates),
     ),
     control(
@@ -182,7 +188,17 @@ fn visualize_coordinates(
     image: &mut Image,
     args: &[Value],
 ) -> Result<Reply> {
-    let size = args.get(1).and_then(number::to_f64).unwrap_or(0.3);
+    let size = match args.get(1) {
+        Some(size) => number::to_f64(size)
+            .filter(|size| size.is_finite() && *size > 0.0)
+            .ok_or_else(|| {
+                let shown = print::to_string(image, size, true);
+                Raise::simple(format!(
+                    "{shown} is no length of axes: a number of metres above 0 was expected."
+                ))
+            })?,
+        None => AXES_SIZE,
+    };
     let pose = match as_placement(&args[0]) {
         Some(placement) => {
             if frame_of(&args[0]).is_some_and(|frame| &*frame != "map") {
@@ -195,7 +211,7 @@ fn visualize_coordinates(
         }
         None => {
             let Some(name) = name_text(image, &args[0]) else {
-                let shown = crate::lisp::print::to_string(image, &args[0], true);
+                let shown = print::to_string(image, &args[0], true);
                 return Err(Raise::simple(format!(
                     "{shown} cannot be visualized: the name or type of an object, or a pose, was expected."
                 )));
