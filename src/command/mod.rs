@@ -14,6 +14,7 @@ mod open;
 mod paint;
 mod picture;
 mod pipe;
+mod prompt;
 mod reference;
 mod replay;
 mod run;
@@ -24,7 +25,6 @@ use std::thread;
 
 use clap::{CommandFactory, Parser};
 
-use crate::repl;
 use arguments::{Arguments, Command};
 use failure::{CommandError, Status};
 use paint::Paint;
@@ -63,10 +63,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     let options = &arguments.options;
     match arguments.command {
         None if io::IsTerminal::is_terminal(&io::stdin()) => {
-            let session = open::open(options)?;
-            let paint = Paint::new(options.color, &io::stdout());
-            let status = repl::run(session, paint.is_on())?;
-            Ok(Status::Left(status))
+            prompt::prompt(arguments.options, &arguments.prompt)
         }
         None => pipe::evaluate_standard_input(options),
         Some(Command::Run { files, eval }) => run::run(options, &files, &eval),

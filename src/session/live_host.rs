@@ -9,8 +9,23 @@ use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
 
 /// A simulation, and whom to tell what is printed meanwhile.
 pub(super) struct LiveHost<'a> {
-    pub simulation: &'a mut Simulation,
-    pub sink: &'a mut dyn FnMut(Event),
+    simulation: &'a mut Simulation,
+    sink: &'a mut dyn FnMut(Event),
+    tells_progress: bool,
+}
+
+impl<'a> LiveHost<'a> {
+    pub fn new(
+        simulation: &'a mut Simulation,
+        sink: &'a mut dyn FnMut(Event),
+        tells_progress: bool,
+    ) -> LiveHost<'a> {
+        LiveHost {
+            simulation,
+            sink,
+            tells_progress,
+        }
+    }
 }
 
 /// Tells what was written to standard output.

@@ -7,6 +7,7 @@ pub mod call;
 mod frames;
 mod functions;
 mod held;
+mod moments;
 mod motions;
 mod names;
 mod pace;
@@ -76,6 +77,7 @@ pub struct Simulation {
     observer: Option<Observer>,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
+    moments: moments::Moments,
 }
 
 /// Severity of log lines.
@@ -116,6 +118,7 @@ impl Simulation {
             quit: None,
             observer: None,
             now: 0.0,
+            moments: moments::Moments::default(),
         })
     }
 

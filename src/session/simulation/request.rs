@@ -1,7 +1,6 @@
 //! Carrying out requests of tasks, and advancing the world while all tasks wait.
 
 use std::any::Any;
-use std::sync::atomic::Ordering;
 
 use super::call::HostCall;
 use super::{Job, Simulation};
@@ -17,20 +16,10 @@ type Completion = (Ticket, Result<Value, Box<Raise>>);
 
 impl Host for Simulation {
     fn request(&mut self, image: &mut Image, _: TaskId, request: Box<dyn Any>) -> Reply {
-        let request = match request.downcast::<HostCall>() {
-            Ok(call) => {
-                let reply = (call.call)(self, image, &call.args);
-                return reply.unwrap_or_else(|raise| Reply::Now(Err(raise)));
-            }
-            Err(request) => request,
-        };
-        match request.downcast::<MotionRequest>() {
-            Ok(request) => match self.motion_for(image, &request) {
-                Ok((motion, subject)) => Reply::Later(self.start(motion, subject)),
-                Err(raise) => Reply::Now(Err(raise)),
-            },
-            Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
-        }
+        self.touch();
+        let reply = self.reply(image, request);
+        self.note_motions(image);
+        reply
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
@@ -89,9 +78,28 @@ impl Host for Simulation {
 }
 
 impl Simulation {
+    /// The reply to a request.
+    fn reply(&mut self, image: &mut Image, request: Box<dyn Any>) -> Reply {
+        let request = match request.downcast::<HostCall>() {
+            Ok(call) => {
+                let reply = (call.call)(self, image, &call.args);
+                return reply.unwrap_or_else(|raise| Reply::Now(Err(raise)));
+            }
+            Err(request) => request,
+        };
+        match request.downcast::<MotionRequest>() {
+            Ok(request) => match self.motion_for(image, &request) {
+                Ok((motion, subject)) => Reply::Later(self.start(motion, subject)),
+                Err(raise) => Reply::Now(Err(raise)),
+            },
+            Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
+        }
+    }
+
     /// Starts a motion as soon as its process module is free.
     pub(super) fn start(&mut self, motion: Box<dyn Motion>, subject: Value) -> Ticket {
         self.next_ticket += 1;
+        self.begin_motion();
         let ticket = Ticket(self.next_ticket);
         self.waiting.push_back(Job {
             ticket,
@@ -171,6 +179,6 @@ impl Simulation {
     }
 
     fn is_interrupted(&self, image: &Image) -> bool {
-        image.interrupt.load(Ordering::Relaxed)
+        image.is_interrupted()
     }
 }

@@ -14,6 +14,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("ROSLISP", functions::ros::LOG_TABLE),
     ("ROSLISP-UTILITIES", functions::ros::UTILITIES_TABLE),
     ("ROS-LOAD", functions::ros::LOAD_TABLE),
+    ("PLANWRIGHT", functions::moments::TABLE),
 ];
 
 /// Operators by package.

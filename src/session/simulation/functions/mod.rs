@@ -2,6 +2,7 @@
 
 pub mod grasps;
 pub mod leaving;
+pub mod moments;
 pub mod objects;
 pub mod plans;
 pub mod robot_macros;
