@@ -3,7 +3,7 @@
 //!
 //! A line per record: a word, a blank, and a text in which `\n` stands for a line break and
 //! `\\` for a backslash. `seed`, `world` and `robot` tell how the session was begun, `input`
-//! what was typed, and `interrupted` where the input before was interrupted. What is
+//! what was typed, `pasted` what was typed and did not stop at conditions, and `interrupted` where the input before was interrupted. What is
 //! replayed from a journal comes to the same state, because nothing else has an effect.
 
 use std::fs::{self, File};
@@ -38,6 +38,8 @@ pub struct Recorded {
     pub text: String,
     /// Where its evaluation was interrupted.
     pub interrupted_at: Option<u64>,
+    /// Did a condition stop its evaluation, rather than end it?
+    pub stops: bool,
 }
 
 /// Why a journal cannot be read.
@@ -103,9 +105,10 @@ impl Earlier {
                 "seed" => earlier.beginning.seed = value.parse().ok()?,
                 "world" => earlier.beginning.world = Some(value.into()),
                 "robot" => earlier.beginning.robot = Some(value.into()),
-                "input" => earlier.inputs.push(Recorded {
+                "input" | "pasted" => earlier.inputs.push(Recorded {
                     text: value,
                     interrupted_at: None,
+                    stops: word == "input",
                 }),
                 "interrupted" => {
                     let at = value.parse().ok()?;
@@ -167,8 +170,9 @@ impl Journal {
     }
 
     /// Notes an input; it is on disk when this returns.
-    pub fn input(&mut self, text: &str) -> io::Result<()> {
-        self.write(&record("input", text))
+    pub fn input(&mut self, text: &str, stops: bool) -> io::Result<()> {
+        let word = if stops { "input" } else { "pasted" };
+        self.write(&record(word, text))
     }
 
     /// Notes where the last input was interrupted.
@@ -248,21 +252,25 @@ mod tests {
             robot: None,
         };
         let mut journal = Journal::create(&path, &beginning).unwrap();
-        journal.input("(a\n \"\\n\")").unwrap();
+        journal.input("(a\n \"\\n\")", true).unwrap();
         journal.interrupted(12).unwrap();
         drop(journal);
         let mut journal = Journal::go_on(&path).unwrap();
-        journal.input("(b)").unwrap();
+        journal.input("(b)", false).unwrap();
         let earlier = Earlier::read(Some(&path)).unwrap();
         fs::remove_file(&path).unwrap();
-        let recorded = |text: &str, interrupted_at| Recorded {
+        let recorded = |text: &str, interrupted_at, stops| Recorded {
             text: text.to_owned(),
             interrupted_at,
+            stops,
         };
         assert_eq!(earlier.beginning, beginning);
         assert_eq!(
             earlier.inputs,
-            [recorded("(a\n \"\\n\")", Some(12)), recorded("(b)", None)]
+            [
+                recorded("(a\n \"\\n\")", Some(12), true),
+                recorded("(b)", None, false)
+            ]
         );
     }
 

@@ -162,7 +162,7 @@ impl Repl {
     }
 
     fn evaluate(&mut self, input: &str, stops: bool) -> Result<Outcome, ReplError> {
-        self.note(|journal| journal.input(&recorded(input, stops)));
+        self.note(|journal| journal.input(input, stops));
         self.number += 1;
         let name = input_name(self.number);
         let outcome = {
@@ -172,11 +172,9 @@ impl Repl {
             evaluator.set_interactive(true);
             outcome?
         };
-        if let Some(at) = self.evaluator.borrow().interrupted_at()
-            && let Some(journal) = &mut self.journal
-            && journal.interrupted(at).is_err()
-        {
-            self.journal = None;
+        let interrupted_at = self.evaluator.borrow().interrupted_at();
+        if let Some(at) = interrupted_at {
+            self.note(|journal| journal.interrupted(at));
         }
         Ok(outcome)
     }
@@ -202,12 +200,11 @@ impl Repl {
             self.number += 1;
             let name = input_name(self.number);
             let mut evaluator = self.evaluator.borrow_mut();
-            let (text, stops) = replayed(&input.text);
-            evaluator.set_interactive(stops);
+            evaluator.set_interactive(input.stops);
             if let Some(at) = input.interrupted_at {
                 evaluator.interrupt_next_at(at);
             }
-            evaluator.evaluate(&name, text, &mut |_| {});
+            evaluator.evaluate(&name, &input.text, &mut |_| {});
             evaluator.set_interactive(true);
             let interrupted = evaluator.interrupted_at();
             drop(evaluator);
@@ -226,23 +223,5 @@ impl Repl {
             )?;
         }
         Ok(None)
-    }
-}
-
-/// Marks in the journal an input that did not stop at conditions.
-const WITHOUT_STOPS: &str = "#+pasted ";
-
-fn recorded(input: &str, stops: bool) -> String {
-    if stops {
-        input.to_owned()
-    } else {
-        format!("{WITHOUT_STOPS}{input}")
-    }
-}
-
-fn replayed(text: &str) -> (&str, bool) {
-    match text.strip_prefix(WITHOUT_STOPS) {
-        Some(rest) => (rest, false),
-        None => (text, true),
     }
 }

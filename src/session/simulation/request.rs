@@ -23,23 +23,7 @@ impl Host for Simulation {
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
-        self.now = now;
-        let mut done = Vec::new();
-        let mut steps = 0u32;
-        while done.is_empty()
-            && until.is_none_or(|until| self.now < until)
-            && !self.is_interrupted(image)
-        {
-            self.admit_waiting();
-            self.tick(image, &mut done);
-            self.step();
-            steps += 1;
-            self.now = now + f64::from(steps) * STEP_SECONDS;
-        }
-        Advance {
-            now: self.now,
-            done,
-        }
+        self.advance_watched(image, now, until, &mut |_| {})
     }
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
@@ -78,6 +62,48 @@ impl Host for Simulation {
 }
 
 impl Simulation {
+    /// As [`Host::advance`]; `watch` is called after every step.
+    pub(in crate::session) fn advance_watched(
+        &mut self,
+        image: &mut Image,
+        now: f64,
+        until: Option<f64>,
+        watch: &mut dyn FnMut(&Simulation),
+    ) -> Advance {
+        self.now = now;
+        let mut done = Vec::new();
+        let mut steps = 0u32;
+        while done.is_empty()
+            && until.is_none_or(|until| self.now < until)
+            && !self.is_interrupted(image)
+        {
+            self.admit_waiting();
+            self.tick(image, &mut done);
+            self.step();
+            steps += 1;
+            self.now = now + f64::from(steps) * STEP_SECONDS;
+            watch(self);
+        }
+        Advance {
+            now: self.now,
+            done,
+        }
+    }
+
+    /// What the robot is doing, how far that is, and the simulated time, on one line.
+    pub(in crate::session) fn progress(&self) -> String {
+        let jobs = self.active.iter().filter(|job| !job.is_paused);
+        let mut parts: Vec<String> = jobs
+            .map(|job| {
+                let progress = job.motion.progress();
+                let percent = (progress.fraction * 100.0).clamp(0.0, 100.0);
+                format!("{} {percent:.0} %", progress.what)
+            })
+            .collect();
+        parts.push(format!("{:.1} s", self.now));
+        format!("… {}", parts.join(" · "))
+    }
+
     /// The reply to a request.
     fn reply(&mut self, image: &mut Image, request: Box<dyn Any>) -> Reply {
         let request = match request.downcast::<HostCall>() {

@@ -5,6 +5,7 @@ pub mod leaving;
 pub mod moments;
 pub mod objects;
 pub mod plans;
+mod reach;
 pub mod robot_macros;
 pub mod ros;
 pub mod tutorial;
