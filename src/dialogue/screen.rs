@@ -111,6 +111,11 @@ impl<W: Write> Screen<W> {
         self.to.flush()
     }
 
+    /// What the screen writes to, as it is now.
+    pub fn written(&self) -> &W {
+        &self.to
+    }
+
     /// What the screen writes to.
     pub fn into_inner(self) -> W {
         self.to

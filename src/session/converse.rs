@@ -22,19 +22,16 @@ impl Converse for Session {
         self.console.take_draft()
     }
 
-    fn completions(&self, _: &str, at: usize) -> Completions {
-        Completions {
-            start: at,
-            candidates: Vec::new(),
-        }
+    fn completions(&self, text: &str, at: usize) -> Completions {
+        self.complete(text, at)
     }
 
-    fn hint(&self, _: &str, _: usize) -> Option<String> {
-        None
+    fn hint(&self, text: &str, at: usize) -> Option<String> {
+        self.hint_at(text, at)
     }
 
-    fn is_designator_type(&self, _: &str) -> bool {
-        false
+    fn is_designator_type(&self, name: &str) -> bool {
+        self.is_type_name(name)
     }
 
     fn interrupted_at(&self) -> Option<u64> {

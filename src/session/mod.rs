@@ -2,6 +2,7 @@
 //!
 //! A session takes text and tells events; it prints nothing itself.
 
+mod assist;
 mod check;
 mod console;
 mod converse;
@@ -9,6 +10,7 @@ mod live_host;
 mod options;
 mod plans;
 mod printing;
+mod record;
 pub mod simulation;
 mod text;
 
@@ -210,10 +212,21 @@ impl Evaluate for Session {
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
         self.image.polls.begin(self.console.interrupt_next.take());
         if self.console.level() > 0 {
-            self.console_input(source_name, text, sink)
-        } else {
-            self.evaluate_text(source_name, text, sink)
+            return self.console_input(source_name, text, sink);
         }
+        if let Some(outcome) = self.inspector_input(text, sink) {
+            return outcome;
+        }
+        let record = self.image.extension::<record::Record>();
+        let record = record.unwrap_or_else(|| self.image.extend(record::Record::default()));
+        record.begin(self.package_name(), source_name, text);
+        let mut both = |event: Event| {
+            record.note(&event);
+            sink(event);
+        };
+        let asked = self.question(text);
+        let text = asked.as_deref().unwrap_or(text);
+        self.evaluate_text(source_name, text, &mut both)
     }
 
     fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding> {

@@ -88,6 +88,7 @@ impl Session {
         self.flush(sink);
         sink(Event::Values(printed));
         self.image.output.begin_line();
+        self.open_inspector(sink);
         self.simulation.quit.map(Outcome::Quit)
     }
 

@@ -58,6 +58,10 @@ pub struct Scheduler {
     stops: Vec<(Slot, Value)>,
     /// The condition of a stop that has not been told yet.
     untold_stop: Option<Value>,
+    /// Tasks of the last plan that have ended, in the order in which they did.
+    ended: Vec<TaskInfo>,
+    /// The root whose tasks these are.
+    ended_root: Option<TaskId>,
     /// Number of the last task or root.
     last_id: u64,
     /// Number of the last wait.

@@ -9,6 +9,7 @@ mod aside;
 mod choices;
 mod commands;
 mod frames;
+mod inspector;
 mod robot_choices;
 mod settle;
 
@@ -32,6 +33,8 @@ pub(super) struct Console {
     base: Option<Suspended>,
     asking: Asking,
     draft: Option<String>,
+    /// What is being inspected, and through what one came there.
+    inspected: Vec<Value>,
     /// Where the next input is to be interrupted.
     pub interrupt_next: Option<u64>,
 }
@@ -92,6 +95,7 @@ impl Console {
     /// What the prompt shows behind the package's name.
     pub fn prompt_suffix(&self) -> String {
         match (self.levels.last().map(|level| &level.cause), self.asking) {
+            (None, _) if !self.inspected.is_empty() => " inspect".to_owned(),
             (None, _) => String::new(),
             (_, Asking::Value(_)) => format!(" {}] value", self.levels.len()),
             (_, Asking::Form) => format!(" {}] form", self.levels.len()),

@@ -5,6 +5,7 @@ pub mod leaving;
 pub mod moments;
 pub mod objects;
 pub mod plans;
+pub mod prompt;
 mod reach;
 pub mod robot_macros;
 pub mod ros;
