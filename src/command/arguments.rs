@@ -92,6 +92,9 @@ pub(super) enum Command {
         /// Rewrite the expected output where it differs, keeping wildcards that match
         #[arg(long)]
         bless: bool,
+        /// Stop after the N-th entry of the one file, and open the prompt there
+        #[arg(long, value_name = "N", conflicts_with_all = ["bless", "jobs"])]
+        stop_at: Option<usize>,
         /// Files to run at the same time [default: the number of processors]
         #[arg(long, value_name = "N")]
         jobs: Option<NonZeroUsize>,

@@ -18,6 +18,7 @@ mod prompt;
 mod reference;
 mod replay;
 mod run;
+mod stop_at;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -67,9 +68,14 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         }
         None => pipe::evaluate_standard_input(options),
         Some(Command::Run { files, eval }) => run::run(options, &files, &eval),
-        Some(Command::Replay { files, bless, jobs }) => {
-            replay::replay(options, &files, bless, jobs)
-        }
+        Some(Command::Replay {
+            files,
+            stop_at: Some(entry),
+            ..
+        }) => stop_at::stop_at(options, &files, entry),
+        Some(Command::Replay {
+            files, bless, jobs, ..
+        }) => replay::replay(options, &files, bless, jobs),
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Check { files }) => check::check(options, &files),
         Some(Command::Reference) => reference::print(),

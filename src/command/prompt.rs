@@ -29,6 +29,7 @@ pub(super) fn prompt(mut options: Options, wanted: &PromptOptions) -> Result<Sta
             is_colored: paint.is_on(),
             journal,
             resume: earlier.map(|earlier| earlier.inputs).unwrap_or_default(),
+            ..ReplOptions::default()
         },
     )?;
     Ok(Status::Left(status))

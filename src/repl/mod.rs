@@ -61,6 +61,10 @@ pub struct ReplOptions {
     pub journal: Option<Journal>,
     /// Inputs of an earlier session that are evaluated again first.
     pub resume: Vec<Recorded>,
+    /// What is told before the first prompt.
+    pub remark: Option<String>,
+    /// Inputs that were evaluated before the prompt.
+    pub inputs_before: usize,
 }
 
 /// Reads and evaluates inputs until the user or the program leaves; returns the exit
@@ -77,12 +81,15 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
     screen.set_detailed(true);
     screen.set_terminal(true);
     io::stdout().write_all(BANNER.as_bytes())?;
+    if let Some(remark) = &options.remark {
+        writeln!(io::stdout(), "{remark}")?;
+    }
     let mut repl = Repl {
         evaluator,
         interrupt,
         screen,
         journal: options.journal,
-        number: 0,
+        number: options.inputs_before,
     };
     if let Some(code) = repl.resume(&options.resume)? {
         return Ok(code);

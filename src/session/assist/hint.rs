@@ -52,10 +52,14 @@ impl Session {
                     .into_iter()
                     .map(|key| {
                         let name = lower(key.name);
-                        if key.is_required { name } else { format!("[{name}]") }
+                        if key.is_required {
+                            format!("({name} …)")
+                        } else {
+                            format!("[({name} …)]")
+                        }
                     })
                     .collect();
-                (!keys.is_empty()).then(|| format!("({name} … {})", keys.join(" ")))
+                (!keys.is_empty()).then(|| keys.join(" "))
             }
             _ => None,
         }

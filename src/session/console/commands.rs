@@ -23,6 +23,8 @@ pub(super) enum Command<'a> {
     Locals,
     /// What can be chosen.
     Choices,
+    /// The tasks.
+    Tasks,
     /// Evaluate the form again.
     Retry,
     /// Change the form and evaluate it again.
@@ -43,6 +45,7 @@ N          chooses the restart of that number; N FORM gives it a value
 q          aborts: back to the top          a        aborts this level only
 :bt [N]    the frames, innermost first      :frame N looks at a frame
 :up :down  the frame further out, in        :locals  the variables of the frame
+:tasks     the tasks
 :r         the restarts again               c        continues, where that is possible
 :retry     evaluates the form again         :edit    the same, but lets you change it
 :return F  returns the value of form F from the frame
@@ -81,6 +84,7 @@ impl<'a> Command<'a> {
             (":up", true) => Command::Up,
             (":down", true) => Command::Down,
             (":l" | ":locals", true) => Command::Locals,
+            (":tasks", true) => Command::Tasks,
             (":retry", true) => Command::Retry,
             (":e" | ":edit", true) => Command::Edit,
             (":return", false) => Command::Return(rest),

@@ -134,6 +134,7 @@ impl Session {
             Command::Down => self.look_at_next_frame(-1, sink),
             Command::Locals => self.tell_locals(sink),
             Command::Choices => self.tell_stop(sink),
+            Command::Tasks => self.tell_tasks(sink),
             Command::Retry => self.retry_form(sink),
             Command::Edit => self.edit_form(),
             Command::Return(form) => self.return_from_frame(source_name, form, sink),
@@ -200,8 +201,14 @@ impl Session {
                 self.evaluate_text("park", PARK, sink)
             }
             "" => self.tell_stop(sink),
+            "tasks" | "(tasks)" => self.tell_tasks(sink),
             _ => self.tell("; Type 0 to continue, 1 to abort, or 2 to abort and park.", sink),
         }
+    }
+
+    fn tell_tasks(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let text = self.scheduler.task_tree(&self.image);
+        self.tell(&text, sink)
     }
 
     fn retry_form(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {

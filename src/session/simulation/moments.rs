@@ -49,6 +49,8 @@ pub(super) struct Moments {
     keeps_motions: bool,
     /// Has anything been asked of the world since the last form began?
     is_touched: bool,
+    /// Is what is evaluated on top of a form that stands still?
+    is_aside: bool,
 }
 
 impl Simulation {
@@ -75,6 +77,11 @@ impl Simulation {
     /// From here on, also keeps the moments before motions.
     pub fn keep_moments_of_motions(&mut self, keeps: bool) {
         self.moments.keeps_motions = keeps;
+    }
+
+    /// From here on, what is evaluated is on top of a form that stands still, or not.
+    pub fn set_aside(&mut self, is_aside: bool) {
+        self.moments.is_aside = is_aside;
     }
 
     /// A form at top level is about to be evaluated.
@@ -136,9 +143,14 @@ impl Simulation {
     /// first of them.
     pub(super) fn rewind(&mut self, count: usize) -> Result<Value, Box<Raise>> {
         self.check_idle()?;
-        // The last moment is the one before the form that rewinds.
-        let current = self.moments.forms.pop_back();
-        let mut hash = current.as_ref().map(|before| before.hash);
+        // The last moment is the one before the form that rewinds, unless that is typed
+        // while another form stands still.
+        let current = if self.moments.is_aside {
+            None
+        } else {
+            self.moments.forms.pop_back()
+        };
+        let mut hash = Some(self.world.hash());
         let mut changing = 0;
         let mut found = None;
         for (at, before) in self.moments.forms.iter().enumerate().rev() {
