@@ -1,5 +1,7 @@
 //! What the prompt's inputs do, without a terminal: evaluations that stand still, going back
 //! in the world, taking values apart, completion and hints.
+// Figures are told.
+#![allow(clippy::print_stdout)]
 
 use planwright::dialogue::screen::input_name;
 use planwright::dialogue::{Converse, Evaluate, Outcome, Screen};
@@ -85,7 +87,10 @@ fn an_unbound_variable_stands_still_until_a_value_is_given() {
     let mut talk = Talk::new();
     let (shown, outcome) = talk.take("(list 1 nothing-yet)");
     assert_eq!(outcome, Outcome::Stopped);
-    assert!(shown.starts_with("The variable NOTHING-YET is unbound.\n 0: [CONTINUE]"), "{shown}");
+    assert!(
+        shown.starts_with("The variable NOTHING-YET is unbound.\n 0: [CONTINUE]"),
+        "{shown}"
+    );
     assert_eq!(talk.session.prompt(), "PP-TUT 1]");
     assert_eq!(talk.say("1 (+ 1 1)"), "(1 2)\n");
     assert_eq!(talk.session.prompt(), "PP-TUT");
@@ -106,7 +111,10 @@ fn giving_up_tells_so_and_leaves_the_rest_of_the_input() {
     let mut talk = Talk::new();
     talk.say("(car 5) (defparameter *after* 1)");
     let (shown, outcome) = talk.take("q");
-    assert!(shown.starts_with("; Evaluation aborted on #<TYPE-ERROR"), "{shown}");
+    assert!(
+        shown.starts_with("; Evaluation aborted on #<TYPE-ERROR"),
+        "{shown}"
+    );
     assert_eq!(outcome, Outcome::Aborted);
     assert_eq!(talk.say("(boundp '*after*)"), "NIL\n");
 }
@@ -156,11 +164,76 @@ fn cleanup_code_runs_when_a_level_is_given_up() {
 }
 
 #[test]
+fn what_the_program_handles_does_not_stop_it() {
+    let mut talk = Talk::new();
+    for (form, expected) in [
+        (
+            "(handler-case (with-simulated-robot (car 5)) (type-error () :caught))",
+            ":CAUGHT\n",
+        ),
+        (
+            "(with-simulated-robot
+               (cpl:with-failure-handling
+                   ((navigation-low-level-failure (e) (declare (ignore e)) (return :handled)))
+                 (cpl:par (cpl:fail 'navigation-low-level-failure) (cpl:sleep 1))))",
+            ":HANDLED\n",
+        ),
+        (
+            "(with-simulated-robot
+               (cpl:try-all (cpl:fail 'navigation-low-level-failure) (progn (cpl:sleep 1) 7)))",
+            "7\n",
+        ),
+        (
+            "(ignore-errors (with-simulated-robot (error \"x\")) 3)",
+            "3\n",
+        ),
+    ] {
+        let (shown, outcome) = talk.take(form);
+        assert_eq!(outcome, Outcome::Finished, "{form}\n{shown}");
+        if !form.contains("ignore-errors") {
+            assert_eq!(shown, expected, "{form}");
+        }
+    }
+}
+
+#[test]
+fn a_task_inside_others_stops_where_it_is() {
+    let mut talk = Talk::new();
+    let (_, outcome) = talk.take(
+        "(with-simulated-robot
+           (let ((outer 1))
+             (cpl:par (let ((inner 2)) (list (+ outer inner (the-missing)))) (cpl:sleep 5))))",
+    );
+    assert_eq!(outcome, Outcome::Stopped);
+    let locals = talk.say(":locals");
+    assert!(
+        locals.contains("INNER = 2") && locals.contains("OUTER = 1"),
+        "{locals}"
+    );
+    talk.say("(defun the-missing () 39)");
+    assert_eq!(talk.say("0 (the-missing)"), "(42)\n");
+}
+
+#[test]
+fn at_a_level_values_are_taken_apart_too() {
+    let mut talk = Talk::new();
+    talk.say("(let ((x (list 1 2))) (car 5) x)");
+    talk.say("(inspect x)");
+    assert_eq!(talk.session.prompt(), "PP-TUT 1] inspect");
+    assert!(talk.say("1").starts_with("2, of type"));
+    talk.say("q");
+    assert_eq!(talk.session.prompt(), "PP-TUT 1]");
+}
+
+#[test]
 fn the_form_can_be_changed_and_evaluated_again() {
     let mut talk = Talk::new();
     talk.say("(list  (car 5))");
     talk.say(":edit");
-    assert_eq!(talk.session.take_draft().as_deref(), Some("(list  (car 5))"));
+    assert_eq!(
+        talk.session.take_draft().as_deref(),
+        Some("(list  (car 5))")
+    );
     assert_eq!(talk.say("(list  (car '(5)))"), "(5)\n");
     assert_eq!(talk.session.prompt(), "PP-TUT");
 }
@@ -169,7 +242,10 @@ fn the_form_can_be_changed_and_evaluated_again() {
 fn a_failed_action_can_be_retried_where_it_stands() {
     let mut talk = Talk::new();
     let shown = talk.say(NOWHERE);
-    assert!(shown.contains("[RETRY] Retry (A ACTION (TYPE GOING)"), "{shown}");
+    assert!(
+        shown.contains("[RETRY] Retry (A ACTION (TYPE GOING)"),
+        "{shown}"
+    );
     assert!(shown.contains("the robot cannot stand"), "{shown}");
     assert!(talk.say(":bt").contains("PERFORM"));
     talk.choose("[RETRY]");
@@ -205,7 +281,10 @@ fn another_arm_that_reaches_is_offered_and_works() {
                         (object ?bottle)))
              :held))",
     );
-    assert!(shown.contains("[GRASP] Pick it up with :RIGHT and :LEFT-SIDE."), "{shown}");
+    assert!(
+        shown.contains("[GRASP] Pick it up with :RIGHT and :LEFT-SIDE."),
+        "{shown}"
+    );
     assert_eq!(talk.hash(), before);
     let shown = talk.choose("with :RIGHT and :LEFT-SIDE");
     assert!(shown.ends_with(":HELD\n"), "{shown}");
@@ -226,7 +305,10 @@ fn the_world_goes_back_to_before_an_action() {
     assert!(shown.starts_with("Here."), "{shown}");
     assert_ne!(talk.hash(), before);
     talk.say("q");
-    assert!(talk.say("(rewind)").contains("; The world is as before (WITH-SIMULATED-ROBOT"));
+    assert!(
+        talk.say("(rewind)")
+            .contains("; The world is as before (WITH-SIMULATED-ROBOT")
+    );
     assert_eq!(talk.hash(), before);
 }
 
@@ -242,7 +324,10 @@ fn rewinding_counts_the_forms_that_changed_the_world() {
     talk.say("(list-available-objects)");
     assert!(talk.say("(rewind)").contains("CUP-1"));
     assert_eq!(talk.hash(), with_bottle);
-    assert!(talk.say("(get-current-pose-of-object 'cup-1)").contains("no object named"));
+    assert!(
+        talk.say("(get-current-pose-of-object 'cup-1)")
+            .contains("no object named")
+    );
     talk.say("q");
     talk.say("(rewind)");
     assert_eq!(talk.hash(), empty);
@@ -282,7 +367,10 @@ fn a_snapshot_is_gone_back_to_by_its_name() {
     assert_ne!(talk.hash(), laid);
     talk.say("(restore 'laid)");
     assert_eq!(talk.hash(), laid);
-    assert!(talk.say("(restore 'lade)").contains("There is no snapshot LADE; there are LAID."));
+    assert!(
+        talk.say("(restore 'lade)")
+            .contains("There is no snapshot LADE; there are LAID.")
+    );
 }
 
 #[test]
@@ -295,7 +383,10 @@ fn tasks_are_told_as_a_tree_with_their_status() {
     assert_eq!(shown.matches("succeeded").count(), 3, "{shown}");
     talk.say("(with-simulated-robot (car 5))");
     let shown = talk.say("(tasks)");
-    assert!(shown.contains("waits for a decision") || shown.contains("running"), "{shown}");
+    assert!(
+        shown.contains("waits for a decision") || shown.contains("running"),
+        "{shown}"
+    );
 }
 
 #[test]
@@ -322,13 +413,25 @@ fn values_are_taken_apart() {
 #[test]
 fn documentation_is_found_by_name() {
     let mut talk = Talk::new();
-    assert!(talk.say("(doc spawn-object)").contains("(spawn-object pose"));
-    assert!(talk.say("?picking-up").contains("(an action (type picking-up) (object …)"));
+    assert!(
+        talk.say("(doc spawn-object)")
+            .contains("(spawn-object pose")
+    );
+    assert!(
+        talk.say("?picking-up")
+            .contains("(an action (type picking-up) (object …)")
+    );
     assert!(talk.say("(doc :bottle)").contains("A type of objects"));
     assert!(talk.say("(doc no-such-thing)").contains("Nothing is known"));
-    assert!(talk.say("(list-actions)").contains("(type going) (target …)"));
+    assert!(
+        talk.say("(list-actions)")
+            .contains("(type going) (target …)")
+    );
     assert!(talk.say("(help)").contains("(rewind)"));
-    assert!(talk.say("(apropos \"list-defined-gra\")").contains("LIST-DEFINED-GRASPS"));
+    assert!(
+        talk.say("(apropos \"list-defined-gra\")")
+            .contains("LIST-DEFINED-GRASPS")
+    );
     // A variable is a variable.
     talk.say("(defparameter ?x 5)");
     assert_eq!(talk.say("?x"), "5\n");
@@ -340,7 +443,10 @@ fn functions_variables_and_packages_are_completed() {
     assert_eq!(talk.completions("(spawn-o"), ["spawn-object"]);
     assert_eq!(talk.completions("(list *print-circ"), ["*print-circle*"]);
     assert!(talk.completions("(pp-pl").contains(&"pp-plans:".to_owned()));
-    assert_eq!(talk.completions("(btr-utils:object-ex"), ["btr-utils:object-exists"]);
+    assert_eq!(
+        talk.completions("(btr-utils:object-ex"),
+        ["btr-utils:object-exists"]
+    );
     assert_eq!(talk.completions("(MAKE-POS"), ["MAKE-POSE"]);
     assert!(talk.completions("; (spawn-o").is_empty());
 }
@@ -349,7 +455,10 @@ fn functions_variables_and_packages_are_completed() {
 fn objects_in_the_world_are_completed() {
     let mut talk = Talk::new();
     talk.say(BOTTLE);
-    assert_eq!(talk.completions("(get-current-pose-of-object 'bott"), ["bottle-1"]);
+    assert_eq!(
+        talk.completions("(get-current-pose-of-object 'bott"),
+        ["bottle-1"]
+    );
     assert_eq!(talk.completions("(an object (name bot"), ["bottle-1"]);
     assert_eq!(talk.completions("(spawn-object x :bottl"), [":bottle"]);
 }
@@ -362,7 +471,10 @@ fn designators_are_completed_from_their_table() {
         ["action", "motion", "object", "location"]
     );
     assert_eq!(talk.completions("(an action (type picki"), ["picking-up"]);
-    assert_eq!(talk.completions("(an action (type picking-up) (ar"), ["arm"]);
+    assert_eq!(
+        talk.completions("(an action (type picking-up) (ar"),
+        ["arm"]
+    );
     assert_eq!(
         talk.completions("(an action (type picking-up) (arm "),
         ["left", "right"]
@@ -396,8 +508,14 @@ fn the_shape_of_the_form_is_shown_with_the_current_argument() {
         "(spawn-object pose &optional *type* name color)"
     );
     talk.say("(defun greet (whom &key loudly) (list whom loudly))");
-    assert_eq!(talk.hint("(greet :you :loudly "), "(greet whom &key *loudly*)");
-    assert_eq!(talk.hint("(an action (type going) (target "), "(target …) where to");
+    assert_eq!(
+        talk.hint("(greet :you :loudly "),
+        "(greet whom &key *loudly*)"
+    );
+    assert_eq!(
+        talk.hint("(an action (type going) (target "),
+        "(target …) where to"
+    );
     assert_eq!(talk.hint("(an action (type going) "), "(target …)");
 }
 
@@ -447,13 +565,25 @@ fn a_session_is_saved_as_a_transcript() {
     talk.say("q");
     talk.say("(princ \"x\")");
     let path = std::env::temp_dir().join(format!("planwright-{}.transcript", std::process::id()));
-    talk.say(&format!("(save-transcript {:?})", path.to_str().expect("a path")));
+    talk.say(&format!(
+        "(save-transcript {:?})",
+        path.to_str().expect("a path")
+    ));
     let saved = std::fs::read_to_string(&path).expect("it is there");
     std::fs::remove_file(&path).expect("it goes away");
-    assert!(saved.starts_with("CL-USER> (in-package :pp-tut)\n#<PACKAGE"), "{saved}");
+    assert!(
+        saved.starts_with("CL-USER> (in-package :pp-tut)\n#<PACKAGE"),
+        "{saved}"
+    );
     assert!(saved.contains("PP-TUT> (list 1\n  2)\n(1 2)\n"), "{saved}");
-    assert!(saved.contains("; Evaluation aborted on #<TYPE-ERROR"), "{saved}");
-    assert!(saved.ends_with("PP-TUT> (princ \"x\")\nx\n\"x\"\n\n"), "{saved}");
+    assert!(
+        saved.contains("; Evaluation aborted on #<TYPE-ERROR"),
+        "{saved}"
+    );
+    assert!(
+        saved.ends_with("PP-TUT> (princ \"x\")\nx\n\"x\"\n\n"),
+        "{saved}"
+    );
     assert!(!saved.contains("PP-TUT> q"), "{saved}");
 }
 

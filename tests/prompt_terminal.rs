@@ -1,15 +1,15 @@
 //! The prompt in a pseudo-terminal, driven as a person would: typing, Tab, arrow keys,
 //! Ctrl-C, pasting.
 #![cfg(unix)]
+// Figures are told.
+#![allow(clippy::print_stdout)]
 
 mod terminal;
 
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use terminal::{
-    CTRL_C, CTRL_D, CTRL_J, CTRL_R, DOWN, ENTER, LEFT, State, TAB, Terminal, UP,
-};
+use terminal::{CTRL_C, CTRL_D, CTRL_J, CTRL_R, DOWN, ENTER, LEFT, State, TAB, Terminal, UP};
 
 const DRIVE: &str = "(with-simulated-robot (let ((?p (make-pose \"map\" '((0.5 0 0) (0 0 0 1))))) (perform (an action (type going) (target (a location (pose ?p)))))))";
 
@@ -35,7 +35,9 @@ fn enter_goes_on_until_the_form_is_whole_and_indents() {
     terminal.line("x))");
     terminal.wait_for("\nF\n");
     let text = terminal.text();
-    assert!(text.contains("CL-USER> (defun f (x) ; not here: (\n  (list x \"(\"\n        x))\nF\n"), "{text}");
+    let expected =
+        "CL-USER> (defun f (x) ; not here: (\n           (list x \"(\"\n                 x))\nF\n";
+    assert!(text.contains(expected), "{text}");
     terminal.evaluate("(f 1)");
     assert!(terminal.text().contains("(1 \"(\" 1)"));
 }
@@ -61,7 +63,9 @@ fn the_matching_parenthesis_and_the_kinds_of_names_have_colours() {
     terminal.wait_until("the closing parenthesis", |text| text.contains("\"s\")"));
     let shown = terminal.formatted();
     for piece in ["going", ":k", "?v", "\"s\""] {
-        let at = shown.find(piece).unwrap_or_else(|| panic!("{piece} in {shown:?}"));
+        let at = shown
+            .find(piece)
+            .unwrap_or_else(|| panic!("{piece} in {shown:?}"));
         assert!(shown[..at].ends_with('m'), "{piece} in {shown:?}");
     }
     terminal.keys(CTRL_C);
@@ -105,11 +109,13 @@ fn up_looks_for_what_begins_so_also_in_later_sessions() {
     terminal.keys(DOWN);
     terminal.wait_for_last_line("CL-USER> (list :second)");
     terminal.keys(CTRL_C);
+    terminal.wait_for_last_line("CL-USER>");
     terminal.keys(UP);
     terminal.wait_for_last_line("CL-USER> (list :second)");
     terminal.keys(UP);
     terminal.wait_for_last_line("CL-USER> (+ 1 1)");
     terminal.keys(CTRL_C);
+    terminal.wait_for_last_line("CL-USER>");
     terminal.keys(CTRL_R);
     terminal.keys("fir");
     terminal.wait_for("(list :first)");
@@ -138,6 +144,19 @@ fn a_paste_of_several_forms_evaluates_each_in_order() {
     terminal.paste("(list 1)\n(list 2)\n(list 3)");
     terminal.keys(ENTER);
     terminal.wait_for("(1)\n(2)\n(3)\nCL-USER>");
+}
+
+#[test]
+fn what_is_typed_ahead_or_pasted_without_brackets_is_evaluated_in_order() {
+    let state = State::new("ahead");
+    let terminal = Terminal::start(&state, &[]);
+    terminal.keys("(list 1)\r(list 2)\r(dotimes (i 3000000) i)\r");
+    terminal.wait_for("(1)");
+    terminal.keys("(list 3)\r");
+    terminal.keys("(list 4)\r");
+    terminal.wait_for("(2)");
+    terminal.wait_for("(3)");
+    terminal.wait_for("(4)\nCL-USER>");
 }
 
 #[test]
@@ -190,9 +209,12 @@ fn ctrl_c_stops_at_once_and_asks() {
     // A second one aborts.
     terminal.keys(CTRL_C);
     terminal.wait_for("; Evaluation aborted on #<INTERACTIVE-INTERRUPT>.");
+    terminal.wait_for_last_line("PP-TUT>");
     // It clears an input, and never ends the session.
     terminal.keys("(half a form");
+    terminal.wait_for_last_line("PP-TUT> (half a form");
     terminal.keys(CTRL_C);
+    terminal.wait_for_last_line("PP-TUT>");
     terminal.evaluate("(list :alive)");
     assert!(terminal.text().contains("(:ALIVE)"));
 }
@@ -212,7 +234,11 @@ fn a_motion_that_was_interrupted_goes_on_to_the_same_end() {
     terminal.line("0");
     terminal.wait_for("\nT\nPP-TUT>");
     assert_eq!(hash_of(&terminal), expected);
-    assert!(!terminal.text().contains("… driving"), "{}", terminal.text());
+    assert!(
+        !terminal.text().contains("… driving"),
+        "{}",
+        terminal.text()
+    );
 }
 
 #[test]
@@ -315,7 +341,10 @@ fn without_a_terminal_there_is_no_debugger() {
     drop(input);
     let output = child.wait_with_output().expect("it ends");
     let text = String::from_utf8(output.stdout).expect("text");
-    assert!(text.contains("; Evaluation aborted on #<TYPE-ERROR"), "{text}");
+    assert!(
+        text.contains("; Evaluation aborted on #<TYPE-ERROR"),
+        "{text}"
+    );
     assert!(text.ends_with("(2)\n"), "{text}");
     assert!(!text.contains("[ABORT]"), "{text}");
 }
@@ -326,7 +355,9 @@ fn typing_stays_smooth_in_a_form_of_500_lines() {
     let terminal = Terminal::start(&state, &[]);
     let mut form = "(list\n".to_owned();
     for number in 0..500 {
-        form.push_str(&format!("  (list :line {number} \"text\" ?variable) ; {number}\n"));
+        form.push_str(&format!(
+            "  (list :line {number} \"text\" ?variable) ; {number}\n"
+        ));
     }
     terminal.paste(&form);
     terminal.wait_for("; 499");
@@ -341,7 +372,10 @@ fn typing_stays_smooth_in_a_form_of_500_lines() {
     }
     taken.sort();
     let median = taken[taken.len() / 2];
-    println!("per key: median {median:?}, longest {:?}", taken[taken.len() - 1]);
+    println!(
+        "per key: median {median:?}, longest {:?}",
+        taken[taken.len() - 1]
+    );
     assert!(median < Duration::from_millis(60), "{median:?}");
     terminal.keys(CTRL_C);
 }

@@ -18,7 +18,9 @@ pub(super) fn stop_at(
     entry: usize,
 ) -> Result<Status, CommandError> {
     let [path] = files else {
-        return Err(CommandError::Open("--stop-at takes one transcript".to_owned()));
+        return Err(CommandError::Open(
+            "--stop-at takes one transcript".to_owned(),
+        ));
     };
     let transcript = Transcript::parse(&path.display().to_string(), &read(path)?);
     let count = transcript.entries.len();
@@ -31,9 +33,14 @@ pub(super) fn stop_at(
     let mut session = open_session(options)?;
     let verdicts = replay_first(&transcript, entry, &mut session);
     let differing = verdicts.iter().filter(|verdict| !verdict.passed()).count();
-    let mut remark = format!("; The state after entry {entry} of {count} of {}", path.display());
+    let mut remark = format!(
+        "; The state after entry {entry} of {count} of {}",
+        path.display()
+    );
     if differing > 0 {
-        remark.push_str(&format!("; {differing} of them differ from what is expected"));
+        remark.push_str(&format!(
+            "; {differing} of them differ from what is expected"
+        ));
     }
     let paint = Paint::new(options.color, &io::stdout());
     let status = repl::run(

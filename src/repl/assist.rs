@@ -107,7 +107,12 @@ const MOST_NAME_WIDTH: usize = 30;
 impl Completer for Assist {
     type Candidate = Documented;
 
-    fn complete(&self, line: &str, pos: usize, _: &Context<'_>) -> Result<(usize, Vec<Documented>)> {
+    fn complete(
+        &self,
+        line: &str,
+        pos: usize,
+        _: &Context<'_>,
+    ) -> Result<(usize, Vec<Documented>)> {
         let Ok(evaluator) = self.evaluator.try_borrow() else {
             return Ok((pos, Vec::new()));
         };

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 
 use rustyline::error::ReadlineError;
 use rustyline::history::{FileHistory, History, SearchDirection};
@@ -25,6 +26,8 @@ pub(super) struct LineEditor {
     history: Option<PathBuf>,
     entries: SharedHistory,
     prompt_width: Arc<AtomicUsize>,
+    /// When the prompt was shown.
+    shown: Arc<Mutex<Instant>>,
 }
 
 impl LineEditor {
@@ -54,6 +57,7 @@ impl LineEditor {
             history,
             entries,
             prompt_width: Arc::new(AtomicUsize::new(0)),
+            shown: Arc::new(Mutex::new(Instant::now())),
         };
         reader.share_history();
         reader.bind_keys();
@@ -78,6 +82,7 @@ impl LineEditor {
         self.editor.bind_sequence(key(KeyCode::Enter), handler);
         let new_line = NewLine {
             prompt_width: Arc::clone(&self.prompt_width),
+            shown: Arc::clone(&self.shown),
         };
         let handler = EventHandler::Conditional(Box::new(new_line));
         self.editor.bind_sequence(KeyEvent::ctrl('J'), handler);
@@ -98,6 +103,7 @@ impl LineEditor {
         let prompt = format!("{name}> ");
         self.prompt_width
             .store(prompt.chars().count(), Ordering::Relaxed);
+        *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = Instant::now();
         let text = match draft {
             Some(draft) => self.editor.readline_with_initial(&prompt, (draft, ""))?,
             None => self.editor.readline(&prompt)?,

@@ -97,7 +97,9 @@ impl Earlier {
             inputs: Vec::new(),
         };
         // The last line may have been cut off while it was written.
-        let whole = rest.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n'));
+        let whole = rest
+            .split_inclusive('\n')
+            .filter_map(|line| line.strip_suffix('\n'));
         for line in whole {
             let (word, value) = line.split_once(' ')?;
             let value = unescaped(value);
@@ -277,7 +279,10 @@ mod tests {
     #[test]
     fn a_record_that_was_cut_off_does_not_count() {
         let parse = |text| Earlier::parse(Path::new("j"), text).map(|e| e.inputs.len());
-        assert_eq!(parse("planwright journal 1\nseed 0\ninput (a)\ninput (b"), Some(1));
+        assert_eq!(
+            parse("planwright journal 1\nseed 0\ninput (a)\ninput (b"),
+            Some(1)
+        );
         assert_eq!(parse("something\n"), None);
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use rustyline::{Cmd, ConditionalEventHandler, Event, EventContext, RepeatCount};
 
@@ -38,10 +39,18 @@ impl ConditionalEventHandler for Enter {
 }
 
 /// What Ctrl-J does: begins a new line, even where the input is whole.
+///
+/// While something is evaluated, the terminal turns Enter into the same character: what
+/// comes as soon as the prompt is there was typed ahead, and means Enter.
 pub(super) struct NewLine {
     /// Columns that the prompt takes.
     pub(super) prompt_width: Arc<AtomicUsize>,
+    /// When the prompt was shown.
+    pub(super) shown: Arc<Mutex<Instant>>,
 }
+
+/// Nobody types this soon after the prompt has come.
+const TYPED_AHEAD: Duration = Duration::from_millis(120);
 
 impl ConditionalEventHandler for NewLine {
     fn handle(
@@ -51,6 +60,10 @@ impl ConditionalEventHandler for NewLine {
         _: bool,
         context: &EventContext<'_>,
     ) -> Option<Cmd> {
+        let shown = *self.shown.lock().unwrap_or_else(PoisonError::into_inner);
+        if shown.elapsed() < TYPED_AHEAD && Inputs::of(context.line()).are_whole() {
+            return Some(Cmd::AcceptLine);
+        }
         line_break(context, &self.prompt_width)
     }
 }
@@ -92,13 +105,15 @@ impl ConditionalEventHandler for UpOrDown {
         };
         // An old input that was fetched as a whole is no prefix to look for.
         let is_whole_entry = after.is_empty() && self.is_old_input(line);
-        Some(match (on_edge && !before.is_empty() && !is_whole_entry, self.is_up) {
-            (true, true) => Cmd::HistorySearchBackward,
-            (true, false) => Cmd::HistorySearchForward,
-            (false, true) if is_whole_entry => Cmd::PreviousHistory,
-            (false, false) if is_whole_entry => Cmd::NextHistory,
-            (false, true) => Cmd::LineUpOrPreviousHistory(count),
-            (false, false) => Cmd::LineDownOrNextHistory(count),
-        })
+        Some(
+            match (on_edge && !before.is_empty() && !is_whole_entry, self.is_up) {
+                (true, true) => Cmd::HistorySearchBackward,
+                (true, false) => Cmd::HistorySearchForward,
+                (false, true) if is_whole_entry => Cmd::PreviousHistory,
+                (false, false) if is_whole_entry => Cmd::NextHistory,
+                (false, true) => Cmd::LineUpOrPreviousHistory(count),
+                (false, false) => Cmd::LineDownOrNextHistory(count),
+            },
+        )
     }
 }

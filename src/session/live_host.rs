@@ -54,14 +54,15 @@ impl Host for LiveHost<'_> {
         let begin = Instant::now();
         let mut told = begin;
         let sink = &mut *self.sink;
-        self.simulation.advance_watched(image, now, until, &mut |simulation| {
-            // The real time decides what is shown, never what happens.
-            let is_long = begin.elapsed() > FIRST_PROGRESS;
-            if is_long && told.elapsed() > BETWEEN_PROGRESS {
-                told = Instant::now();
-                sink(Event::Progress(simulation.progress()));
-            }
-        })
+        self.simulation
+            .advance_watched(image, now, until, &mut |simulation| {
+                // The real time decides what is shown, never what happens.
+                let is_long = begin.elapsed() > FIRST_PROGRESS;
+                if is_long && told.elapsed() > BETWEEN_PROGRESS {
+                    told = Instant::now();
+                    sink(Event::Progress(simulation.progress()));
+                }
+            })
     }
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {

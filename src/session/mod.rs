@@ -211,11 +211,11 @@ fn interrupted() -> Abort {
 impl Evaluate for Session {
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
         self.image.polls.begin(self.console.interrupt_next.take());
-        if self.console.level() > 0 {
-            return self.console_input(source_name, text, sink);
-        }
         if let Some(outcome) = self.inspector_input(text, sink) {
             return outcome;
+        }
+        if self.console.level() > 0 {
+            return self.console_input(source_name, text, sink);
         }
         let record = self.image.extension::<record::Record>();
         let record = record.unwrap_or_else(|| self.image.extend(record::Record::default()));

@@ -154,7 +154,9 @@ impl Terminal {
 
     /// Waits until the last line of the screen is that.
     pub fn wait_for_last_line(&self, wanted: &str) -> Duration {
-        self.wait_until(wanted, |all| all.lines().last().map(str::trim_end) == Some(wanted))
+        self.wait_until(wanted, |all| {
+            all.lines().last().map(str::trim_end) == Some(wanted)
+        })
     }
 
     pub fn wait_until(&self, what: &str, is_there: impl Fn(&str) -> bool) -> Duration {

@@ -110,7 +110,11 @@ struct Back {
 }
 
 impl Resume for Back {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, value: Value) -> Result<Step, Box<Raise>> {
+    fn resume(
+        self: Box<Self>,
+        machine: &mut Machine<'_>,
+        value: Value,
+    ) -> Result<Step, Box<Raise>> {
         if matches!(machine.fiber.dynamic.last(), Some(Dynamic::HandlerMask(_))) {
             machine.fiber.dynamic.pop();
         }

@@ -69,7 +69,9 @@ impl Fiber {
     /// The frames, innermost first.
     pub fn views(&self) -> Vec<FrameView> {
         let frames = self.frames.iter().enumerate().rev();
-        frames.map(|(index, frame)| self.view(index, frame)).collect()
+        frames
+            .map(|(index, frame)| self.view(index, frame))
+            .collect()
     }
 
     fn view(&self, index: usize, frame: &Frame) -> FrameView {

@@ -99,7 +99,11 @@ impl Scheduler {
             self.leave_wait(slot);
             self.evaporate_children(image, host, slot);
             self.drain(image, host, slot);
-            let alive: Vec<bool> = self.stops.iter().map(|(s, _)| self.live(*s).is_some()).collect();
+            let alive: Vec<bool> = self
+                .stops
+                .iter()
+                .map(|(s, _)| self.live(*s).is_some())
+                .collect();
             let mut alive = alive.into_iter();
             self.stops.retain(|_| alive.next().unwrap_or(false));
         }

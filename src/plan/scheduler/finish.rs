@@ -1,7 +1,7 @@
 //! How tasks begin and end.
 
-use super::{Scheduler, TaskInfo};
 use super::live::{Answer, Ending, Live, Slot, Told, Wait};
+use super::{Scheduler, TaskInfo};
 use crate::lisp::function::Function;
 use crate::lisp::image::Image;
 use crate::lisp::known;

@@ -121,14 +121,20 @@ const MOST_ENDED: usize = 200;
 fn line(image: &Image, task: &TaskInfo, depth: usize) -> String {
     let status = format!("{:?}", task.status).to_lowercase();
     let waits = task.waits_for.as_ref();
-    let waits = waits.map(|what| format!(", waits for {what}")).unwrap_or_default();
+    let waits = waits
+        .map(|what| format!(", waits for {what}"))
+        .unwrap_or_default();
     let part = task.path.car_or_nil();
     let path = if part.is_true() {
         format!("  {}", print::to_string(image, &part, true))
     } else {
         String::new()
     };
-    format!("{}{}: {status}{waits}{path}\n", "  ".repeat(depth), task.name)
+    format!(
+        "{}{}: {status}{waits}{path}\n",
+        "  ".repeat(depth),
+        task.name
+    )
 }
 
 fn describe(image: &Image, live: &Live) -> Option<String> {

@@ -126,12 +126,7 @@ impl Scheduler {
     }
 
     /// A condition that no handler in the fiber took.
-    fn unhandled(
-        &mut self,
-        image: &mut Image,
-        slot: Slot,
-        condition: Value,
-    ) -> Option<Answer> {
+    fn unhandled(&mut self, image: &mut Image, slot: Slot, condition: Value) -> Option<Answer> {
         let plan = Plan::of(image);
         let is_root = self.roots.contains(&slot);
         let live = self.live_mut(slot)?;

@@ -27,7 +27,11 @@ impl Session {
             None => Vec::new(),
         };
         let word = context.word.trim_start_matches(':').to_lowercase();
-        let colon = if context.word.starts_with(':') { ":" } else { "" };
+        let colon = if context.word.starts_with(':') {
+            ":"
+        } else {
+            ""
+        };
         let fits = |c: &Candidate| c.text.to_lowercase().starts_with(&word);
         let mut candidates: Vec<Candidate> = special.into_iter().filter(fits).collect();
         for candidate in &mut candidates {

@@ -38,10 +38,11 @@ pub(super) fn spot<'c, 't>(context: &'c Context<'t>) -> Option<Spot<'c, 't>> {
         return Some(Spot::Class);
     }
     // `(desig:when ?x (key …))` stands between.
-    let outer = outer
-        .iter()
-        .rev()
-        .find(|list| !list.operator.is_some_and(|name| lower(bare(name)) == "when"))?;
+    let outer = outer.iter().rev().find(|list| {
+        !list
+            .operator
+            .is_some_and(|name| lower(bare(name)) == "when")
+    })?;
     let is_designator = outer.operator.is_some_and(is_article);
     let class = outer.second.and_then(class_of).filter(|_| is_designator)?;
     let described = Described { class, list: outer };
@@ -86,9 +87,10 @@ impl Described<'_, '_> {
     pub(super) fn key(&self, name: &str) -> Option<&'static Key> {
         let name = bare(name).to_uppercase();
         let keys = self.keys().into_iter();
-        keys.clone()
-            .find(|key| key.name == name)
-            .or_else(|| keys.clone().find(|key| key.aliases.contains(&name.as_str())))
+        keys.clone().find(|key| key.name == name).or_else(|| {
+            keys.clone()
+                .find(|key| key.aliases.contains(&name.as_str()))
+        })
     }
 }
 

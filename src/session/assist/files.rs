@@ -22,7 +22,8 @@ pub(super) fn completions(text: &str, start: usize) -> Completions {
         .flatten()
         .filter_map(|entry| {
             let found = entry.file_name().into_string().ok()?;
-            let is_wanted = found.starts_with(name) && (name.starts_with('.') || !found.starts_with('.'));
+            let is_wanted =
+                found.starts_with(name) && (name.starts_with('.') || !found.starts_with('.'));
             let end = if entry.path().is_dir() { "/" } else { "" };
             is_wanted.then(|| Candidate {
                 text: format!("{found}{end}"),

@@ -30,7 +30,8 @@ impl Session {
             }
             None => {
                 let list = context.lists.last()?;
-                self.keys_of_type(&context).or_else(|| self.shape_of_call(list))
+                self.keys_of_type(&context)
+                    .or_else(|| self.shape_of_call(list))
             }
         };
         hint.map(|hint| shortened(&hint))
@@ -144,7 +145,10 @@ mod tests {
     #[test]
     fn the_current_parameter_is_found() {
         let words = parameters("pose &optional type (name x) &key color");
-        assert_eq!(words, ["pose", "&optional", "type", "(name x)", "&key", "color"]);
+        assert_eq!(
+            words,
+            ["pose", "&optional", "type", "(name x)", "&key", "color"]
+        );
         assert_eq!(current_parameter(&words, 0, None), Some(0));
         assert_eq!(current_parameter(&words, 1, None), Some(2));
         assert_eq!(current_parameter(&words, 2, None), Some(3));

@@ -122,7 +122,10 @@ impl Session {
             .and_then(|name| self.symbol_typed(name))
             .and_then(|sym| help::signature(&self.image, sym))
         {
-            let after_key = signature.lambda_list.split_once("&key").map(|(_, keys)| keys);
+            let after_key = signature
+                .lambda_list
+                .split_once("&key")
+                .map(|(_, keys)| keys);
             for name in after_key.unwrap_or_default().split_whitespace() {
                 let name = name.trim_matches(['(', ')']);
                 if !name.starts_with('&') && !name.is_empty() {

@@ -137,9 +137,7 @@ impl Session {
         let mut fresh = |name| -> Value { self.image.make_symbol(name).into() };
         let (store, tag) = (fresh("STORE"), fresh("TAG"));
         let list = |items: Vec<Value>| Value::list(items);
-        let call = |operator: Sym, rest: Vec<Value>| {
-            list([vec![operator.into()], rest].concat())
-        };
+        let call = |operator: Sym, rest: Vec<Value>| list([vec![operator.into()], rest].concat());
         let parameters = [names.clone(), vec![store.clone(), tag.clone()]].concat();
         let stored = call(known::FUNCALL, [vec![store], names].concat());
         let body = call(known::MULTIPLE_VALUE_PROG1, vec![form.clone(), stored]);

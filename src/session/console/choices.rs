@@ -3,6 +3,7 @@
 use super::{Asking, Outcome, Session};
 use crate::dialogue::Event;
 use crate::lisp::function::Body;
+use crate::lisp::function::Function;
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::package::PackageTable;
@@ -12,7 +13,6 @@ use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine;
 use crate::lisp::vm::restart::Restart;
 use crate::lisp::vm::step::Step;
-use crate::lisp::function::Function;
 
 /// A way to go on.
 #[derive(Clone)]
@@ -47,7 +47,10 @@ impl Session {
     pub(super) fn choices(&mut self) -> Vec<(Choice, String)> {
         let mut choices = self.restart_choices();
         choices.extend(self.robot_choices());
-        choices.push((Choice::RetryForm, "[RETRY-FORM] Evaluate the form again.".to_owned()));
+        choices.push((
+            Choice::RetryForm,
+            "[RETRY-FORM] Evaluate the form again.".to_owned(),
+        ));
         choices.push((
             Choice::EditForm,
             "[EDIT-FORM] Change the form and evaluate it again.".to_owned(),
@@ -117,11 +120,7 @@ impl Session {
     }
 
     /// Chooses, or asks for the value that the choice needs.
-    pub(super) fn choose_or_ask(
-        &mut self,
-        number: usize,
-        sink: &mut dyn FnMut(Event),
-    ) -> Outcome {
+    pub(super) fn choose_or_ask(&mut self, number: usize, sink: &mut dyn FnMut(Event)) -> Outcome {
         match self.choice(number) {
             Some(Choice::Restart {
                 takes_value: true, ..
@@ -139,15 +138,13 @@ impl Session {
     }
 
     /// Chooses the first restart of that name.
-    pub(super) fn choose_by_name(
-        &mut self,
-        name: &str,
-        sink: &mut dyn FnMut(Event),
-    ) -> Outcome {
+    pub(super) fn choose_by_name(&mut self, name: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
         let begin = format!("[{name}]");
         let choices = self.console.levels.last().map(|level| &level.choices);
         let found = choices.and_then(|choices| {
-            choices.iter().position(|(_, label)| label.starts_with(&begin))
+            choices
+                .iter()
+                .position(|(_, label)| label.starts_with(&begin))
         });
         match found {
             Some(number) => self.choose_or_ask(number, sink),

@@ -2,12 +2,12 @@
 //! it, innermost first.
 
 use super::Session;
-use crate::session::on_one_line;
 use crate::dialogue::{ActionStep, Event, Outcome};
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::vm::backtrace::FrameView;
 use crate::reader::source::Place;
+use crate::session::on_one_line;
 
 /// Frames that are told unless more are asked for.
 const MOST_FRAMES: usize = 40;
@@ -123,11 +123,7 @@ impl Session {
         self.tell(&text, sink)
     }
 
-    pub(super) fn look_at_next_frame(
-        &mut self,
-        by: isize,
-        sink: &mut dyn FnMut(Event),
-    ) -> Outcome {
+    pub(super) fn look_at_next_frame(&mut self, by: isize, sink: &mut dyn FnMut(Event)) -> Outcome {
         let selected = self.console.levels.last().map_or(0, |level| level.frame);
         self.look_at_frame(selected.checked_add_signed(by), sink)
     }
@@ -139,7 +135,10 @@ impl Session {
     ) -> Outcome {
         let frames = self.frames();
         let Some((number, told)) = number.and_then(|n| Some((n, frames.get(n)?))) else {
-            let text = format!("; There is no such frame: they are 0 to {}.", frames.len().max(1) - 1);
+            let text = format!(
+                "; There is no such frame: they are 0 to {}.",
+                frames.len().max(1) - 1
+            );
             return self.tell(&text, sink);
         };
         let call = self.call_text(&told.view);

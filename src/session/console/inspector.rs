@@ -1,6 +1,6 @@
 //! Going into the parts of a value, and back.
 
-use super::Session;
+use super::{Asking, Session};
 use crate::dialogue::{Event, Outcome};
 use crate::lisp::known;
 use crate::lisp::value::Value;
@@ -17,6 +17,9 @@ impl Session {
         text: &str,
         sink: &mut dyn FnMut(Event),
     ) -> Option<Outcome> {
+        if self.console.asking != Asking::Nothing {
+            return None;
+        }
         let current = self.console.inspected.last()?.clone();
         match text.trim().to_lowercase().as_str() {
             "q" | ":q" | "quit" => {
@@ -66,7 +69,9 @@ impl Session {
     pub(in crate::session) fn question(&self, text: &str) -> Option<String> {
         let name = text.trim().strip_prefix('?')?;
         let is_name = !name.is_empty()
-            && name.chars().all(|c| !c.is_whitespace() && !"()\"';`,|".contains(c));
+            && name
+                .chars()
+                .all(|c| !c.is_whitespace() && !"()\"';`,|".contains(c));
         if !is_name || !self.console.is_interactive {
             return None;
         }

@@ -94,14 +94,18 @@ impl Console {
 
     /// What the prompt shows behind the package's name.
     pub fn prompt_suffix(&self) -> String {
-        match (self.levels.last().map(|level| &level.cause), self.asking) {
-            (None, _) if !self.inspected.is_empty() => " inspect".to_owned(),
-            (None, _) => String::new(),
-            (_, Asking::Value(_)) => format!(" {}] value", self.levels.len()),
-            (_, Asking::Form) => format!(" {}] form", self.levels.len()),
-            (Some(Cause::Interrupt), _) => " stopped".to_owned(),
-            (Some(Cause::Condition(_)), _) => format!(" {}]", self.levels.len()),
-        }
+        let level = match self.levels.last().map(|level| &level.cause) {
+            None => String::new(),
+            Some(Cause::Interrupt) => " stopped".to_owned(),
+            Some(Cause::Condition(_)) => format!(" {}]", self.levels.len()),
+        };
+        let asking = match self.asking {
+            Asking::Value(_) => " value",
+            Asking::Form => " form",
+            Asking::Nothing if !self.inspected.is_empty() => " inspect",
+            Asking::Nothing => "",
+        };
+        level + asking
     }
 }
 
@@ -151,7 +155,11 @@ impl Session {
 
     /// Gives everything up: back to the top.
     fn give_up(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
-        let condition = self.console.levels.first().map(|level| level.abort.condition.clone());
+        let condition = self
+            .console
+            .levels
+            .first()
+            .map(|level| level.abort.condition.clone());
         self.clear_console(sink);
         sink(Event::Left(condition.unwrap_or_default()));
         self.image.output.begin_line();
@@ -161,6 +169,7 @@ impl Session {
     /// Ends what stands still, with its cleanup code; returns what it began with.
     fn clear_console(&mut self, sink: &mut dyn FnMut(Event)) -> Option<Suspended> {
         self.console.levels.clear();
+        self.console.inspected.clear();
         self.console.asking = Asking::Nothing;
         self.abort(sink);
         self.flush(sink);
@@ -191,8 +200,8 @@ impl Session {
         match text.trim().trim_start_matches(':').to_lowercase().as_str() {
             "0" | "c" | "continue" => {
                 self.console.levels.pop();
-                let evaluation = self
-                    .go_on_with(sink, |scheduler, image, host| scheduler.go_on(image, host));
+                let evaluation =
+                    self.go_on_with(sink, |scheduler, image, host| scheduler.go_on(image, host));
                 self.settle(evaluation, sink)
             }
             "1" | "a" | "q" | "abort" => self.give_up(sink),
@@ -202,7 +211,10 @@ impl Session {
             }
             "" => self.tell_stop(sink),
             "tasks" | "(tasks)" => self.tell_tasks(sink),
-            _ => self.tell("; Type 0 to continue, 1 to abort, or 2 to abort and park.", sink),
+            _ => self.tell(
+                "; Type 0 to continue, 1 to abort, or 2 to abort and park.",
+                sink,
+            ),
         }
     }
 

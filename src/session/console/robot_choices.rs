@@ -38,13 +38,22 @@ impl Session {
             let choice = again(action, &action.designator, None);
             choices.push((choice, format!("[RETRY] Retry {}.", action.shown)));
         }
-        if let Some(picking) = actions.iter().find(|a| self.type_of_action(a) == "PICKING-UP") {
-            for (arm, grasp) in self.simulation.reachable_grasps(&mut self.image, &picking.designator)
+        if let Some(picking) = actions
+            .iter()
+            .find(|a| self.type_of_action(a) == "PICKING-UP")
+        {
+            for (arm, grasp) in self
+                .simulation
+                .reachable_grasps(&mut self.image, &picking.designator)
             {
                 let others = [("ARM", arm.clone()), ("GRASP", grasp.clone())];
                 let designator = self.with_properties(&picking.designator, &others);
                 let shown = |value: &Value| print::to_string(&self.image, value, true);
-                let label = format!("[GRASP] Pick it up with {} and {}.", shown(&arm), shown(&grasp));
+                let label = format!(
+                    "[GRASP] Pick it up with {} and {}.",
+                    shown(&arm),
+                    shown(&grasp)
+                );
                 choices.push((again(picking, &designator, None), label));
             }
             choices.extend(self.base_choice(picking));
@@ -55,7 +64,10 @@ impl Session {
                 let first = action.motions_before + 1;
                 if self.simulation.has_motion_moment(first) {
                     let choice = again(action, &action.designator, Some(first));
-                    let label = format!("[BEFORE] Take the world back to before {}, and retry it.", action.shown);
+                    let label = format!(
+                        "[BEFORE] Take the world back to before {}, and retry it.",
+                        action.shown
+                    );
                     choices.push((choice, label));
                 }
             }
@@ -144,7 +156,8 @@ impl Session {
             (perform action))";
         let package = self.image.packages.find("CRAM-MOBILE-PICK-PLACE-PLANS")?;
         let before = self.image.special(known::V_PACKAGE).clone();
-        self.image.set_special(known::V_PACKAGE, Value::Package(package));
+        self.image
+            .set_special(known::V_PACKAGE, Value::Package(package));
         let lambda = self.form_of("debugger", TEXT);
         self.image.set_special(known::V_PACKAGE, before);
         let function = compile::compile_lambda(&mut self.image, &lambda?).ok()?;

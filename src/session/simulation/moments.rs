@@ -94,7 +94,12 @@ impl Simulation {
             return;
         }
         let hash = self.world.hash();
-        if self.moments.forms.back().is_some_and(|last| last.hash == hash) {
+        if self
+            .moments
+            .forms
+            .back()
+            .is_some_and(|last| last.hash == hash)
+        {
             self.moments.forms.pop_back();
         }
         if self.moments.forms.len() == MOST_FORMS {
@@ -202,7 +207,9 @@ impl Simulation {
                 } else {
                     format!("there are {}", known.join(", "))
                 };
-                Err(Raise::simple(format!("There is no snapshot {name}; {remedy}.")))
+                Err(Raise::simple(format!(
+                    "There is no snapshot {name}; {remedy}."
+                )))
             }
         }
     }

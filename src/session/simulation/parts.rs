@@ -32,7 +32,11 @@ pub(in crate::session) struct View {
 impl View {
     /// Takes a value apart. A symbol that names an object in the world, and `:robot`, stand
     /// for these.
-    pub(in crate::session) fn of(simulation: &Simulation, image: &mut Image, value: &Value) -> View {
+    pub(in crate::session) fn of(
+        simulation: &Simulation,
+        image: &mut Image,
+        value: &Value,
+    ) -> View {
         if let Some(view) = in_world(simulation, image, value) {
             return view;
         }
@@ -49,10 +53,17 @@ impl View {
     /// The parts with numbers.
     pub(in crate::session) fn text(&self, image: &Image) -> String {
         let mut text = format!("{}\n", self.title);
-        let width = self.parts.iter().map(|(name, _)| name.chars().count()).max();
+        let width = self
+            .parts
+            .iter()
+            .map(|(name, _)| name.chars().count())
+            .max();
         let width = width.unwrap_or(0).min(24);
         for (number, (name, value)) in self.parts.iter().enumerate().take(MOST_PARTS) {
-            text.push_str(&format!("{number:>3}: {name:<width$}  {}\n", shown(image, value)));
+            text.push_str(&format!(
+                "{number:>3}: {name:<width$}  {}\n",
+                shown(image, value)
+            ));
         }
         if self.parts.len() > MOST_PARTS {
             text.push_str(&format!("     … {} more\n", self.parts.len() - MOST_PARTS));
@@ -154,7 +165,9 @@ fn parts(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
         }
         Value::Hash(table) => {
             let pairs = table.pairs().into_iter();
-            pairs.map(|(key, item)| part(shown(image, &key), item)).collect()
+            pairs
+                .map(|(key, item)| part(shown(image, &key), item))
+                .collect()
         }
         Value::Instance(instance) => {
             let class = instance.class();
@@ -222,7 +235,10 @@ fn of_foreign(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
         let task = task.get();
         return vec![
             part("name", Value::string(task.name.to_string())),
-            part("status", Value::string(format!("{:?}", task.status()).to_lowercase())),
+            part(
+                "status",
+                Value::string(format!("{:?}", task.status()).to_lowercase()),
+            ),
             part("path", task.node.path.clone()),
             part("result", task.result()),
         ];

@@ -21,11 +21,10 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
 ];
 
 /// Operators by package.
-static OPERATORS: &[(&str, &[Operator])] =
-    &[
-        ("CRAM-PR2-PROJECTION", functions::robot_macros::OPERATORS),
-        ("PLANWRIGHT", functions::prompt::OPERATORS),
-    ];
+static OPERATORS: &[(&str, &[Operator])] = &[
+    ("CRAM-PR2-PROJECTION", functions::robot_macros::OPERATORS),
+    ("PLANWRIGHT", functions::prompt::OPERATORS),
+];
 
 /// Functions of one package that another package offers under the same name.
 static ALIASES: &[(&str, &str, &[&str])] = &[

@@ -150,7 +150,9 @@ fn tell_help(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply
 }
 
 fn list_actions(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
-    let rows = schema::TYPES.iter().filter(|row| row.class == Class::Action);
+    let rows = schema::TYPES
+        .iter()
+        .filter(|row| row.class == Class::Action);
     let text: String = rows.map(row_text).collect();
     say(image, &text);
     nothing()
@@ -167,11 +169,19 @@ fn row_text(row: &schema::TypeRow) -> String {
         .iter()
         .map(|key| {
             let name = key.name.to_lowercase();
-            if key.is_required { format!("({name} …)") } else { format!("[({name} …)]") }
+            if key.is_required {
+                format!("({name} …)")
+            } else {
+                format!("[({name} …)]")
+            }
         })
         .collect();
     let type_name = row.name.to_lowercase();
-    format!("({class} (type {type_name}) {})\n    {}\n", keys.join(" "), row.doc)
+    format!(
+        "({class} (type {type_name}) {})\n    {}\n",
+        keys.join(" "),
+        row.doc
+    )
 }
 
 fn describe_topic(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
@@ -190,7 +200,11 @@ fn describe_topic(simulation: &mut Simulation, image: &mut Image, args: &[Value]
         text.push_str(&row_text(row));
         for key in row.keys {
             let mark = if key.is_required { ", needed" } else { "" };
-            text.push_str(&format!("      {}: {}{mark}\n", key.name.to_lowercase(), key.doc));
+            text.push_str(&format!(
+                "      {}: {}{mark}\n",
+                key.name.to_lowercase(),
+                key.doc
+            ));
         }
     }
     if let Some(kind) = type_text(image, &args[0])
@@ -208,7 +222,10 @@ fn describe_topic(simulation: &mut Simulation, image: &mut Image, args: &[Value]
         text.push_str(&format!("An object in the world:\n{}", view.text(image)));
     }
     if text.is_empty() {
-        text = format!("Nothing is known about {name}; (apropos \"{}\") looks for names.\n", name.to_lowercase());
+        text = format!(
+            "Nothing is known about {name}; (apropos \"{}\") looks for names.\n",
+            name.to_lowercase()
+        );
     }
     say(image, &text);
     nothing()
