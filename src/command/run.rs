@@ -115,7 +115,7 @@ impl Text {
         Ok(match outcome {
             Outcome::Finished => Ended::Finished,
             Outcome::Quit(code) => Ended::Quit(code),
-            Outcome::Aborted => Ended::Aborted(abort),
+            Outcome::Aborted | Outcome::Stopped => Ended::Aborted(abort),
         })
     }
 

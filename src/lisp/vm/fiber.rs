@@ -115,6 +115,9 @@ pub enum Target {
     Exit(usize),
     /// To a tag of the tagbody at this dynamic index.
     Tag(usize, u32),
+    /// Out of the frame of this index; the value, a function and its arguments in a list,
+    /// is called in its place.
+    Frame(usize),
     /// Out of everything.
     Everything,
 }

@@ -106,6 +106,15 @@ impl<'a> Machine<'a> {
         self.go_on(next)
     }
 
+    /// Leaves a frame and all above it, running cleanup code, and goes on with a call in its
+    /// place.
+    pub fn replace_frame(&mut self, index: usize, function: Value, args: Vec<Value>) -> Event {
+        self.fiber.enter(self.image);
+        let call = Value::cons(function, Value::list(args));
+        let next = self.unwind(super::fiber::Target::Frame(index), call);
+        self.go_on(next)
+    }
+
     /// Goes on after an interrupt.
     pub fn run(&mut self) -> Event {
         self.fiber.enter(self.image);
@@ -221,7 +230,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Calls a function, or the function of a symbol, with arguments in a vector.
-    fn call_value(&mut self, function: Value, args: Vec<Value>, multi: bool) -> Next {
+    pub(super) fn call_value(&mut self, function: Value, args: Vec<Value>, multi: bool) -> Next {
         let function = match self.image.coerce_to_function(&function) {
             Ok(f) => f,
             Err(raise) => return self.raise(raise),
@@ -293,7 +302,7 @@ impl<'a> Machine<'a> {
         } else {
             self.arrange_arguments(code, count)?;
         }
-        let slots = slot_count(code);
+        let slots = code.parameters.slots();
         self.fiber.frames.push(Frame {
             kind: FrameKind::Code { function, pc: 0 },
             base: self.fiber.stack.len() - slots,
@@ -854,7 +863,7 @@ impl<'a> Machine<'a> {
     }
 
     fn is_interrupted(&self) -> bool {
-        self.image.interrupt.swap(false, Ordering::Relaxed)
+        self.image.take_interrupt()
     }
 
     pub(super) fn save_pc(&mut self, new: usize) {
@@ -952,11 +961,6 @@ impl<'a> Machine<'a> {
             })
             .unwrap_or(Place::NONE)
     }
-}
-
-fn slot_count(code: &Code) -> usize {
-    let p = &code.parameters;
-    usize::from(p.required) + usize::from(p.optional) + usize::from(p.rest) + p.keys.len()
 }
 
 fn unbox(value: &Value) -> Value {

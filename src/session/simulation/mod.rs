@@ -8,14 +8,17 @@ mod frames;
 mod functions;
 mod held;
 mod imagined;
+mod moments;
 mod motions;
 mod names;
 mod pace;
+pub(super) mod parts;
 mod pose_argument;
 mod properties;
 mod raising;
 pub mod request;
 mod tables;
+pub mod tour;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -77,6 +80,11 @@ pub struct Simulation {
     observer: Option<Observer>,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
+    moments: moments::Moments,
+    /// The step of the tour that comes next, from zero.
+    tour_step: usize,
+    /// A value that somebody wants to take apart.
+    pub(super) inspected: Option<Value>,
 }
 
 /// Severity of log lines.
@@ -117,6 +125,9 @@ impl Simulation {
             quit: None,
             observer: None,
             now: 0.0,
+            moments: moments::Moments::default(),
+            tour_step: 0,
+            inspected: None,
         })
     }
 

@@ -2,8 +2,11 @@
 
 pub mod grasps;
 pub mod leaving;
+pub mod moments;
 pub mod objects;
 pub mod plans;
+pub mod prompt;
+mod reach;
 pub mod reaching;
 pub mod robot_macros;
 pub mod ros;
