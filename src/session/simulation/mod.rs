@@ -4,6 +4,7 @@
 //! Everything that a plan asks of the world comes here as a request of a builtin.
 
 pub mod call;
+mod explain;
 mod frames;
 mod functions;
 mod held;
@@ -78,6 +79,8 @@ pub struct Simulation {
     /// The exit status, once somebody has asked to leave.
     pub(super) quit: Option<u8>,
     observer: Option<Observer>,
+    /// The last failure of a motion, to be explained on demand.
+    last_failure: Option<Box<explain::Remembered>>,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
     moments: moments::Moments,
@@ -124,6 +127,7 @@ impl Simulation {
             pace: options.realtime.map(Pace::new),
             quit: None,
             observer: None,
+            last_failure: None,
             now: 0.0,
             moments: moments::Moments::default(),
             tour_step: 0,

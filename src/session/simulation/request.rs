@@ -161,9 +161,7 @@ impl Simulation {
             let result = match job.motion.tick(&mut self.world) {
                 MotionStatus::Running => continue,
                 MotionStatus::Done(outcome) => Ok(self.outcome(image, &outcome, &job.subject)),
-                MotionStatus::Failed(failure) => {
-                    Err(Simulation::failure(image, &failure, &job.subject))
-                }
+                MotionStatus::Failed(failure) => Err(self.failure(image, &failure, &job.subject)),
             };
             completions.push((job.ticket, result));
             ended.push(i);

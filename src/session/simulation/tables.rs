@@ -15,6 +15,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("ROSLISP", functions::ros::LOG_TABLE),
     ("ROSLISP-UTILITIES", functions::ros::UTILITIES_TABLE),
     ("ROS-LOAD", functions::ros::LOAD_TABLE),
+    ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::moments::TABLE),
     ("PLANWRIGHT", functions::prompt::TABLE),
     ("PLANWRIGHT", crate::session::record::TABLE),

@@ -356,7 +356,7 @@ fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let object = simulation.perceived(image, &args[0])?;
     let side = side(image, &args[1])?;
     take_hold(&mut simulation.world, side, &object.name)
-        .map_err(|failure| Simulation::failure(image, &failure, &args[0]))?;
+        .map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
     let held = Held {
         side,
         grasp: type_text(image, &args[2]),

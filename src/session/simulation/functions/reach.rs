@@ -22,12 +22,16 @@ const MOST_WAYS: usize = 3;
 /// Grasps that are told.
 const MOST_GRASPS: usize = 4;
 
-/// The object of an action, and the arm and grasp that it asks for.
-struct Wanted {
-    kind: String,
-    in_map: Pose,
-    arm: Option<Side>,
-    grasp: Option<String>,
+/// An object that is to be grasped, and the arm and grasp that are asked for.
+pub(in crate::session::simulation) struct Wanted {
+    /// Name of the object's type.
+    pub kind: String,
+    /// Pose of the object in the map frame.
+    pub in_map: Pose,
+    /// The arm, if one is asked for.
+    pub arm: Option<Side>,
+    /// The grasp, if one is asked for.
+    pub grasp: Option<String>,
 }
 
 impl Simulation {
@@ -78,6 +82,24 @@ impl Simulation {
         let Some(wanted) = self.wanted(image, action) else {
             return Vec::new();
         };
+        let arm = wanted.arm.unwrap_or(Side::Right);
+        let first = || self.defined_grasps(&wanted.kind, arm).first().cloned();
+        let own = wanted.grasp.clone().or_else(first);
+        let grasps = self.grasps_from_here(image, &wanted, own.as_deref());
+        grasps
+            .into_iter()
+            .map(|(arm, grasp)| (side_keyword(image, arm), type_keyword(image, &grasp)))
+            .collect()
+    }
+
+    /// Arms and grasps by which an object can be reached from here, those of the wanted arm
+    /// first; `tried` is one of that arm's grasps that is left out.
+    pub(in crate::session::simulation) fn grasps_from_here(
+        &self,
+        image: &mut Image,
+        wanted: &Wanted,
+        tried: Option<&str>,
+    ) -> Vec<(Side, String)> {
         let base = self.base();
         let own_arm = wanted.arm.unwrap_or(Side::Right);
         let other_arm = match own_arm {
@@ -89,14 +111,12 @@ impl Simulation {
             if !self.held_by(arm).is_empty() {
                 continue;
             }
-            let grasps = self.defined_grasps(&wanted.kind, arm);
-            let own = wanted.grasp.clone().or_else(|| grasps.first().cloned());
-            for grasp in &grasps {
-                if (arm == own_arm && own.as_ref() == Some(grasp)) || found.len() == MOST_GRASPS {
+            for grasp in self.defined_grasps(&wanted.kind, arm) {
+                if (arm == own_arm && tried == Some(&*grasp)) || found.len() == MOST_GRASPS {
                     continue;
                 }
-                if self.can_grasp_from(image, &wanted, (arm, grasp), &base) {
-                    found.push((side_keyword(image, arm), type_keyword(image, grasp)));
+                if self.can_grasp_from(image, wanted, (arm, &grasp), &base) {
+                    found.push((arm, grasp));
                 }
             }
         }
@@ -111,6 +131,18 @@ impl Simulation {
         action: &Value,
     ) -> Option<(Value, Value, Value)> {
         let wanted = self.wanted(image, action)?;
+        let (base, arm, grasp) = self.place_to_grasp(image, &wanted)?;
+        let place = pose_stamped("map", &base);
+        Some((place, side_keyword(image, arm), type_keyword(image, &grasp)))
+    }
+
+    /// A pose of the base in the map frame, arm and grasp for an object: near, free, and with
+    /// a way to it. The arm and grasp that are asked for are preferred.
+    pub(in crate::session::simulation) fn place_to_grasp(
+        &self,
+        image: &mut Image,
+        wanted: &Wanted,
+    ) -> Option<(Pose, Side, String)> {
         let arm = wanted.arm.unwrap_or(Side::Right);
         let grasps = self.defined_grasps(&wanted.kind, arm);
         let own = wanted.grasp.clone().or_else(|| grasps.first().cloned())?;
@@ -118,7 +150,7 @@ impl Simulation {
         let mut ways = 0;
         for grasp in std::iter::once(&own).chain(others) {
             for base in self.places_around(&wanted.in_map) {
-                if !self.can_grasp_from(image, &wanted, (arm, grasp), &base) {
+                if !self.can_grasp_from(image, wanted, (arm, grasp), &base) {
                     continue;
                 }
                 let t = base.translation.vector;
@@ -130,8 +162,7 @@ impl Simulation {
                     })
                 };
                 if plan_drive(&self.world, goal).is_ok_and(ends_there) {
-                    let place = pose_stamped("map", &base);
-                    return Some((place, side_keyword(image, arm), type_keyword(image, grasp)));
+                    return Some((base, arm, grasp.clone()));
                 }
                 if ways == MOST_WAYS {
                     return None;
