@@ -213,7 +213,7 @@ fn visualize_coordinates(
             let Some(name) = name_text(image, &args[0]) else {
                 let shown = print::to_string(image, &args[0], true);
                 return Err(Raise::simple(format!(
-                    "{shown} cannot be visualized: the name or type of an object, or a pose, was expected."
+                    "{shown} cannot be visualized: the name or type of an object, or a pose as make-pose makes it, was expected."
                 )));
             };
             let named = simulation.world.object_pose(&name).ok();
@@ -355,4 +355,50 @@ fn look_up_transformation(
     let from = simulation.frame_pose(image, &parent)?;
     let to = simulation.frame_pose(image, &child)?;
     done(transform_stamped(&parent, &child, &(from.inverse() * to)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dialogue::Evaluate;
+    use crate::session::{Session, SessionOptions};
+    use crate::spatial::Pose;
+
+    fn session() -> Session {
+        let mut session = Session::new(&SessionOptions::default()).expect("a session");
+        run(&mut session, "(in-package :pp-tut)");
+        session
+    }
+
+    fn run(session: &mut Session, text: &str) {
+        session.evaluate("test", text, &mut |_| {});
+    }
+
+    fn axes(session: &Session) -> Option<Axes> {
+        session.simulation().axes().cloned()
+    }
+
+    #[test]
+    fn axes_are_in_the_world_until_others_are_shown_or_it_begins_anew() {
+        let mut session = session();
+        run(
+            &mut session,
+            "(spawn-object '((1.5 1 1) (0 0 0 1)) :cup 'cup-1)",
+        );
+        let cup = session.simulation().world().object_pose("CUP-1");
+        let pose = cup.expect("there is a cup");
+        let size = AXES_SIZE;
+        run(&mut session, "(visualize-coordinates 'cup-1)");
+        assert_eq!(axes(&session), Some(Axes { pose, size }));
+        let text = "(visualize-coordinates (make-pose \"base_footprint\" '((1 2 0) (0 0 0 1))) 1)";
+        run(&mut session, text);
+        let pose = Pose::translation(1.0, 2.0, 0.0);
+        let elsewhere = Some(Axes { pose, size: 1.0 });
+        assert_eq!(axes(&session), elsewhere);
+        run(&mut session, "(visualize-coordinates 'saucer-1)");
+        run(&mut session, "(visualize-coordinates 'cup-1 -1)");
+        assert_eq!(axes(&session), elsewhere);
+        run(&mut session, "(init-projection)");
+        assert_eq!(axes(&session), None);
+    }
 }
