@@ -181,15 +181,26 @@ impl<W: Write> Screen<W> {
         Ok(())
     }
 
-    /// The place worth telling: inputs have no name that a person knows, and in an input
-    /// of one line there is nothing to find.
+    /// The place worth telling; if it is in a plan that comes with the program, also where
+    /// the person's own text comes in.
     fn place(&self, abort: &Abort) -> Option<String> {
         let place = abort.place.as_ref()?;
+        let user = abort.user_place.as_ref();
+        let told: Vec<String> = std::iter::once(place)
+            .chain(user)
+            .filter_map(|place| self.told(place))
+            .collect();
+        (!told.is_empty()).then(|| format!("; at {}", told.join(", from ")))
+    }
+
+    /// A place in words: inputs have no name that a person knows, and in an input of one line
+    /// there is nothing to find.
+    fn told(&self, place: &Location) -> Option<String> {
         if *place.name == *self.source_name {
             self.source_has_lines
-                .then(|| format!("; at line {}, column {}", place.line, place.column))
+                .then(|| format!("line {}, column {}", place.line, place.column))
         } else {
-            (!place.name.starts_with(INPUT_NAME)).then(|| format!("; at {place}"))
+            (!place.name.starts_with(INPUT_NAME)).then(|| place.to_string())
         }
     }
 }
