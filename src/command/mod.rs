@@ -14,9 +14,11 @@ mod open;
 mod paint;
 mod picture;
 mod pipe;
+mod prompt;
 mod reference;
 mod replay;
 mod run;
+mod stop_at;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -24,7 +26,6 @@ use std::thread;
 
 use clap::{CommandFactory, Parser};
 
-use crate::repl;
 use arguments::{Arguments, Command};
 use failure::{CommandError, Status};
 use paint::Paint;
@@ -63,16 +64,18 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     let options = &arguments.options;
     match arguments.command {
         None if io::IsTerminal::is_terminal(&io::stdin()) => {
-            let session = open::open(options)?;
-            let paint = Paint::new(options.color, &io::stdout());
-            let status = repl::run(session, paint.is_on())?;
-            Ok(Status::Left(status))
+            prompt::prompt(arguments.options, &arguments.prompt)
         }
         None => pipe::evaluate_standard_input(options),
         Some(Command::Run { files, eval }) => run::run(options, &files, &eval),
-        Some(Command::Replay { files, bless, jobs }) => {
-            replay::replay(options, &files, bless, jobs)
-        }
+        Some(Command::Replay {
+            files,
+            stop_at: Some(entry),
+            ..
+        }) => stop_at::stop_at(options, &files, entry),
+        Some(Command::Replay {
+            files, bless, jobs, ..
+        }) => replay::replay(options, &files, bless, jobs),
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Check { files }) => check::check(options, &files),
         Some(Command::Reference) => reference::print(),

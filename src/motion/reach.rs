@@ -5,18 +5,26 @@
 //! looked at.
 
 use super::base_path::BasePlace;
-use super::drive_plan::BaseJudge;
+use super::drive_plan::{BaseJudge, at_place};
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::judge::Judge;
 use super::tcp_plan::{REASON_STEP, TcpTask};
 use crate::robot::Side;
 use crate::spatial::Pose;
-use crate::world::World;
+use crate::world::{AllowedPairs, CollisionHit, World};
 
 /// Whether the base could be at the place (m, m, rad) with torso and arms as they are,
 /// touching nothing.
 pub fn can_stand(world: &World, place: &BasePlace) -> bool {
     BaseJudge::new(world).blocked(place, 0.0).is_none()
+}
+
+/// What the robot would touch with its base at the place (m, m, rad), torso and arms as they
+/// are.
+pub fn touching_at(world: &World, place: &BasePlace) -> Vec<CollisionHit> {
+    let robot = at_place(world.robot_configuration(), place);
+    let mut checker = world.collision_checker();
+    checker.all_hits(&robot, &AllowedPairs::none(), 0.0)
 }
 
 /// Whether the tool of a hand could be at the pose in the frame of the base, at any height

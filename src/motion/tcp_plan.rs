@@ -383,6 +383,7 @@ impl TcpTask<'_> {
                 side,
                 frame: tree.link(self.body().torso.link).name.clone(),
                 wrist: self.wrist(side, tcp, now),
+                tool: *tcp,
                 torso,
                 reason,
             };

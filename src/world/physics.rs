@@ -368,9 +368,11 @@ impl Physics {
         self.sets.clone()
     }
 
-    /// Goes back to the state.
+    /// Goes back to the state. What the pipeline remembers of its last step belongs to the
+    /// state that is left.
     pub(crate) fn load(&mut self, sets: &Sets) {
         self.sets.clone_from(sets);
+        self.pipeline = PhysicsPipeline::new();
     }
 
     /// Feeds the bits of all poses and velocities.

@@ -4,18 +4,22 @@
 //! Everything that a plan asks of the world comes here as a request of a builtin.
 
 pub mod call;
+mod explain;
 mod frames;
 mod functions;
 mod held;
 mod imagined;
+mod moments;
 mod motions;
 mod names;
 mod pace;
+pub(super) mod parts;
 mod pose_argument;
 mod properties;
 mod raising;
 pub mod request;
 mod tables;
+pub mod tour;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -75,8 +79,15 @@ pub struct Simulation {
     /// The exit status, once somebody has asked to leave.
     pub(super) quit: Option<u8>,
     observer: Option<Observer>,
+    /// The last failure of a motion, to be explained on demand.
+    last_failure: Option<Box<explain::Remembered>>,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
+    moments: moments::Moments,
+    /// The step of the tour that comes next, from zero.
+    tour_step: usize,
+    /// A value that somebody wants to take apart.
+    pub(super) inspected: Option<Value>,
 }
 
 /// Severity of log lines.
@@ -116,7 +127,11 @@ impl Simulation {
             pace: options.realtime.map(Pace::new),
             quit: None,
             observer: None,
+            last_failure: None,
             now: 0.0,
+            moments: moments::Moments::default(),
+            tour_step: 0,
+            inspected: None,
         })
     }
 

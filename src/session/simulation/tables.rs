@@ -15,11 +15,18 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("ROSLISP", functions::ros::LOG_TABLE),
     ("ROSLISP-UTILITIES", functions::ros::UTILITIES_TABLE),
     ("ROS-LOAD", functions::ros::LOAD_TABLE),
+    ("PLANWRIGHT", functions::explaining::TABLE),
+    ("PLANWRIGHT", functions::moments::TABLE),
+    ("PLANWRIGHT", functions::prompt::TABLE),
+    ("PLANWRIGHT", crate::session::record::TABLE),
+    ("SYSTEM", functions::prompt::SYSTEM_TABLE),
 ];
 
 /// Operators by package.
-static OPERATORS: &[(&str, &[Operator])] =
-    &[("CRAM-PR2-PROJECTION", functions::robot_macros::OPERATORS)];
+static OPERATORS: &[(&str, &[Operator])] = &[
+    ("CRAM-PR2-PROJECTION", functions::robot_macros::OPERATORS),
+    ("PLANWRIGHT", functions::prompt::OPERATORS),
+];
 
 /// Functions of one package that another package offers under the same name.
 static ALIASES: &[(&str, &str, &[&str])] = &[

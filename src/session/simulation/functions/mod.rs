@@ -1,9 +1,13 @@
 //! The builtins on the world, one table per topic.
 
+pub mod explaining;
 pub mod grasps;
 pub mod leaving;
+pub mod moments;
 pub mod objects;
 pub mod plans;
+pub mod prompt;
+pub(in crate::session::simulation) mod reach;
 pub mod reaching;
 pub mod robot_macros;
 pub mod ros;

@@ -122,16 +122,16 @@ const HEADINGS: [f64; 24] = [
 ];
 
 /// An object as perception has described it.
-struct Perceived {
-    name: String,
-    kind: String,
+pub(super) struct Perceived {
+    pub(super) name: String,
+    pub(super) kind: String,
     /// Its pose in the frame of the robot's base as it stands now.
-    in_base: Pose,
+    pub(super) in_base: Pose,
 }
 
 impl Simulation {
     /// Reads the designator of a perceived object.
-    fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
+    pub(super) fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
         let current = current(object);
         let name = property(image, &current, "NAME");
         let kind = property(image, &current, "TYPE");
@@ -208,7 +208,7 @@ impl Simulation {
 
     /// Names of the grasps of a type that are defined for an arm, in the order in which
     /// they are tried.
-    fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
+    pub(super) fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
         let kinds = self.models.objects.lineage(kind);
         for kind in kinds {
             let names: Vec<String> = self
@@ -230,7 +230,7 @@ impl Simulation {
     }
 
     /// Can the hand be brought to all poses, given in the frame of the base?
-    fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
+    pub(super) fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
         let description = &self.models.description;
         let joints = &self.world.robot_configuration().joints;
         let search = description.torso_search(&self.models.robot, joints, arm);
@@ -356,7 +356,7 @@ fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let object = simulation.perceived(image, &args[0])?;
     let side = side(image, &args[1])?;
     take_hold(&mut simulation.world, side, &object.name)
-        .map_err(|failure| Simulation::failure(image, &failure, &args[0]))?;
+        .map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
     let held = Held {
         side,
         grasp: type_text(image, &args[2]),
