@@ -79,7 +79,14 @@ fn grasp_reachable(
     let kind = world.object(&name).map_err(raise)?.type_name().to_owned();
     let base = world.robot_configuration().base;
     let object = base.inverse() * world.object_pose(&name).map_err(raise)?;
-    let definition = simulation.grasp(image, &kind, side, &args[2])?;
+    let definition = match simulation.grasp(image, &kind, side, &args[2]) {
+        Ok(definition) => definition,
+        // With the other arm only.
+        Err(_) if simulation.grasp(image, &kind, side.other(), &args[2]).is_ok() => {
+            return done(Value::NIL);
+        }
+        Err(unknown) => return Err(unknown),
+    };
     let axes = &simulation.models.description.arm(side).tool_axes;
     let poses = definition
         .tool_poses(&object, axes)

@@ -3,7 +3,7 @@
 use super::objects::Spawning;
 use crate::designator::value::current;
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords;
+use crate::lisp::builtins::keywords::{self, optional};
 use crate::lisp::foreign::Foreign;
 use crate::lisp::image::Image;
 use crate::lisp::known;
@@ -14,6 +14,7 @@ use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
 use crate::plan::Reply;
 use crate::session::simulation::call::{done, host};
+use crate::session::simulation::motions::side;
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use crate::session::simulation::properties::property;
 use crate::session::simulation::{Axes, LogLevel, Simulation};
@@ -51,9 +52,12 @@ pub static TABLE: &[Builtin] = &[
     ),
     control(
         "LIST-DEFINED-GRASPS",
-        "type",
-        "The grasps that are defined for a type of objects.",
-        &["(pp-tut:list-defined-grasps :cup) => (:BACK :FRONT :LEFT-SIDE :RIGHT-SIDE)"],
+        "type &optional arm",
+        "The grasps that are defined for a type of objects; with an arm, those for that arm.",
+        &[
+            "(pp-tut:list-defined-grasps :cup) => (:BACK :FRONT :LEFT-SIDE :RIGHT-SIDE)",
+            "(pp-tut:list-defined-grasps :plate :left) => (:LEFT-SIDE)",
+        ],
         host!(list_defined_grasps),
     ),
     control(
@@ -174,10 +178,15 @@ fn list_defined_grasps(
     let Some(kind) = type_text(image, &args[0]) else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
     };
-    let grasps: Vec<Value> = simulation
-        .grasps
+    let arm = match optional(args, 1) {
+        Some(arm) => Some(side(image, arm)?),
+        None => None,
+    };
+    let library = &simulation.grasps;
+    let grasps: Vec<Value> = library
         .grasps(&kind)
         .iter()
+        .filter(|name| arm.is_none_or(|arm| library.get(&kind, arm, name).is_some()))
         .map(|name| type_keyword(image, name))
         .collect();
     done(Value::list(grasps))
