@@ -13,6 +13,7 @@ fn printed(text: &str) -> String {
         Event::Output(text) => printed.push_str(&text),
         Event::Values(values) => printed.push_str(&format!("{}\n", values.join(" ; "))),
         Event::Aborted(abort) => printed.push_str(&format!("!! {}\n", abort.report)),
+        _ => {}
     });
     printed
 }

@@ -25,6 +25,7 @@ fn run(session: &mut Session, text: &str) -> (String, Outcome) {
         Event::Aborted(abort) => {
             printed.push_str(&format!("{}\n{}\n", abort.report, abort.condition));
         }
+        _ => {}
     });
     (printed, outcome)
 }

@@ -6,6 +6,7 @@
 use std::io::{self, Write};
 
 use super::evaluate::{Abort, Event, Stop};
+use crate::reader::source::Location;
 
 /// Turns events into text.
 pub struct Screen<W> {

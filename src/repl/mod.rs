@@ -79,7 +79,7 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
     let mut editor = LineEditor::new(Rc::clone(&evaluator), options.is_colored)?;
     let mut screen = Screen::new(io::stdout());
     screen.set_detailed(true);
-    screen.set_terminal(true);
+    screen.set_terminal(io::IsTerminal::is_terminal(&io::stdout()));
     io::stdout().write_all(BANNER.as_bytes())?;
     if let Some(remark) = &options.remark {
         writeln!(io::stdout(), "{remark}")?;
@@ -101,7 +101,13 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
             let answer = evaluator.answer_to_interrupt();
             (evaluator.prompt(), draft, evaluator.level(), answer)
         };
-        let text = match editor.read(&prompt, draft.as_deref()) {
+        // A second Ctrl-C may come before the line editor listens.
+        let is_hurried = repl.interrupt.swap(false, Ordering::Relaxed);
+        let read = match answer {
+            Some(_) if is_hurried => Err(ReadlineError::Interrupted),
+            _ => editor.read(&prompt, draft.as_deref()),
+        };
+        let text = match read {
             Ok(text) => text,
             Err(ReadlineError::Interrupted) => match answer {
                 Some(answer) => answer.to_owned(),
