@@ -7,18 +7,19 @@
 mod facet;
 pub mod image;
 mod lamp;
+pub mod looks;
 mod projector;
 mod raster;
 pub mod render;
 pub mod scene;
 mod shade;
 pub mod surface;
-mod trim;
-mod vessel;
+
 pub mod view;
 
 pub use image::Image;
+pub use looks::Looks;
 pub use render::render;
-pub use scene::{Body, Finish, Scene};
+pub use scene::{Body, Finish, Kind, Owner, Scene};
 pub use surface::Surface;
 pub use view::{View, ViewError};

@@ -144,7 +144,7 @@ impl Surface {
     /// The surface that a line beside the z axis leaves when it is turned about the axis.
     /// The line is given by its points, as distance from the axis and height (m); the solid
     /// is to the left of it as it goes up.
-    pub(super) fn lathed(line: &[[f64; 2]]) -> Self {
+    pub(crate) fn lathed(line: &[[f64; 2]]) -> Self {
         let pieces: Vec<_> = line
             .windows(2)
             .filter_map(|pair| {
