@@ -6,6 +6,7 @@
 use std::io::{self, Write};
 
 use super::evaluate::{Abort, Event};
+use crate::viewer::{Image, InlinePictures};
 
 /// Turns events into text.
 pub struct Screen<W> {
@@ -16,6 +17,7 @@ pub struct Screen<W> {
     source_name: String,
     source_has_lines: bool,
     is_detailed: bool,
+    pictures: Option<InlinePictures>,
 }
 
 impl<W: Write> Screen<W> {
@@ -28,12 +30,18 @@ impl<W: Write> Screen<W> {
             source_name: String::new(),
             source_has_lines: false,
             is_detailed: false,
+            pictures: None,
         }
     }
 
     /// From here on, tells the actions around a condition, or leaves them out.
     pub fn set_detailed(&mut self, is_detailed: bool) {
         self.is_detailed = is_detailed;
+    }
+
+    /// From here on, shows pictures in this way, or leaves them out.
+    pub fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
+        self.pictures = pictures;
     }
 
     /// From here on, shows the values of forms or leaves them out.
@@ -56,6 +64,7 @@ impl<W: Write> Screen<W> {
             Event::Output(text) => self.write(text),
             Event::Values(values) if self.echo => self.values(values),
             Event::Values(_) => Ok(()),
+            Event::Picture(picture) => self.picture(picture),
             Event::Aborted(abort) => self.aborted(abort),
         }
     }
@@ -97,6 +106,15 @@ impl<W: Write> Screen<W> {
             return self.line("; No value");
         }
         values.iter().try_for_each(|value| self.line(value))
+    }
+
+    fn picture(&mut self, picture: &Image) -> io::Result<()> {
+        let Some(show) = self.pictures else {
+            return Ok(());
+        };
+        self.fresh_line()?;
+        self.to.write_all(&show.encoded(picture))?;
+        self.write("\n")
     }
 
     fn aborted(&mut self, abort: &Abort) -> io::Result<()> {

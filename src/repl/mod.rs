@@ -11,7 +11,7 @@ mod history;
 mod indent;
 mod pasted;
 
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
@@ -20,6 +20,7 @@ use thiserror::Error;
 
 use crate::dialogue::screen::input_name;
 use crate::dialogue::{Evaluate, Outcome, Screen, evaluate_on};
+use crate::viewer::InlinePictures;
 use editor::LineEditor;
 use pasted::Inputs;
 
@@ -54,6 +55,10 @@ pub fn run(mut evaluator: impl Evaluate, colored: bool) -> Result<u8, ReplError>
     let mut editor = LineEditor::new(colored)?;
     let mut screen = Screen::new(io::stdout());
     screen.set_detailed(true);
+    if io::stdout().is_terminal() {
+        let pictures = InlinePictures::detect(|name| std::env::var(name).ok());
+        screen.set_pictures(pictures);
+    }
     io::stdout().write_all(BANNER.as_bytes())?;
     let mut number = 0;
     loop {

@@ -262,16 +262,19 @@ fn tones() -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::spatial::Pose;
-    use crate::viewer::scene::{Body, Finish};
+    use crate::viewer::scene::{Body, Finish, Kind, Owner};
     use crate::viewer::surface::Surface;
 
     fn ball(color: [f32; 4]) -> Scene {
         let ball = crate::spatial::Shape::Sphere { radius: 0.5 };
         Scene {
             bodies: vec![Body {
-                surface: Surface::of(&ball, 0.0),
+                owner: Owner::new(Kind::Object, "ball"),
+                surface: Arc::new(Surface::of(&ball, 0.0)),
                 pose: Pose::translation(0.0, 0.0, 2.0),
                 color,
                 finish: Finish::Matt,

@@ -9,10 +9,11 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use super::looks::Looks;
+use super::looks::{self, Looks};
 use super::surface::Surface;
+use crate::robot::{KinematicTree, LinkId};
 use crate::spatial::{PlacedShape, Pose, Shape};
-use crate::world::World;
+use crate::world::{Object, World};
 
 /// Thickness of coordinate axes as a share of their length.
 const AXIS_THICKNESS: f64 = 0.04;
@@ -88,6 +89,21 @@ impl Scene {
     /// The world as it is now. Whoever draws it again and again keeps the [`Looks`].
     pub fn of(world: &World) -> Self {
         Looks::of(world.models()).scene(world)
+    }
+
+    /// What is seen of a link, in the link's frame.
+    pub fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
+        let kind = if is_robot {
+            Kind::Robot
+        } else {
+            Kind::Furniture
+        };
+        looks::link_scene(tree, link, kind)
+    }
+
+    /// What is seen of an object, in its own frame.
+    pub fn of_object(object: &Object) -> Self {
+        looks::object_scene(object)
     }
 
     /// Adds coordinate axes with bars of the length (m): x red, y green, z blue.

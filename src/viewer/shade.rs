@@ -40,7 +40,7 @@ const BOARD_WIDTH: f64 = 0.16;
 const BOARD_LENGTH: f64 = 1.9;
 const BOARD_GAP: f64 = 0.005;
 
-/// From where to where (m from the eye) the floor fades.
+/// From where to where (m from the eye, along the floor) the floor fades.
 const FADE: [f64; 2] = [7.0, 22.0];
 
 /// All lights of a scene.
@@ -126,7 +126,7 @@ impl Lights {
             albedo[i] * light + KEY_COLOR[i] * shine
         });
         if body.finish == Finish::Boards {
-            let far = (point - eye).norm();
+            let far = (point - eye).xy().norm();
             let share = smooth((far - FADE[0]) / (FADE[1] - FADE[0])) as f32;
             color = mix(color, HORIZON, share);
         }

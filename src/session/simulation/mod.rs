@@ -16,6 +16,7 @@ mod raising;
 pub mod request;
 mod tables;
 
+use std::cell::OnceCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -23,9 +24,10 @@ use indexmap::IndexMap;
 
 use super::{SessionError, SessionOptions};
 use crate::lisp::value::Value;
-use crate::motion::{Motion, ProcessModule};
+use crate::motion::{DetectQuery, Motion, ProcessModule};
 use crate::plan::Ticket;
 use crate::spatial::Pose;
+use crate::viewer::{self, Looks};
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
@@ -74,6 +76,11 @@ pub struct Simulation {
     /// The exit status, once somebody has asked to leave.
     pub(super) quit: Option<u8>,
     observer: Option<Observer>,
+    /// What was looked for last.
+    sought: Option<DetectQuery>,
+    /// Pictures that were made and not yet told of.
+    pictures: Vec<Arc<viewer::Image>>,
+    looks: OnceCell<Looks>,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
 }
@@ -115,6 +122,9 @@ impl Simulation {
             pace: options.realtime.map(Pace::new),
             quit: None,
             observer: None,
+            sought: None,
+            pictures: Vec::new(),
+            looks: OnceCell::new(),
             now: 0.0,
         })
     }
@@ -126,6 +136,7 @@ impl Simulation {
         self.names.clear();
         self.held.clear();
         self.axes = None;
+        self.sought = None;
     }
 
     /// Simulated time (s).
@@ -136,6 +147,11 @@ impl Simulation {
     /// The world.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// How everything looks.
+    fn looks(&self) -> &Looks {
+        self.looks.get_or_init(|| Looks::of(&self.models))
     }
 
     /// The types of objects that can be spawned.

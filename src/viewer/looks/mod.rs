@@ -4,7 +4,7 @@
 
 mod look;
 mod objects;
-mod trim;
+mod pr2;
 mod vessel;
 
 use std::sync::Arc;
@@ -47,14 +47,15 @@ impl Looks {
         let kinds = models.objects.types();
         Self {
             floor: Arc::new(Surface::ground(FLOOR_HALF)),
-            furniture: dressed(&models.kitchen, Kind::Furniture, |name, tree, link| {
-                looks_of_link(name, tree, link, FURNITURE_BEVEL, Finish::Satin)
-            }),
-            robot: dressed(&models.robot, Kind::Robot, |name, tree, link| {
-                looks_of_link(name, tree, link, ROBOT_BEVEL, Finish::Gloss)
-            }),
+            furniture: dressed(&models.kitchen, Kind::Furniture),
+            robot: dressed(&models.robot, Kind::Robot),
             objects: kinds
-                .map(|kind| (kind.name.clone(), objects::looks_of(&kind.shapes)))
+                .map(|kind| {
+                    (
+                        kind.name.clone(),
+                        objects::looks_of(&kind.name, &kind.shapes),
+                    )
+                })
                 .collect(),
         }
     }
@@ -77,62 +78,72 @@ impl Looks {
         for object in world.objects() {
             // The object comes from the world itself.
             if let Ok(pose) = world.object_pose(object.name()) {
-                self.add_object(object, &pose, &mut bodies);
+                match self.objects.get(object.type_name()) {
+                    Some(looks) => add_object(object, looks, &pose, &mut bodies),
+                    // Of a type that these looks were not made for.
+                    None => bodies.extend(object_scene(object).bodies),
+                }
             }
         }
         Scene { bodies }
     }
+}
 
-    fn add_object(&self, object: &Object, pose: &Pose, bodies: &mut Vec<Body>) {
-        let owner = Owner::new(Kind::Object, object.name());
-        let own;
-        let looks = match self.objects.get(object.type_name()) {
-            Some(looks) => looks,
-            // Of a type that these looks were not made for.
-            None => {
-                own = objects::looks_of(object.shapes());
-                &own
-            }
-        };
-        let color = object.color();
-        bodies.extend(looks.iter().map(|look| look.body(&owner, pose, color)));
-    }
+/// What is seen of a link, in the link's frame.
+pub(super) fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scene {
+    let mut scene = Scene::default();
+    let dressed = Dressed::new(tree, link, tree.link(link), kind);
+    dressed.add(&Pose::identity(), &mut scene.bodies);
+    scene
+}
+
+/// What is seen of an object, in its own frame.
+pub(super) fn object_scene(object: &Object) -> Scene {
+    let mut scene = Scene::default();
+    let looks = objects::looks_of(object.type_name(), object.shapes());
+    add_object(object, &looks, &Pose::identity(), &mut scene.bodies);
+    scene
+}
+
+fn add_object(object: &Object, looks: &[Look], pose: &Pose, bodies: &mut Vec<Body>) {
+    let owner = Owner::new(Kind::Object, object.name());
+    let color = object.color();
+    bodies.extend(looks.iter().map(|look| look.body(&owner, pose, color)));
 }
 
 impl Dressed {
+    fn new(tree: &KinematicTree, id: LinkId, link: &Link, kind: Kind) -> Self {
+        let own = if kind == Kind::Robot && tree.name() == pr2::NAME {
+            pr2::looks_of(&link.name)
+        } else {
+            None
+        };
+        Self {
+            link: id,
+            owner: Owner::new(kind, &link.name),
+            looks: own.unwrap_or_else(|| as_modelled(link, kind)),
+        }
+    }
+
     fn add(&self, pose: &Pose, bodies: &mut Vec<Body>) {
         let looks = self.looks.iter();
         bodies.extend(looks.map(|look| look.body(&self.owner, pose, PLAIN)));
     }
 }
 
-fn dressed(
-    tree: &KinematicTree,
-    kind: Kind,
-    looks: impl Fn(&str, &str, &Link) -> Vec<Look>,
-) -> Vec<Dressed> {
+fn dressed(tree: &KinematicTree, kind: Kind) -> Vec<Dressed> {
     tree.links()
-        .map(|(id, link)| Dressed {
-            link: id,
-            owner: Owner::new(kind, &link.name),
-            looks: looks(&link.name, tree.name(), link),
-        })
+        .map(|(id, link)| Dressed::new(tree, id, link, kind))
         .filter(|dressed| !dressed.looks.is_empty())
         .collect()
 }
 
-/// The shapes that the model gives, with what it leaves out.
-fn looks_of_link(
-    name: &str,
-    tree: &str,
-    link: &Link,
-    bevel: f64,
-    finish: Finish,
-) -> Vec<Look> {
+/// The shapes that the model gives.
+fn as_modelled(link: &Link, kind: Kind) -> Vec<Look> {
+    let (bevel, finish) = match kind {
+        Kind::Robot => (ROBOT_BEVEL, Finish::Gloss),
+        _ => (FURNITURE_BEVEL, Finish::Satin),
+    };
     let shapes = link.visuals.iter();
-    let mut looks: Vec<_> = shapes.map(|s| Look::of_shape(s, bevel, finish)).collect();
-    for (placed, _) in trim::trim_of(tree, name) {
-        looks.push(Look::of_shape(&placed, bevel, Finish::Gloss));
-    }
-    looks
+    shapes.map(|s| Look::of_shape(s, bevel, finish)).collect()
 }

@@ -11,7 +11,7 @@ use crate::viewer::scene::Finish;
 const BEVEL: f64 = 0.006;
 
 /// The looks of an object of these shapes.
-pub(super) fn looks_of(shapes: &[PlacedShape]) -> Vec<Look> {
+pub(super) fn looks_of(_name: &str, shapes: &[PlacedShape]) -> Vec<Look> {
     let look = |part| match part {
         Part::Shape(placed) => Look::of_shape(placed, BEVEL, Finish::Gloss),
         Part::Vessel { surface, at } => Look {

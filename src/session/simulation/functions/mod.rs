@@ -3,6 +3,8 @@
 pub mod grasps;
 pub mod leaving;
 pub mod objects;
+mod picture_request;
+pub mod pictures;
 pub mod plans;
 pub mod robot_macros;
 pub mod ros;
