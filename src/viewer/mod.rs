@@ -10,6 +10,7 @@ pub mod image;
 mod inline;
 mod lamp;
 mod lettering;
+mod loft;
 pub mod looks;
 pub mod map_picture;
 mod palette;
@@ -18,6 +19,7 @@ mod raster;
 pub mod render;
 pub mod scene;
 mod shade;
+mod smooth;
 pub mod surface;
 
 pub mod view;
