@@ -7,10 +7,10 @@ use super::surface::Surface;
 use crate::spatial::trig;
 
 /// Corners of a quarter of a section's outline, less one.
-const QUARTER: u32 = 4;
+const QUARTER: u32 = 3;
 
 /// Steps by which the end of a body is rounded.
-const END_STEPS: u32 = 3;
+const END_STEPS: u32 = 2;
 
 /// Corners of the section of a tube.
 const TUBE: u32 = 10;

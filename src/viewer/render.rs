@@ -12,7 +12,7 @@ use super::facet::Facets;
 use super::image::Image;
 use super::projector::{Projector, SAMPLES, Seen};
 use super::scene::Scene;
-use super::shade::{Color, Lights, SkyLight, background, unit};
+use super::shade::{Color, Lights, Reach, background, unit};
 use crate::perception::camera::Camera;
 
 /// Rows of pixels in a band; a multiple of [`BLOCK`].
@@ -40,7 +40,7 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
     let mut image = Image::black(camera.width, camera.height);
     let facets = Facets::of(scene);
     let plan = Lights::plan();
-    let lamps = in_parallel(threads, plan, |wanted| Lights::lamp(wanted, facets.solid()));
+    let lamps = in_parallel(threads, plan, |wanted| Lights::lamp(wanted, &facets));
     let Some(lights) = Lights::new(lamps) else {
         return image;
     };
@@ -110,7 +110,7 @@ impl Painter<'_> {
         let pixels = width / SAMPLES;
         let rows = bytes.len() / (pixels * 3);
         let samples = self.samples(first * SAMPLES..(first + rows) * SAMPLES);
-        let mut known: Vec<(u32, SkyLight)> = Vec::new();
+        let mut known: Vec<(u32, Reach)> = Vec::new();
         for block_row in (0..rows).step_by(BLOCK) {
             for block_column in (0..pixels).step_by(BLOCK) {
                 known.clear();
@@ -147,12 +147,21 @@ impl Painter<'_> {
                 // Rows and columns were cut to the grid by the patch.
                 let nearness = &mut nearness[places.clone()][columns.clone()];
                 let nearest = &mut nearest[places][columns.clone()];
-                for (j, (near, who)) in nearness.iter_mut().zip(nearest).enumerate() {
-                    let here = start + slope * j as f32;
-                    let wins =
-                        here > *near && (alpha == 1.0 || shows(columns.start + j, row, alpha));
-                    *near = if wins { here } else { *near };
-                    *who = if wins { i } else { *who };
+                let places = nearness.iter_mut().zip(nearest).enumerate();
+                if alpha == 1.0 {
+                    for (j, (near, who)) in places {
+                        let here = start + slope * j as i32 as f32;
+                        let wins = here > *near;
+                        *near = if wins { here } else { *near };
+                        *who = if wins { i } else { *who };
+                    }
+                } else {
+                    for (j, (near, who)) in places {
+                        let here = start + slope * j as i32 as f32;
+                        if here > *near && shows(columns.start + j, row, alpha) {
+                            (*near, *who) = (here, i);
+                        }
+                    }
                 }
             }
         }
@@ -165,9 +174,15 @@ impl Painter<'_> {
         column: usize,
         row: usize,
         samples: [u32; 4],
-        known: &mut Vec<(u32, SkyLight)>,
+        known: &mut Vec<(u32, Reach)>,
     ) -> Color {
+        if samples == [samples[0]; 4] {
+            let x = (column * SAMPLES) as f64 + 1.0;
+            let y = (row * SAMPLES) as f64 + 1.0;
+            return self.light(samples[0], x, y, known).map(tone);
+        }
         let mut sum = [0.0; 3];
+        let samples = self.merged(samples);
         for (i, id) in samples.iter().enumerate() {
             if samples[..i].contains(id) {
                 continue;
@@ -181,15 +196,37 @@ impl Painter<'_> {
             }
             let x = (column * SAMPLES) as f64 + x / count;
             let y = (row * SAMPLES) as f64 + y / count;
-            let color = match self.seen.get(*id as usize) {
-                None => background(&self.projector.ray(x, y)),
-                Some(seen) => self.surface(*id, seen, x, y, known),
-            };
+            let color = self.light(*id, x, y, known);
             for (sum, light) in sum.iter_mut().zip(color) {
                 *sum += tone(light) * (count / 4.0) as f32;
             }
         }
         sum
+    }
+
+    /// What the place of the grid of samples shows, which is that triangle or none.
+    fn light(&self, id: u32, x: f64, y: f64, known: &mut Vec<(u32, Reach)>) -> Color {
+        match self.seen.get(id as usize) {
+            None => background(&self.projector.ray(x, y)),
+            Some(seen) => self.surface(id, seen, x, y, known),
+        }
+    }
+
+    /// The samples with neighbours on a gently bent surface taken as one.
+    fn merged(&self, mut samples: [u32; 4]) -> [u32; 4] {
+        for i in 1..4 {
+            // What is not a triangle is not within those that are seen.
+            let Some(here) = self.seen.get(samples[i] as usize) else {
+                continue;
+            };
+            let is_near = |id: &&u32| {
+                let other = self.seen.get(**id as usize);
+                other.is_some_and(|other| other.continues(here))
+            };
+            let found = samples[..i].iter().find(is_near).copied();
+            samples[i] = found.unwrap_or(samples[i]);
+        }
+        samples
     }
 
     /// The light of a triangle at the column and row of the grid of samples.
@@ -199,22 +236,26 @@ impl Painter<'_> {
         seen: &Seen,
         x: f64,
         y: f64,
-        known: &mut Vec<(u32, SkyLight)>,
+        known: &mut Vec<(u32, Reach)>,
     ) -> Color {
         let (point, normal) = seen.at(x, y);
-        let sky = match known.iter().find(|(k, _)| *k == id) {
-            Some((_, sky)) => *sky,
-            None => {
-                let sky = self.lights.sky(&point, &normal);
-                known.push((id, sky));
-                sky
-            }
-        };
         let eye = &self.projector.eye;
         let grain = (point - eye).norm() * SAMPLES as f64 / self.projector.focal;
+        let is_known = |(k, _): &&(u32, Reach)| {
+            let other = self.seen.get(*k as usize);
+            *k == id || other.is_some_and(|other| other.continues(seen))
+        };
+        let reach = match known.iter().find(is_known) {
+            Some((_, reach)) => *reach,
+            None => {
+                let reach = self.lights.reach(&point, &normal, grain);
+                known.push((id, reach));
+                reach
+            }
+        };
         // Every triangle comes from a body of the scene.
         let body = &self.scene.bodies[seen.body];
-        self.lights.shade(body, &point, &normal, eye, &sky, grain)
+        self.lights.shade(body, &point, &normal, eye, reach, grain)
     }
 
     fn byte(&self, light: f32) -> u8 {

@@ -172,9 +172,9 @@ impl Surface {
             .flatten()
             .fold(0.0, |r: f64, p| r.max(p.radius));
         let count = match widest {
-            r if r < 0.012 => 12,
-            r if r < 0.06 => 28,
-            _ => 40,
+            r if r < 0.012 => 10,
+            r if r < 0.06 => 24,
+            _ => 36,
         };
         let mut surface = Self::default();
         for (piece, ends) in (0u32..).zip(pieces) {
