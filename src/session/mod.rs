@@ -24,7 +24,7 @@ use live_host::LiveHost;
 use simulation::Simulation;
 
 pub use options::{SessionError, SessionOptions};
-pub use simulation::LogLevel;
+pub use simulation::{Filming, LogLevel};
 
 /// A session.
 pub struct Session {

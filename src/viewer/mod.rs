@@ -4,6 +4,7 @@
 //! from where, [`render`](render::render) makes an [`Image`] of the two. Nothing here changes
 //! the world. The same world and view give the same bytes, however many threads draw.
 
+pub mod animation;
 pub mod camera_picture;
 mod facet;
 pub mod image;

@@ -4,6 +4,7 @@
 //! Everything that a plan asks of the world comes here as a request of a builtin.
 
 pub mod call;
+mod film;
 mod frames;
 mod functions;
 mod held;
@@ -32,6 +33,7 @@ use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
 
+pub use film::Filming;
 use pace::Pace;
 pub use tables::install;
 
@@ -81,6 +83,7 @@ pub struct Simulation {
     /// Pictures that were made and not yet told of.
     pictures: Vec<Arc<viewer::Image>>,
     looks: OnceCell<Looks>,
+    film: Option<film::Film>,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
 }
@@ -125,6 +128,7 @@ impl Simulation {
             sought: None,
             pictures: Vec::new(),
             looks: OnceCell::new(),
+            film: None,
             now: 0.0,
         })
     }

@@ -7,7 +7,6 @@
 use super::look::Look;
 use crate::viewer::loft::{Along, Section, lofted, section};
 use crate::viewer::scene::Finish;
-use crate::viewer::surface::Surface;
 use Along::{X, Y, Z};
 
 /// Name of the robot that looks like this.
