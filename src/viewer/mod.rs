@@ -30,7 +30,7 @@ pub use image::Image;
 pub use inline::InlinePictures;
 pub use looks::Looks;
 pub use map_picture::{FloorMap, map_scene};
-pub use render::render;
+pub use render::{render, segments};
 pub use scene::{Body, Finish, Kind, Owner, Scene};
 pub use surface::Surface;
 pub use view::{View, ViewError};

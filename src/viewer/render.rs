@@ -61,6 +61,19 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
     image
 }
 
+/// Which body every pixel shows, as a place in the scene, row by row from the top; none for
+/// the background. The first of a pixel's samples decides.
+pub fn segments(scene: &Scene, camera: &Camera) -> Vec<Option<usize>> {
+    let projector = Projector::new(camera);
+    let seen = projector.project(&Facets::of(scene).all);
+    let (width, height) = (projector.width, projector.height);
+    let samples = samples(scene, &seen, width, 0..height);
+    let body = |id: &u32| seen.get(*id as usize).map(|seen| seen.body);
+    let rows = samples.chunks(width.max(1)).step_by(SAMPLES);
+    rows.flat_map(|row| row.iter().step_by(SAMPLES).map(body))
+        .collect()
+}
+
 /// Does the work on every item, on as many threads; results in the order of the items.
 fn in_parallel<I: Send, R: Send>(
     threads: usize,
@@ -109,7 +122,8 @@ impl Painter<'_> {
         let width = self.projector.width;
         let pixels = width / SAMPLES;
         let rows = bytes.len() / (pixels * 3);
-        let samples = self.samples(first * SAMPLES..(first + rows) * SAMPLES);
+        let rows_of_samples = first * SAMPLES..(first + rows) * SAMPLES;
+        let samples = samples(self.scene, self.seen, width, rows_of_samples);
         let mut known: Vec<(u32, Reach)> = Vec::new();
         for block_row in (0..rows).step_by(BLOCK) {
             for block_column in (0..pixels).step_by(BLOCK) {
@@ -126,46 +140,6 @@ impl Painter<'_> {
                 }
             }
         }
-    }
-
-    /// The nearest triangle at every sample of the rows.
-    fn samples(&self, rows: Range<usize>) -> Vec<u32> {
-        let width = self.projector.width;
-        let mut nearness = vec![0f32; rows.len() * width];
-        let mut nearest = vec![NOTHING; rows.len() * width];
-        for (i, seen) in (0u32..).zip(self.seen) {
-            let covered = seen.patch.rows();
-            // Every triangle comes from a body of the scene.
-            let alpha = unit(self.scene.bodies[seen.body].color[3]);
-            for row in covered.start.max(rows.start)..covered.end.min(rows.end) {
-                let columns = seen.patch.columns(row, width);
-                if columns.is_empty() {
-                    continue;
-                }
-                let (start, slope) = seen.patch.nearness(columns.start, row);
-                let places = (row - rows.start) * width..;
-                // Rows and columns were cut to the grid by the patch.
-                let nearness = &mut nearness[places.clone()][columns.clone()];
-                let nearest = &mut nearest[places][columns.clone()];
-                let places = nearness.iter_mut().zip(nearest).enumerate();
-                if alpha == 1.0 {
-                    for (j, (near, who)) in places {
-                        let here = start + slope * j as i32 as f32;
-                        let wins = here > *near;
-                        *near = if wins { here } else { *near };
-                        *who = if wins { i } else { *who };
-                    }
-                } else {
-                    for (j, (near, who)) in places {
-                        let here = start + slope * j as i32 as f32;
-                        if here > *near && shows(columns.start + j, row, alpha) {
-                            (*near, *who) = (here, i);
-                        }
-                    }
-                }
-            }
-        }
-        nearest
     }
 
     /// The colour of a pixel whose samples show the triangles.
@@ -263,6 +237,45 @@ impl Painter<'_> {
         // Steps of the unit interval are within the table.
         self.tones[step]
     }
+}
+
+/// The nearest triangle at every sample of the rows.
+fn samples(scene: &Scene, seen: &[Seen], width: usize, rows: Range<usize>) -> Vec<u32> {
+    let mut nearness = vec![0f32; rows.len() * width];
+    let mut nearest = vec![NOTHING; rows.len() * width];
+    for (i, seen) in (0u32..).zip(seen) {
+        let covered = seen.patch.rows();
+        // Every triangle comes from a body of the scene.
+        let alpha = unit(scene.bodies[seen.body].color[3]);
+        for row in covered.start.max(rows.start)..covered.end.min(rows.end) {
+            let columns = seen.patch.columns(row, width);
+            if columns.is_empty() {
+                continue;
+            }
+            let (start, slope) = seen.patch.nearness(columns.start, row);
+            let places = (row - rows.start) * width..;
+            // Rows and columns were cut to the grid by the patch.
+            let nearness = &mut nearness[places.clone()][columns.clone()];
+            let nearest = &mut nearest[places][columns.clone()];
+            let places = nearness.iter_mut().zip(nearest).enumerate();
+            if alpha == 1.0 {
+                for (j, (near, who)) in places {
+                    let here = start + slope * j as i32 as f32;
+                    let wins = here > *near;
+                    *near = if wins { here } else { *near };
+                    *who = if wins { i } else { *who };
+                }
+            } else {
+                for (j, (near, who)) in places {
+                    let here = start + slope * j as i32 as f32;
+                    if here > *near && shows(columns.start + j, row, alpha) {
+                        (*near, *who) = (here, i);
+                    }
+                }
+            }
+        }
+    }
+    nearest
 }
 
 /// Whether a half-transparent surface is drawn at the sample: the better it covers, the more

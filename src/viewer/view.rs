@@ -31,7 +31,7 @@ pub enum View {
     Table,
     /// The kitchen island.
     Island,
-    /// The robot, from behind and above.
+    /// The robot, from in front of it, to its left and above.
     Follow,
     /// From anywhere.
     Free {
@@ -78,9 +78,10 @@ const REACH: f64 = 1000.0;
 
 impl View {
     /// All views that have a name.
-    pub const NAMED: [Self; 6] = [
+    pub const NAMED: [Self; 7] = [
         Self::Kitchen,
         Self::Top,
+        Self::Map,
         Self::Robot,
         Self::Table,
         Self::Island,
@@ -145,12 +146,12 @@ impl View {
             }
             Self::Island => {
                 let at = self.furniture(world, "kitchen_island_surface", [0.2, 0.2, 0.05])?;
-                look([at.x + 1.75, at.y - 1.85, 1.95], at.into(), FIELD_OF_VIEW)
+                look([at.x - 2.0, at.y - 1.7, 2.0], at.into(), FIELD_OF_VIEW)
             }
             Self::Follow => {
                 let base = world.robot_configuration().base;
-                let from = base * Point3::new(-1.9, 1.7, 2.2);
-                let at = base * Point3::new(0.45, 0.0, 0.72);
+                let from = base * Point3::new(2.15, 1.75, 2.0);
+                let at = base * Point3::new(0.25, -0.05, 0.8);
                 looking(from, at, Vector3::z()).map(|pose| camera(pose, FIELD_OF_VIEW))
             }
             Self::Free {

@@ -2,6 +2,7 @@
 //! boxes and cylinders. Nothing here touches anything: neither physics nor the robot's camera
 //! know of looks.
 
+mod kitchen;
 mod look;
 mod objects;
 mod pr2;
@@ -145,5 +146,9 @@ fn as_modelled(link: &Link, kind: Kind) -> Vec<Look> {
         _ => (FURNITURE_BEVEL, Finish::Satin),
     };
     let shapes = link.visuals.iter();
-    shapes.map(|s| Look::of_shape(s, bevel, finish)).collect()
+    let mut looks: Vec<_> = shapes.map(|s| Look::of_shape(s, bevel, finish)).collect();
+    if kind == Kind::Furniture {
+        looks.extend(kitchen::extras_of(&link.name));
+    }
+    looks
 }

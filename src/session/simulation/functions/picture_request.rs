@@ -163,12 +163,12 @@ fn view_named(image: &Image, name: &Value) -> Result<View> {
             View::NAMED.iter().map(View::name),
             |name| format!(":{name}"),
         );
-        let near = if near.is_empty() { "; " } else { &near }.to_owned();
-        let near = near
-            .strip_suffix('?')
-            .map_or(near.clone(), |n| format!("{n}? "));
+        let near = match near.is_empty() {
+            true => "; there".to_owned(),
+            false => format!("{near} There"),
+        };
         Raise::simple(format!(
-            "{} is no view{near}There are {}.",
+            "{} is no view{near} are {}.",
             print::to_string(image, name, true),
             names.join(", ")
         ))
