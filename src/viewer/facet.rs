@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::scene::{Body, Finish, Scene};
+use super::scene::{Body, Finish, Kind, Scene};
 
 /// A triangle of a body.
 #[derive(Clone, Copy, Debug)]
@@ -34,8 +34,12 @@ impl Facet {
     }
 }
 
-/// Bodies that are smaller than this across (m) take no light from the sky away.
-const SMALL: f64 = 0.08;
+/// Bodies that are shorter (m) than this take no light from the sky away, nor do thin ones.
+const SHORT: f64 = 0.08;
+const THIN: f64 = 0.03;
+
+/// The same of the robot's parts, which are many and close together.
+const SHORT_PART: f64 = 0.17;
 
 /// All triangles, sorted by what they do to the light: those of the floor, which takes none
 /// away, of small bodies, and of the others, each in the order of the scene.
@@ -49,7 +53,7 @@ impl Facets {
     pub(super) fn of(scene: &Scene) -> Self {
         let rank = |body: &Body| match body.finish {
             Finish::Boards => 0,
-            _ if extent(body) < SMALL => 1,
+            _ if is_small(body) => 1,
             _ => 2,
         };
         let ranks: Vec<_> = scene.bodies.iter().map(rank).collect();
@@ -83,8 +87,8 @@ impl Facets {
     }
 }
 
-/// Greatest edge length (m) of the box around a body in its own frame.
-fn extent(body: &Body) -> f64 {
+/// Whether a body takes hardly any light from the sky away.
+fn is_small(body: &Body) -> bool {
     let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for corner in &body.surface.corners {
         for axis in 0..3 {
@@ -92,8 +96,13 @@ fn extent(body: &Body) -> f64 {
             bounds[1][axis] = bounds[1][axis].max(corner.point[axis]);
         }
     }
-    let along = |axis: usize| bounds[1][axis] - bounds[0][axis];
-    along(0).max(along(1)).max(along(2))
+    let mut sizes = [0, 1, 2].map(|axis| bounds[1][axis] - bounds[0][axis]);
+    sizes.sort_by(f64::total_cmp);
+    let short = match body.owner.kind {
+        Kind::Robot => SHORT_PART,
+        _ => SHORT,
+    };
+    sizes[2] < short || sizes[1] < THIN
 }
 
 fn add(

@@ -105,8 +105,8 @@ impl Lamp {
     ) -> f32 {
         let width = (COUNT - 1) as f64;
         // So far off the surface that a slanting one does not shade itself.
-        let cosine = self.towards.dot(normal);
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        let cosine = self.towards.dot(normal) as f32;
+        let sine = f64::from((1.0 - cosine * cosine).max(0.0).sqrt());
         let lift = (0.3 + (0.7 * width + 0.7) * sine) / self.scale;
         let [x, y, height] = self.place(&(point + normal * lift));
         let (x, y) = (x - width / 2.0, y - width / 2.0);
