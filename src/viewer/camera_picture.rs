@@ -103,10 +103,13 @@ impl CameraPicture {
         ];
         for (panel, [left, top], title) in &mut panels {
             let camera = resized([panel.width(), panel.height()]);
+            // Names are told once, in the large panel.
+            let mut names = ([*left, *top] == [0, 0]).then(Vec::new);
             for one in &seen {
                 // A visibility comes from an object of the world.
                 if let Ok(object) = world.object(&one.object) {
-                    outline(panel, world, object, &camera, one.is_seen());
+                    let color = if one.is_seen() { SEEN } else { UNSEEN };
+                    outline(panel, world, object, &camera, color, names.as_mut());
                 }
             }
             let title = Line {
@@ -207,11 +210,17 @@ fn segment_color(world: &World, key: Option<PartKey>) -> Rgb {
 
 /// Draws a line around the object as it would be with nothing in front of it; an arrow at
 /// the border where it is outside.
-fn outline(image: &mut Image, world: &World, object: &Object, camera: &Camera, is_seen: bool) {
+fn outline(
+    image: &mut Image,
+    world: &World,
+    object: &Object,
+    camera: &Camera,
+    color: Rgb,
+    names: Option<&mut Vec<Plate>>,
+) {
     let Ok(pose) = world.object_pose(object.name()) else {
         return;
     };
-    let color = if is_seen { SEEN } else { UNSEEN };
     let mut alone = Picture::new(*camera);
     for placed in object.shapes() {
         alone.draw(
@@ -247,28 +256,70 @@ fn outline(image: &mut Image, world: &World, object: &Object, camera: &Camera, i
         scale: 1 + width / 600,
         color,
     };
-    match camera.pixel_of(&middle) {
+    let at = match camera.pixel_of(&middle) {
         Some([x, y]) if is_within(x, width) && is_within(y, height) => {
             let top = (0..height).find(|row| (0..width).any(|column| covered(column, *row)));
             let top = top.unwrap_or(y as usize);
             let above = top.saturating_sub(name.height() + 6 * name.scale);
             let left = (x as usize).saturating_sub(name.width() / 2);
-            name.draw_on_plate(image, left, above);
+            Some([left, above])
         }
         _ => arrow(image, camera, &middle, &name),
+    };
+    if let (Some(at), Some(names)) = (at, names) {
+        let size = [
+            name.width() + 4 * name.scale,
+            name.height() + 4 * name.scale,
+        ];
+        let plate = free_place(names, Plate { at, size });
+        name.draw_on_plate(image, plate.at[0], plate.at[1]);
+        names.push(plate);
     }
+}
+
+/// Where a name is written.
+#[derive(Clone, Copy)]
+struct Plate {
+    at: [usize; 2],
+    size: [usize; 2],
+}
+
+impl Plate {
+    fn overlaps(&self, other: &Self) -> bool {
+        let apart = |i: usize| {
+            self.at[i] >= other.at[i] + other.size[i] || other.at[i] >= self.at[i] + self.size[i]
+        };
+        !apart(0) && !apart(1)
+    }
+}
+
+/// The place moved up as far as it covers no other name, if there is room.
+fn free_place(others: &[Plate], wanted: Plate) -> Plate {
+    let mut plate = wanted;
+    while let Some(other) = others.iter().find(|other| other.overlaps(&plate)) {
+        match other.at[1].checked_sub(plate.size[1] + 1) {
+            Some(row) => plate.at[1] = row,
+            None => return wanted,
+        }
+    }
+    plate
 }
 
 fn is_within(place: f64, end: usize) -> bool {
     (0.0..end as f64).contains(&place)
 }
 
-/// An arrow at the border that points to a place outside of the picture.
-fn arrow(image: &mut Image, camera: &Camera, point: &Point3<f64>, name: &Line<'_>) {
+/// An arrow at the border that points to a place outside of the picture; where its name goes.
+fn arrow(
+    image: &mut Image,
+    camera: &Camera,
+    point: &Point3<f64>,
+    name: &Line<'_>,
+) -> Option<[usize; 2]> {
     let there = camera.pose.inverse_transform_point(point);
     let reach = libm::hypot(there.x, there.y);
     if reach < 1e-9 {
-        return;
+        return None;
     }
     let (x, y) = (there.x / reach, there.y / reach);
     let size = 8.0 * name.scale as f64;
@@ -299,8 +350,14 @@ fn arrow(image: &mut Image, camera: &Camera, point: &Point3<f64>, name: &Line<'_
         tip[0] - x * size * 2.0 - name.width() as f64 * (0.5 + 0.5 * x),
         tip[1] - y * size * 2.0 - name.height() as f64 * (0.5 + 0.5 * y),
     ];
-    // Casts cut off at zero; the plate keeps inside of the picture.
-    name.draw_on_plate(image, text[0] as usize, text[1] as usize);
+    // Casts cut off at zero; both borders are far enough from the largest number.
+    let place = |axis: usize, end: usize, size: usize| {
+        (text[axis] as usize).min(end.saturating_sub(size + 4 * name.scale))
+    };
+    Some([
+        place(0, camera.width, name.width()),
+        place(1, camera.height, name.height()),
+    ])
 }
 
 /// What is written below the panels.
@@ -340,22 +397,25 @@ impl Strip {
     }
 
     /// The lines, cut into pieces that fit.
-    fn pieces(&self, width: usize) -> Vec<(Rgb, String)> {
+    fn pieces(&self, width: usize) -> Vec<(Option<Rgb>, String)> {
         let fits = (width / (6 * self.scale)).saturating_sub(2).max(8);
         let mut pieces = Vec::new();
         for (color, text) in &self.lines {
+            // Only the first piece of a line has its colour beside it.
+            let mut square = Some(*color);
             let mut piece = String::new();
             for word in text.split(' ') {
                 let is_full = piece.chars().count() + 1 + word.chars().count() > fits;
                 if is_full && !piece.is_empty() {
-                    pieces.push((*color, std::mem::replace(&mut piece, "  ".to_owned())));
+                    let whole = std::mem::replace(&mut piece, "  ".to_owned());
+                    pieces.push((square.take(), whole));
                 }
                 if !piece.trim().is_empty() {
                     piece.push(' ');
                 }
                 piece.push_str(word);
             }
-            pieces.push((*color, piece));
+            pieces.push((square.take(), piece));
         }
         pieces
     }
@@ -376,7 +436,9 @@ impl Strip {
         for (place, (color, text)) in pieces.iter().enumerate() {
             let row = top + 5 * self.scale + place * self.line_height();
             let square = 7 * self.scale;
-            image.fill([4 * self.scale, row], [square; 2], *color);
+            if let Some(color) = color {
+                image.fill([4 * self.scale, row], [square; 2], *color);
+            }
             let line = Line {
                 text,
                 scale: self.scale,

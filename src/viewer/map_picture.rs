@@ -10,6 +10,8 @@ use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
 
+use super::image::Image;
+use super::lettering::Line;
 use super::looks::Looks;
 use super::scene::{Body, Finish, Kind, Owner, Scene};
 use super::surface::{Corner, Surface};
@@ -126,6 +128,31 @@ pub fn map_scene(world: &World, looks: &Looks, map: &FloorMap) -> Scene {
         });
     }
     scene
+}
+
+/// Writes below the picture what its colours mean.
+pub fn add_legend(image: &mut Image) {
+    let scale = 1 + image.width() / 800;
+    let entries = [
+        ([96, 150, 82], "The base may stand"),
+        ([186, 90, 74], "Something is in the way"),
+    ];
+    let mut left = 0;
+    for (color, text) in entries {
+        let line = Line { text, scale, color };
+        let size = line.height() + 4 * scale;
+        if left + size + line.width() > image.width() || size > image.height() / 4 {
+            return;
+        }
+        let top = image.height() - size;
+        image.fill([left, top], [size; 2], color);
+        let white = Line {
+            color: [226, 228, 232],
+            ..line
+        };
+        white.draw_on_plate(image, left + size, top);
+        left += size + line.width() + 12 * scale;
+    }
 }
 
 /// Judges places of the base.

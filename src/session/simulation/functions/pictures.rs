@@ -15,6 +15,7 @@ use crate::plan::Reply;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::properties::property;
+use crate::viewer::map_picture::add_legend;
 use crate::viewer::{self, CameraPicture, FloorMap, View, camera_picture, map_scene, render};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -164,6 +165,7 @@ fn map_picture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -
     }
     let camera = View::Map.camera(&simulation.world, width, height);
     let camera = camera.map_err(|error| Raise::simple(format!("{error}.")))?;
-    let picture = render(&scene, &camera);
+    let mut picture = render(&scene, &camera);
+    add_legend(&mut picture);
     simulation.publish(picture, request.file.as_deref(), MAP_PICTURE)
 }
