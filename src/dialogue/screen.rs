@@ -7,6 +7,7 @@ use std::io::{self, Write};
 
 use super::evaluate::{Abort, Event, Stop};
 use crate::reader::source::Location;
+use crate::viewer::{Image, InlinePictures};
 
 /// Turns events into text.
 pub struct Screen<W> {
@@ -21,6 +22,7 @@ pub struct Screen<W> {
     is_terminal: bool,
     /// Such a line is there.
     has_progress: bool,
+    pictures: Option<InlinePictures>,
 }
 
 impl<W: Write> Screen<W> {
@@ -35,6 +37,7 @@ impl<W: Write> Screen<W> {
             is_detailed: false,
             is_terminal: false,
             has_progress: false,
+            pictures: None,
         }
     }
 
@@ -47,6 +50,11 @@ impl<W: Write> Screen<W> {
     /// From here on, tells the actions around a condition, or leaves them out.
     pub fn set_detailed(&mut self, is_detailed: bool) {
         self.is_detailed = is_detailed;
+    }
+
+    /// From here on, shows pictures in this way, or leaves them out.
+    pub fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
+        self.pictures = pictures;
     }
 
     /// From here on, shows the values of forms or leaves them out.
@@ -73,6 +81,7 @@ impl<W: Write> Screen<W> {
             Event::Output(text) => self.write(text),
             Event::Values(values) if self.echo => self.values(values),
             Event::Values(_) => Ok(()),
+            Event::Picture(picture) => self.picture(picture),
             Event::Aborted(abort) => self.aborted(abort),
             Event::Stopped(stop) => self.stopped(stop),
             Event::Left(condition) => self.left(condition),
@@ -140,6 +149,15 @@ impl<W: Write> Screen<W> {
             return self.line("; No value");
         }
         values.iter().try_for_each(|value| self.line(value))
+    }
+
+    fn picture(&mut self, picture: &Image) -> io::Result<()> {
+        let Some(show) = self.pictures else {
+            return Ok(());
+        };
+        self.fresh_line()?;
+        self.to.write_all(&show.encoded(picture))?;
+        self.write("\n")
     }
 
     fn aborted(&mut self, abort: &Abort) -> io::Result<()> {

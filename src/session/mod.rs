@@ -30,7 +30,7 @@ use simulation::Simulation;
 use printing::on_one_line;
 
 pub use options::{SessionError, SessionOptions};
-pub use simulation::LogLevel;
+pub use simulation::{Filming, LogLevel};
 
 /// A session.
 pub struct Session {
