@@ -56,6 +56,10 @@ pub(super) struct Options {
         value_parser = positive_factor
     )]
     pub(super) realtime: Option<f64>,
+    /// Show the robot in the browser while it moves; simulated time then passes as fast as
+    /// the real one unless --realtime says otherwise
+    #[arg(long, global = true)]
+    pub(super) view: bool,
 }
 
 /// What to do.

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::repl::ReplError;
+use crate::session::WatchError;
 use crate::viewer::ViewError;
 
 /// The end of a command that could do its work.
@@ -47,6 +48,9 @@ pub(super) enum CommandError {
     /// A picture from nowhere.
     #[error("{0}")]
     View(#[from] ViewError),
+    /// The session cannot be watched.
+    #[error("{0}")]
+    Watch(#[from] WatchError),
     /// The robot and its world cannot be set up.
     #[error("{0}")]
     Open(String),

@@ -17,6 +17,7 @@ mod pipe;
 mod reference;
 mod replay;
 mod run;
+mod watching;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -63,7 +64,8 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     let options = &arguments.options;
     match arguments.command {
         None if io::IsTerminal::is_terminal(&io::stdin()) => {
-            let session = open::open(options)?;
+            let mut session = open::open_session(options)?;
+            watching::begin(&mut session, options)?;
             let paint = Paint::new(options.color, &io::stdout());
             let status = repl::run(session, paint.is_on())?;
             Ok(Status::Left(status))

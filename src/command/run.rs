@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use super::arguments::Options;
 use super::check::described;
 use super::failure::{CommandError, Status, read};
-use super::open::open;
+use super::open::{open, open_session};
 use super::paint::Paint;
+use super::watching;
 use crate::dialogue::{Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort};
 
 /// Loads the files, then evaluates the forms, up to the first condition that nobody
@@ -17,7 +18,14 @@ pub(super) fn run(
     files: &[PathBuf],
     forms: &[String],
 ) -> Result<Status, CommandError> {
-    run_in(options, files, forms, || open(options)).map(|(status, _)| status)
+    let open = || {
+        let mut session = open_session(options)?;
+        watching::begin(&mut session, options)?;
+        Ok(session)
+    };
+    let (status, session) = run_in(options, files, forms, open)?;
+    watching::linger(&session);
+    Ok(status)
 }
 
 /// As [`run`], in what `open` opens, which is handed back.

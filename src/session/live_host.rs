@@ -6,6 +6,7 @@ use super::simulation::Simulation;
 use crate::dialogue::Event;
 use crate::lisp::image::Image;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
+use crate::viewer::watch::Happening;
 
 /// A simulation, and whom to tell what is printed meanwhile.
 pub(super) struct LiveHost<'a> {
@@ -13,10 +14,13 @@ pub(super) struct LiveHost<'a> {
     pub sink: &'a mut dyn FnMut(Event),
 }
 
-/// Tells what was written to standard output.
-pub(super) fn flush(image: &mut Image, sink: &mut dyn FnMut(Event)) {
+/// Tells what was written to standard output, and what became of tasks.
+pub(super) fn flush(image: &mut Image, simulation: &mut Simulation, sink: &mut dyn FnMut(Event)) {
+    simulation.tell_tasks(image);
     let text = image.output.take();
     if !text.is_empty() {
+        let told = Happening::Output(text.clone());
+        simulation.tell(&told);
         sink(Event::Output(text));
     }
 }
@@ -27,12 +31,12 @@ impl Host for LiveHost<'_> {
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
-        flush(image, self.sink);
+        flush(image, self.simulation, self.sink);
         self.simulation.advance(image, now, until)
     }
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
-        flush(image, self.sink);
+        flush(image, self.simulation, self.sink);
         self.simulation.idle(image, now, until)
     }
 

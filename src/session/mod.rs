@@ -20,11 +20,12 @@ use crate::lisp::package::PackageTable;
 use crate::lisp::value::Value;
 use crate::manual;
 use crate::plan::{Evaluation, Scheduler};
+use crate::viewer::watch::{Cause, Happening};
 use live_host::LiveHost;
 use simulation::Simulation;
 
 pub use options::{SessionError, SessionOptions};
-pub use simulation::LogLevel;
+pub use simulation::{LogLevel, WatchError};
 
 /// A session.
 pub struct Session {
@@ -102,6 +103,11 @@ impl Session {
         &mut self.simulation
     }
 
+    /// Opens the live view, unless it is open; returns the page's address.
+    pub fn open_view(&mut self) -> Result<String, WatchError> {
+        self.simulation.open_view(&self.image)
+    }
+
     /// Evaluates one form at top level.
     fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
         self.image.set_special(known::MINUS, form.clone());
@@ -115,6 +121,8 @@ impl Session {
             Evaluation::Unhandled(condition) => {
                 let abort = self.describe(&condition);
                 self.abort(sink);
+                let report = Happening::Aborted(abort.report.clone());
+                self.simulation.tell(&report);
                 Ended::Aborted(Box::new(abort))
             }
             Evaluation::Interrupted => {
@@ -123,6 +131,7 @@ impl Session {
             }
         };
         self.flush(sink);
+        self.simulation.show(Cause::Rest);
         self.shift_forms(form);
         if let Ended::Values(values) = &ended {
             self.shift_values(values);
@@ -141,7 +150,7 @@ impl Session {
 
     /// Tells what was written to standard output.
     fn flush(&mut self, sink: &mut dyn FnMut(Event)) {
-        live_host::flush(&mut self.image, sink);
+        live_host::flush(&mut self.image, &mut self.simulation, sink);
     }
 
     /// `+`, `++` and `+++`: the forms evaluated last.

@@ -7,8 +7,10 @@
 mod facet;
 pub mod image;
 mod lamp;
+pub mod live;
 mod projector;
 mod raster;
+pub mod recording;
 pub mod render;
 pub mod scene;
 mod shade;
@@ -16,6 +18,7 @@ pub mod surface;
 mod trim;
 mod vessel;
 pub mod view;
+pub mod watch;
 
 pub use image::Image;
 pub use render::render;

@@ -82,6 +82,24 @@ impl Scene {
         scene
     }
 
+    /// What is seen of a link, in the link's frame; furniture has finer edges than the robot.
+    pub fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
+        let (bevel, finish) = match is_robot {
+            true => (ROBOT_BEVEL, Finish::Gloss),
+            false => (FURNITURE_BEVEL, Finish::Satin),
+        };
+        let mut scene = Self::default();
+        scene.add_link(tree, link, &Pose::identity(), bevel, finish);
+        scene
+    }
+
+    /// What is seen of an object, in its own frame.
+    pub fn of_object(object: &Object) -> Self {
+        let mut scene = Self::default();
+        scene.add_object(object, &Pose::identity());
+        scene
+    }
+
     /// Adds coordinate axes with bars of the length (m): x red, y green, z blue.
     pub fn add_axes(&mut self, pose: &Pose, length: f64) {
         let thickness = length * AXIS_THICKNESS;
@@ -125,14 +143,25 @@ impl Scene {
         bevel: f64,
         finish: Finish,
     ) {
-        for (id, link) in tree.links() {
-            let pose = pose_of(id);
-            for placed in &link.visuals {
-                self.add(placed, &pose, placed.color.unwrap_or(PLAIN), bevel, finish);
-            }
-            for (placed, color) in trim_of(tree.name(), &link.name) {
-                self.add(&placed, &pose, color, bevel, Finish::Gloss);
-            }
+        for (id, _) in tree.links() {
+            self.add_link(tree, id, &pose_of(id), bevel, finish);
+        }
+    }
+
+    fn add_link(
+        &mut self,
+        tree: &KinematicTree,
+        id: LinkId,
+        pose: &Pose,
+        bevel: f64,
+        finish: Finish,
+    ) {
+        let link = tree.link(id);
+        for placed in &link.visuals {
+            self.add(placed, pose, placed.color.unwrap_or(PLAIN), bevel, finish);
+        }
+        for (placed, color) in trim_of(tree.name(), &link.name) {
+            self.add(&placed, pose, color, bevel, Finish::Gloss);
         }
     }
 

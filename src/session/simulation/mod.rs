@@ -4,6 +4,7 @@
 //! Everything that a plan asks of the world comes here as a request of a builtin.
 
 pub mod call;
+mod following;
 mod frames;
 mod functions;
 mod held;
@@ -24,12 +25,15 @@ use indexmap::IndexMap;
 use super::{SessionError, SessionOptions};
 use crate::lisp::value::Value;
 use crate::motion::{Motion, ProcessModule};
-use crate::plan::Ticket;
+use crate::plan::{TaskId, Ticket};
 use crate::spatial::Pose;
+use crate::viewer::live::{PaceControl, Speed};
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
 
+pub use following::FollowerId;
+pub use functions::watching::WatchError;
 use pace::Pace;
 pub use tables::install;
 
@@ -40,6 +44,10 @@ struct Job {
     motion: Box<dyn Motion>,
     /// The designator that failures name.
     subject: Value,
+    /// The task that waits.
+    task: TaskId,
+    /// What kind of motion it is, for people.
+    name: String,
     is_paused: bool,
 }
 
@@ -68,12 +76,16 @@ pub struct Simulation {
     /// Motions that wait for a process module, in order.
     waiting: VecDeque<Job>,
     next_ticket: u64,
+    /// The task whose request is carried out.
+    asking: TaskId,
     axes: Option<Axes>,
     log_level: LogLevel,
     pace: Option<Pace>,
     /// The exit status, once somebody has asked to leave.
     pub(super) quit: Option<u8>,
     observer: Option<Observer>,
+    followers: following::Followers,
+    watching: functions::watching::Watching,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
 }
@@ -110,11 +122,15 @@ impl Simulation {
             active: Vec::new(),
             waiting: VecDeque::new(),
             next_ticket: 0,
+            asking: TaskId(0),
             axes: None,
             log_level: options.log_level,
-            pace: options.realtime.map(Pace::new),
+            pace: (options.realtime)
+                .map(|factor| Pace::new(PaceControl::new(Speed::Times(factor)))),
             quit: None,
             observer: None,
+            followers: following::Followers::default(),
+            watching: functions::watching::Watching::default(),
             now: 0.0,
         })
     }

@@ -14,6 +14,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("ROSLISP", functions::ros::LOG_TABLE),
     ("ROSLISP-UTILITIES", functions::ros::UTILITIES_TABLE),
     ("ROS-LOAD", functions::ros::LOAD_TABLE),
+    ("COMMON-LISP-USER", functions::watching::TABLE),
 ];
 
 /// Operators by package.
@@ -36,6 +37,11 @@ static ALIASES: &[(&str, &str, &[&str])] = &[
         "CRAM-PR2-PROJECTION",
         "CRAM-PICK-PLACE-TUTORIAL",
         &["WITH-SIMULATED-ROBOT", "WITH-PROJECTED-ROBOT"],
+    ),
+    (
+        "COMMON-LISP-USER",
+        "CRAM-PICK-PLACE-TUTORIAL",
+        &["VIEW", "RECORD"],
     ),
 ];
 

@@ -7,3 +7,4 @@ pub mod plans;
 pub mod robot_macros;
 pub mod ros;
 pub mod tutorial;
+pub mod watching;

@@ -1,0 +1,36 @@
+//! Opening the live view that the command line asks for, and keeping it open.
+
+use std::io::{self, Write};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::arguments::Options;
+use super::failure::CommandError;
+use crate::session::Session;
+use crate::viewer::live::open_in_browser;
+
+/// How long a browser may take to show the page before nobody is waited for.
+const BROWSER_START: Duration = Duration::from_secs(5);
+
+/// Opens the live view if the options ask for it, and tells its address on standard error.
+pub(super) fn begin(session: &mut Session, options: &Options) -> Result<(), CommandError> {
+    if options.view {
+        let address = session.open_view()?;
+        // Without standard error the browser may still show the page.
+        let _ = writeln!(io::stderr(), "The live view is at {address}");
+        open_in_browser(&address);
+    }
+    Ok(())
+}
+
+/// Waits as long as somebody looks, so that the end can be looked at, too.
+pub(super) fn linger(session: &Session) {
+    let Some(server) = session.simulation().view_server() else {
+        return;
+    };
+    let begin = Instant::now();
+    let is_starting = || !server.had_viewer() && begin.elapsed() < BROWSER_START;
+    while server.viewers() > 0 || is_starting() {
+        thread::sleep(Duration::from_millis(100));
+    }
+}
