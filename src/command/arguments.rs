@@ -73,6 +73,15 @@ pub(super) enum Command {
         /// Form to evaluate after the files; its values are shown
         #[arg(long, value_name = "FORM")]
         eval: Vec<String>,
+        /// MCAP file to record into what happens
+        #[arg(long, value_name = "MCAP")]
+        record: Option<PathBuf>,
+    },
+    /// Show a recording in the browser, until Ctrl-C
+    View {
+        /// MCAP file that `run --record` or (record "…") has written
+        #[arg(value_name = "MCAP")]
+        file: PathBuf,
     },
     /// Run transcripts, each in a fresh world, and compare what they print
     Replay {

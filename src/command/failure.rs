@@ -8,6 +8,7 @@ use thiserror::Error;
 use crate::repl::ReplError;
 use crate::session::WatchError;
 use crate::viewer::ViewError;
+use crate::viewer::recording::RecordingError;
 
 /// The end of a command that could do its work.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -48,6 +49,15 @@ pub(super) enum CommandError {
     /// A picture from nowhere.
     #[error("{0}")]
     View(#[from] ViewError),
+    /// A recording.
+    #[error("cannot show {}: {error}", path.display())]
+    Recording {
+        path: PathBuf,
+        error: RecordingError,
+    },
+    /// There is no port for the page.
+    #[error("the page cannot be served: {0}")]
+    Serve(io::Error),
     /// The session cannot be watched.
     #[error("{0}")]
     Watch(#[from] WatchError),

@@ -17,6 +17,7 @@ mod pipe;
 mod reference;
 mod replay;
 mod run;
+mod view_recording;
 mod watching;
 
 use std::io::{self, Write};
@@ -71,7 +72,12 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
             Ok(Status::Left(status))
         }
         None => pipe::evaluate_standard_input(options),
-        Some(Command::Run { files, eval }) => run::run(options, &files, &eval),
+        Some(Command::Run {
+            files,
+            eval,
+            record,
+        }) => run::run(options, &files, &eval, record.as_deref()),
+        Some(Command::View { file }) => view_recording::view(options, &file),
         Some(Command::Replay { files, bless, jobs }) => {
             replay::replay(options, &files, bless, jobs)
         }

@@ -1,7 +1,7 @@
 //! Loads plan files and evaluates forms.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::arguments::Options;
 use super::check::described;
@@ -17,13 +17,18 @@ pub(super) fn run(
     options: &Options,
     files: &[PathBuf],
     forms: &[String],
+    record: Option<&Path>,
 ) -> Result<Status, CommandError> {
     let open = || {
         let mut session = open_session(options)?;
         watching::begin(&mut session, options)?;
+        if let Some(path) = record {
+            session.begin_recording(path)?;
+        }
         Ok(session)
     };
-    let (status, session) = run_in(options, files, forms, open)?;
+    let (status, mut session) = run_in(options, files, forms, open)?;
+    session.end_recording()?;
     watching::linger(&session);
     Ok(status)
 }

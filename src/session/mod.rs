@@ -10,6 +10,7 @@ mod printing;
 pub mod simulation;
 mod text;
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -106,6 +107,16 @@ impl Session {
     /// Opens the live view, unless it is open; returns the page's address.
     pub fn open_view(&mut self) -> Result<String, WatchError> {
         self.simulation.open_view(&self.image)
+    }
+
+    /// Records from here on what happens into an MCAP file.
+    pub fn begin_recording(&mut self, path: &Path) -> Result<(), WatchError> {
+        self.simulation.begin_recording(&self.image, path)
+    }
+
+    /// Ends the recording, if there is one, and tells what went wrong with it.
+    pub fn end_recording(&mut self) -> Result<(), WatchError> {
+        self.simulation.end_recording()
     }
 
     /// Evaluates one form at top level.

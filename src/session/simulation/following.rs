@@ -23,7 +23,7 @@ impl Simulation {
     pub fn add_follower(&mut self, image: &Image, mut follower: Box<dyn Follower>) -> FollowerId {
         Plan::of(image).keep_journal();
         let ways = self.ways();
-        follower.see(&self.seen(&ways), Cause::Edit);
+        follower.see(&self.seen(&ways), Cause::Rest);
         drop(ways);
         self.followers.last += 1;
         let id = FollowerId(self.followers.last);

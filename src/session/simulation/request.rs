@@ -30,6 +30,8 @@ impl Host for Simulation {
         match request.downcast::<MotionRequest>() {
             Ok(request) => match self.motion_for(image, &request) {
                 Ok((motion, subject)) => {
+                    // The task is told before what it does.
+                    self.tell_tasks(image);
                     let name = request.motion_type.to_lowercase();
                     Reply::Later(self.start(motion, subject, name))
                 }

@@ -5,7 +5,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use super::timeline::Timeline;
-use crate::viewer::watch::{Happening, Moment, Node};
+use crate::viewer::watch::{Happening, Kind, Moment, Node};
 
 /// News that are kept; the oldest are forgotten first.
 const MOST_NEWS: usize = 40_000;
@@ -153,6 +153,13 @@ impl Chronicle {
             span: state.past.span(),
             is_over: state.is_over,
         }
+    }
+
+    /// The node of a link of the robot, by the link's name.
+    pub fn link_named(&self, name: &str) -> Option<u32> {
+        let state = self.state();
+        let mut links = state.nodes.iter().filter(|n| n.kind == Kind::Robot);
+        links.find(|node| node.name == name).map(|node| node.id)
     }
 
     /// Nodes from that number on.

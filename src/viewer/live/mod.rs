@@ -32,3 +32,4 @@ pub use follower::LiveFollower;
 pub use pace_control::{PaceControl, Speed};
 pub use server::Server;
 pub use timeline::Timeline;
+pub use views::Views;

@@ -13,9 +13,7 @@ use super::chronicle::Chronicle;
 use super::connection;
 use super::pace_control::PaceControl;
 use super::token::random_word;
-use super::views::views;
-use crate::viewer::watch::Witness;
-use crate::world::World;
+use super::views::Views;
 
 /// Connections at the same time; further ones are closed at once.
 const MOST_CONNECTIONS: usize = 48;
@@ -53,15 +51,14 @@ impl Server {
     pub fn start(
         chronicle: Chronicle,
         pace: Option<PaceControl>,
-        world: &World,
-        witness: &Witness,
+        views: Views,
     ) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let address = listener.local_addr()?;
         let shared = Arc::new(Shared {
             chronicle,
             pace,
-            views: views(world, witness),
+            views: views.0,
             token: random_word(),
             port: address.port(),
             connections: AtomicUsize::new(0),

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
+use crate::robot::LinkId;
 use crate::viewer::View;
-use crate::viewer::watch::Witness;
 use crate::world::World;
 
 /// How far (m) the frustum of the robot's camera is drawn.
@@ -12,8 +12,19 @@ const FRUSTUM: f64 = 1.6;
 /// Heights (m) that views look at: what is in the middle of the picture lies there.
 const LOOKED_AT: f64 = 0.7;
 
-/// The places to look from, the robot's camera and its base.
-pub(super) fn views(world: &World, witness: &Witness) -> Value {
+/// What the page needs to know to look from the named places.
+#[derive(Clone, Debug)]
+pub struct Views(pub(super) Value);
+
+impl Views {
+    /// The named places in the world. `node_of` tells the node of a link of the robot, by its
+    /// name.
+    pub fn new(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Self {
+        Self(views(world, node_of))
+    }
+}
+
+fn views(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Value {
     let fixed = [View::Kitchen, View::Top, View::Table, View::Island];
     let fixed = fixed.into_iter().filter_map(|view| {
         let camera = view.camera(world, 4, 3).ok()?;
@@ -29,12 +40,13 @@ pub(super) fn views(world: &World, witness: &Witness) -> Value {
         }))
     });
     let camera = world.models().description.camera();
-    let node = witness.node_of(camera.frame.index());
+    let robot = &world.models().robot;
+    let node = |link: LinkId| node_of(&robot.link(link).name);
     json!({
         "fixed": fixed.collect::<Vec<_>>(),
-        "base": witness.base(),
+        "base": node(robot.root()),
         "camera": {
-            "node": node,
+            "node": node(camera.frame),
             "fov": camera.vertical_view,
             "aspect": camera.width as f64 / camera.height as f64,
             "near": camera.near,

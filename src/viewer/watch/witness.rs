@@ -92,13 +92,19 @@ impl Witness {
         &self.nodes
     }
 
-    /// The node of the robot's base.
-    pub fn base(&self) -> u32 {
-        self.base
+    /// The node of a link of the robot, by the link's name.
+    pub fn node_named(&self, link: &str) -> Option<u32> {
+        let robot = self.robot_links.iter().map(|(_, node)| *node);
+        let named = |node: &u32| {
+            self.nodes
+                .get(*node as usize)
+                .is_some_and(|n| n.name == link)
+        };
+        robot.into_iter().find(named)
     }
 
     /// The node of a link of the robot, by its place in the tree.
-    pub fn node_of(&self, link: usize) -> Option<u32> {
+    fn node_of(&self, link: usize) -> Option<u32> {
         self.robot.get(&link).copied()
     }
 

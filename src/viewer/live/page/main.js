@@ -428,8 +428,8 @@ function tick(now) {
 
 // Where the graphics are slow, the picture gets coarser rather than late.
 function adapt(passed) {
-  slow = passed > 0.045 ? slow + 1 : Math.max(0, slow - 0.5);
-  if (slow < 25) return;
+  slow = passed > 0.045 ? slow + passed : Math.max(0, slow - passed);
+  if (slow < 1.5) return;
   slow = 0;
   if (stage.layers.shadows) {
     stage.layers.shadows = false;

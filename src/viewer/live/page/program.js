@@ -14,7 +14,7 @@ float lit(vec4 at, float slope) {
   vec3 p = at.xyz / at.w * 0.5 + 0.5;
   if (any(lessThan(p, vec3(0.0))) || any(greaterThan(p, vec3(1.0)))) return 1.0;
   float texel = 1.0 / float(textureSize(shadowMap, 0).x);
-  p.z -= texel * (0.35 + 1.1 * slope);
+  p.z -= texel * (0.7 + 3.0 * slope * slope);
   float sum = 0.0;
   for (int i = -1; i <= 1; i++)
     for (int j = -1; j <= 1; j++)

@@ -130,5 +130,5 @@ function named(name) {
   if (child) return `${child[1].toLowerCase()} ${child[2]} of ${child[3]}`;
   const numbered = /^\[(.*)\]-\d+$/.exec(name);
   const plain = (numbered ? numbered[1] : name).toLowerCase();
-  return plain === 'top-level' ? 'plan' : plain;
+  return plain.replace(/^(top-level-)?top-level$/, 'plan').replace(/-top-level$/, '');
 }
