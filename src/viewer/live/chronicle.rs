@@ -163,12 +163,17 @@ impl Chronicle {
     }
 
     /// Nodes from that number on.
-    pub(super) fn nodes_from(&self, first: usize) -> Vec<Arc<Node>> {
+    pub fn nodes_from(&self, first: usize) -> Vec<Arc<Node>> {
         self.state().nodes.get(first..).unwrap_or_default().to_vec()
     }
 
+    /// The news that are remembered, with their simulated times (s).
+    pub fn news(&self) -> Vec<Arc<(f64, Happening)>> {
+        self.state().news.iter().cloned().collect()
+    }
+
     /// The past between two times (s), at most so many moments.
-    pub(super) fn past(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Moment>> {
+    pub fn past(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Moment>> {
         self.state().past.between(from, to, most)
     }
 
