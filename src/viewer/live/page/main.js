@@ -33,7 +33,7 @@ const page = {
 
 // What a check may look at.
 const counts = { updates: 0, drawn: 0, errors: 0 };
-window.planwright = { counts, page, orbit, scene, past };
+window.planwright = { counts, page, orbit, scene, past, screenOf };
 window.addEventListener('error', () => { counts.errors += 1; });
 
 function notice(text) {
@@ -247,6 +247,18 @@ function hit(event) {
   return { id: found.id, at: add(eye, add(add(times(right, across), times(up, upwards)), times(back, -found.away))) };
 }
 
+// Where the middle of a node is seen: pixels of the page.
+function screenOf(id) {
+  const node = scene.nodes.get(id);
+  const place = node && scene.place(node, page.shown);
+  if (!stage || !place) return null;
+  const { matrix, fov } = bodyView(page.shown);
+  const middle = placed(place, node.mesh ? node.mesh.middle : [0, 0, 0]);
+  const [x, y, , w] = onto(stage.projection(fov, matrix), middle);
+  const box = canvas.getBoundingClientRect();
+  return w > 0 ? [box.left + (x / w + 1) / 2 * box.width, box.top + (1 - y / w) / 2 * box.height] : null;
+}
+
 // ---- The chosen thing
 
 function select(id) {
@@ -258,6 +270,7 @@ function showCard(state) {
   const node = scene.nodes.get(page.selected);
   const card = $('card');
   card.hidden = !node;
+  showLabel(node);
   if (!node) return;
   if (card.dataset.id !== String(node.id)) {
     card.dataset.id = node.id;
@@ -293,6 +306,19 @@ function showCard(state) {
     dd.textContent = value;
     return [dt, dd];
   }));
+}
+
+// The name at the chosen thing itself.
+const label = document.createElement('span');
+$('labels').append(label);
+function showLabel(node) {
+  const at = node && screenOf(node.id);
+  label.hidden = !at;
+  if (!at) return;
+  const box = canvas.getBoundingClientRect();
+  label.textContent = node.name;
+  label.style.left = `${at[0] - box.left}px`;
+  label.style.top = `${at[1] - box.top}px`;
 }
 
 // ---- Time

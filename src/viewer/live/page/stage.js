@@ -174,6 +174,8 @@ class Stage {
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.shadowBuffer);
     gl.viewport(0, 0, SHADOW_SIZE, SHADOW_SIZE);
     gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(2.5, 4);
     gl.useProgram(this.shadow.made);
     gl.uniformMatrix4fv(this.shadow.places.light, false, this.light);
     for (const [node, matrix] of bodies) {
@@ -181,6 +183,7 @@ class Stage {
       gl.bindVertexArray(node.mesh.array);
       gl.drawElements(gl.TRIANGLES, node.mesh.count, gl.UNSIGNED_INT, 0);
     }
+    gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   }
 
