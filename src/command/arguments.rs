@@ -22,6 +22,10 @@ use super::picture::PictureArguments;
 pub(super) struct Arguments {
     #[command(flatten)]
     pub(super) options: Options,
+    /// Show the robot in the browser while it moves; simulated time then passes as fast as
+    /// the real one unless --realtime says otherwise
+    #[arg(long)]
+    pub(super) view: bool,
     #[command(subcommand)]
     pub(super) command: Option<Command>,
 }
@@ -56,10 +60,18 @@ pub(super) struct Options {
         value_parser = positive_factor
     )]
     pub(super) realtime: Option<f64>,
+}
+
+/// How a run is watched.
+#[derive(Args, Clone, Debug, Default)]
+pub(super) struct WatchArguments {
     /// Show the robot in the browser while it moves; simulated time then passes as fast as
     /// the real one unless --realtime says otherwise
-    #[arg(long, global = true)]
+    #[arg(long)]
     pub(super) view: bool,
+    /// MCAP file to record into what happens
+    #[arg(long, value_name = "MCAP")]
+    pub(super) record: Option<PathBuf>,
 }
 
 /// What to do.
@@ -73,9 +85,8 @@ pub(super) enum Command {
         /// Form to evaluate after the files; its values are shown
         #[arg(long, value_name = "FORM")]
         eval: Vec<String>,
-        /// MCAP file to record into what happens
-        #[arg(long, value_name = "MCAP")]
-        record: Option<PathBuf>,
+        #[command(flatten)]
+        watch: WatchArguments,
     },
     /// Show a recording in the browser, until Ctrl-C
     View {
@@ -172,6 +183,18 @@ mod tests {
         );
         assert_eq!(factor(&["--realtime=0"]), None);
         assert_eq!(factor(&["--realtime=nan"]), None);
+    }
+
+    #[test]
+    fn the_view_may_be_asked_for_with_and_without_a_run() {
+        assert!(parsed(&["--view"]).is_ok_and(|a| a.view));
+        assert!(parsed(&["--view", "run", "a.plan"]).is_ok_and(|a| a.view));
+        let run = parsed(&["run", "a.plan", "--view", "--record", "a.mcap"]);
+        let Some(Command::Run { watch, .. }) = run.ok().and_then(|a| a.command) else {
+            panic!("no run");
+        };
+        assert!(watch.view && watch.record.is_some());
+        assert!(parsed(&["view", "a.mcap"]).is_ok() && parsed(&["view"]).is_err());
     }
 
     #[test]

@@ -27,7 +27,7 @@ use std::thread;
 use clap::{CommandFactory, Parser};
 
 use crate::repl;
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, WatchArguments};
 use failure::{CommandError, Status};
 use paint::Paint;
 
@@ -63,20 +63,28 @@ fn run_command_line() -> ExitCode {
 
 fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     let options = &arguments.options;
+    let mut watch = WatchArguments {
+        view: arguments.view,
+        record: None,
+    };
     match arguments.command {
         None if io::IsTerminal::is_terminal(&io::stdin()) => {
             let mut session = open::open_session(options)?;
-            watching::begin(&mut session, options)?;
+            watching::begin(&mut session, &watch)?;
             let paint = Paint::new(options.color, &io::stdout());
             let status = repl::run(session, paint.is_on())?;
             Ok(Status::Left(status))
         }
-        None => pipe::evaluate_standard_input(options),
+        None => pipe::evaluate_standard_input(options, &watch),
         Some(Command::Run {
             files,
             eval,
-            record,
-        }) => run::run(options, &files, &eval, record.as_deref()),
+            watch: of_run,
+        }) => {
+            watch.view |= of_run.view;
+            watch.record = of_run.record;
+            run::run(options, &files, &eval, &watch)
+        }
         Some(Command::View { file }) => view_recording::view(options, &file),
         Some(Command::Replay { files, bless, jobs }) => {
             replay::replay(options, &files, bless, jobs)

@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead};
 
-use super::arguments::Options;
+use super::arguments::{Options, WatchArguments};
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::watching;
@@ -11,9 +11,12 @@ use crate::dialogue::{Evaluate, Outcome, Screen, evaluate_on, is_whole};
 
 /// Takes inputs as the prompt would, each as soon as it is whole, and prints what the
 /// prompt would print. Goes on after a condition that nobody handled.
-pub(super) fn evaluate_standard_input(options: &Options) -> Result<Status, CommandError> {
+pub(super) fn evaluate_standard_input(
+    options: &Options,
+    watch: &WatchArguments,
+) -> Result<Status, CommandError> {
     let mut session = open_session(options)?;
-    watching::begin(&mut session, options)?;
+    watching::begin(&mut session, watch)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
     let stdin = io::stdin().lock();
     let status = evaluate_lines(stdin, &mut session, &mut screen)?;

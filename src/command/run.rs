@@ -1,9 +1,9 @@
 //! Loads plan files and evaluates forms.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::arguments::Options;
+use super::arguments::{Options, WatchArguments};
 use super::check::described;
 use super::failure::{CommandError, Status, read};
 use super::open::{open, open_session};
@@ -17,14 +17,11 @@ pub(super) fn run(
     options: &Options,
     files: &[PathBuf],
     forms: &[String],
-    record: Option<&Path>,
+    watch: &WatchArguments,
 ) -> Result<Status, CommandError> {
     let open = || {
         let mut session = open_session(options)?;
-        watching::begin(&mut session, options)?;
-        if let Some(path) = record {
-            session.begin_recording(path)?;
-        }
+        watching::begin(&mut session, watch)?;
         Ok(session)
     };
     let (status, mut session) = run_in(options, files, forms, open)?;

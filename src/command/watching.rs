@@ -1,10 +1,10 @@
-//! Opening the live view that the command line asks for, and keeping it open.
+//! Watching a session as the command line asks for it.
 
 use std::io::{self, Write};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::arguments::Options;
+use super::arguments::WatchArguments;
 use super::failure::CommandError;
 use crate::session::Session;
 use crate::viewer::live::open_in_browser;
@@ -12,9 +12,13 @@ use crate::viewer::live::open_in_browser;
 /// How long a browser may take to show the page before nobody is waited for.
 const BROWSER_START: Duration = Duration::from_secs(5);
 
-/// Opens the live view if the options ask for it, and tells its address on standard error.
-pub(super) fn begin(session: &mut Session, options: &Options) -> Result<(), CommandError> {
-    if options.view {
+/// Begins the recording that is asked for. Opens the live view if that is asked for, and
+/// tells its address on standard error.
+pub(super) fn begin(session: &mut Session, watch: &WatchArguments) -> Result<(), CommandError> {
+    if let Some(path) = &watch.record {
+        session.begin_recording(path)?;
+    }
+    if watch.view {
         let address = session.open_view()?;
         // Without standard error the browser may still show the page.
         let _ = writeln!(io::stderr(), "The live view is at {address}");

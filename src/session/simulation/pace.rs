@@ -34,6 +34,17 @@ impl Pace {
         &self.control
     }
 
+    /// How much simulated time (s) may pass at once when nothing happens; none if as much as
+    /// there is.
+    pub fn slice(&self) -> Option<f64> {
+        match self.control.get() {
+            (Speed::Times(factor), _) => Some(SLICE.as_secs_f64() * factor),
+            // It waits for the end of the pause, then goes on.
+            (Speed::Unlimited, true) => Some(f64::EPSILON),
+            (Speed::Unlimited, false) => None,
+        }
+    }
+
     /// Waits until so much simulated time (s) may have passed since it was waited last, or
     /// until somebody interrupts.
     pub fn wait(&mut self, mut seconds: f64, interrupt: &AtomicBool) {

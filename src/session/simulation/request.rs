@@ -73,8 +73,17 @@ impl Host for Simulation {
             steps += 1;
             self.now = now + f64::from(steps) * STEP_SECONDS;
         }
-        if let Some(pace) = &mut self.pace {
-            pace.wait(until - self.now, &image.interrupt);
+        while self.now < until
+            && let Some(pace) = &mut self.pace
+            && let Some(slice) = pace.slice()
+        {
+            let slice = slice.min(until - self.now);
+            pace.wait(slice, &image.interrupt);
+            if self.is_interrupted(image) {
+                return self.now;
+            }
+            self.now += slice;
+            self.show(Cause::Wait);
         }
         self.now = until;
         self.show(Cause::Step);

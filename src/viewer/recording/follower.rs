@@ -114,7 +114,12 @@ impl Follower for Recorder {
     fn see(&mut self, seen: &Seen<'_>, cause: Cause) {
         let is_due = seen.time >= self.last + BETWEEN_MOMENTS - EPSILON;
         // What is edited is seen when the evaluation has ended, or at the next step.
-        if cause == Cause::Edit || (cause == Cause::Step && !is_due) {
+        let is_wanted = match cause {
+            Cause::Step => is_due,
+            Cause::Rest => true,
+            Cause::Edit | Cause::Wait => false,
+        };
+        if !is_wanted {
             return;
         }
         self.last = seen.time;

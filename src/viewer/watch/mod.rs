@@ -38,6 +38,8 @@ pub struct Seen<'a> {
 pub enum Cause {
     /// A step of the world has passed.
     Step,
+    /// Time passes while nothing moves, as slowly as somebody wants to see it.
+    Wait,
     /// A function may have changed the world while no time passed.
     Edit,
     /// The evaluation of a form has ended.

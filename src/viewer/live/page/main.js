@@ -419,7 +419,7 @@ function showTime() {
   $('end').textContent = page.time === null ? '' : `of ${seconds(end)}`;
 }
 
-let lastTick = 0, slow = 0;
+let lastTick = 0, lastDraw = 0, slow = 0, isRefined = false;
 function tick(now) {
   requestAnimationFrame(tick);
   const passed = Math.min(0.25, (now - lastTick) / 1000);
@@ -435,15 +435,21 @@ function tick(now) {
   }
   if (orbit.advance(now)) page.isDirty = true;
   if (tasks.isDirty) page.isDirty = true;
-  if (!page.isDirty || document.hidden) return;
+  if (document.hidden) return;
+  // What has come to rest is drawn once more, as well as possible.
+  const isFine = !page.isDirty && stage?.coarse > 0 && !isRefined && now - lastDraw > 250;
+  if (!page.isDirty && !isFine) return;
+  isRefined = isFine;
+  if (!isFine) lastDraw = now;
   page.isDirty = false;
   if (page.time === null) page.shown = scene.live;
   else page.shown = past.at(page.time, () => { page.isDirty = true; }) ?? page.shown;
   if (stage) {
     const { eye, matrix, fov } = bodyView(page.shown);
-    stage.resize();
-    stage.draw(page.shown, eye, stage.projection(fov, matrix), page.selected);
-    adapt(passed);
+    stage.resize(isFine);
+    const view = stage.projection(fov, matrix);
+    stage.draw(page.shown, { eye, view, selected: page.selected, isFine, isThroughCamera: page.bound === 'robot' });
+    if (!isFine) adapt(passed);
   }
   counts.drawn += 1;
   showTime();
@@ -457,12 +463,7 @@ function adapt(passed) {
   slow = passed > 0.045 ? slow + passed : Math.max(0, slow - passed);
   if (slow < 1.5) return;
   slow = 0;
-  if (stage.layers.shadows) {
-    stage.layers.shadows = false;
-    [...$('layers').children].find((button) => button.textContent === 'shadows').setAttribute('aria-pressed', 'false');
-  } else if (stage.scale > 0.5) {
-    stage.scale *= 0.75;
-  }
+  stage.coarse = Math.min(3, stage.coarse + 1);
 }
 
 new ResizeObserver(() => { page.isDirty = true; }).observe(canvas);

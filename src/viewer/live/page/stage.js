@@ -30,7 +30,8 @@ class Stage {
     this.floor = program(gl, FLOOR_VERTEX, FLOOR_FRAGMENT);
     this.line = program(gl, LINE_VERTEX, LINE_FRAGMENT);
     this.layers = { paths: true, camera: true, contacts: true, shadows: true };
-    this.scale = 1;
+    // On slow machines moving pictures are coarse, by steps; still ones are not.
+    this.coarse = 0;
     this.light = product(orthographic(6.2, 0.5, 26), lookingFrom(add([-0.6, 0.6, 0], times(SUN, 13)), [-0.6, 0.6, 0], [0, 0, 1]));
     this.makeShadowMap();
     this.makeFloor();
@@ -114,8 +115,9 @@ class Stage {
     return seen;
   }
 
-  resize() {
-    const ratio = Math.min(window.devicePixelRatio || 1, 2) * this.scale;
+  resize(isFine) {
+    const scale = isFine ? 1 : [1, 1, 0.75, 0.5][this.coarse];
+    const ratio = Math.min(window.devicePixelRatio || 1, 2) * scale;
     const width = Math.max(1, Math.round(this.canvas.clientWidth * ratio));
     const height = Math.max(1, Math.round(this.canvas.clientHeight * ratio));
     if (this.canvas.width !== width || this.canvas.height !== height) {
@@ -130,11 +132,12 @@ class Stage {
     return product(perspective(fov, aspect, 0.05, 70), eyeMatrix);
   }
 
-  draw(state, eye, view, selected) {
+  draw(state, { eye, view, selected, isFine, isThroughCamera }) {
     const { gl } = this;
+    const hasShadows = this.layers.shadows && (isFine || !this.coarse);
     const look = matchMedia('(prefers-color-scheme: dark)').matches ? LOOKS.dark : LOOKS.light;
     const bodies = this.seen(state).map(([node, place]) => [node, matrixOf(place)]);
-    if (this.layers.shadows) this.drawShadows(bodies);
+    if (hasShadows) this.drawShadows(bodies);
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     gl.clearColor(...look.clear, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -143,7 +146,7 @@ class Stage {
       gl.uniformMatrix4fv(places.view, false, view);
       gl.uniformMatrix4fv(places.light, false, this.light);
       gl.uniform1i(places.shadowMap, 0);
-      gl.uniform1f(places.shadows, this.layers.shadows ? 1 : 0);
+      gl.uniform1f(places.shadows, hasShadows ? 1 : 0);
       gl.uniform3fv(places.sun, SUN);
       gl.uniform3fv(places.sunColor, look.sun);
       gl.uniform3fv(places.skyColor, look.sky);
@@ -166,7 +169,7 @@ class Stage {
     gl.uniform3fv(this.floor.places.far, look.clear);
     gl.bindVertexArray(this.floorArray);
     gl.drawArrays(gl.TRIANGLES, 0, 6);
-    this.drawLines(this.linesOf(state, selected), view);
+    this.drawLines(this.linesOf(state, selected, isThroughCamera), view);
   }
 
   drawShadows(bodies) {
@@ -193,12 +196,12 @@ class Stage {
       for (const id of state.touch.flat()) tints.set(id, [0.95, 0.60, 0.10, 0.30]);
       for (const id of state.hits.flatMap((hit) => hit.nodes)) tints.set(id, [0.90, 0.08, 0.05, 0.65]);
     }
-    if (selected !== null) tints.set(selected, [0.12, 0.45, 0.95, 0.45]);
+    if (selected !== null) tints.set(selected, [0.12, 0.45, 0.95, 0.30]);
     return tints;
   }
 
   // Lines to be drawn: from, to, colour.
-  linesOf(state, selected) {
+  linesOf(state, selected, isThroughCamera) {
     const lines = [];
     const axes = (place, size) => {
       [[1, 0, 0], [0, 1, 0], [0, 0, 1]].forEach((axis, i) => {
@@ -217,7 +220,7 @@ class Stage {
         for (let i = 1; i < points.length; i++) lines.push([points[i - 1], points[i], PATH_COLORS[path.what]]);
       }
     }
-    if (this.layers.camera && this.camera) lines.push(...this.frustum(state));
+    if (this.layers.camera && this.camera && !isThroughCamera) lines.push(...this.frustum(state));
     if (this.layers.contacts) {
       for (const hit of state.hits) {
         const at = hit.at.map((v) => v * METRE);
