@@ -85,6 +85,18 @@ fn a_recording_shows_what_happened() {
         _ => false,
     });
     assert!(ended.count() >= 5);
+    // Who starts a task is told before it.
+    let mut told = Vec::new();
+    for task in news.iter().filter_map(|n| match &n.1 {
+        Happening::Task(task) => Some(task),
+        _ => None,
+    }) {
+        assert!(
+            task.parent.is_none_or(|parent| told.contains(&parent)),
+            "{task:?}"
+        );
+        told.push(task.id);
+    }
     let line = Happening::Output("[(TEST) INFO] 0.000: Here \"we\" go\n".to_owned());
     assert!(news.iter().any(|n| n.1 == line), "{news:?}");
 }

@@ -219,7 +219,9 @@ mod tests {
     #[test]
     fn a_reader_gets_everything_once() {
         let chronicle = Chronicle::new(Origin::Session);
-        ["a", "b", "c", "d"].map(|text| told(&chronicle, text));
+        for text in ["a", "b", "c", "d"] {
+            told(&chronicle, text);
+        }
         let mut mark = Bookmark::default();
         assert_eq!(read(&chronicle, &mut mark), ["a", "b", "c"]);
         assert_eq!(read(&chronicle, &mut mark), ["d"]);

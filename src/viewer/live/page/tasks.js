@@ -112,10 +112,13 @@ class Tasks {
     const isFolded = task.children.length && !!(task.folded ?? ((state === 'succeeded' || state === 'evaporated') && task.depth > 0 && !task.children.some((c) => Tasks.stateAt(c, time) === 'failed')));
     const kind = `task ${state}${task.isMotion ? ' motion' : ''}${task.children.length ? ' parent' : ''}${isFolded ? ' folded' : ''}`;
     if (row.className !== kind) row.className = kind;
-    const [, name, took, why] = row.children;
+    const [, ...parts] = row.children;
     const end = task.changes.findLast(([t, s]) => t <= time && s !== 'running' && s !== 'suspended');
-    const texts = [task.name, end ? `${(end[0] - task.since).toFixed(1)} s` : '', state === 'failed' ? task.failure : ''];
-    [name, took, why].forEach((part, i) => {
+    // A failure is told where it comes from; tasks around it have failed for the same reason.
+    const isOwn = !task.children.some((child) => child.failure === task.failure);
+    const why = state === 'failed' && (isOwn || isFolded) ? task.failure : '';
+    const texts = [task.name, end ? `${(end[0] - task.since).toFixed(1)} s` : '', why];
+    parts.forEach((part, i) => {
       if (part.textContent !== texts[i]) part.textContent = texts[i];
       if (i === 2) part.hidden = !texts[i];
     });
