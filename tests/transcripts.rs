@@ -75,7 +75,10 @@ fn state_carries_over_within_a_file() {
 
 #[test]
 fn values_stand_below_output() {
-    assert_eq!(differing("a", "A> print x; print y; a; b\nxy\na\nb\n"), [0usize; 0]);
+    assert_eq!(
+        differing("a", "A> print x; print y; a; b\nxy\na\nb\n"),
+        [0usize; 0]
+    );
     assert_eq!(differing("a", "A> print x\nx\n"), [0usize; 0]);
 }
 

@@ -16,11 +16,11 @@ pub(super) fn evaluate_standard_input(
     watch: &WatchArguments,
 ) -> Result<Status, CommandError> {
     let mut session = open_session(options)?;
-    watching::begin(&mut session, watch)?;
+    let has_browser = watching::begin(&mut session, watch)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
     let stdin = io::stdin().lock();
     let status = evaluate_lines(stdin, &mut session, &mut screen)?;
-    watching::linger(&session);
+    watching::linger(&session, has_browser);
     Ok(status)
 }
 

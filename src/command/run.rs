@@ -19,14 +19,15 @@ pub(super) fn run(
     forms: &[String],
     watch: &WatchArguments,
 ) -> Result<Status, CommandError> {
+    let mut has_browser = false;
     let open = || {
         let mut session = open_session(options)?;
-        watching::begin(&mut session, watch)?;
+        has_browser = watching::begin(&mut session, watch)?;
         Ok(session)
     };
     let (status, mut session) = run_in(options, files, forms, open)?;
     session.end_recording()?;
-    watching::linger(&session);
+    watching::linger(&session, has_browser);
     Ok(status)
 }
 

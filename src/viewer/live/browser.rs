@@ -5,20 +5,22 @@ use std::process::{Command, Stdio};
 use std::thread;
 
 /// Opens the address in the user's browser, where there is a display to show it on. Does not
-/// wait for it; that there is no browser is no failure.
-pub fn open_in_browser(address: &str) {
+/// wait for it; that there is no browser is no failure. Returns whether one has been started.
+pub fn open_in_browser(address: &str) -> bool {
     let Some(mut command) = opener() else {
-        return;
+        return false;
     };
     let command = command
         .arg(address)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null());
-    if let Ok(mut child) = command.spawn() {
-        // Somebody has to take note of its end; whether it went well is not our business.
-        thread::spawn(move || child.wait().map(drop));
-    }
+    let Ok(mut child) = command.spawn() else {
+        return false;
+    };
+    // Somebody has to take note of its end; whether it went well is not our business.
+    thread::spawn(move || child.wait().map(drop));
+    true
 }
 
 fn opener() -> Option<Command> {
