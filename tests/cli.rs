@@ -42,13 +42,46 @@ fn wrong_usage_exits_with_2() {
         &["check"],
         &["juggle"],
         &["--realtime=0"],
-        &["--view"],
+        &["view"],
+        &["replay", "--view", "x"],
         &["completions", "abacus"],
     ] {
         let (status, out, err) = output(arguments);
         assert_eq!((status, out.as_str()), (Some(2), ""), "{arguments:?}");
         assert!(err.starts_with("error: "), "{err}");
     }
+}
+
+#[test]
+fn recordings_that_cannot_be_read_or_written_are_told() {
+    let (status, _, err) = output(&["view", "Cargo.toml"]);
+    assert_eq!(status, Some(2));
+    assert!(
+        err.starts_with("error: cannot show Cargo.toml: it is no MCAP file"),
+        "{err}"
+    );
+    let (status, _, err) = output(&["view", "no/such.mcap"]);
+    assert_eq!(status, Some(2));
+    assert!(
+        err.starts_with("error: cannot show no/such.mcap: "),
+        "{err}"
+    );
+    let (status, out, err) = output(&["run", "--eval", "1", "--record", "no/such.mcap"]);
+    assert_eq!((status, out.as_str()), (Some(2), ""));
+    assert!(
+        err.starts_with("error: cannot record into no/such.mcap: "),
+        "{err}"
+    );
+}
+
+#[test]
+fn a_run_with_the_view_ends_when_nobody_looks() {
+    let (status, out, err) = output(&["run", "--eval", "(+ 1 2)", "--view"]);
+    assert_eq!((status, out.as_str()), (Some(0), "3\n"));
+    assert!(
+        err.starts_with("The live view is at http://127.0.0.1:"),
+        "{err}"
+    );
 }
 
 #[test]

@@ -32,6 +32,7 @@ impl Desk {
                 Event::Values(values) => said.push_str(&values.join("\n")),
                 Event::Aborted(abort) => said.push_str(&abort.report),
                 Event::Picture(_) => pictures += 1,
+                _ => {}
             });
         (said.replace(&folder, "FOLDER"), pictures)
     }

@@ -24,6 +24,10 @@ pub(super) struct Arguments {
     pub(super) options: Options,
     #[command(flatten)]
     pub(super) prompt: PromptOptions,
+    /// Show the robot in the browser while it moves; simulated time then passes as fast as
+    /// the real one unless --realtime says otherwise
+    #[arg(long)]
+    pub(super) view: bool,
     #[command(subcommand)]
     pub(super) command: Option<Command>,
 }
@@ -72,6 +76,18 @@ pub(super) struct Options {
     pub(super) realtime: Option<f64>,
 }
 
+/// How a run is watched.
+#[derive(Args, Clone, Debug, Default)]
+pub(super) struct WatchArguments {
+    /// Show the robot in the browser while it moves; simulated time then passes as fast as
+    /// the real one unless --realtime says otherwise
+    #[arg(long)]
+    pub(super) view: bool,
+    /// MCAP file to record into what happens
+    #[arg(long, value_name = "MCAP")]
+    pub(super) record: Option<PathBuf>,
+}
+
 /// What to do.
 #[derive(Subcommand, Debug)]
 pub(super) enum Command {
@@ -83,6 +99,14 @@ pub(super) enum Command {
         /// Form to evaluate after the files; its values are shown
         #[arg(long, value_name = "FORM")]
         eval: Vec<String>,
+        #[command(flatten)]
+        watch: WatchArguments,
+    },
+    /// Show a recording in the browser, until Ctrl-C
+    View {
+        /// MCAP file that `run --record` or (record "…") has written
+        #[arg(value_name = "MCAP")]
+        file: PathBuf,
     },
     /// Run transcripts, each in a fresh world, and compare what they print
     Replay {
@@ -176,6 +200,18 @@ mod tests {
         );
         assert_eq!(factor(&["--realtime=0"]), None);
         assert_eq!(factor(&["--realtime=nan"]), None);
+    }
+
+    #[test]
+    fn the_view_may_be_asked_for_with_and_without_a_run() {
+        assert!(parsed(&["--view"]).is_ok_and(|a| a.view));
+        assert!(parsed(&["--view", "run", "a.plan"]).is_ok_and(|a| a.view));
+        let run = parsed(&["run", "a.plan", "--view", "--record", "a.mcap"]);
+        let Some(Command::Run { watch, .. }) = run.ok().and_then(|a| a.command) else {
+            panic!("no run");
+        };
+        assert!(watch.view && watch.record.is_some());
+        assert!(parsed(&["view", "a.mcap"]).is_ok() && parsed(&["view"]).is_err());
     }
 
     #[test]

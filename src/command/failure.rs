@@ -6,7 +6,9 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::repl::{JournalError, ReplError};
+use crate::session::WatchError;
 use crate::viewer::ViewError;
+use crate::viewer::recording::RecordingError;
 
 /// The end of a command that could do its work.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -47,6 +49,18 @@ pub(super) enum CommandError {
     /// A picture from nowhere.
     #[error("{0}")]
     View(#[from] ViewError),
+    /// A recording.
+    #[error("cannot show {}: {error}", path.display())]
+    Recording {
+        path: PathBuf,
+        error: RecordingError,
+    },
+    /// There is no port for the page.
+    #[error("the page cannot be served: {0}")]
+    Serve(io::Error),
+    /// The session cannot be watched.
+    #[error("{0}")]
+    Watch(#[from] WatchError),
     /// The robot and its world cannot be set up.
     #[error("{0}")]
     Open(String),

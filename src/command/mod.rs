@@ -19,6 +19,8 @@ mod reference;
 mod replay;
 mod run;
 mod stop_at;
+mod view_recording;
+mod watching;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -26,7 +28,7 @@ use std::thread;
 
 use clap::{CommandFactory, Parser};
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, WatchArguments};
 use failure::{CommandError, Status};
 use paint::Paint;
 
@@ -62,12 +64,25 @@ fn run_command_line() -> ExitCode {
 
 fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     let options = &arguments.options;
+    let mut watch = WatchArguments {
+        view: arguments.view,
+        record: None,
+    };
     match arguments.command {
         None if io::IsTerminal::is_terminal(&io::stdin()) => {
-            prompt::prompt(arguments.options, &arguments.prompt)
+            prompt::prompt(arguments.options, &arguments.prompt, &watch)
         }
-        None => pipe::evaluate_standard_input(options),
-        Some(Command::Run { files, eval }) => run::run(options, &files, &eval),
+        None => pipe::evaluate_standard_input(options, &watch),
+        Some(Command::Run {
+            files,
+            eval,
+            watch: of_run,
+        }) => {
+            watch.view |= of_run.view;
+            watch.record = of_run.record;
+            run::run(options, &files, &eval, &watch)
+        }
+        Some(Command::View { file }) => view_recording::view(options, &file),
         Some(Command::Replay {
             files,
             stop_at: Some(entry),

@@ -2,19 +2,26 @@
 
 use std::io::{self, BufRead};
 
-use super::arguments::Options;
+use super::arguments::{Options, WatchArguments};
 use super::failure::{CommandError, Status};
-use super::open::open;
+use super::open::open_session;
+use super::watching;
 use crate::dialogue::screen::input_name;
 use crate::dialogue::{Evaluate, Outcome, Screen, evaluate_on, is_whole};
 
 /// Takes inputs as the prompt would, each as soon as it is whole, and prints what the
 /// prompt would print. Goes on after a condition that nobody handled.
-pub(super) fn evaluate_standard_input(options: &Options) -> Result<Status, CommandError> {
-    let mut session = open(options)?;
+pub(super) fn evaluate_standard_input(
+    options: &Options,
+    watch: &WatchArguments,
+) -> Result<Status, CommandError> {
+    let mut session = open_session(options)?;
+    let has_browser = watching::begin(&mut session, watch)?;
     let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
     let stdin = io::stdin().lock();
-    evaluate_lines(stdin, &mut session, &mut screen)
+    let status = evaluate_lines(stdin, &mut session, &mut screen)?;
+    watching::linger(&session, has_browser);
+    Ok(status)
 }
 
 fn evaluate_lines(

@@ -2,14 +2,19 @@
 
 use std::io;
 
-use super::arguments::{Options, PromptOptions};
+use super::arguments::{Options, PromptOptions, WatchArguments};
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::paint::Paint;
+use super::watching;
 use crate::repl::{self, Beginning, Earlier, Journal, ReplOptions};
 
 /// Talks to the person at the terminal, in a fresh session or in one that is gone on with.
-pub(super) fn prompt(mut options: Options, wanted: &PromptOptions) -> Result<Status, CommandError> {
+pub(super) fn prompt(
+    mut options: Options,
+    wanted: &PromptOptions,
+    watch: &WatchArguments,
+) -> Result<Status, CommandError> {
     let earlier = match &wanted.resume {
         Some(path) => Some(Earlier::read(path.as_deref())?),
         None => None,
@@ -21,7 +26,8 @@ pub(super) fn prompt(mut options: Options, wanted: &PromptOptions) -> Result<Sta
         options.robot = beginning.robot;
     }
     let journal = journal(&options, wanted, earlier.as_ref());
-    let session = open_session(&options)?;
+    let mut session = open_session(&options)?;
+    watching::begin(&mut session, watch)?;
     let paint = Paint::new(options.color, &io::stdout());
     let status = repl::run(
         session,

@@ -3,11 +3,12 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use super::arguments::Options;
+use super::arguments::{Options, WatchArguments};
 use super::check::described;
 use super::failure::{CommandError, Status, read};
-use super::open::open;
+use super::open::{open, open_session};
 use super::paint::Paint;
+use super::watching;
 use crate::dialogue::{Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort};
 
 /// Loads the files, then evaluates the forms, up to the first condition that nobody
@@ -16,8 +17,18 @@ pub(super) fn run(
     options: &Options,
     files: &[PathBuf],
     forms: &[String],
+    watch: &WatchArguments,
 ) -> Result<Status, CommandError> {
-    run_in(options, files, forms, || open(options)).map(|(status, _)| status)
+    let mut has_browser = false;
+    let open = || {
+        let mut session = open_session(options)?;
+        has_browser = watching::begin(&mut session, watch)?;
+        Ok(session)
+    };
+    let (status, mut session) = run_in(options, files, forms, open)?;
+    session.end_recording()?;
+    watching::linger(&session, has_browser);
+    Ok(status)
 }
 
 /// As [`run`], in what `open` opens, which is handed back.

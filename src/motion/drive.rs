@@ -11,7 +11,9 @@ use super::drive_plan::{at_place, is_way_free, plan_drive};
 use super::failure::MotionFailure;
 use super::follower::Follower;
 use super::guard;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
+use super::job::{
+    Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress, WayAxes, check_finite,
+};
 use super::patience::{Attempt, Retry};
 use super::trajectory::{AxisGroup, Corners, Trajectory};
 use crate::robot::JointId;
@@ -252,6 +254,13 @@ impl Motion for Drive {
 
     fn cancel(&mut self) {
         self.ended = true;
+    }
+
+    fn planned(&self) -> Option<PlannedWay<'_>> {
+        self.way.as_ref().map(|way| PlannedWay {
+            axes: WayAxes::Base,
+            trajectory: way.trajectory(),
+        })
     }
 
     fn progress(&self) -> Progress {

@@ -242,6 +242,23 @@ impl MotionFailure {
         }
     }
 
+    /// The two bodies that touch, or would, if that is the reason.
+    pub fn hit(&self) -> Option<&CollisionHit> {
+        match self {
+            Self::GoalOccupied { hit, .. }
+            | Self::DriveStartOccupied { hit }
+            | Self::DriveBlocked { hit, .. }
+            | Self::TorsoBlocked { hit, .. }
+            | Self::NeckBlocked { hit }
+            | Self::FingersBlocked { hit, .. }
+            | Self::ArmGoalInCollision { hit }
+            | Self::ArmStartInCollision { hit }
+            | Self::ArmPathNotFound { hit, .. }
+            | Self::ArmBlocked { hit } => Some(hit),
+            _ => None,
+        }
+    }
+
     /// Name of CRAM's failure class that handlers name to catch this failure.
     pub fn class_name(&self) -> &'static str {
         match self {

@@ -26,6 +26,11 @@ impl Follower {
         }
     }
 
+    /// The trajectory that is followed.
+    pub(super) fn trajectory(&self) -> &Trajectory {
+        &self.trajectory
+    }
+
     /// Whether the end has been taken.
     pub(super) fn is_at_end(&self) -> bool {
         self.time >= self.trajectory.duration()

@@ -3,6 +3,8 @@
 use std::fmt;
 
 use super::failure::MotionFailure;
+use super::trajectory::Trajectory;
+use crate::robot::JointId;
 use crate::spatial::Pose;
 use crate::world::{BodyName, World};
 
@@ -143,4 +145,27 @@ pub trait Motion {
 
     /// What the job is doing.
     fn progress(&self) -> Progress;
+
+    /// The way that it takes, once that is planned, for those who want to see it.
+    fn planned(&self) -> Option<PlannedWay<'_>> {
+        None
+    }
+}
+
+/// A way that was planned.
+#[derive(Clone, Copy, Debug)]
+pub struct PlannedWay<'a> {
+    /// What the numbers of the trajectory mean.
+    pub axes: WayAxes<'a>,
+    /// Where the axes are when.
+    pub trajectory: &'a Trajectory,
+}
+
+/// What moves along a way.
+#[derive(Clone, Copy, Debug)]
+pub enum WayAxes<'a> {
+    /// The base: x, y (m) and heading (rad) in the map.
+    Base,
+    /// Joints (rad or m); axes of the trajectory beyond them move nothing.
+    Joints(&'a [JointId]),
 }

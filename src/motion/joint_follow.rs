@@ -2,6 +2,7 @@
 
 use super::follower::Follower;
 use super::guard::{self, StuckObject};
+use super::job::{PlannedWay, WayAxes};
 use super::patience::Patience;
 use super::trajectory::Trajectory;
 use crate::robot::{JointId, LinkId};
@@ -43,6 +44,14 @@ impl JointFollow {
             follower,
             allowed,
             patience: Patience::default(),
+        }
+    }
+
+    /// The way as it was planned.
+    pub(super) fn planned(&self) -> PlannedWay<'_> {
+        PlannedWay {
+            axes: WayAxes::Joints(&self.joints),
+            trajectory: self.follower.trajectory(),
         }
     }
 

@@ -40,7 +40,10 @@ pub use expected_contacts::CollisionMode;
 pub use failure::MotionFailure;
 pub use gripper::{GripperCommand, MoveGripper};
 pub use hold::{LetGo, held_objects, take_hold};
-pub use job::{DetectedObject, Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+pub use job::{
+    DetectedObject, Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress,
+    WayAxes,
+};
 pub use look::{Look, LookDirection, LookTarget, pan_and_tilt};
 pub use move_joints::MoveJoints;
 pub use move_tcp::{MoveTcp, TcpGoal, TcpPath};

@@ -5,7 +5,9 @@ use super::arm_path::ArmPathEffort;
 use super::arm_way::plan_way;
 use super::expected_contacts::ExpectedContacts;
 use super::failure::MotionFailure;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
+use super::job::{
+    Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress, check_finite,
+};
 use super::joint_follow::{FollowStep, JointFollow, with_joints};
 use super::joint_limit::violation;
 use super::judge::Judge;
@@ -176,6 +178,10 @@ impl Motion for MoveJoints {
 
     fn cancel(&mut self) {
         self.ended = true;
+    }
+
+    fn planned(&self) -> Option<PlannedWay<'_>> {
+        self.follow.as_ref().map(JointFollow::planned)
     }
 
     fn progress(&self) -> Progress {

@@ -3,7 +3,8 @@
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::failure::MotionFailure;
 use super::job::{
-    Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite, numbers_of,
+    Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress, check_finite,
+    numbers_of,
 };
 use super::joint_follow::{FollowStep, JointFollow};
 use super::patience::{Attempt, Retry};
@@ -213,6 +214,10 @@ impl Motion for MoveTcp {
 
     fn cancel(&mut self) {
         self.ended = true;
+    }
+
+    fn planned(&self) -> Option<PlannedWay<'_>> {
+        self.follow.as_ref().map(JointFollow::planned)
     }
 
     fn progress(&self) -> Progress {

@@ -8,7 +8,8 @@ use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::failure::MotionFailure;
 use super::hold::held_objects;
 use super::job::{
-    Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite, numbers_of,
+    Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress, check_finite,
+    numbers_of,
 };
 use super::joint_follow::{FollowStep, JointFollow};
 use super::move_tcp::{TcpGoal, in_base};
@@ -136,6 +137,10 @@ impl Motion for Put {
 
     fn cancel(&mut self) {
         self.ended = true;
+    }
+
+    fn planned(&self) -> Option<PlannedWay<'_>> {
+        self.follow.as_ref().map(JointFollow::planned)
     }
 
     fn progress(&self) -> Progress {

@@ -7,6 +7,7 @@ use std::rc::Rc;
 use indexmap::IndexMap;
 
 use super::fluent::Waiter;
+use super::journal::{Journal, TaskChange};
 use super::names::Names;
 use super::tree::TreeNode;
 use crate::lisp::image::Image;
@@ -31,6 +32,8 @@ pub struct Plan {
     pub(crate) goals: RefCell<IndexMap<Sym, Vec<Goal>>>,
     /// Policies by name.
     pub(crate) policies: RefCell<IndexMap<Sym, Value>>,
+    /// What became of tasks.
+    pub(super) journal: Journal,
     /// Numbers given to fluents and tasks without a name.
     numbers: Cell<u64>,
 }
@@ -60,6 +63,7 @@ impl Plan {
             trees: RefCell::default(),
             goals: RefCell::default(),
             policies: RefCell::default(),
+            journal: Journal::default(),
             numbers: Cell::new(FIRST_NUMBER),
         }
     }
@@ -84,6 +88,16 @@ impl Plan {
 
     pub(super) fn set_now(&self, now: f64) {
         self.now.set(now);
+    }
+
+    /// From here on, what becomes of tasks is noted until it is fetched.
+    pub fn keep_journal(&self) {
+        self.journal.begin();
+    }
+
+    /// What has become of tasks since it was fetched last.
+    pub fn fetch_journal(&self) -> Vec<TaskChange> {
+        self.journal.fetch()
     }
 
     /// A number for a name that nobody gave.

@@ -7,6 +7,7 @@ use super::simulation::Simulation;
 use crate::dialogue::Event;
 use crate::lisp::image::Image;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
+use crate::viewer::watch::Happening;
 
 /// A simulation, and whom to tell what is printed meanwhile.
 pub(super) struct LiveHost<'a> {
@@ -33,10 +34,13 @@ impl<'a> LiveHost<'a> {
 const FIRST_PROGRESS: Duration = Duration::from_millis(150);
 const BETWEEN_PROGRESS: Duration = Duration::from_millis(100);
 
-/// Tells what was written to standard output.
-pub(super) fn flush(image: &mut Image, sink: &mut dyn FnMut(Event)) {
+/// Tells what was written to standard output, and what became of tasks.
+pub(super) fn flush(image: &mut Image, simulation: &mut Simulation, sink: &mut dyn FnMut(Event)) {
+    simulation.tell_tasks(image);
     let text = image.output.take();
     if !text.is_empty() {
+        let told = Happening::Output(text.clone());
+        simulation.tell(&told);
         sink(Event::Output(text));
     }
 }
@@ -45,14 +49,14 @@ impl Host for LiveHost<'_> {
     fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
         let reply = self.simulation.request(image, task, request);
         for picture in self.simulation.take_pictures() {
-            flush(image, self.sink);
+            flush(image, self.simulation, self.sink);
             (self.sink)(Event::Picture(picture));
         }
         reply
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
-        flush(image, self.sink);
+        flush(image, self.simulation, self.sink);
         if !self.tells_progress {
             return self.simulation.advance(image, now, until);
         }
@@ -71,7 +75,7 @@ impl Host for LiveHost<'_> {
     }
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
-        flush(image, self.sink);
+        flush(image, self.simulation, self.sink);
         self.simulation.idle(image, now, until)
     }
 

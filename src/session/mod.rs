@@ -14,6 +14,7 @@ mod record;
 pub mod simulation;
 mod text;
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -24,13 +25,14 @@ use crate::lisp::package::PackageTable;
 use crate::lisp::value::Value;
 use crate::manual;
 use crate::plan::{Evaluation, Scheduler};
+use crate::viewer::watch::{Cause, Happening};
 use live_host::LiveHost;
 use simulation::Simulation;
 
 use printing::on_one_line;
 
 pub use options::{SessionError, SessionOptions};
-pub use simulation::{Filming, LogLevel};
+pub use simulation::{Filming, LogLevel, WatchError};
 
 /// A session.
 pub struct Session {
@@ -113,6 +115,21 @@ impl Session {
         &mut self.simulation
     }
 
+    /// Opens the live view, unless it is open; returns the page's address.
+    pub fn open_view(&mut self) -> Result<String, WatchError> {
+        self.simulation.open_view(&self.image)
+    }
+
+    /// Records from here on what happens into an MCAP file.
+    pub fn begin_recording(&mut self, path: &Path) -> Result<(), WatchError> {
+        self.simulation.begin_recording(&self.image, path)
+    }
+
+    /// Ends the recording, if there is one, and tells what went wrong with it.
+    pub fn end_recording(&mut self) -> Result<(), WatchError> {
+        self.simulation.end_recording()
+    }
+
     /// Evaluates one form at top level.
     fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
         self.image.set_special(known::MINUS, form.clone());
@@ -129,6 +146,8 @@ impl Session {
             Evaluation::Unhandled(condition) => {
                 let abort = self.describe(&condition);
                 self.abort(sink);
+                let report = Happening::Aborted(abort.report.clone());
+                self.simulation.tell(&report);
                 Ended::Aborted(Box::new(abort))
             }
             Evaluation::Interrupted => {
@@ -137,6 +156,7 @@ impl Session {
             }
         };
         self.flush(sink);
+        self.simulation.show(Cause::Rest);
         self.shift_forms(form);
         if let Ended::Values(values) = &ended {
             self.shift_values(values);
@@ -152,7 +172,7 @@ impl Session {
 
     /// Tells what was written to standard output.
     fn flush(&mut self, sink: &mut dyn FnMut(Event)) {
-        live_host::flush(&mut self.image, sink);
+        live_host::flush(&mut self.image, &mut self.simulation, sink);
     }
 
     /// The name of the current package, or a short one.

@@ -12,11 +12,13 @@ mod inline;
 mod lamp;
 mod lettering;
 mod loft;
+pub mod live;
 pub mod looks;
 pub mod map_picture;
 mod palette;
 mod projector;
 mod raster;
+pub mod recording;
 pub mod render;
 pub mod scene;
 mod shade;
@@ -24,6 +26,7 @@ mod smooth;
 pub mod surface;
 
 pub mod view;
+pub mod watch;
 
 pub use camera_picture::CameraPicture;
 pub use image::Image;

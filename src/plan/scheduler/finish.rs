@@ -1,5 +1,6 @@
 //! How tasks begin and end.
 
+use super::group::unwrapped;
 use super::live::{Answer, Ending, Live, Slot, Told, Wait};
 use super::{Scheduler, TaskInfo};
 use crate::lisp::function::Function;
@@ -11,9 +12,10 @@ use crate::lisp::value::Value;
 use crate::lisp::vm::fiber::{Dynamic, Fiber};
 use crate::plan::builtins;
 use crate::plan::fluent;
+use crate::plan::journal::TaskChange;
 use crate::plan::request::Call;
 use crate::plan::state::Plan;
-use crate::plan::task::{Status, TaskRef};
+use crate::plan::task::{Status, TaskId, TaskRef};
 
 /// The value of a special variable in a fiber that is not running.
 fn value_in(image: &Image, fiber: &Fiber, sym: Sym) -> Value {
@@ -80,12 +82,38 @@ impl Scheduler {
         self.enqueue(slot);
     }
 
+    /// Notes the status of a task that is alive.
+    fn note(&self, plan: &Plan, slot: Slot, status: Status) {
+        if !plan.journal.is_kept() {
+            return;
+        }
+        let Some(live) = self.live(slot) else { return };
+        let Some(task) = &live.task else { return };
+        plan.journal.note(TaskChange {
+            id: live.id,
+            parent: live.parent.and_then(|slot| self.task_id(slot)),
+            name: task.get().name.to_string(),
+            status,
+            failure: None,
+            time: plan.now(),
+        });
+    }
+
+    /// The number of the task at an entry; a root has none.
+    fn task_id(&self, slot: Slot) -> Option<TaskId> {
+        let live = self.live(slot)?;
+        live.task.as_ref().map(|_| live.id)
+    }
+
     /// Sets a task's status; whoever waits for its fluent is woken.
     pub(super) fn set_status(&mut self, image: &mut Image, task: &TaskRef, status: Status) {
         if task.get().status() == status {
             return;
         }
         task.get().set_status(status);
+        if let Some(slot) = self.slot_of(task) {
+            self.note(&Plan::of(image), slot, status);
+        }
         let Some(fluent) = task.get().known_fluent().cloned() else {
             return;
         };
@@ -158,6 +186,7 @@ impl Scheduler {
             return None;
         }
         let live = self.remove(slot)?;
+        let parent = live.parent.and_then(|slot| self.task_id(slot));
         let ending = live.ending.unwrap_or(Ending::Evaporated);
         let (status, result) = match ending {
             Ending::Succeeded(value) => (Status::Succeeded, value),
@@ -165,6 +194,18 @@ impl Scheduler {
             Ending::Evaporated => (Status::Evaporated, Value::values(Vec::new())),
         };
         if let Some(task) = &live.task {
+            let plan = Plan::of(image);
+            if plan.journal.is_kept() {
+                let failure = (status == Status::Failed).then(|| unwrapped(&plan, result.clone()));
+                plan.journal.note(TaskChange {
+                    id: live.id,
+                    parent,
+                    name: task.get().name.to_string(),
+                    status,
+                    failure,
+                    time: plan.now(),
+                });
+            }
             *task.get().result.borrow_mut() = result;
             task.get().slot.set(None);
             let parent = live.parent.and_then(|slot| self.live(slot));

@@ -6,6 +6,7 @@
 pub mod call;
 mod explain;
 mod film;
+mod following;
 mod frames;
 mod functions;
 mod held;
@@ -31,14 +32,17 @@ use indexmap::IndexMap;
 use super::{SessionError, SessionOptions};
 use crate::lisp::value::Value;
 use crate::motion::{DetectQuery, Motion, ProcessModule};
-use crate::plan::Ticket;
+use crate::plan::{TaskId, Ticket};
 use crate::spatial::Pose;
+use crate::viewer::live::{PaceControl, Speed};
 use crate::viewer::{self, Looks};
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
 
 pub use film::Filming;
+pub use following::FollowerId;
+pub use functions::watching::WatchError;
 use pace::Pace;
 pub use tables::install;
 
@@ -49,6 +53,10 @@ struct Job {
     motion: Box<dyn Motion>,
     /// The designator that failures name.
     subject: Value,
+    /// The task that waits.
+    task: TaskId,
+    /// What kind of motion it is, for people.
+    name: String,
     is_paused: bool,
 }
 
@@ -77,6 +85,8 @@ pub struct Simulation {
     /// Motions that wait for a process module, in order.
     waiting: VecDeque<Job>,
     next_ticket: u64,
+    /// The task whose request is carried out.
+    asking: TaskId,
     axes: Option<Axes>,
     log_level: LogLevel,
     pace: Option<Pace>,
@@ -91,6 +101,8 @@ pub struct Simulation {
     pictures: Vec<Arc<viewer::Image>>,
     looks: OnceCell<Looks>,
     film: Option<film::Film>,
+    followers: following::Followers,
+    watching: functions::watching::Watching,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
     moments: moments::Moments,
@@ -132,9 +144,11 @@ impl Simulation {
             active: Vec::new(),
             waiting: VecDeque::new(),
             next_ticket: 0,
+            asking: TaskId(0),
             axes: None,
             log_level: options.log_level,
-            pace: options.realtime.map(Pace::new),
+            pace: (options.realtime)
+                .map(|factor| Pace::new(PaceControl::new(Speed::Times(factor)))),
             quit: None,
             observer: None,
             last_failure: None,
@@ -142,6 +156,8 @@ impl Simulation {
             pictures: Vec::new(),
             looks: OnceCell::new(),
             film: None,
+            followers: following::Followers::default(),
+            watching: functions::watching::Watching::default(),
             now: 0.0,
             moments: moments::Moments::default(),
             tour_step: 0,

@@ -10,12 +10,14 @@ use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
 use crate::motion::{Motion, MotionOutcome, MotionStatus};
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
+use crate::viewer::watch::{Cause, TaskState};
 use crate::world::physics::STEP_SECONDS;
 
 type Completion = (Ticket, Result<Value, Box<Raise>>);
 
 impl Host for Simulation {
-    fn request(&mut self, image: &mut Image, _: TaskId, request: Box<dyn Any>) -> Reply {
+    fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
+        self.asking = task;
         self.touch();
         let reply = self.reply(image, request);
         self.note_motions(image);
@@ -34,22 +36,40 @@ impl Host for Simulation {
             if self.is_interrupted(image) {
                 return self.now;
             }
-            self.step();
+            self.step(image);
             steps += 1;
             self.now = now + f64::from(steps) * STEP_SECONDS;
         }
+        while self.now < until
+            && let Some(pace) = &mut self.pace
+            && let Some(slice) = pace.slice()
+        {
+            let slice = slice.min(until - self.now);
+            pace.wait(slice, &image.interrupt);
+            if self.is_interrupted(image) {
+                return self.now;
+            }
+            self.now += slice;
+            self.show(Cause::Wait);
+        }
         self.now = until;
+        self.show(Cause::Step);
         until
     }
 
     fn cancel(&mut self, _: &mut Image, ticket: Ticket) {
-        for job in &mut self.active {
-            if job.ticket == ticket {
-                job.motion.cancel();
+        let is_it = |job: &Job| job.ticket == ticket;
+        let cancelled = match self.active.iter().position(is_it) {
+            Some(place) => Some(self.active.remove(place)),
+            None => {
+                let place = self.waiting.iter().position(is_it);
+                place.and_then(|place| self.waiting.remove(place))
             }
+        };
+        if let Some(mut job) = cancelled {
+            job.motion.cancel();
+            self.tell_motion(&job, TaskState::Evaporated, "");
         }
-        self.active.retain(|job| job.ticket != ticket);
-        self.waiting.retain(|job| job.ticket != ticket);
     }
 
     fn pause(&mut self, _: &mut Image, ticket: Ticket) {
@@ -79,7 +99,7 @@ impl Simulation {
         {
             self.admit_waiting();
             self.tick(image, &mut done);
-            self.step();
+            self.step(image);
             steps += 1;
             self.now = now + f64::from(steps) * STEP_SECONDS;
             watch(self);
@@ -109,13 +129,19 @@ impl Simulation {
         let request = match request.downcast::<HostCall>() {
             Ok(call) => {
                 let reply = (call.call)(self, image, &call.args);
+                self.show(Cause::Edit);
                 return reply.unwrap_or_else(|raise| Reply::Now(Err(raise)));
             }
             Err(request) => request,
         };
         match request.downcast::<MotionRequest>() {
             Ok(request) => match self.motion_for(image, &request) {
-                Ok((motion, subject)) => Reply::Later(self.start(motion, subject)),
+                Ok((motion, subject)) => {
+                    // The task is told before what it does.
+                    self.tell_tasks(image);
+                    let name = request.motion_type.to_lowercase();
+                    Reply::Later(self.start(motion, subject, name))
+                }
                 Err(raise) => Reply::Now(Err(raise)),
             },
             Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
@@ -123,17 +149,26 @@ impl Simulation {
     }
 
     /// Starts a motion as soon as its process module is free.
-    pub(super) fn start(&mut self, motion: Box<dyn Motion>, subject: Value) -> Ticket {
+    pub(super) fn start(
+        &mut self,
+        motion: Box<dyn Motion>,
+        subject: Value,
+        name: String,
+    ) -> Ticket {
         self.next_ticket += 1;
         self.begin_motion();
         let ticket = Ticket(self.next_ticket);
-        self.waiting.push_back(Job {
+        let job = Job {
             ticket,
             module: motion.module(),
             motion,
             subject,
+            task: self.asking,
+            name,
             is_paused: false,
-        });
+        };
+        self.tell_motion(&job, TaskState::Running, "");
+        self.waiting.push_back(job);
         ticket
     }
 
@@ -160,8 +195,17 @@ impl Simulation {
             }
             let result = match job.motion.tick(&mut self.world) {
                 MotionStatus::Running => continue,
-                MotionStatus::Done(outcome) => Ok(self.outcome(image, &outcome, &job.subject)),
-                MotionStatus::Failed(failure) => Err(self.failure(image, &failure, &job.subject)),
+                MotionStatus::Done(outcome) => {
+                    self.tell_motion(job, TaskState::Succeeded, "");
+                    Ok(self.outcome(image, &outcome, &job.subject))
+                }
+                MotionStatus::Failed(failure) => {
+                    self.tell_motion(job, TaskState::Failed, &failure.to_string());
+                    if let Some(hit) = failure.hit() {
+                        self.tell_collision(hit);
+                    }
+                    Err(self.failure(image, &failure, &job.subject))
+                }
             };
             completions.push((job.ticket, result));
             ended.push(i);
@@ -186,12 +230,13 @@ impl Simulation {
         }
     }
 
-    fn step(&mut self) {
+    fn step(&mut self, image: &Image) {
         self.world.step();
         self.observe();
         self.film();
+        self.show(Cause::Step);
         if let Some(pace) = &mut self.pace {
-            pace.wait_for_step();
+            pace.wait(STEP_SECONDS, &image.interrupt);
         }
     }
 

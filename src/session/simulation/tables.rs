@@ -17,7 +17,9 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("ROS-LOAD", functions::ros::LOAD_TABLE),
     ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::moments::TABLE),
+    ("PLANWRIGHT", functions::pictures::TABLE),
     ("PLANWRIGHT", functions::prompt::TABLE),
+    ("PLANWRIGHT", functions::watching::TABLE),
     ("PLANWRIGHT", crate::session::record::TABLE),
     ("SYSTEM", functions::prompt::SYSTEM_TABLE),
 ];
@@ -60,7 +62,6 @@ pub fn install(image: &mut Image) {
         }
     }
     image.install(PackageTable::CL, functions::leaving::TABLE);
-    image.install(PackageTable::CL, functions::pictures::TABLE);
     for (from, to, names) in ALIASES {
         let (Some(from), Some(to)) = (image.packages.find(from), image.packages.find(to)) else {
             continue;

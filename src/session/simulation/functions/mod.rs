@@ -14,3 +14,4 @@ pub mod reaching;
 pub mod robot_macros;
 pub mod ros;
 pub mod tutorial;
+pub mod watching;

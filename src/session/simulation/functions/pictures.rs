@@ -29,7 +29,7 @@ const MAP_PICTURE: &str = "planwright-map.png";
 const WIDTH: usize = 640;
 const HEIGHT: usize = 480;
 
-/// Builtins of package `COMMON-LISP`.
+/// Builtins of package `PLANWRIGHT`.
 pub static TABLE: &[Builtin] = &[
     control(
         "PICTURE",

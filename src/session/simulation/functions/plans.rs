@@ -369,9 +369,12 @@ fn detach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let name = simulation.object_named(image, &args[0])?;
     let side = side(image, &args[1])?;
     let motion = LetGo::new(side, Some(name));
-    Ok(Reply::Later(
-        simulation.start(Box::new(motion), args[0].clone()),
-    ))
+    let name = "letting-go".to_owned();
+    Ok(Reply::Later(simulation.start(
+        Box::new(motion),
+        args[0].clone(),
+        name,
+    )))
 }
 
 fn object_to_place(

@@ -1,0 +1,129 @@
+//! Those who follow the session: they are told of every step, of edits and of what happens.
+
+use super::{Job, Simulation};
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::plan::{Plan, Status};
+use crate::viewer::watch::{Cause, Follower, Happening, Seen, TaskId, TaskNews, TaskState};
+use crate::world::CollisionHit;
+
+/// Who follows.
+#[derive(Default)]
+pub(super) struct Followers {
+    all: Vec<(FollowerId, Box<dyn Follower>)>,
+    last: u64,
+}
+
+/// Tells followers apart.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct FollowerId(u64);
+
+impl Simulation {
+    /// Has somebody follow the session from here on.
+    pub fn add_follower(&mut self, image: &Image, mut follower: Box<dyn Follower>) -> FollowerId {
+        Plan::of(image).keep_journal();
+        let ways = self.ways();
+        follower.see(&self.seen(&ways), Cause::Rest);
+        drop(ways);
+        self.followers.last += 1;
+        let id = FollowerId(self.followers.last);
+        self.followers.all.push((id, follower));
+        id
+    }
+
+    /// Lets somebody follow no longer.
+    pub fn remove_follower(&mut self, id: FollowerId) {
+        self.followers.all.retain(|(known, _)| *known != id);
+    }
+
+    /// Tells the followers how the world is now.
+    pub(in crate::session) fn show(&mut self, cause: Cause) {
+        if self.followers.all.is_empty() {
+            return;
+        }
+        let mut followers = std::mem::take(&mut self.followers.all);
+        let ways = self.ways();
+        let seen = self.seen(&ways);
+        for (_, follower) in &mut followers {
+            follower.see(&seen, cause);
+        }
+        drop(ways);
+        followers.append(&mut self.followers.all);
+        self.followers.all = followers;
+    }
+
+    /// Tells the followers what happened.
+    pub(in crate::session) fn tell(&mut self, happening: &Happening) {
+        let now = self.now;
+        for (_, follower) in &mut self.followers.all {
+            follower.hear(now, happening);
+        }
+    }
+
+    /// Tells the followers what became of tasks.
+    pub(in crate::session) fn tell_tasks(&mut self, image: &Image) {
+        if self.followers.all.is_empty() {
+            return;
+        }
+        for change in Plan::of(image).fetch_journal() {
+            let failure = change.failure.map(|f| print::report::report(image, &f));
+            let news = Happening::Task(TaskNews {
+                id: TaskId::Task(change.id.0),
+                parent: change.parent.map(|parent| TaskId::Task(parent.0)),
+                name: change.name,
+                state: state(change.status),
+                failure: failure.unwrap_or_default(),
+            });
+            for (_, follower) in &mut self.followers.all {
+                follower.hear(change.time, &news);
+            }
+        }
+    }
+
+    /// Tells the followers what became of a motion.
+    pub(super) fn tell_motion(&mut self, job: &Job, state: TaskState, failure: &str) {
+        if self.followers.all.is_empty() {
+            return;
+        }
+        self.tell(&Happening::Task(TaskNews {
+            id: TaskId::Motion(job.ticket.0),
+            parent: Some(TaskId::Task(job.task.0)),
+            name: job.name.clone(),
+            state,
+            failure: failure.to_owned(),
+        }));
+    }
+
+    /// Tells the followers what stopped a motion.
+    pub(super) fn tell_collision(&mut self, hit: &CollisionHit) {
+        let now = self.now;
+        for (_, follower) in &mut self.followers.all {
+            follower.collide(now, hit);
+        }
+    }
+
+    fn ways(&self) -> Vec<(u64, crate::motion::PlannedWay<'_>)> {
+        let jobs = self.active.iter();
+        jobs.filter_map(|job| Some((job.ticket.0, job.motion.planned()?)))
+            .collect()
+    }
+
+    fn seen<'a>(&'a self, ways: &'a [(u64, crate::motion::PlannedWay<'a>)]) -> Seen<'a> {
+        Seen {
+            time: self.now,
+            world: &self.world,
+            axes: self.axes.as_ref().map(|axes| (axes.pose, axes.size)),
+            ways,
+        }
+    }
+}
+
+fn state(status: Status) -> TaskState {
+    match status {
+        Status::Created | Status::Running => TaskState::Running,
+        Status::Suspended => TaskState::Suspended,
+        Status::Succeeded => TaskState::Succeeded,
+        Status::Failed => TaskState::Failed,
+        Status::Evaporated => TaskState::Evaporated,
+    }
+}

@@ -1,0 +1,26 @@
+//! The page, put together from its parts.
+
+/// Parts of the page's program, in the order in which they are defined.
+const SCRIPTS: [&str; 9] = [
+    include_str!("page/algebra.js"),
+    include_str!("page/program.js"),
+    include_str!("page/orbit.js"),
+    include_str!("page/scene.js"),
+    include_str!("page/stage.js"),
+    include_str!("page/tasks.js"),
+    include_str!("page/log.js"),
+    include_str!("page/past.js"),
+    include_str!("page/main.js"),
+];
+
+const STYLE: &str = include_str!("page/style.css");
+const FRAME: &str = include_str!("page/page.html");
+
+/// The page; `word` shows the browser that style and program are its own.
+pub(super) fn page(word: &str) -> String {
+    // The word goes in first, so that nothing in the parts is taken for its place.
+    FRAME
+        .replace("{word}", word)
+        .replace("{style}", STYLE)
+        .replace("{script}", &SCRIPTS.concat())
+}

@@ -1,0 +1,67 @@
+// What there is and where: nodes with their meshes, and states, which are moments of the world.
+
+const METRE = 1e-4;
+const UNIT = 1e-5;
+
+const EMPTY = { t: 0, places: new Map(), held: [], touch: [], hits: [], axes: [], paths: [] };
+
+function placeOf(n, i) {
+  return [n[i] * METRE, n[i + 1] * METRE, n[i + 2] * METRE, n[i + 3] * UNIT, n[i + 4] * UNIT, n[i + 5] * UNIT, n[i + 6] * UNIT];
+}
+
+// The state that a frame makes of the one before.
+function follow(before, frame) {
+  const places = new Map(frame.whole ? [] : before.places);
+  for (const id of frame.gone) places.delete(id);
+  for (let i = 0; i + 8 <= frame.p.length; i += 8) places.set(frame.p[i], placeOf(frame.p, i + 1));
+  const paths = !frame.paths ? before.paths : frame.paths.map((path) => {
+    const points = [];
+    for (let i = 0; i + 3 <= path.points.length; i += 3) points.push(path.points.slice(i, i + 3).map((v) => v * METRE));
+    return { what: path.what, frame: path.frame, points };
+  });
+  return { t: frame.t, places, held: frame.held, touch: frame.touch, hits: frame.hits, axes: frame.axes, paths };
+}
+
+class Scene {
+  constructor() { this.clear(); }
+
+  clear() {
+    this.nodes = new Map();
+    this.live = EMPTY;
+  }
+
+  addNodes(list) {
+    for (const node of list) {
+      this.nodes.set(node.id, { ...node, still: node.still ? placeOf(node.still, 0) : null, mesh: null });
+    }
+  }
+
+  // Where a node is in a state.
+  place(node, state) { return node.still || state.places.get(node.id); }
+
+  holder(state, id) {
+    const hold = state.held.find(([object]) => object === id);
+    return hold ? hold[1] : null;
+  }
+
+  touched(state, id) {
+    const others = state.touch.filter((pair) => pair.includes(id)).map(([a, b]) => this.nodes.get(a === id ? b : a));
+    return [...new Set(others.filter(Boolean).map((node) => node.name))];
+  }
+}
+
+// Meshes as the server sends them: [id, corners, triangle corners], then the bytes of both.
+function* meshesIn(buffer) {
+  const view = new DataView(buffer);
+  let at = 0;
+  while (at + 12 <= buffer.byteLength) {
+    const [id, corners, indices] = [0, 4, 8].map((i) => view.getUint32(at + i, true));
+    at += 12;
+    yield {
+      id,
+      corners: new Uint8Array(buffer, at, corners * 20),
+      indices: new Uint32Array(buffer, at + corners * 20, indices),
+    };
+    at += corners * 20 + indices * 4;
+  }
+}

@@ -1,0 +1,78 @@
+//! What happens in a session beside movement.
+
+/// Tells tasks and motions of a session apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum TaskId {
+    /// A task of a plan, by its number.
+    Task(u64),
+    /// A motion that a task waits for, by its number.
+    Motion(u64),
+}
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Happening {
+    /// Text was printed; not necessarily whole lines.
+    Output(String),
+    /// A condition that nobody handled ended an evaluation; its report.
+    Aborted(String),
+    /// A task began, or its state changed.
+    Task(TaskNews),
+}
+
+/// What became of a task.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TaskNews {
+    /// Which task.
+    pub id: TaskId,
+    /// The task that started it; none if the prompt did.
+    pub parent: Option<TaskId>,
+    /// How people call it.
+    pub name: String,
+    /// How it is now.
+    pub state: TaskState,
+    /// Why it failed; empty otherwise.
+    pub failure: String,
+}
+
+/// How a task is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TaskState {
+    /// It runs or waits.
+    Running,
+    /// It holds still.
+    Suspended,
+    /// It has ended well.
+    Succeeded,
+    /// It has ended with a failure.
+    Failed,
+    /// It was told to end.
+    Evaporated,
+}
+
+impl TaskState {
+    /// All states.
+    pub const ALL: [Self; 5] = [
+        Self::Running,
+        Self::Suspended,
+        Self::Succeeded,
+        Self::Failed,
+        Self::Evaporated,
+    ];
+
+    /// Name of the state.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Running => "running",
+            Self::Suspended => "suspended",
+            Self::Succeeded => "succeeded",
+            Self::Failed => "failed",
+            Self::Evaporated => "evaporated",
+        }
+    }
+
+    /// The state of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|state| state.name() == name)
+    }
+}

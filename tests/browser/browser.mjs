@@ -1,0 +1,144 @@
+// Drives a headless Chromium over the DevTools protocol, through pipes: no package is needed.
+
+import { spawn } from 'node:child_process';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+
+const FLAGS = [
+  '--headless', '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+  '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update',
+  '--disable-sync', '--disable-dev-shm-usage', '--hide-scrollbars', '--mute-audio', '--remote-debugging-pipe',
+];
+
+export const sleep = (seconds) => new Promise((done) => setTimeout(done, seconds * 1000));
+
+/** A browser that is gone when `close` is called. */
+export class Browser {
+  constructor(executable) {
+    this.profile = mkdtempSync(join(tmpdir(), 'planwright-browser-'));
+    this.process = spawn(executable, [...FLAGS, `--user-data-dir=${this.profile}`], {
+      stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'],
+    });
+    this.last = 0;
+    this.waiting = new Map();
+    this.hearers = [];
+    let text = '';
+    this.process.stdio[4].setEncoding('utf8').on('data', (piece) => {
+      const messages = (text + piece).split('\0');
+      text = messages.pop();
+      messages.forEach((message) => this.take(JSON.parse(message)));
+    });
+  }
+
+  take(message) {
+    const waiting = this.waiting.get(message.id);
+    if (waiting) {
+      this.waiting.delete(message.id);
+      if (message.error) waiting.fail(new Error(`${waiting.method}: ${message.error.message}`));
+      else waiting.done(message.result);
+    } else {
+      this.hearers.forEach((hear) => hear(message));
+    }
+  }
+
+  send(method, params = {}, sessionId = undefined) {
+    this.last += 1;
+    const id = this.last;
+    this.process.stdio[3].write(`${JSON.stringify({ id, method, params, sessionId })}\0`);
+    return new Promise((done, fail) => this.waiting.set(id, { done, fail, method }));
+  }
+
+  /** Opens an address in a tab of its own. */
+  async open(address, { width = 1280, height = 800, dark = false } = {}) {
+    const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
+    const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
+    const tab = new Tab(this, sessionId, targetId);
+    await tab.send('Page.enable');
+    await tab.send('Runtime.enable');
+    await tab.send('Log.enable');
+    await tab.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: false });
+    await tab.send('Emulation.setEmulatedMedia', {
+      features: [{ name: 'prefers-color-scheme', value: dark ? 'dark' : 'light' }],
+    });
+    await tab.send('Page.navigate', { url: address });
+    return tab;
+  }
+
+  async close() {
+    await Promise.race([this.send('Browser.close').catch(() => {}), sleep(3)]);
+    this.process.kill('SIGKILL');
+    await sleep(0.2);
+    rmSync(this.profile, { recursive: true, force: true, maxRetries: 5 });
+  }
+}
+
+/** A tab, with the errors that its page has told. */
+export class Tab {
+  constructor(browser, session, target) {
+    Object.assign(this, { browser, session, target, errors: [] });
+    browser.hearers.push(({ sessionId, method, params }) => {
+      if (sessionId !== session) return;
+      if (method === 'Runtime.exceptionThrown') this.errors.push(params.exceptionDetails.exception?.description ?? params.exceptionDetails.text);
+      if (method === 'Log.entryAdded' && params.entry.level === 'error') this.errors.push(params.entry.text);
+      if (method === 'Runtime.consoleAPICalled' && params.type === 'error') this.errors.push(JSON.stringify(params.args));
+    });
+  }
+
+  send(method, params) { return this.browser.send(method, params, this.session); }
+
+  /** The value of an expression in the page. */
+  async value(expression) {
+    const { result, exceptionDetails } = await this.send('Runtime.evaluate', { expression, returnByValue: true, awaitPromise: true });
+    if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
+    return result.value;
+  }
+
+  /** Waits until an expression is true. */
+  async until(expression, seconds = 20) {
+    const end = Date.now() + seconds * 1000;
+    while (Date.now() < end) {
+      const value = await this.value(expression);
+      if (value) return value;
+      await sleep(0.05);
+    }
+    throw new Error(`not within ${seconds} s: ${expression}`);
+  }
+
+  mouse(type, x, y, more = {}) {
+    return this.send('Input.dispatchMouseEvent', { type, x, y, pointerType: 'mouse', ...more });
+  }
+
+  async click(x, y, clickCount = 1) {
+    for (let count = 1; count <= clickCount; count++) {
+      await this.mouse('mousePressed', x, y, { button: 'left', buttons: 1, clickCount: count });
+      await this.mouse('mouseReleased', x, y, { button: 'left', buttons: 0, clickCount: count });
+    }
+  }
+
+  /** Clicks the middle of an element. */
+  async press(selector) {
+    const [x, y] = await this.value(`(() => {
+      const box = document.querySelector(${JSON.stringify(selector)}).getBoundingClientRect();
+      return [box.x + box.width / 2, box.y + box.height / 2];
+    })()`);
+    await this.click(x, y);
+  }
+
+  async drag([x, y], [dx, dy], button = 'left') {
+    const buttons = button === 'left' ? 1 : 2;
+    await this.mouse('mousePressed', x, y, { button, buttons, clickCount: 1 });
+    for (let i = 1; i <= 5; i++) {
+      await this.mouse('mouseMoved', x + dx * i / 5, y + dy * i / 5, { button, buttons });
+    }
+    await this.mouse('mouseReleased', x + dx, y + dy, { button, buttons: 0, clickCount: 1 });
+  }
+
+  wheel(x, y, deltaY) { return this.mouse('mouseWheel', x, y, { deltaX: 0, deltaY }); }
+
+  /** Writes what the tab shows into a PNG file. */
+  async picture(file) {
+    const { data } = await this.send('Page.captureScreenshot', { format: 'png' });
+    writeFileSync(file, Buffer.from(data, 'base64'));
+  }
+}
