@@ -120,3 +120,58 @@ fn a_reader_that_leaves_early_is_no_error() {
     let (status, _, err) = told(child.wait_with_output().unwrap());
     assert_eq!((&first, status, err.as_str()), (b"1\n", Some(0), ""));
 }
+
+#[test]
+fn a_whole_run_becomes_frames_and_a_moving_picture() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("film");
+    std::fs::remove_dir_all(&folder).ok();
+    std::fs::create_dir_all(&folder).unwrap();
+    let at = |name: &str| folder.join(name).display().to_string();
+    let torso = "(pp-tut::with-simulated-robot \
+                 (cram-executive:perform \
+                 (desig:a motion (type moving-torso) (joint-angle 0.3))))";
+    let (frames, gif, png) = (at("frames"), at("run.gif"), at("end.png"));
+    let (status, _, err) = output(&[
+        "picture", "--eval", torso, "--view", "follow", "--width", "64", "--height", "48",
+        "--every", "0.5", "--frames", &frames, "--gif", &gif, "-o", &png,
+    ]);
+    assert_eq!((status, err.as_str()), (Some(0), ""));
+    let read = |path: &str| std::fs::read(path).unwrap();
+    let count = std::fs::read_dir(&frames).unwrap().count();
+    assert!(count >= 3, "{count}");
+    let frame = |number: usize| read(&format!("{frames}/frame-{number:04}.png"));
+    assert!(frame(1) != frame(count));
+    // The last frame is the world as it is in the end.
+    assert!(frame(count) == read(&png));
+    assert!(read(&gif).starts_with(b"GIF89a"));
+}
+
+#[test]
+fn a_picture_that_cannot_be_is_told() {
+    for (arguments, what) in [
+        (&["picture"][..], "error: "),
+        (&["picture", "-o", "x.png", "--width", "0"], "error: "),
+        (&["picture", "-o", "x.png", "--view", "moon"], "error: "),
+        (&["picture", "-o", "x.png", "--every", "0"], "error: "),
+        (
+            &[
+                "picture",
+                "-o",
+                "no/such/x.png",
+                "--width",
+                "32",
+                "--height",
+                "32",
+            ],
+            "error: cannot write no/such/x.png: ",
+        ),
+        (
+            &["picture", "-o", "x.png", "--from", "1,2,3", "--at", "1,2,3"],
+            "error: the view is from and at the same place",
+        ),
+    ] {
+        let (status, _, err) = output(arguments);
+        assert_eq!(status, Some(2), "{arguments:?}: {err}");
+        assert!(err.starts_with(what), "{err}");
+    }
+}

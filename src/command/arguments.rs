@@ -126,7 +126,7 @@ pub(super) enum Command {
     /// Load plan files, then draw the world as it is then; without files: as it is at the start
     ///
     /// The picture is drawn even when a condition was not handled, which exits with 1.
-    Picture(PictureArguments),
+    Picture(Box<PictureArguments>),
     /// Look for mistakes that can be found without running anything
     Check {
         /// Plan files

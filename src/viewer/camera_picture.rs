@@ -29,7 +29,7 @@ const SEEN: Rgb = [64, 235, 120];
 const UNSEEN: Rgb = [255, 96, 208];
 
 /// Colours of objects in the segmentation, in the order in which they appeared.
-const OBJECT_COLORS: [Rgb; 8] = [
+const OBJECT_COLORS: [Rgb; 12] = [
     [230, 70, 60],
     [70, 150, 240],
     [250, 190, 50],
@@ -38,9 +38,16 @@ const OBJECT_COLORS: [Rgb; 8] = [
     [240, 130, 40],
     [60, 200, 200],
     [240, 120, 170],
+    [150, 110, 70],
+    [170, 200, 60],
+    [120, 120, 230],
+    [200, 190, 170],
 ];
 const ROBOT_COLOR: Rgb = [222, 220, 210];
 const NOTHING_COLOR: Rgb = [14, 15, 18];
+
+/// Columns of the list of objects.
+const LIST_COLUMNS: usize = 3;
 
 /// Distances (m) at which the colours of the depth panel begin and end.
 const DEPTHS: [f64; 2] = [0.4, 3.0];
@@ -363,7 +370,10 @@ fn arrow(
 /// What is written below the panels.
 struct Strip {
     scale: usize,
+    /// What is told about objects that were looked for.
     lines: Vec<(Rgb, String)>,
+    /// Objects in the picture.
+    seen: Vec<(Rgb, String)>,
 }
 
 impl Strip {
@@ -371,6 +381,7 @@ impl Strip {
         Self {
             scale: 1 + unit / 240,
             lines: Vec::new(),
+            seen: Vec::new(),
         }
     }
 
@@ -391,14 +402,14 @@ impl Strip {
             if count > 0 {
                 let color = segment_color(world, Some(object.key()));
                 let name = object.name();
-                self.lines.push((color, format!("{name}: {count} pixels")));
+                self.seen.push((color, format!("{name}: {count} pixels")));
             }
         }
     }
 
     /// The lines, cut into pieces that fit.
     fn pieces(&self, width: usize) -> Vec<(Option<Rgb>, String)> {
-        let fits = (width / (6 * self.scale)).saturating_sub(2).max(8);
+        let fits = (width / (6 * self.scale)).saturating_sub(4).max(8);
         let mut pieces = Vec::new();
         for (color, text) in &self.lines {
             // Only the first piece of a line has its colour beside it.
@@ -424,8 +435,13 @@ impl Strip {
         11 * self.scale
     }
 
+    /// Rows of the list of objects.
+    fn rows(&self) -> usize {
+        self.seen.len().div_ceil(LIST_COLUMNS)
+    }
+
     fn height(&self, width: usize) -> usize {
-        match self.pieces(width).len() {
+        match self.pieces(width).len() + self.rows() {
             0 => 0,
             count => count * self.line_height() + 6 * self.scale,
         }
@@ -433,18 +449,27 @@ impl Strip {
 
     fn draw(&self, image: &mut Image, top: usize) {
         let pieces = self.pieces(image.width());
+        let top = top + 5 * self.scale;
         for (place, (color, text)) in pieces.iter().enumerate() {
-            let row = top + 5 * self.scale + place * self.line_height();
-            let square = 7 * self.scale;
-            if let Some(color) = color {
-                image.fill([4 * self.scale, row], [square; 2], *color);
-            }
-            let line = Line {
-                text,
-                scale: self.scale,
-                color: INK,
-            };
-            line.draw(image, 15 * self.scale, row);
+            self.entry(image, [0, top + place * self.line_height()], *color, text);
         }
+        let column = image.width() / LIST_COLUMNS;
+        for (place, (color, text)) in self.seen.iter().enumerate() {
+            let row = top + (pieces.len() + place / LIST_COLUMNS) * self.line_height();
+            let left = place % LIST_COLUMNS * column;
+            self.entry(image, [left, row], Some(*color), text);
+        }
+    }
+
+    fn entry(&self, image: &mut Image, [left, top]: [usize; 2], color: Option<Rgb>, text: &str) {
+        if let Some(color) = color {
+            image.fill([left + 4 * self.scale, top], [7 * self.scale; 2], color);
+        }
+        let line = Line {
+            text,
+            scale: self.scale,
+            color: INK,
+        };
+        line.draw(image, left + 15 * self.scale, top);
     }
 }

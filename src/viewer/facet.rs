@@ -89,14 +89,18 @@ impl Facets {
 
 /// Whether a body takes hardly any light from the sky away.
 fn is_small(body: &Body) -> bool {
-    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-    for corner in &body.surface.corners {
-        for axis in 0..3 {
-            bounds[0][axis] = bounds[0][axis].min(corner.point[axis]);
-            bounds[1][axis] = bounds[1][axis].max(corner.point[axis]);
-        }
-    }
-    let mut sizes = [0, 1, 2].map(|axis| bounds[1][axis] - bounds[0][axis]);
+    let points = || {
+        body.surface
+            .corners
+            .iter()
+            .map(|corner| corner.point.coords)
+    };
+    let Some(first) = points().next() else {
+        return true;
+    };
+    let low = points().fold(first, |low, point| low.inf(&point));
+    let high = points().fold(first, |high, point| high.sup(&point));
+    let mut sizes = <[f64; 3]>::from(high - low);
     sizes.sort_by(f64::total_cmp);
     let short = match body.owner.kind {
         Kind::Robot => SHORT_PART,

@@ -215,7 +215,7 @@ mod tests {
     fn round_corners_and_ends_take_a_little_away() {
         let sections = [section(0.0, [0.5, 0.5], 0.5), section(1.0, [0.5, 0.5], 0.5)];
         let cylinder = volume(&lofted(Along::X, &sections, [0.0; 2]));
-        assert!((cylinder / (std::f64::consts::PI / 4.0) - 1.0).abs() < 0.03);
+        assert!((cylinder / (std::f64::consts::PI / 4.0) - 1.0).abs() < 0.05);
         let pill = volume(&lofted(Along::X, &sections, [0.2; 2]));
         assert!(pill < cylinder && pill > 0.8 * cylinder);
     }

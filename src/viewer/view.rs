@@ -31,7 +31,7 @@ pub enum View {
     Table,
     /// The kitchen island.
     Island,
-    /// The robot, from in front of it, to its left and above.
+    /// The robot, from the side to which the kitchen is open.
     Follow,
     /// From anywhere.
     Free {
@@ -65,6 +65,11 @@ pub enum ViewError {
     #[error("{0} is impossible for a view")]
     Impossible(f64),
 }
+
+/// Where the eye of [`View::Follow`] is, and where it looks (m, seen from the robot's base but
+/// along the axes of the map): it turns with nothing, and no wall is in between.
+const FOLLOW_FROM: [f64; 3] = [-2.05, -1.7, 2.0];
+const FOLLOW_AT: [f64; 3] = [0.0, 0.05, 0.82];
 
 /// Height (m) of the eye of [`View::Map`]: from so far away nothing looks nearer than the floor.
 const MAP_EYE: f64 = 400.0;
@@ -149,9 +154,9 @@ impl View {
                 look([at.x - 2.0, at.y - 1.7, 2.0], at.into(), FIELD_OF_VIEW)
             }
             Self::Follow => {
-                let base = world.robot_configuration().base;
-                let from = base * Point3::new(2.15, 1.75, 2.0);
-                let at = base * Point3::new(0.25, -0.05, 0.8);
+                let base = world.robot_configuration().base.translation.vector;
+                let from = Point3::from(base) + Vector3::from(FOLLOW_FROM);
+                let at = Point3::from(base) + Vector3::from(FOLLOW_AT);
                 looking(from, at, Vector3::z()).map(|pose| camera(pose, FIELD_OF_VIEW))
             }
             Self::Free {
