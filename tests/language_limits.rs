@@ -18,7 +18,7 @@ fn told(session: &mut Session, text: &str) -> (Outcome, String) {
         Event::Output(text) => shown.push_str(&text),
         Event::Values(values) => shown.push_str(&format!("{values:?}\n")),
         Event::Aborted(abort) => shown.push_str(&format!("{} {}\n", abort.condition, abort.report)),
-        Event::Stopped(_) | Event::Left(_) | Event::Progress(_) => {}
+        _ => {}
     });
     (outcome, shown)
 }

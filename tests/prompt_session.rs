@@ -438,6 +438,17 @@ fn documentation_is_found_by_name() {
 }
 
 #[test]
+fn what_helps_at_the_prompt_is_there_in_every_package() {
+    let mut talk = Talk::new();
+    talk.say("(defpackage :mine (:use :cl))");
+    talk.say("(in-package :mine)");
+    assert!(talk.say("(help)").contains("(rewind)"));
+    assert!(talk.say("?car").contains("(car list)"));
+    talk.say("(defun tasks () :my-own)");
+    assert_eq!(talk.say("(tasks)"), ":MY-OWN\n");
+}
+
+#[test]
 fn functions_variables_and_packages_are_completed() {
     let talk = Talk::new();
     assert_eq!(talk.completions("(spawn-o"), ["spawn-object"]);

@@ -46,6 +46,8 @@ fn enter_goes_on_until_the_form_is_whole_and_indents() {
 fn ctrl_j_begins_a_line_where_enter_would_evaluate() {
     let state = State::new("ctrl-j");
     let terminal = Terminal::start(&state, &[]);
+    // What comes as soon as the prompt is there counts as typed ahead.
+    std::thread::sleep(Duration::from_millis(300));
     terminal.keys("(list 1)");
     terminal.keys(CTRL_J);
     terminal.keys("(list 2)");
@@ -207,6 +209,7 @@ fn ctrl_c_stops_at_once_and_asks() {
     let taken = terminal.wait_for("0: Continue.");
     assert!(taken < Duration::from_millis(400), "{taken:?}");
     // A second one aborts.
+    terminal.wait_for_last_line("PP-TUT stopped>");
     terminal.keys(CTRL_C);
     terminal.wait_for("; Evaluation aborted on #<INTERACTIVE-INTERRUPT>.");
     terminal.wait_for_last_line("PP-TUT>");
@@ -232,7 +235,7 @@ fn a_motion_that_was_interrupted_goes_on_to_the_same_end() {
     let taken = terminal.wait_for("0: Continue.");
     assert!(taken < Duration::from_millis(400), "{taken:?}");
     terminal.line("0");
-    terminal.wait_for("\nT\nPP-TUT>");
+    terminal.wait_for("\nNIL\nPP-TUT>");
     assert_eq!(hash_of(&terminal), expected);
     assert!(
         !terminal.text().contains("… driving"),

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::reader::source::Location;
+use crate::viewer::Image;
 
 /// Something that happened while an input was evaluated.
 #[derive(Clone, PartialEq, Debug)]
@@ -12,6 +13,8 @@ pub enum Event {
     Output(String),
     /// A form has been evaluated: its values as printed text. Empty for no value.
     Values(Vec<String>),
+    /// A picture was made; for those who can show it beside the text.
+    Picture(Arc<Image>),
     /// A condition reached the top and nobody handled it: the input ends here.
     Aborted(Box<Abort>),
     /// The evaluation stands still, at a condition that nobody handled or an interrupt,

@@ -6,6 +6,8 @@
 use std::io::{self, Write};
 
 use super::evaluate::{Abort, Event, Stop};
+use crate::reader::source::Location;
+use crate::viewer::{Image, InlinePictures};
 
 /// Turns events into text.
 pub struct Screen<W> {
@@ -20,6 +22,7 @@ pub struct Screen<W> {
     is_terminal: bool,
     /// Such a line is there.
     has_progress: bool,
+    pictures: Option<InlinePictures>,
 }
 
 impl<W: Write> Screen<W> {
@@ -34,6 +37,7 @@ impl<W: Write> Screen<W> {
             is_detailed: false,
             is_terminal: false,
             has_progress: false,
+            pictures: None,
         }
     }
 
@@ -46,6 +50,11 @@ impl<W: Write> Screen<W> {
     /// From here on, tells the actions around a condition, or leaves them out.
     pub fn set_detailed(&mut self, is_detailed: bool) {
         self.is_detailed = is_detailed;
+    }
+
+    /// From here on, shows pictures in this way, or leaves them out.
+    pub fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
+        self.pictures = pictures;
     }
 
     /// From here on, shows the values of forms or leaves them out.
@@ -72,6 +81,7 @@ impl<W: Write> Screen<W> {
             Event::Output(text) => self.write(text),
             Event::Values(values) if self.echo => self.values(values),
             Event::Values(_) => Ok(()),
+            Event::Picture(picture) => self.picture(picture),
             Event::Aborted(abort) => self.aborted(abort),
             Event::Stopped(stop) => self.stopped(stop),
             Event::Left(condition) => self.left(condition),
@@ -141,6 +151,15 @@ impl<W: Write> Screen<W> {
         values.iter().try_for_each(|value| self.line(value))
     }
 
+    fn picture(&mut self, picture: &Image) -> io::Result<()> {
+        let Some(show) = self.pictures else {
+            return Ok(());
+        };
+        self.fresh_line()?;
+        self.to.write_all(&show.encoded(picture))?;
+        self.write("\n")
+    }
+
     fn aborted(&mut self, abort: &Abort) -> io::Result<()> {
         self.report(abort)?;
         self.left(&abort.condition)
@@ -181,15 +200,26 @@ impl<W: Write> Screen<W> {
         Ok(())
     }
 
-    /// The place worth telling: inputs have no name that a person knows, and in an input
-    /// of one line there is nothing to find.
+    /// The place worth telling; if it is in a plan that comes with the program, also where
+    /// the person's own text comes in.
     fn place(&self, abort: &Abort) -> Option<String> {
         let place = abort.place.as_ref()?;
+        let user = abort.user_place.as_ref();
+        let told: Vec<String> = std::iter::once(place)
+            .chain(user)
+            .filter_map(|place| self.told(place))
+            .collect();
+        (!told.is_empty()).then(|| format!("; at {}", told.join(", from ")))
+    }
+
+    /// A place in words: inputs have no name that a person knows, and in an input of one line
+    /// there is nothing to find.
+    fn told(&self, place: &Location) -> Option<String> {
         if *place.name == *self.source_name {
             self.source_has_lines
-                .then(|| format!("; at line {}, column {}", place.line, place.column))
+                .then(|| format!("line {}, column {}", place.line, place.column))
         } else {
-            (!place.name.starts_with(INPUT_NAME)).then(|| format!("; at {place}"))
+            (!place.name.starts_with(INPUT_NAME)).then(|| place.to_string())
         }
     }
 }

@@ -108,7 +108,10 @@ impl LineEditor {
             Some(draft) => self.editor.readline_with_initial(&prompt, (draft, ""))?,
             None => self.editor.readline(&prompt)?,
         };
-        if !text.trim().is_empty() && self.editor.add_history_entry(text.as_str())? {
+        // Of what is typed at a level, only forms are worth having again.
+        let is_kept = !name.contains(' ') || text.trim_start().starts_with('(');
+        let is_kept = is_kept && !text.trim().is_empty();
+        if is_kept && self.editor.add_history_entry(text.as_str())? {
             self.entries
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)

@@ -14,7 +14,7 @@ mod keys;
 mod pasted;
 
 use std::cell::RefCell;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -25,6 +25,7 @@ use thiserror::Error;
 use crate::dialogue::screen::input_name;
 use crate::dialogue::{Converse, Outcome, Screen, evaluate_on};
 use assist::Shared;
+use crate::viewer::InlinePictures;
 use editor::LineEditor;
 use pasted::Inputs;
 
@@ -79,7 +80,12 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
     let mut editor = LineEditor::new(Rc::clone(&evaluator), options.is_colored)?;
     let mut screen = Screen::new(io::stdout());
     screen.set_detailed(true);
-    screen.set_terminal(true);
+    let is_terminal = io::stdout().is_terminal();
+    screen.set_terminal(is_terminal);
+    if is_terminal {
+        let pictures = InlinePictures::detect(|name| std::env::var(name).ok());
+        screen.set_pictures(pictures);
+    }
     io::stdout().write_all(BANNER.as_bytes())?;
     if let Some(remark) = &options.remark {
         writeln!(io::stdout(), "{remark}")?;
@@ -101,7 +107,13 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
             let answer = evaluator.answer_to_interrupt();
             (evaluator.prompt(), draft, evaluator.level(), answer)
         };
-        let text = match editor.read(&prompt, draft.as_deref()) {
+        // A second Ctrl-C may come before the line editor listens.
+        let is_hurried = repl.interrupt.swap(false, Ordering::Relaxed);
+        let read = match answer {
+            Some(_) if is_hurried => Err(ReadlineError::Interrupted),
+            _ => editor.read(&prompt, draft.as_deref()),
+        };
+        let text = match read {
             Ok(text) => text,
             Err(ReadlineError::Interrupted) => match answer {
                 Some(answer) => answer.to_owned(),

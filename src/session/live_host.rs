@@ -43,7 +43,12 @@ pub(super) fn flush(image: &mut Image, sink: &mut dyn FnMut(Event)) {
 
 impl Host for LiveHost<'_> {
     fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
-        self.simulation.request(image, task, request)
+        let reply = self.simulation.request(image, task, request);
+        for picture in self.simulation.take_pictures() {
+            flush(image, self.sink);
+            (self.sink)(Event::Picture(picture));
+        }
+        reply
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {

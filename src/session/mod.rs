@@ -30,7 +30,7 @@ use simulation::Simulation;
 use printing::on_one_line;
 
 pub use options::{SessionError, SessionOptions};
-pub use simulation::LogLevel;
+pub use simulation::{Filming, LogLevel};
 
 /// A session.
 pub struct Session {
@@ -211,6 +211,8 @@ fn interrupted() -> Abort {
 impl Evaluate for Session {
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
         self.image.polls.begin(self.console.interrupt_next.take());
+        // Somebody who asked to leave and goes on has changed their mind.
+        self.simulation.quit = None;
         if let Some(outcome) = self.inspector_input(text, sink) {
             return outcome;
         }

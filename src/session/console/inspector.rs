@@ -3,6 +3,7 @@
 use super::{Asking, Session};
 use crate::dialogue::{Event, Outcome};
 use crate::lisp::known;
+use crate::lisp::symbol::FunctionCell;
 use crate::lisp::value::Value;
 use crate::session::simulation::parts::View;
 
@@ -65,14 +66,45 @@ impl Session {
         }
     }
 
-    /// `?name` asks for documentation, unless it is a variable with a value.
+    /// What is typed in short: `?name` asks for documentation, unless it is a variable with
+    /// a value; and what package `PLANWRIGHT` offers can be called from every package.
     pub(in crate::session) fn question(&self, text: &str) -> Option<String> {
+        if !self.console.is_interactive {
+            return None;
+        }
+        self.documentation_asked(text)
+            .or_else(|| self.call_of_prompt(text))
+    }
+
+    /// `(rewind …)` as `(pw:rewind …)` where that name means nothing.
+    fn call_of_prompt(&self, text: &str) -> Option<String> {
+        let rest = text.trim_start().strip_prefix('(')?;
+        let end = rest.find(|c: char| c.is_whitespace() || c == ')')?;
+        let (name, arguments) = rest.split_at_checked(end)?;
+        let upper = name.to_uppercase();
+        let (current, own) = (
+            self.image.current_package(),
+            self.image.packages.find("PLANWRIGHT")?,
+        );
+        let known = self.image.packages.find_symbol(current, &upper);
+        let is_defined = known.is_some_and(|(sym, _)| {
+            !matches!(self.image.symbol(sym).function, FunctionCell::Unbound)
+        });
+        let package = self.image.packages.get(own);
+        let is_offered = package
+            .symbols
+            .get(upper.as_str())
+            .is_some_and(|(_, external)| *external);
+        (!is_defined && is_offered).then(|| format!("(pw:{name}{arguments}"))
+    }
+
+    fn documentation_asked(&self, text: &str) -> Option<String> {
         let name = text.trim().strip_prefix('?')?;
         let is_name = !name.is_empty()
             && name
                 .chars()
                 .all(|c| !c.is_whitespace() && !"()\"';`,|".contains(c));
-        if !is_name || !self.console.is_interactive {
+        if !is_name {
             return None;
         }
         let current = self.image.current_package();

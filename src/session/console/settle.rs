@@ -48,6 +48,7 @@ impl Session {
             Evaluation::Values(values) => self.finish(values, sink),
             Evaluation::Unhandled(condition) => self.stopped_at(condition, sink),
             Evaluation::Interrupted => {
+                self.console.inspected.clear();
                 self.console.levels.push(Level {
                     cause: Cause::Interrupt,
                     abort: super::super::interrupted(),
@@ -106,6 +107,7 @@ impl Session {
             self.come_back(at);
             return self.tell_stop(sink);
         }
+        self.console.inspected.clear();
         let abort = self.described_in_place(&condition);
         self.console.levels.push(Level {
             cause: Cause::Condition(condition),

@@ -5,6 +5,7 @@
 
 pub mod call;
 mod explain;
+mod film;
 mod frames;
 mod functions;
 mod held;
@@ -21,6 +22,7 @@ pub mod request;
 mod tables;
 pub mod tour;
 
+use std::cell::OnceCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -28,13 +30,15 @@ use indexmap::IndexMap;
 
 use super::{SessionError, SessionOptions};
 use crate::lisp::value::Value;
-use crate::motion::{Motion, ProcessModule};
+use crate::motion::{DetectQuery, Motion, ProcessModule};
 use crate::plan::Ticket;
 use crate::spatial::Pose;
+use crate::viewer::{self, Looks};
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
 
+pub use film::Filming;
 use pace::Pace;
 pub use tables::install;
 
@@ -81,6 +85,12 @@ pub struct Simulation {
     observer: Option<Observer>,
     /// The last failure of a motion, to be explained on demand.
     last_failure: Option<Box<explain::Remembered>>,
+    /// What was looked for last.
+    sought: Option<DetectQuery>,
+    /// Pictures that were made and not yet told of.
+    pictures: Vec<Arc<viewer::Image>>,
+    looks: OnceCell<Looks>,
+    film: Option<film::Film>,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
     moments: moments::Moments,
@@ -128,6 +138,10 @@ impl Simulation {
             quit: None,
             observer: None,
             last_failure: None,
+            sought: None,
+            pictures: Vec::new(),
+            looks: OnceCell::new(),
+            film: None,
             now: 0.0,
             moments: moments::Moments::default(),
             tour_step: 0,
@@ -142,6 +156,7 @@ impl Simulation {
         self.names.clear();
         self.held.clear();
         self.axes = None;
+        self.sought = None;
     }
 
     /// Simulated time (s).
@@ -152,6 +167,11 @@ impl Simulation {
     /// The world.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// How everything looks.
+    fn looks(&self) -> &Looks {
+        self.looks.get_or_init(|| Looks::of(&self.models))
     }
 
     /// The types of objects that can be spawned.

@@ -189,6 +189,7 @@ impl Simulation {
     fn step(&mut self) {
         self.world.step();
         self.observe();
+        self.film();
         if let Some(pace) = &mut self.pace {
             pace.wait_for_step();
         }

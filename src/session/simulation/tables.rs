@@ -60,6 +60,7 @@ pub fn install(image: &mut Image) {
         }
     }
     image.install(PackageTable::CL, functions::leaving::TABLE);
+    image.install(PackageTable::CL, functions::pictures::TABLE);
     for (from, to, names) in ALIASES {
         let (Some(from), Some(to)) = (image.packages.find(from), image.packages.find(to)) else {
             continue;

@@ -5,6 +5,8 @@ pub mod grasps;
 pub mod leaving;
 pub mod moments;
 pub mod objects;
+mod picture_request;
+pub mod pictures;
 pub mod plans;
 pub mod prompt;
 pub(in crate::session::simulation) mod reach;
