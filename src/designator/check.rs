@@ -99,7 +99,10 @@ fn hint(image: &Image, value: &Value, kind: Kind, name: &str) -> Option<String> 
         Kind::Object | Kind::Objects if value.is_nil() => {
             Some(format!("The {key} is NIL: was the object detected first?"))
         }
-        _ if value.as_symbol().is_some_and(|sym| is_variable_name(image.name(sym))) => {
+        _ if value
+            .as_symbol()
+            .is_some_and(|sym| is_variable_name(image.name(sym))) =>
+        {
             let name = print::to_string(image, value, false);
             Some(format!("The variable {name} is not defined."))
         }

@@ -24,8 +24,8 @@ use thiserror::Error;
 
 use crate::dialogue::screen::input_name;
 use crate::dialogue::{Converse, Outcome, Screen, evaluate_on};
-use assist::Shared;
 use crate::viewer::InlinePictures;
+use assist::Shared;
 use editor::LineEditor;
 use pasted::Inputs;
 

@@ -5,6 +5,10 @@ use crate::robot::Side;
 use crate::spatial::{Pose, pose};
 use crate::world::{World, WorldError};
 
+/// How far (m) a surface may be above the height that was asked for: people give heights
+/// roughly, and things come to stand on what is there.
+const HIGHEST_LIFT: f64 = 0.1;
+
 /// How a world would differ from that of now.
 pub(super) struct Imagined<'a> {
     /// Name of the object, which no hand would hold.
@@ -20,8 +24,9 @@ pub(super) struct Imagined<'a> {
 }
 
 impl Imagined<'_> {
-    /// A copy of the world with these differences.
-    pub fn world(&self, now: &World) -> Result<World, WorldError> {
+    /// A copy of the world with these differences; none if something else is where the object
+    /// would be.
+    pub fn world(&self, now: &World) -> Result<Option<World>, WorldError> {
         let mut world = now.clone();
         let gripper = &now.models().description.arm(self.side).gripper;
         let mut robot = now.robot_configuration().clone();
@@ -34,8 +39,11 @@ impl Imagined<'_> {
         world.teleport_robot(&robot);
         world.detach(self.object)?;
         if let Some(pose) = &self.object_pose {
-            world.move_object(self.object, pose)?;
+            let report = world.move_object(self.object, pose)?;
+            if report.shifted > 0.0 || report.lifted > HIGHEST_LIFT {
+                return Ok(None);
+            }
         }
-        Ok(world)
+        Ok(Some(world))
     }
 }

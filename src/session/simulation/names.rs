@@ -54,11 +54,11 @@ impl Simulation {
         let known: Vec<&str> = self.names.keys().map(String::as_str).collect();
         let remedy = match (near.is_empty(), known.is_empty()) {
             (false, _) => near,
-            (true, false) => format!("; there are {}", known.join(", ")),
-            (true, true) => "; there are none: use spawn-object".to_owned(),
+            (true, false) => format!("; there are {}.", known.join(", ")),
+            (true, true) => "; there are none: use spawn-object.".to_owned(),
         };
         Err(Raise::simple(format!(
-            "There is no object named {shown}{remedy}."
+            "There is no object named {shown}{remedy}"
         )))
     }
 

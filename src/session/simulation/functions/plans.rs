@@ -258,7 +258,7 @@ impl Simulation {
             side,
             opening: f64::INFINITY,
         };
-        let Ok(world) = imagined.world(&self.world) else {
+        let Ok(Some(world)) = imagined.world(&self.world) else {
             return false;
         };
         let Ok(stands) = world.object_pose(name) else {

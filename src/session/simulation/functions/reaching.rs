@@ -75,14 +75,20 @@ fn grasp_reachable(
         side,
         opening: simulation.grasps.grip(kind.type_name()).opening,
     };
-    let world = imagined.world(&simulation.world).map_err(raise)?;
+    let Some(world) = imagined.world(&simulation.world).map_err(raise)? else {
+        return done(Value::NIL);
+    };
     let kind = world.object(&name).map_err(raise)?.type_name().to_owned();
     let base = world.robot_configuration().base;
     let object = base.inverse() * world.object_pose(&name).map_err(raise)?;
     let definition = match simulation.grasp(image, &kind, side, &args[2]) {
         Ok(definition) => definition,
         // With the other arm only.
-        Err(_) if simulation.grasp(image, &kind, side.other(), &args[2]).is_ok() => {
+        Err(_)
+            if simulation
+                .grasp(image, &kind, side.other(), &args[2])
+                .is_ok() =>
+        {
             return done(Value::NIL);
         }
         Err(unknown) => return Err(unknown),
