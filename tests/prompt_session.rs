@@ -215,6 +215,29 @@ fn a_task_inside_others_stops_where_it_is() {
 }
 
 #[test]
+fn a_frame_of_a_task_further_out_can_be_left() {
+    let mut talk = Talk::new();
+    talk.say("(defparameter *log* nil)");
+    talk.say(
+        "(list (with-simulated-robot
+           (cpl:par
+             (unwind-protect (car 5) (push :inner *log*))
+             (unwind-protect (cpl:sleep 5) (push :sibling *log*)))
+           :not-reached))",
+    );
+    let frames = talk.say(":bt");
+    let lines: Vec<&str> = frames.lines().collect();
+    let number = lines
+        .iter()
+        .rposition(|line| line.contains("LAMBDA"))
+        .expect("the frame of the plan's body");
+    talk.say(&format!(":frame {number}"));
+    assert_eq!(talk.say(":return :left"), "(:LEFT)\n");
+    assert_eq!(talk.say("(length *log*)"), "2\n");
+    assert_eq!(talk.session.prompt(), "PP-TUT");
+}
+
+#[test]
 fn at_a_level_values_are_taken_apart_too() {
     let mut talk = Talk::new();
     talk.say("(let ((x (list 1 2))) (car 5) x)");
@@ -252,6 +275,23 @@ fn a_failed_action_can_be_retried_where_it_stands() {
     assert_eq!(talk.session.prompt(), "PP-TUT 1]");
     // In the frame of the plan, another place.
     assert!(talk.say("q").contains("; Evaluation aborted on"));
+}
+
+#[test]
+fn a_form_can_be_retried_in_the_world_that_it_began_in() {
+    let mut talk = Talk::new();
+    let before = talk.hash();
+    talk.say("(progn (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (list missing))");
+    assert_ne!(talk.hash(), before);
+    let shown = talk.choose("[REWIND-FORM]");
+    // It has come to the same place again.
+    assert!(
+        shown.contains("The variable MISSING is unbound."),
+        "{shown}"
+    );
+    talk.say("q");
+    talk.say("(rewind)");
+    assert_eq!(talk.hash(), before);
 }
 
 #[test]

@@ -18,6 +18,8 @@ use std::io::{self, Write};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
 
 use rustyline::error::ReadlineError;
 use thiserror::Error;
@@ -52,6 +54,9 @@ const BANNER: &str = concat!(
     "(help) tells what there is, (tour) is a first session.\n",
 );
 
+/// When an interrupt takes longer than this to be heard, the person is told why.
+const SOON: Duration = Duration::from_millis(90);
+
 /// How the prompt begins.
 #[derive(Debug, Default)]
 pub struct ReplOptions {
@@ -72,7 +77,19 @@ pub struct ReplOptions {
 pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u8, ReplError> {
     let interrupt = evaluator.interrupt_handle();
     let handle = Arc::clone(&interrupt);
-    ctrlc::set_handler(move || handle.store(true, Ordering::Relaxed))?;
+    let is_evaluating = Arc::new(AtomicBool::new(false));
+    let evaluating = Arc::clone(&is_evaluating);
+    ctrlc::set_handler(move || {
+        handle.store(true, Ordering::Relaxed);
+        thread::sleep(SOON);
+        if handle.load(Ordering::Relaxed) && evaluating.load(Ordering::Relaxed) {
+            // Without standard error there is nobody to tell.
+            let _ = write!(
+                io::stderr(),
+                "\r\n; Stopping: the robot stands still, a motion is being planned …"
+            );
+        }
+    })?;
 
     let evaluator: Shared = Rc::new(RefCell::new(evaluator));
     evaluator.borrow_mut().set_interactive(true);
@@ -87,6 +104,7 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
     let mut repl = Repl {
         evaluator,
         interrupt,
+        is_evaluating,
         screen,
         journal: options.journal,
         number: options.inputs_before,
@@ -132,6 +150,7 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
 struct Repl {
     evaluator: Shared,
     interrupt: Arc<AtomicBool>,
+    is_evaluating: Arc<AtomicBool>,
     screen: Screen<io::Stdout>,
     journal: Option<Journal>,
     /// Number of the last input.
@@ -181,7 +200,9 @@ impl Repl {
         let outcome = {
             let mut evaluator = self.evaluator.borrow_mut();
             evaluator.set_interactive(stops);
+            self.is_evaluating.store(true, Ordering::Relaxed);
             let outcome = evaluate_on(&mut self.screen, &mut *evaluator, &name, input);
+            self.is_evaluating.store(false, Ordering::Relaxed);
             evaluator.set_interactive(true);
             outcome?
         };

@@ -114,6 +114,20 @@ impl Simulation {
         self.moments.forms.push_back(before);
     }
 
+    /// Is the world another one than before the last form at top level?
+    pub fn has_changed_since_form(&self) -> bool {
+        let last = self.moments.forms.back();
+        last.is_some_and(|before| before.hash != self.world.hash())
+    }
+
+    /// Takes the world back to before the last form at top level.
+    pub fn go_back_to_form(&mut self) {
+        let last = self.moments.forms.back();
+        if let Some(moment) = last.map(|before| before.moment.clone()) {
+            self.take_back(&moment);
+        }
+    }
+
     /// Something is asked of the world.
     pub(super) fn touch(&mut self) {
         self.moments.is_touched = true;
