@@ -303,6 +303,22 @@ fn after_kill_9_the_session_goes_on_with_the_same_world() {
 }
 
 #[test]
+fn a_session_that_stood_still_is_resumed_where_it_stood() {
+    let state = State::new("resume-level");
+    let mut terminal = in_tutorial(&state, &[]);
+    terminal.evaluate("(defun f (x) (list x (car 5)))");
+    terminal.line("(f :here)");
+    terminal.wait_for_last_line("PP-TUT 1]>");
+    terminal.kill();
+    let resumed = Terminal::start_resumed(&state);
+    resumed.wait_for("; Resumed 3 inputs");
+    resumed.wait_for("2: [ABORT] Back to the top.");
+    resumed.wait_for_last_line("PP-TUT 1]>");
+    resumed.line(":locals");
+    resumed.wait_for("X = :HERE");
+}
+
+#[test]
 fn an_interrupted_session_is_resumed_to_where_it_was_interrupted() {
     let state = State::new("resume-interrupt");
     let mut terminal = in_tutorial(&state, &["--realtime=2"]);

@@ -256,6 +256,16 @@ impl Repl {
                 inputs.len()
             )?;
         }
+        let mut evaluator = self.evaluator.borrow_mut();
+        if evaluator.level() > 0 {
+            // An empty input tells again where the evaluation stands.
+            evaluate_on(
+                &mut self.screen,
+                &mut *evaluator,
+                &input_name(self.number),
+                "",
+            )?;
+        }
         Ok(None)
     }
 }
