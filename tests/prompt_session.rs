@@ -594,6 +594,46 @@ fn an_interrupt_can_be_repeated_at_the_same_step() {
 }
 
 #[test]
+fn planning_is_given_up_at_once_and_has_no_effect() {
+    use std::sync::atomic::Ordering;
+    use std::time::{Duration, Instant};
+
+    // There is no way to that place; to find that out takes seconds.
+    let drive = "(with-simulated-robot
+      (cpl:par
+        (park-arms)
+        (let ((?far (make-pose \"map\" '((3 3 0) (0 0 0 1)))))
+          (perform (an action (type going) (target (a location (pose ?far))))))))";
+    let mut talk = Talk::new();
+    let flag = talk.session.interrupt_handle();
+    let pressed = std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_millis(700));
+        flag.store(true, Ordering::Relaxed);
+        Instant::now()
+    });
+    let (shown, outcome) = talk.take(drive);
+    let stopped = Instant::now();
+    assert_eq!(outcome, Outcome::Stopped, "{shown}");
+    let taken = stopped - pressed.join().expect("the key was pressed");
+    println!("an interrupt while planning is heard after {taken:?}");
+    assert!(taken < Duration::from_millis(100), "{taken:?}");
+    // Another session is interrupted at the very same place.
+    let at = talk.session.interrupted_at().expect("it was interrupted");
+    let mut other = Talk::new();
+    other.session.interrupt_next_at(at);
+    assert_eq!(other.take(drive).1, Outcome::Stopped);
+    assert_eq!(other.session.interrupted_at(), Some(at));
+    assert_eq!(other.hash(), talk.hash());
+    assert!(talk.say("1").contains("aborted"));
+    other.say("1");
+    assert_eq!(other.hash(), talk.hash());
+    assert_eq!(
+        talk.say("(with-simulated-robot (park-arms) :parked)"),
+        ":PARKED\n"
+    );
+}
+
+#[test]
 fn every_step_of_the_tour_works() {
     let mut talk = Talk::new();
     let steps = planwright::session::simulation::tour::STEPS;

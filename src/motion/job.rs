@@ -143,4 +143,10 @@ pub trait Motion {
 
     /// What the job is doing.
     fn progress(&self) -> Progress;
+
+    /// A copy to go back to, when the next tick may plan and so be given up half-way (see
+    /// [`super::interruption`]).
+    fn before_planning(&self) -> Option<Box<dyn Motion>> {
+        None
+    }
 }

@@ -178,6 +178,13 @@ impl Motion for MoveJoints {
         self.ended = true;
     }
 
+    fn before_planning(&self) -> Option<Box<dyn Motion>> {
+        if self.follow.is_some() || self.ended {
+            return None;
+        }
+        Some(Box::new(self.clone()))
+    }
+
     fn progress(&self) -> Progress {
         let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
         Progress {

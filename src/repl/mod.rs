@@ -84,10 +84,7 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
         thread::sleep(SOON);
         if handle.load(Ordering::Relaxed) && evaluating.load(Ordering::Relaxed) {
             // Without standard error there is nobody to tell.
-            let _ = write!(
-                io::stderr(),
-                "\r\n; Stopping: the robot stands still, a motion is being planned …"
-            );
+            let _ = write!(io::stderr(), "\r\n; Stopping …");
         }
     })?;
 

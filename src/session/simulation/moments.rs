@@ -70,6 +70,7 @@ impl Simulation {
         self.held.clone_from(&moment.held);
         self.axes.clone_from(&moment.axes);
         self.active.clear();
+        self.round = None;
         self.waiting.clear();
         self.observe();
     }
