@@ -33,7 +33,7 @@ fn enter_goes_on_until_the_form_is_whole_and_indents() {
     terminal.line("(defun f (x) ; not here: (");
     terminal.line("(list x \"(\"");
     terminal.line("x))");
-    terminal.wait_for("\nF\n");
+    terminal.wait_for("\nF\nCL-USER>");
     let text = terminal.text();
     let expected =
         "CL-USER> (defun f (x) ; not here: (\n           (list x \"(\"\n                 x))\nF\n";
