@@ -215,6 +215,29 @@ fn a_task_inside_others_stops_where_it_is() {
 }
 
 #[test]
+fn a_frame_of_a_task_further_out_can_be_left() {
+    let mut talk = Talk::new();
+    talk.say("(defparameter *log* nil)");
+    talk.say(
+        "(list (with-simulated-robot
+           (cpl:par
+             (unwind-protect (car 5) (push :inner *log*))
+             (unwind-protect (cpl:sleep 5) (push :sibling *log*)))
+           :not-reached))",
+    );
+    let frames = talk.say(":bt");
+    let lines: Vec<&str> = frames.lines().collect();
+    let number = lines
+        .iter()
+        .rposition(|line| line.contains("LAMBDA"))
+        .expect("the frame of the plan's body");
+    talk.say(&format!(":frame {number}"));
+    assert_eq!(talk.say(":return :left"), "(:LEFT)\n");
+    assert_eq!(talk.say("(length *log*)"), "2\n");
+    assert_eq!(talk.session.prompt(), "PP-TUT");
+}
+
+#[test]
 fn at_a_level_values_are_taken_apart_too() {
     let mut talk = Talk::new();
     talk.say("(let ((x (list 1 2))) (car 5) x)");
@@ -252,6 +275,23 @@ fn a_failed_action_can_be_retried_where_it_stands() {
     assert_eq!(talk.session.prompt(), "PP-TUT 1]");
     // In the frame of the plan, another place.
     assert!(talk.say("q").contains("; Evaluation aborted on"));
+}
+
+#[test]
+fn a_form_can_be_retried_in_the_world_that_it_began_in() {
+    let mut talk = Talk::new();
+    let before = talk.hash();
+    talk.say("(progn (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (list missing))");
+    assert_ne!(talk.hash(), before);
+    let shown = talk.choose("[REWIND-FORM]");
+    // It has come to the same place again.
+    assert!(
+        shown.contains("The variable MISSING is unbound."),
+        "{shown}"
+    );
+    talk.say("q");
+    talk.say("(rewind)");
+    assert_eq!(talk.hash(), before);
 }
 
 #[test]
@@ -551,6 +591,46 @@ fn an_interrupt_can_be_repeated_at_the_same_step() {
     let mut undisturbed = Talk::new();
     undisturbed.say(drive);
     assert_eq!(a.hash(), undisturbed.hash());
+}
+
+#[test]
+fn planning_is_given_up_at_once_and_has_no_effect() {
+    use std::sync::atomic::Ordering;
+    use std::time::{Duration, Instant};
+
+    // There is no way to that place; to find that out takes seconds.
+    let drive = "(with-simulated-robot
+      (cpl:par
+        (park-arms)
+        (let ((?far (make-pose \"map\" '((3 3 0) (0 0 0 1)))))
+          (perform (an action (type going) (target (a location (pose ?far))))))))";
+    let mut talk = Talk::new();
+    let flag = talk.session.interrupt_handle();
+    let pressed = std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_millis(700));
+        flag.store(true, Ordering::Relaxed);
+        Instant::now()
+    });
+    let (shown, outcome) = talk.take(drive);
+    let stopped = Instant::now();
+    assert_eq!(outcome, Outcome::Stopped, "{shown}");
+    let taken = stopped - pressed.join().expect("the key was pressed");
+    println!("an interrupt while planning is heard after {taken:?}");
+    assert!(taken < Duration::from_millis(100), "{taken:?}");
+    // Another session is interrupted at the very same place.
+    let at = talk.session.interrupted_at().expect("it was interrupted");
+    let mut other = Talk::new();
+    other.session.interrupt_next_at(at);
+    assert_eq!(other.take(drive).1, Outcome::Stopped);
+    assert_eq!(other.session.interrupted_at(), Some(at));
+    assert_eq!(other.hash(), talk.hash());
+    assert!(talk.say("1").contains("aborted"));
+    other.say("1");
+    assert_eq!(other.hash(), talk.hash());
+    assert_eq!(
+        talk.say("(with-simulated-robot (park-arms) :parked)"),
+        ":PARKED\n"
+    );
 }
 
 #[test]

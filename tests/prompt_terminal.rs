@@ -33,7 +33,7 @@ fn enter_goes_on_until_the_form_is_whole_and_indents() {
     terminal.line("(defun f (x) ; not here: (");
     terminal.line("(list x \"(\"");
     terminal.line("x))");
-    terminal.wait_for("\nF\n");
+    terminal.wait_for("\nF\nCL-USER>");
     let text = terminal.text();
     let expected =
         "CL-USER> (defun f (x) ; not here: (\n           (list x \"(\"\n                 x))\nF\n";
@@ -300,6 +300,22 @@ fn after_kill_9_the_session_goes_on_with_the_same_world() {
     assert!(terminal.text().contains(":KEPT"));
     terminal.keys(CTRL_D);
     assert_eq!(terminal.exit_status(), Some(0));
+}
+
+#[test]
+fn a_session_that_stood_still_is_resumed_where_it_stood() {
+    let state = State::new("resume-level");
+    let mut terminal = in_tutorial(&state, &[]);
+    terminal.evaluate("(defun f (x) (list x (car 5)))");
+    terminal.line("(f :here)");
+    terminal.wait_for_last_line("PP-TUT 1]>");
+    terminal.kill();
+    let resumed = Terminal::start_resumed(&state);
+    resumed.wait_for("; Resumed 3 inputs");
+    resumed.wait_for("2: [ABORT] Back to the top.");
+    resumed.wait_for_last_line("PP-TUT 1]>");
+    resumed.line(":locals");
+    resumed.wait_for("X = :HERE");
 }
 
 #[test]

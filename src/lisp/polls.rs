@@ -25,6 +25,13 @@ impl Polls {
         self.seen_at.get()
     }
 
+    /// The flag has been seen set since the last look: as if it had been set then.
+    pub fn seen_since_last(&self) {
+        if self.seen_at.get().is_none() {
+            self.seen_at.set(Some(self.count.get()));
+        }
+    }
+
     /// Looks at the flag.
     pub(super) fn look(&self, flag: &AtomicBool) -> bool {
         let count = self.count.get() + 1;

@@ -177,6 +177,7 @@ impl<P> Search<'_, P> {
 
     /// Checks the inner points of the edge, coarse ones first.
     fn edge(&mut self, from: &[f64], to: &[f64]) -> Option<P> {
+        super::interruption::look();
         let parts = (self.distance(from, to) / self.effort.resolution)
             .ceil()
             .max(1.0) as usize;

@@ -11,6 +11,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 use std::f64::consts::FRAC_PI_8;
 
+use super::interruption;
 use crate::spatial::trig;
 
 /// A place of the base: x (m), y (m), heading (rad, not wrapped) in the map frame.
@@ -119,6 +120,7 @@ struct Search<'a, 'c, P> {
 
 impl<P: Clone + PartialEq> Search<'_, '_, P> {
     fn place(&mut self, p: &BasePlace) -> Option<P> {
+        interruption::look();
         let near = |q: &BasePlace| libm::hypot(p[0] - q[0], p[1] - q[1]) < NO_MARGIN_WITHIN;
         let margin = if near(&self.start) || near(&self.goal) {
             0.0

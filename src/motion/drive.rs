@@ -263,6 +263,13 @@ impl Motion for Drive {
         })
     }
 
+    fn before_planning(&self) -> Option<Box<dyn Motion>> {
+        if self.way.is_some() || self.ended {
+            return None;
+        }
+        Some(Box::new(self.clone()))
+    }
+
     fn progress(&self) -> Progress {
         let fraction = self.way.as_ref().map_or(0.0, Follower::fraction);
         Progress {

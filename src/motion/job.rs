@@ -150,6 +150,12 @@ pub trait Motion {
     fn planned(&self) -> Option<PlannedWay<'_>> {
         None
     }
+
+    /// A copy to go back to, when the next tick may plan and so be given up half-way (see
+    /// [`super::interruption`]).
+    fn before_planning(&self) -> Option<Box<dyn Motion>> {
+        None
+    }
 }
 
 /// A way that was planned.

@@ -15,6 +15,7 @@ mod follower;
 pub mod gripper;
 pub mod guard;
 pub mod hold;
+pub mod interruption;
 pub mod job;
 mod joint_follow;
 mod joint_limit;

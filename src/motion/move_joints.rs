@@ -184,6 +184,13 @@ impl Motion for MoveJoints {
         self.follow.as_ref().map(JointFollow::planned)
     }
 
+    fn before_planning(&self) -> Option<Box<dyn Motion>> {
+        if self.follow.is_some() || self.ended {
+            return None;
+        }
+        Some(Box::new(self.clone()))
+    }
+
     fn progress(&self) -> Progress {
         let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
         Progress {

@@ -220,6 +220,13 @@ impl Motion for MoveTcp {
         self.follow.as_ref().map(JointFollow::planned)
     }
 
+    fn before_planning(&self) -> Option<Box<dyn Motion>> {
+        if self.follow.is_some() || self.ended {
+            return None;
+        }
+        Some(Box::new(self.clone()))
+    }
+
     fn progress(&self) -> Progress {
         let what = match self.path {
             TcpPath::Free => "reaching",

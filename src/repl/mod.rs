@@ -18,6 +18,8 @@ use std::io::{self, IsTerminal, Write};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
 
 use rustyline::error::ReadlineError;
 use thiserror::Error;
@@ -53,6 +55,9 @@ const BANNER: &str = concat!(
     "(help) tells what there is, (tour) is a first session.\n",
 );
 
+/// When an interrupt takes longer than this to be heard, the person is told why.
+const SOON: Duration = Duration::from_millis(90);
+
 /// How the prompt begins.
 #[derive(Debug, Default)]
 pub struct ReplOptions {
@@ -73,7 +78,16 @@ pub struct ReplOptions {
 pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u8, ReplError> {
     let interrupt = evaluator.interrupt_handle();
     let handle = Arc::clone(&interrupt);
-    ctrlc::set_handler(move || handle.store(true, Ordering::Relaxed))?;
+    let is_evaluating = Arc::new(AtomicBool::new(false));
+    let evaluating = Arc::clone(&is_evaluating);
+    ctrlc::set_handler(move || {
+        handle.store(true, Ordering::Relaxed);
+        thread::sleep(SOON);
+        if handle.load(Ordering::Relaxed) && evaluating.load(Ordering::Relaxed) {
+            // Without standard error there is nobody to tell.
+            let _ = write!(io::stderr(), "\r\n; Stopping …");
+        }
+    })?;
 
     let evaluator: Shared = Rc::new(RefCell::new(evaluator));
     evaluator.borrow_mut().set_interactive(true);
@@ -93,6 +107,7 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
     let mut repl = Repl {
         evaluator,
         interrupt,
+        is_evaluating,
         screen,
         journal: options.journal,
         number: options.inputs_before,
@@ -138,6 +153,7 @@ pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u
 struct Repl {
     evaluator: Shared,
     interrupt: Arc<AtomicBool>,
+    is_evaluating: Arc<AtomicBool>,
     screen: Screen<io::Stdout>,
     journal: Option<Journal>,
     /// Number of the last input.
@@ -187,7 +203,9 @@ impl Repl {
         let outcome = {
             let mut evaluator = self.evaluator.borrow_mut();
             evaluator.set_interactive(stops);
+            self.is_evaluating.store(true, Ordering::Relaxed);
             let outcome = evaluate_on(&mut self.screen, &mut *evaluator, &name, input);
+            self.is_evaluating.store(false, Ordering::Relaxed);
             evaluator.set_interactive(true);
             outcome?
         };
@@ -239,6 +257,16 @@ impl Repl {
                 out,
                 "\r\x1b[2K; Resumed {} inputs; the world's hash is {hash:016x}.",
                 inputs.len()
+            )?;
+        }
+        let mut evaluator = self.evaluator.borrow_mut();
+        if evaluator.level() > 0 {
+            // An empty input tells again where the evaluation stands.
+            evaluate_on(
+                &mut self.screen,
+                &mut *evaluator,
+                &input_name(self.number),
+                "",
             )?;
         }
         Ok(None)

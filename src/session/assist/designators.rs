@@ -38,11 +38,11 @@ pub(super) fn spot<'c, 't>(context: &'c Context<'t>) -> Option<Spot<'c, 't>> {
         return Some(Spot::Class);
     }
     // `(desig:when ?x (key …))` stands between.
-    let outer = outer.iter().rev().find(|list| {
-        !list
-            .operator
-            .is_some_and(|name| lower(bare(name)) == "when")
-    })?;
+    let is_when = |name: &str| lower(bare(name)) == "when";
+    let outer = outer
+        .iter()
+        .rev()
+        .find(|list| list.operator.is_none_or(|name| !is_when(name)))?;
     let is_designator = outer.operator.is_some_and(is_article);
     let class = outer.second.and_then(class_of).filter(|_| is_designator)?;
     let described = Described { class, list: outer };

@@ -34,6 +34,8 @@ pub(super) enum Choice {
     },
     /// Evaluate the form at top level again.
     RetryForm,
+    /// Take the world back to before the form at top level, and evaluate that again.
+    RewindForm,
     /// Evaluate another form instead.
     EditForm,
     /// Back to the level below.
@@ -51,6 +53,11 @@ impl Session {
             Choice::RetryForm,
             "[RETRY-FORM] Evaluate the form again.".to_owned(),
         ));
+        if self.simulation.has_changed_since_form() {
+            let label =
+                "[REWIND-FORM] Take the world back to before the form, and evaluate it again.";
+            choices.push((Choice::RewindForm, label.to_owned()));
+        }
         choices.push((
             Choice::EditForm,
             "[EDIT-FORM] Change the form and evaluate it again.".to_owned(),
@@ -193,7 +200,8 @@ impl Session {
                 }
                 self.replace_frame(frame, function, args, sink)
             }
-            Choice::RetryForm => self.retry_form(sink),
+            Choice::RetryForm => self.retry_form(sink, false),
+            Choice::RewindForm => self.retry_form(sink, true),
             Choice::EditForm => self.edit_form(),
             Choice::AbortLevel => self.leave_level(sink),
             Choice::Abort => self.give_up(sink),

@@ -58,12 +58,22 @@ impl Session {
         if name == "(top level)" {
             return name;
         }
-        let mut text = format!("({}", on_one_line(&name));
+        let is_anonymous = matches!(&view.name, Value::Cons(_));
+        let mut text = if is_anonymous {
+            on_one_line(&name)
+        } else {
+            format!("({}", on_one_line(&name))
+        };
+        if is_anonymous && !view.arguments.is_empty() {
+            text.push_str(" with");
+        }
         for argument in &view.arguments {
             text.push(' ');
             text.push_str(&on_one_line(&print::to_string(image, argument, true)));
         }
-        text.push(')');
+        if !is_anonymous {
+            text.push(')');
+        }
         shortened(&text)
     }
 

@@ -127,7 +127,7 @@ impl Session {
         }
         match Command::of(text) {
             Command::Evaluate(text) => self.evaluate_aside(source_name, text, sink),
-            Command::Choose(number, value) if value.is_empty() => self.choose_or_ask(number, sink),
+            Command::Choose(number, "") => self.choose_or_ask(number, sink),
             Command::Choose(number, value) => self.choose(number, source_name, value, sink),
             Command::Abort => self.give_up(sink),
             Command::AbortLevel => self.leave_level(sink),
@@ -139,7 +139,7 @@ impl Session {
             Command::Locals => self.tell_locals(sink),
             Command::Choices => self.tell_stop(sink),
             Command::Tasks => self.tell_tasks(sink),
-            Command::Retry => self.retry_form(sink),
+            Command::Retry => self.retry_form(sink, false),
             Command::Edit => self.edit_form(),
             Command::Return(form) => self.return_from_frame(source_name, form, sink),
             Command::Help => self.tell(commands::HELP, sink),
@@ -223,9 +223,15 @@ impl Session {
         self.tell(&text, sink)
     }
 
-    fn retry_form(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+    /// Evaluates the form again, perhaps in the world that it began in.
+    fn retry_form(&mut self, sink: &mut dyn FnMut(Event), takes_back: bool) -> Outcome {
         match self.clear_console(sink) {
-            Some(base) => self.evaluate_first(base, sink),
+            Some(base) => {
+                if takes_back {
+                    self.simulation.go_back_to_form();
+                }
+                self.evaluate_first(base, sink)
+            }
             None => Outcome::Aborted,
         }
     }

@@ -82,6 +82,8 @@ pub struct Simulation {
     held: IndexMap<String, held::Held>,
     /// Motions under way, in order of their start.
     active: Vec<Job>,
+    /// Motions that have been ticked for the step to come, when an interrupt came between.
+    round: Option<request::Round>,
     /// Motions that wait for a process module, in order.
     waiting: VecDeque<Job>,
     next_ticket: u64,
@@ -142,6 +144,7 @@ impl Simulation {
             names: IndexMap::new(),
             held: IndexMap::new(),
             active: Vec::new(),
+            round: None,
             waiting: VecDeque::new(),
             next_ticket: 0,
             asking: TaskId(0),

@@ -70,6 +70,7 @@ impl Simulation {
         self.held.clone_from(&moment.held);
         self.axes.clone_from(&moment.axes);
         self.active.clear();
+        self.round = None;
         self.waiting.clear();
         self.observe();
     }
@@ -112,6 +113,20 @@ impl Simulation {
             hash,
         };
         self.moments.forms.push_back(before);
+    }
+
+    /// Is the world another one than before the last form at top level?
+    pub fn has_changed_since_form(&self) -> bool {
+        let last = self.moments.forms.back();
+        last.is_some_and(|before| before.hash != self.world.hash())
+    }
+
+    /// Takes the world back to before the last form at top level.
+    pub fn go_back_to_form(&mut self) {
+        let last = self.moments.forms.back();
+        if let Some(moment) = last.map(|before| before.moment.clone()) {
+            self.take_back(&moment);
+        }
     }
 
     /// Something is asked of the world.

@@ -8,10 +8,20 @@ use crate::designator::MotionRequest;
 use crate::lisp::image::Image;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::motion::interruption::interruptible;
 use crate::motion::{Motion, MotionOutcome, MotionStatus};
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
 use crate::viewer::watch::{Cause, TaskState};
 use crate::world::physics::STEP_SECONDS;
+
+/// A step of the world to come: what motions have done for it so far.
+#[derive(Default)]
+pub(super) struct Round {
+    /// Motions that have set their joints.
+    ticked: Vec<Ticket>,
+    /// What has ended by that.
+    completions: Vec<Completion>,
+}
 
 type Completion = (Ticket, Result<Value, Box<Raise>>);
 
@@ -70,6 +80,9 @@ impl Host for Simulation {
             job.motion.cancel();
             self.tell_motion(&job, TaskState::Evaporated, "");
         }
+        if self.active.is_empty() {
+            self.round = None;
+        }
     }
 
     fn pause(&mut self, _: &mut Image, ticket: Ticket) {
@@ -97,8 +110,12 @@ impl Simulation {
             && until.is_none_or(|until| self.now < until)
             && !self.is_interrupted(image)
         {
-            self.admit_waiting();
-            self.tick(image, &mut done);
+            if self.round.is_none() {
+                self.admit_waiting();
+            }
+            if !self.tick(image, &mut done) {
+                break;
+            }
             self.step(image);
             steps += 1;
             self.now = now + f64::from(steps) * STEP_SECONDS;
@@ -185,15 +202,22 @@ impl Simulation {
         self.waiting = still_waiting;
     }
 
-    /// Lets the motions set the robot's joints for the next step.
-    fn tick(&mut self, image: &mut Image, completions: &mut Vec<Completion>) {
+    /// Lets the motions set the robot's joints for the next step. When an interrupt comes
+    /// before one of them plans, or while it does, the rest is left for later: false.
+    fn tick(&mut self, image: &mut Image, completions: &mut Vec<Completion>) -> bool {
+        let mut round = self.round.take().unwrap_or_default();
         let mut jobs = std::mem::take(&mut self.active);
-        let mut ended = Vec::new();
-        for (i, job) in jobs.iter_mut().enumerate() {
-            if job.is_paused {
+        let mut is_whole = true;
+        for job in &mut jobs {
+            if job.is_paused || round.ticked.contains(&job.ticket) {
                 continue;
             }
-            let result = match job.motion.tick(&mut self.world) {
+            let Some(status) = self.tick_job(image, job) else {
+                is_whole = false;
+                break;
+            };
+            round.ticked.push(job.ticket);
+            let result = match status {
                 MotionStatus::Running => continue,
                 MotionStatus::Done(outcome) => {
                     self.tell_motion(job, TaskState::Succeeded, "");
@@ -207,14 +231,35 @@ impl Simulation {
                     Err(self.failure(image, &failure, &job.subject))
                 }
             };
-            completions.push((job.ticket, result));
-            ended.push(i);
-        }
-        for i in ended.into_iter().rev() {
-            jobs.remove(i);
+            round.completions.push((job.ticket, result));
         }
         jobs.append(&mut self.active);
         self.active = jobs;
+        if !is_whole {
+            self.round = Some(round);
+            return false;
+        }
+        let has_ended = |job: &Job| round.completions.iter().any(|(t, _)| *t == job.ticket);
+        self.active.retain(|job| !has_ended(job));
+        completions.append(&mut round.completions);
+        true
+    }
+
+    /// Lets one motion set joints; none if an interrupt came before or while it planned. It
+    /// is then as it was.
+    fn tick_job(&mut self, image: &mut Image, job: &mut Job) -> Option<MotionStatus> {
+        let Some(before) = job.motion.before_planning() else {
+            return Some(job.motion.tick(&mut self.world));
+        };
+        if image.is_interrupted() {
+            return None;
+        }
+        let status = interruptible(&image.interrupt, || job.motion.tick(&mut self.world));
+        if status.is_none() {
+            job.motion = before;
+            image.polls.seen_since_last();
+        }
+        status
     }
 
     /// What a motion has brought about, as a value.

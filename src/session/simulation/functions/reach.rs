@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::motion::drive_plan::plan_drive;
+use crate::motion::interruption::interruptible;
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::motions::{side, side_keyword};
@@ -18,7 +19,7 @@ const DISTANCES: [f64; 5] = [0.65, 0.7, 0.6, 0.75, 0.55];
 /// Directions from the object that are looked at.
 const DIRECTIONS: u32 = 24;
 /// Places to which a way is looked for.
-const MOST_WAYS: usize = 3;
+const MOST_WAYS: usize = 2;
 /// Grasps that are told.
 const MOST_GRASPS: usize = 4;
 
@@ -161,7 +162,9 @@ impl Simulation {
                         (end[0] - goal[0]).abs() < 1e-6 && (end[1] - goal[1]).abs() < 1e-6
                     })
                 };
-                if plan_drive(&self.world, goal).is_ok_and(ends_there) {
+                // Ctrl-C ends a search that takes long: then nothing is offered.
+                let way = interruptible(&image.interrupt, || plan_drive(&self.world, goal))?;
+                if way.is_ok_and(ends_there) {
                     return Some((base, arm, grasp.clone()));
                 }
                 if ways == MOST_WAYS {
