@@ -55,6 +55,38 @@ fn branches(c: &mut Criterion) {
     });
 }
 
+/// Two tasks that wake each other a thousand times: 2000 waits, each ended by the other task.
+fn fluents(c: &mut Criterion) {
+    let mut session = session();
+    let definition = "(defun play (n)
+        (let ((ball (cpl:make-fluent :name 'ball :value 0)))
+          (cpl:top-level
+            (cpl:par
+              (dotimes (i n)
+                (cpl:wait-for (cpl:fl-funcall #'evenp ball))
+                (incf (cpl:value ball)))
+              (dotimes (i n)
+                (cpl:wait-for (cpl:fl-funcall #'oddp ball))
+                (incf (cpl:value ball)))))
+          (cpl:value ball)))";
+    run(&mut session, definition);
+    c.bench_function("1000 round trips between two tasks", |b| {
+        b.iter(|| run(&mut session, "(play 1000)"));
+    });
+    let definition = "(defun play-on (n)
+        (let* ((ball (cpl:make-fluent :name 'ball :value 0))
+               (even (cpl:fl-funcall #'evenp ball))
+               (odd (cpl:fl-funcall #'oddp ball)))
+          (cpl:top-level
+            (cpl:par
+              (dotimes (i n) (cpl:wait-for even) (incf (cpl:value ball)))
+              (dotimes (i n) (cpl:wait-for odd) (incf (cpl:value ball)))))))";
+    run(&mut session, definition);
+    c.bench_function("1000 round trips through two fluent nets", |b| {
+        b.iter(|| run(&mut session, "(play-on 1000)"));
+    });
+}
+
 /// A plan file of about 10 KB.
 fn files(c: &mut Criterion) {
     let mut session = session();
@@ -70,5 +102,5 @@ fn start(c: &mut Criterion) {
     c.bench_function("start of a session", |b| b.iter(session));
 }
 
-criterion_group!(benches, calls, failures, branches, files, start);
+criterion_group!(benches, calls, failures, branches, fluents, files, start);
 criterion_main!(benches);

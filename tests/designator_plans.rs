@@ -11,8 +11,10 @@ fn printed(text: &str) -> String {
     let mut printed = String::new();
     session.evaluate("test", text, &mut |event| match event {
         Event::Output(text) => printed.push_str(&text),
+        Event::Picture(_) => {}
         Event::Values(values) => printed.push_str(&format!("{}\n", values.join(" ; "))),
         Event::Aborted(abort) => printed.push_str(&format!("!! {}\n", abort.report)),
+        _ => {}
     });
     printed
 }

@@ -11,7 +11,7 @@ fn shown(session: &mut Session, form: &str) -> String {
         Event::Values(values) if values.is_empty() => last = "; No value".to_owned(),
         Event::Values(values) => last = values.join(" ; "),
         Event::Aborted(abort) => last = format!("!! {}", abort.report),
-        Event::Output(_) => {}
+        _ => {}
     });
     last
 }

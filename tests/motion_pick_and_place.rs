@@ -12,7 +12,7 @@ use planwright::motion::{
 use planwright::robot::Side;
 use planwright::spatial::Pose;
 use planwright::spatial::pose::{from_xyz_rpy, yaw};
-use planwright::world::grasp_library::GraspDefinition;
+use planwright::world::grasp_library::{GraspDefinition, Lift};
 
 /// Drives to the table, raises the torso and parks the arms, all at once.
 fn approach_table(kitchen: &mut Kitchen) {
@@ -162,8 +162,8 @@ fn diagonal() -> GraspDefinition {
         rotation: [[s, 0.0, -s], [-s, 0.0, -s], [0.0, 1.0, 0.0]],
         pregrasp: [0.02, 0.15, 0.15],
         second_pregrasp: [0.0; 3],
-        lift: [0.0, 0.0, 0.15],
-        second_lift: [0.0; 3],
+        lift: Lift::along_object([0.0, 0.0, 0.15]),
+        second_lift: Lift::along_object([0.0; 3]),
     }
 }
 

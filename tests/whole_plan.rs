@@ -21,10 +21,12 @@ fn run(session: &mut Session, text: &str) -> (String, Outcome) {
     let mut printed = String::new();
     let outcome = session.evaluate("plan", text, &mut |event| match event {
         Event::Output(text) => printed.push_str(&text),
+        Event::Picture(_) => {}
         Event::Values(values) => printed.push_str(&format!("{}\n", values.join("\n"))),
         Event::Aborted(abort) => {
             printed.push_str(&format!("{}\n{}\n", abort.report, abort.condition));
         }
+        _ => {}
     });
     (printed, outcome)
 }

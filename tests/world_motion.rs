@@ -45,6 +45,20 @@ fn a_welded_object_goes_where_the_hand_goes() {
 }
 
 #[test]
+fn a_full_turn_of_the_heading_is_no_motion() {
+    let mut world = world_with_held_bottle();
+    let mut robot = world.robot_configuration().clone();
+    // The heading is the same, the sign of its quaternion is not.
+    robot.base = from_xy_yaw(0.3, -0.5, std::f64::consts::TAU);
+    world.set_robot_configuration(&robot);
+    for _ in 0..10 {
+        world.step();
+    }
+    let error = world.weld_error("BOTTLE-1").unwrap().unwrap();
+    assert!(error.distance < 1e-3, "the bottle lags by {error:?}");
+}
+
+#[test]
 fn a_released_object_falls() {
     let mut world = world_with_held_bottle();
     let before = world.object_pose("BOTTLE-1").unwrap().translation.z;

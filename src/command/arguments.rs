@@ -22,12 +22,26 @@ use super::picture::PictureArguments;
 pub(super) struct Arguments {
     #[command(flatten)]
     pub(super) options: Options,
+    #[command(flatten)]
+    pub(super) prompt: PromptOptions,
     /// Show the robot in the browser while it moves; simulated time then passes as fast as
     /// the real one unless --realtime says otherwise
     #[arg(long)]
     pub(super) view: bool,
     #[command(subcommand)]
     pub(super) command: Option<Command>,
+}
+
+/// Options of the prompt.
+#[derive(Args, Debug, Default)]
+pub(super) struct PromptOptions {
+    /// Go on with the last session, or with the one of the journal FILE: everything that was
+    /// typed is evaluated again, to the same state
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    pub(super) resume: Option<Option<PathBuf>>,
+    /// Where to note what is typed [default: a file in the state directory]
+    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
+    pub(super) journal: Option<PathBuf>,
 }
 
 /// Options of all commands.
@@ -102,6 +116,9 @@ pub(super) enum Command {
         /// Rewrite the expected output where it differs, keeping wildcards that match
         #[arg(long)]
         bless: bool,
+        /// Stop after the N-th entry of the one file, and open the prompt there
+        #[arg(long, value_name = "N", conflicts_with_all = ["bless", "jobs"])]
+        stop_at: Option<usize>,
         /// Files to run at the same time [default: the number of processors]
         #[arg(long, value_name = "N")]
         jobs: Option<NonZeroUsize>,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::repl::ReplError;
+use crate::repl::{JournalError, ReplError};
 use crate::session::WatchError;
 use crate::viewer::ViewError;
 use crate::viewer::recording::RecordingError;
@@ -64,6 +64,9 @@ pub(super) enum CommandError {
     /// The robot and its world cannot be set up.
     #[error("{0}")]
     Open(String),
+    /// An earlier session cannot be gone on with.
+    #[error("{0}")]
+    Resume(#[from] JournalError),
     /// The prompt does not work.
     #[error("{0}")]
     Prompt(#[from] ReplError),

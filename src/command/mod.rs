@@ -14,9 +14,11 @@ mod open;
 mod paint;
 mod picture;
 mod pipe;
+mod prompt;
 mod reference;
 mod replay;
 mod run;
+mod stop_at;
 mod view_recording;
 mod watching;
 
@@ -26,7 +28,6 @@ use std::thread;
 
 use clap::{CommandFactory, Parser};
 
-use crate::repl;
 use arguments::{Arguments, Command, WatchArguments};
 use failure::{CommandError, Status};
 use paint::Paint;
@@ -69,11 +70,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     };
     match arguments.command {
         None if io::IsTerminal::is_terminal(&io::stdin()) => {
-            let mut session = open::open_session(options)?;
-            watching::begin(&mut session, &watch)?;
-            let paint = Paint::new(options.color, &io::stdout());
-            let status = repl::run(session, paint.is_on())?;
-            Ok(Status::Left(status))
+            prompt::prompt(arguments.options, &arguments.prompt, &watch)
         }
         None => pipe::evaluate_standard_input(options, &watch),
         Some(Command::Run {
@@ -86,9 +83,14 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
             run::run(options, &files, &eval, &watch)
         }
         Some(Command::View { file }) => view_recording::view(options, &file),
-        Some(Command::Replay { files, bless, jobs }) => {
-            replay::replay(options, &files, bless, jobs)
-        }
+        Some(Command::Replay {
+            files,
+            stop_at: Some(entry),
+            ..
+        }) => stop_at::stop_at(options, &files, entry),
+        Some(Command::Replay {
+            files, bless, jobs, ..
+        }) => replay::replay(options, &files, bless, jobs),
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Check { files }) => check::check(options, &files),
         Some(Command::Reference) => reference::print(),

@@ -1,7 +1,7 @@
 //! Draws the world as plan files leave it.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -11,8 +11,10 @@ use super::arguments::Options;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::run::run_in;
+use crate::session::Filming;
+use crate::viewer::View;
+use crate::viewer::animation::{Shot, write_gif};
 use crate::viewer::view::FIELD_OF_VIEW;
-use crate::viewer::{Scene, View, render};
 
 /// What to draw, from where, and into which file.
 #[derive(Args, Debug)]
@@ -23,9 +25,21 @@ pub(super) struct PictureArguments {
     /// Form to evaluate after the files; its values are shown
     #[arg(long, value_name = "FORM")]
     eval: Vec<String>,
-    /// PNG file to write
-    #[arg(short, long, value_name = "PNG")]
-    output: PathBuf,
+    /// PNG file to write: the world as it is in the end
+    #[arg(short, long, value_name = "PNG", required_unless_present_any = ["gif", "frames"])]
+    output: Option<PathBuf>,
+    /// GIF file to write: the whole run
+    #[arg(long, value_name = "GIF")]
+    gif: Option<PathBuf>,
+    /// Folder for the whole run as PNG files
+    #[arg(long, value_name = "FOLDER")]
+    frames: Option<PathBuf>,
+    /// Simulated time from one frame to the next
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.2, value_parser = interval)]
+    every: f64,
+    /// How many simulated seconds the GIF shows in a real one
+    #[arg(long, value_name = "FACTOR", default_value_t = 3.0, value_parser = interval)]
+    speed: f64,
     /// What to look at
     #[arg(
         long,
@@ -66,27 +80,72 @@ impl PictureArguments {
     }
 }
 
-/// Runs the files as `run` does and writes the picture.
+/// Runs the files as `run` does and writes the pictures.
 pub(super) fn picture(
     options: &Options,
     wanted: &PictureArguments,
 ) -> Result<Status, CommandError> {
-    let open = || open_session(options);
-    let (status, session) = run_in(options, &wanted.files, &wanted.eval, open)?;
-    let simulation = session.simulation();
     let (width, height) = (wanted.width.into(), wanted.height.into());
-    let camera = wanted.view().camera(simulation.world(), width, height)?;
-    let mut scene = Scene::of(simulation.world());
-    if let Some(axes) = simulation.axes() {
-        scene.add_axes(&axes.pose, axes.size);
+    let view = wanted.view();
+    let is_film = wanted.gif.is_some() || wanted.frames.is_some();
+    let open = || {
+        let mut session = open_session(options)?;
+        if is_film {
+            session.simulation_mut().start_film(Filming {
+                view,
+                width,
+                height,
+                every: wanted.every,
+            })?;
+        }
+        Ok(session)
+    };
+    let (status, mut session) = run_in(options, &wanted.files, &wanted.eval, open)?;
+    let simulation = session.simulation_mut();
+    let shots = simulation.end_film();
+    if let Some(folder) = &wanted.frames {
+        write_frames(folder, &shots)?;
     }
-    let mut png = Vec::new();
-    render(&scene, &camera).write_png(&mut png)?;
-    fs::write(&wanted.output, png).map_err(|error| CommandError::Rewrite {
-        path: wanted.output.clone(),
+    if let Some(path) = &wanted.gif {
+        let delay = (100.0 * wanted.every / wanted.speed)
+            .round()
+            .clamp(2.0, 1000.0);
+        let mut gif = Vec::new();
+        // The delay is a small number.
+        write_gif(&shots, delay as u16, &mut gif)?;
+        write(path, &gif)?;
+    }
+    if let Some(path) = &wanted.output {
+        let png = simulation.picture(view, width, height)?.to_png()?;
+        write(path, &png)?;
+    }
+    Ok(status)
+}
+
+fn write_frames(folder: &Path, shots: &[Shot]) -> Result<(), CommandError> {
+    fs::create_dir_all(folder).map_err(|error| CommandError::Rewrite {
+        path: folder.to_owned(),
         error,
     })?;
-    Ok(status)
+    for (place, shot) in shots.iter().enumerate() {
+        let path = folder.join(format!("frame-{:04}.png", place + 1));
+        write(&path, &shot.image().to_png()?)?;
+    }
+    Ok(())
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
+    fs::write(path, bytes).map_err(|error| CommandError::Rewrite {
+        path: path.to_owned(),
+        error,
+    })
+}
+
+fn interval(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.01..=1000.0).contains(&value) => Ok(value),
+        _ => Err("a number from 0.01 to 1000 is needed".to_owned()),
+    }
 }
 
 fn size() -> clap::builder::RangedI64ValueParser<u16> {

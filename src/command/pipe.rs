@@ -41,7 +41,7 @@ fn evaluate_lines(
             number += 1;
             match evaluate_on(screen, session, &input_name(number), &text)? {
                 Outcome::Finished => {}
-                Outcome::Aborted => status = Status::Bad,
+                Outcome::Aborted | Outcome::Stopped => status = Status::Bad,
                 Outcome::Quit(code) => return Ok(Status::Left(code)),
             }
         }

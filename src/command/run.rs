@@ -53,6 +53,8 @@ pub(super) fn run_in<E: Evaluate>(
             Ended::Finished => {}
             Ended::Quit(code) => return Ok((Status::Left(code), session)),
             Ended::Aborted(abort) => {
+                screen.fresh_line()?;
+                screen.flush()?;
                 // Without standard error, the exit status has to do.
                 let _ = io::stderr().write_all(text.describe(abort.as_ref(), paint).as_bytes());
                 return Ok((Status::Bad, session));
@@ -124,7 +126,7 @@ impl Text {
         Ok(match outcome {
             Outcome::Finished => Ended::Finished,
             Outcome::Quit(code) => Ended::Quit(code),
-            Outcome::Aborted => Ended::Aborted(abort),
+            Outcome::Aborted | Outcome::Stopped => Ended::Aborted(abort),
         })
     }
 

@@ -99,11 +99,20 @@ fn hint(image: &Image, value: &Value, kind: Kind, name: &str) -> Option<String> 
         Kind::Object | Kind::Objects if value.is_nil() => {
             Some(format!("The {key} is NIL: was the object detected first?"))
         }
+        _ if value.as_symbol().is_some_and(|sym| is_variable_name(image.name(sym))) => {
+            let name = print::to_string(image, value, false);
+            Some(format!("The variable {name} is not defined."))
+        }
         Kind::Object | Kind::Objects if value.as_symbol().is_some() => Some(format!(
             "Write ({key} (an object (type …))), or ({key} ?variable) with what was detected."
         )),
         _ => None,
     }
+}
+
+/// `*NAME*`, as global variables are called.
+fn is_variable_name(name: &str) -> bool {
+    name.len() > 2 && name.starts_with('*') && name.ends_with('*')
 }
 
 /// Checks one value of a designator of a class.

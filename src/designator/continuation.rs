@@ -14,6 +14,7 @@ struct Then {
     next: Next,
     name: &'static str,
     subject: Option<Value>,
+    motions_before: Option<u64>,
 }
 
 impl Resume for Then {
@@ -28,6 +29,10 @@ impl Resume for Then {
     fn subject(&self) -> Option<&Value> {
         self.subject.as_ref()
     }
+
+    fn motions_before(&self) -> Option<u64> {
+        self.motions_before
+    }
 }
 
 /// Calls a function and goes on with its primary value; `name` is shown in backtraces.
@@ -40,13 +45,19 @@ pub(super) fn call(function: Value, args: Vec<Value>, name: &'static str, next: 
             next,
             name,
             subject,
+            motions_before: None,
         }),
     }
 }
 
 /// Calls the plan of an action for `PERFORM`: a condition inside it is told with the
 /// action.
-pub(super) fn call_for(action: Value, plan: Value, args: Vec<Value>, next: Next) -> Step {
+pub(super) fn call_for(
+    (action, motions_before): (Value, u64),
+    plan: Value,
+    args: Vec<Value>,
+    next: Next,
+) -> Step {
     Step::Call {
         function: plan,
         args,
@@ -54,6 +65,7 @@ pub(super) fn call_for(action: Value, plan: Value, args: Vec<Value>, next: Next)
             next,
             name: "PERFORM",
             subject: Some(action),
+            motions_before: Some(motions_before),
         }),
     }
 }

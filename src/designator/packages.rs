@@ -205,14 +205,16 @@ pub static PACKAGES: &[PackageRow] = &[
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
     row("CRAM-PR2-PICK-PLACE-DEMO", &[], ""),
     row("CRAM-BEGINNER-TUTORIAL", &[], ""),
+    row("PLANWRIGHT", &["PW"], ""),
 ];
 
 /// Packages that inherit from others than `COMMON-LISP`.
 const USES: &[(&str, &[&str])] = &[
     (
         "CRAM-PICK-PLACE-TUTORIAL",
-        &["CRAM-PROLOG", "CRAM-COMMON-FAILURES"],
+        &["CRAM-PROLOG", "CRAM-COMMON-FAILURES", "PLANWRIGHT"],
     ),
+    ("COMMON-LISP-USER", &["PLANWRIGHT"]),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", &["CRAM-COMMON-FAILURES"]),
     ("CRAM-BULLET-WORLD-TUTORIAL", &["CRAM-PROLOG"]),
 ];

@@ -208,7 +208,8 @@ fn call_plan(
             ),
         ));
     }
-    Ok(call_for(designator.clone(), plan, args, next))
+    let action = (designator.clone(), image.motions);
+    Ok(call_for(action, plan, args, next))
 }
 
 /// A process module of the plan's own, or a request to whoever runs the plan.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::reader::source::Location;
+use crate::viewer::Image;
 
 /// Something that happened while an input was evaluated.
 #[derive(Clone, PartialEq, Debug)]
@@ -12,8 +13,30 @@ pub enum Event {
     Output(String),
     /// A form has been evaluated: its values as printed text. Empty for no value.
     Values(Vec<String>),
+    /// A picture was made; for those who can show it beside the text.
+    Picture(Arc<Image>),
     /// A condition reached the top and nobody handled it: the input ends here.
     Aborted(Box<Abort>),
+    /// The evaluation stands still, at a condition that nobody handled or an interrupt,
+    /// until somebody chooses how it goes on.
+    Stopped(Box<Stop>),
+    /// An evaluation that had stopped was given up: the condition as it prints.
+    Left(String),
+    /// A motion goes on: a line that takes the place of the last one.
+    Progress(String),
+}
+
+/// An evaluation that stands still.
+#[derive(Clone, PartialEq, Default, Debug)]
+pub struct Stop {
+    /// How many evaluations stand still, this one on top.
+    pub level: usize,
+    /// Why.
+    pub abort: Abort,
+    /// The ways to go on; each is chosen by its index.
+    pub choices: Vec<String>,
+    /// What else can be typed, for people.
+    pub remark: &'static str,
 }
 
 /// What is known about a condition that nobody handled.
@@ -82,6 +105,8 @@ pub enum Outcome {
     Finished,
     /// A condition was not handled; the forms after it were not evaluated.
     Aborted,
+    /// The evaluation stands still; the next input tells how it goes on.
+    Stopped,
     /// The program asked to leave, with this exit status.
     Quit(u8),
 }

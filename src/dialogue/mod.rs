@@ -5,13 +5,15 @@
 //! so that they show the same bytes for the same events. Nothing in here knows Lisp
 //! beyond its tokens, nor where the text is finally written to.
 
+mod converse;
 pub mod evaluate;
 mod evaluate_on;
 mod input;
 pub mod prompt_line;
 pub mod screen;
 
-pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity};
+pub use converse::{Candidate, Completions, Converse};
+pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
 pub use evaluate_on::{evaluate_keeping_abort, evaluate_on};
 pub use input::is_whole;
 pub use screen::Screen;

@@ -5,7 +5,9 @@
 
 use std::io::{self, Write};
 
-use super::evaluate::{Abort, Event};
+use super::evaluate::{Abort, Event, Stop};
+use crate::reader::source::Location;
+use crate::viewer::{Image, InlinePictures};
 
 /// Turns events into text.
 pub struct Screen<W> {
@@ -16,6 +18,11 @@ pub struct Screen<W> {
     source_name: String,
     source_has_lines: bool,
     is_detailed: bool,
+    /// Progress is shown, on a line that is taken away afterwards.
+    is_terminal: bool,
+    /// Such a line is there.
+    has_progress: bool,
+    pictures: Option<InlinePictures>,
 }
 
 impl<W: Write> Screen<W> {
@@ -28,12 +35,26 @@ impl<W: Write> Screen<W> {
             source_name: String::new(),
             source_has_lines: false,
             is_detailed: false,
+            is_terminal: false,
+            has_progress: false,
+            pictures: None,
         }
+    }
+
+    /// From here on, writes to a terminal, or not: shows the progress of motions, and knows
+    /// that an interrupt leaves a `^C` there.
+    pub fn set_terminal(&mut self, is_terminal: bool) {
+        self.is_terminal = is_terminal;
     }
 
     /// From here on, tells the actions around a condition, or leaves them out.
     pub fn set_detailed(&mut self, is_detailed: bool) {
         self.is_detailed = is_detailed;
+    }
+
+    /// From here on, shows pictures in this way, or leaves them out.
+    pub fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
+        self.pictures = pictures;
     }
 
     /// From here on, shows the values of forms or leaves them out.
@@ -52,16 +73,42 @@ impl<W: Write> Screen<W> {
 
     /// Shows an event.
     pub fn show(&mut self, event: &Event) -> io::Result<()> {
+        if let Event::Progress(line) = event {
+            return self.progress(line);
+        }
+        self.end_progress()?;
         match event {
             Event::Output(text) => self.write(text),
             Event::Values(values) if self.echo => self.values(values),
             Event::Values(_) => Ok(()),
+            Event::Picture(picture) => self.picture(picture),
             Event::Aborted(abort) => self.aborted(abort),
+            Event::Stopped(stop) => self.stopped(stop),
+            Event::Left(condition) => self.left(condition),
+            Event::Progress(_) => Ok(()),
         }
+    }
+
+    /// Shows a line of progress in place of the last one, unless the cursor is in the middle
+    /// of a line.
+    fn progress(&mut self, line: &str) -> io::Result<()> {
+        if !self.is_terminal || !self.at_line_start {
+            return Ok(());
+        }
+        self.has_progress = true;
+        write!(self.to, "\r\x1b[2K{line}")
+    }
+
+    fn end_progress(&mut self) -> io::Result<()> {
+        if !std::mem::take(&mut self.has_progress) {
+            return Ok(());
+        }
+        self.to.write_all(b"\r\x1b[2K")
     }
 
     /// Ends a line that was begun.
     pub fn fresh_line(&mut self) -> io::Result<()> {
+        self.end_progress()?;
         if self.at_line_start {
             Ok(())
         } else {
@@ -72,6 +119,11 @@ impl<W: Write> Screen<W> {
     /// Hands on what has been written so far.
     pub fn flush(&mut self) -> io::Result<()> {
         self.to.flush()
+    }
+
+    /// What the screen writes to, as it is now.
+    pub fn written(&self) -> &W {
+        &self.to
     }
 
     /// What the screen writes to.
@@ -99,7 +151,40 @@ impl<W: Write> Screen<W> {
         values.iter().try_for_each(|value| self.line(value))
     }
 
+    fn picture(&mut self, picture: &Image) -> io::Result<()> {
+        let Some(show) = self.pictures else {
+            return Ok(());
+        };
+        self.fresh_line()?;
+        self.to.write_all(&show.encoded(picture))?;
+        self.write("\n")
+    }
+
     fn aborted(&mut self, abort: &Abort) -> io::Result<()> {
+        self.report(abort)?;
+        self.left(&abort.condition)
+    }
+
+    fn left(&mut self, condition: &str) -> io::Result<()> {
+        self.line(&format!("; Evaluation aborted on {condition}."))
+    }
+
+    fn stopped(&mut self, stop: &Stop) -> io::Result<()> {
+        if self.is_terminal && stop.abort.condition == INTERRUPT {
+            self.at_line_start = false;
+        }
+        self.report(&stop.abort)?;
+        let width = stop.choices.len().saturating_sub(1).to_string().len();
+        for (number, choice) in stop.choices.iter().enumerate() {
+            self.line(&format!(" {number:>width$}: {choice}"))?;
+        }
+        if stop.remark.is_empty() {
+            return Ok(());
+        }
+        self.line(stop.remark)
+    }
+
+    fn report(&mut self, abort: &Abort) -> io::Result<()> {
         let report = abort.report.trim_end();
         if !report.is_empty() {
             self.line(report)?;
@@ -112,21 +197,35 @@ impl<W: Write> Screen<W> {
                 self.line(&format!("; {line}"))?;
             }
         }
-        self.line(&format!("; Evaluation aborted on {}.", abort.condition))
+        Ok(())
     }
 
-    /// The place worth telling: inputs have no name that a person knows, and in an input
-    /// of one line there is nothing to find.
+    /// The place worth telling; if it is in a plan that comes with the program, also where
+    /// the person's own text comes in.
     fn place(&self, abort: &Abort) -> Option<String> {
         let place = abort.place.as_ref()?;
+        let user = abort.user_place.as_ref();
+        let told: Vec<String> = std::iter::once(place)
+            .chain(user)
+            .filter_map(|place| self.told(place))
+            .collect();
+        (!told.is_empty()).then(|| format!("; at {}", told.join(", from ")))
+    }
+
+    /// A place in words: inputs have no name that a person knows, and in an input of one line
+    /// there is nothing to find.
+    fn told(&self, place: &Location) -> Option<String> {
         if *place.name == *self.source_name {
             self.source_has_lines
-                .then(|| format!("; at line {}, column {}", place.line, place.column))
+                .then(|| format!("line {}, column {}", place.line, place.column))
         } else {
-            (!place.name.starts_with(INPUT_NAME)).then(|| format!("; at {place}"))
+            (!place.name.starts_with(INPUT_NAME)).then(|| place.to_string())
         }
     }
 }
+
+/// An interrupt as it prints.
+pub const INTERRUPT: &str = "#<INTERACTIVE-INTERRUPT>";
 
 const INPUT_NAME: &str = "prompt[";
 

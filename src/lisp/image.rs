@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use indexmap::IndexMap;
 
@@ -43,6 +43,9 @@ pub struct Image {
     pub setf_expanders: IndexMap<Sym, SetfExpander>,
     /// Set from outside to interrupt the machine.
     pub interrupt: Arc<AtomicBool>,
+    /// How often has the flag been looked at? Counts the same in every run, so that an
+    /// interrupt can be repeated.
+    pub polls: super::polls::Polls,
     /// Bytes of the Rust stack that the compiler may use for nested forms.
     pub stack_budget: usize,
     /// What the compiler notices, while somebody wants to know.
@@ -58,6 +61,8 @@ pub struct Image {
     pub operators: IndexMap<Sym, &'static Operator>,
     /// Made-up addresses of objects that were printed.
     pub printed: RefCell<super::print::identity::Identities>,
+    /// How many motions of the robot have been begun.
+    pub motions: u64,
     /// What layers above the language keep in the image: one value per type.
     extensions: Vec<Rc<dyn Any>>,
 }
@@ -134,6 +139,7 @@ impl Image {
             random: rand_pcg::Pcg64::new(0, STREAM),
             setf_expanders: IndexMap::new(),
             interrupt: Arc::default(),
+            polls: super::polls::Polls::default(),
             stack_budget: STACK_BUDGET,
             notes: None,
             nesting: 0,
@@ -142,8 +148,23 @@ impl Image {
             printed: RefCell::default(),
             builtins: IndexMap::new(),
             operators: IndexMap::new(),
+            motions: 0,
             extensions: Vec::new(),
         }
+    }
+
+    /// Is the interrupt flag set?
+    pub fn is_interrupted(&self) -> bool {
+        self.polls.look(&self.interrupt)
+    }
+
+    /// Was the interrupt flag set? It is not afterwards.
+    pub fn take_interrupt(&self) -> bool {
+        let was = self.is_interrupted();
+        if was {
+            self.interrupt.store(false, Ordering::Relaxed);
+        }
+        was
     }
 
     /// Takes a note about a form, if notes are wanted.

@@ -19,6 +19,7 @@ pub mod loop_macro;
 pub mod number;
 pub mod object;
 pub mod package;
+pub mod polls;
 pub mod print;
 pub mod raise;
 mod setup;

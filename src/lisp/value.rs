@@ -244,9 +244,13 @@ impl Value {
         }
     }
 
-    /// Iterates over the elements of a list; stops at the first tail that is not a pair.
+    /// Iterates over the elements of a list; stops at the first tail that is not a pair, and
+    /// after a few rounds of a circular list.
     pub fn iter_list(&self) -> ListIter {
-        ListIter { rest: self.clone() }
+        ListIter {
+            rest: self.clone(),
+            rounds: Rounds::default(),
+        }
     }
 
     /// The elements of a proper list, or `None` if the list is dotted or no list.
@@ -267,10 +271,46 @@ impl Value {
     }
 }
 
+/// Notices that a walk along a list goes round in a circle, after a few rounds (Brent's
+/// algorithm).
+pub struct Rounds {
+    /// A pair visited before: the list is circular when it comes again.
+    mark: Option<Value>,
+    steps: usize,
+    next_mark: usize,
+}
+
+impl Default for Rounds {
+    fn default() -> Rounds {
+        Rounds {
+            mark: None,
+            steps: 0,
+            next_mark: 1024,
+        }
+    }
+}
+
+impl Rounds {
+    /// To be asked for each pair of the list in turn.
+    pub fn is_closed_by(&mut self, pair: &Value) -> bool {
+        if self.mark.as_ref().is_some_and(|mark| mark.is_eq(pair)) {
+            return true;
+        }
+        self.steps += 1;
+        if self.steps == self.next_mark {
+            self.mark = Some(pair.clone());
+            self.next_mark *= 2;
+        }
+        false
+    }
+}
+
 /// Iterator over the elements of a list.
 pub struct ListIter {
-    /// What has not been visited yet; at the end, the list's tail.
+    /// What has not been visited yet; at the end, the list's tail: a pair if the list is
+    /// circular.
     pub rest: Value,
+    rounds: Rounds,
 }
 
 impl Iterator for ListIter {
@@ -281,6 +321,9 @@ impl Iterator for ListIter {
             Value::Cons(c) => (c.car(), c.cdr()),
             _ => return None,
         };
+        if self.rounds.is_closed_by(&self.rest) {
+            return None;
+        }
         self.rest = cdr;
         Some(car)
     }

@@ -39,6 +39,17 @@ impl Detect {
             && (self.query.types.is_empty() || self.query.types.iter().any(|t| same(t, type_name)))
     }
 
+    /// A known type with a name like the one that is asked for, which is unknown.
+    fn type_that_was_meant(&self, world: &World) -> Option<String> {
+        let known = &world.models().objects;
+        let [wanted] = self.query.types.as_slice() else {
+            return None;
+        };
+        let is_known = known.get(wanted).is_some() || known.lineage(wanted).nth(1).is_some();
+        let name = known.closest_name(wanted).filter(|_| !is_known)?;
+        Some(name.to_owned())
+    }
+
     fn look(&self, world: &World) -> Result<Vec<DetectedObject>, MotionFailure> {
         let wanted = || {
             world
@@ -68,7 +79,11 @@ impl Detect {
         }
         if seen.is_empty() {
             let wanted = self.query.description.clone();
-            return Err(MotionFailure::ObjectNotFound { wanted, candidates });
+            return Err(MotionFailure::ObjectNotFound {
+                wanted,
+                candidates,
+                meant: self.type_that_was_meant(world),
+            });
         }
         Ok(seen)
     }

@@ -86,12 +86,14 @@ pub enum MotionFailure {
         hit: Box<CollisionHit>,
     },
     /// No object that was asked for is in sight.
-    #[error("Could not find object {wanted}.{}", sights(.candidates, .wanted))]
+    #[error("Could not find object {wanted}.{}", sights(.candidates, .wanted, .meant.as_deref()))]
     ObjectNotFound {
         /// What was looked for.
         wanted: String,
         /// How much of each object that was asked for is in sight.
         candidates: Vec<Visibility>,
+        /// If there is no such type: the one with the most similar name.
+        meant: Option<String>,
     },
     /// The fingers met without an object between them.
     #[error(
@@ -349,9 +351,10 @@ fn heights(range: &Option<[f64; 2]>) -> String {
     }
 }
 
-fn sights(candidates: &[Visibility], wanted: &str) -> String {
+fn sights(candidates: &[Visibility], wanted: &str, meant: Option<&str>) -> String {
     if candidates.is_empty() {
-        return format!("\nthe world holds no object like {wanted}");
+        let meant = meant.map_or_else(String::new, |name| format!("; did you mean {name}?"));
+        return format!("\nthe world holds no object like {wanted}{meant}");
     }
     let lines: Vec<String> = candidates.iter().map(ToString::to_string).collect();
     format!("\n{}", lines.join("; "))

@@ -26,6 +26,7 @@ pub mod move_torso;
 mod patience;
 pub mod put;
 mod put_plan;
+pub mod reach;
 pub mod speeds;
 pub mod tcp_line;
 mod tcp_plan;
@@ -43,9 +44,10 @@ pub use job::{
     DetectedObject, Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress,
     WayAxes,
 };
-pub use look::{Look, LookDirection, LookTarget};
+pub use look::{Look, LookDirection, LookTarget, pan_and_tilt};
 pub use move_joints::MoveJoints;
 pub use move_tcp::{MoveTcp, TcpGoal, TcpPath};
 pub use move_torso::MoveTorso;
 pub use put::Put;
+pub use reach::{can_reach, can_stand, touching_at};
 pub use unreachable::{UnreachablePose, UnreachableReason};

@@ -13,7 +13,7 @@ use super::tcp_plan::TcpTask;
 use crate::robot::Side;
 use crate::spatial::Pose;
 use crate::spatial::pose::{angle_between, distance_between};
-use crate::world::World;
+use crate::world::{AllowedPairs, World};
 
 /// How long (s) a plan or the way may be blocked while nothing moves.
 const PATIENCE: f64 = 0.3;
@@ -82,15 +82,32 @@ impl MoveTcp {
         }
         let sides = goals.iter().map(|(side, _)| *side);
         let contacts = ExpectedContacts::of(world, sides, self.mode);
-        let task = TcpTask {
+        let mut task = TcpTask {
             world,
             goals,
             contacts,
         };
-        let straight = (self.path == TcpPath::Straight)
-            .then(|| task.plan_line())
-            .flatten();
-        straight.map_or_else(|| task.plan_free(), Ok)
+        if self.path == TcpPath::Straight {
+            if let Some(straight) = task.plan_line() {
+                return Ok(straight);
+            }
+            // A hand that comes straight may touch an object; one that goes around would
+            // sweep it away. So it takes another posture first, from which it can go
+            // straight in the next plan, or goes around without touching.
+            if self.mode == CollisionMode::AllowHand {
+                let careful = ExpectedContacts {
+                    allowed: AllowedPairs::none(),
+                    touching: task.contacts.touching.clone(),
+                };
+                if self.plans == 0
+                    && let Some(first) = task.plan_start_of_line(&careful)
+                {
+                    return Ok(first);
+                }
+                task.contacts = careful;
+            }
+        }
+        task.plan_free()
     }
 
     /// Plans; what is in the way while the robot still moves may be gone later.

@@ -40,6 +40,8 @@ const SHUT_COST: f64 = 4.0;
 const LIMIT_MARGIN: (f64, f64) = (0.2, 1.0);
 /// How many postures at one height are tried with a long search for a path.
 const LONG_SEARCHES: usize = 2;
+/// How many final postures at one height are tried for a straight line.
+const LINE_ENDS: usize = 6;
 /// At how many heights a search for a path may fail before giving up.
 const MOST_HEIGHTS: usize = 4;
 
@@ -291,7 +293,7 @@ impl TcpTask<'_> {
             let start = axes.now(self.world);
             let ends = postures
                 .iter()
-                .take(6)
+                .take(LINE_ENDS)
                 .map(|p| Some(p.positions.as_slice()));
             for end in std::iter::once(None).chain(ends) {
                 let (path, met) = task.follow(&start, end, Some(&mut judge));
@@ -302,6 +304,45 @@ impl TcpTask<'_> {
                         way,
                         self.contacts.allowed.clone(),
                     ));
+                }
+            }
+        }
+        None
+    }
+
+    /// A way to another posture in which the tools are where they are now, but can be led
+    /// straight to the goals from there; on it the robot touches only what is given.
+    pub(super) fn plan_start_of_line(&self, contacts: &ExpectedContacts) -> Option<JointFollow> {
+        let mut searches = 0;
+        for height in self.heights(REASON_STEP) {
+            let axes = self.axes(height);
+            let postures = self.postures(height, &axes);
+            if postures.is_empty() {
+                continue;
+            }
+            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.contacts);
+            let mut back = self.line_task(height, &axes);
+            for line in &mut back.lines {
+                std::mem::swap(&mut line.from, &mut line.to);
+            }
+            let free = postures
+                .iter()
+                .filter(|p| judge.blocked(&p.positions).is_none());
+            let ends: Vec<&Posture> = free.take(LINE_ENDS).collect();
+            for end in ends {
+                let (path, met) = back.follow(&end.positions, None, Some(&mut judge));
+                let (LineEnd::Complete, Some(start)) = (met, path.points.last()) else {
+                    continue;
+                };
+                let mut judge = Judge::new(self.world, axes.joints.clone(), contacts);
+                let effort = ArmPathEffort::default();
+                if let Ok(way) = plan_way(self.world, &axes, start, &mut judge, effort) {
+                    let allowed = contacts.allowed.clone();
+                    return Some(JointFollow::new(axes.joints, way, allowed));
+                }
+                searches += 1;
+                if searches >= LONG_SEARCHES {
+                    return None;
                 }
             }
         }
@@ -342,6 +383,7 @@ impl TcpTask<'_> {
                 side,
                 frame: tree.link(self.body().torso.link).name.clone(),
                 wrist: self.wrist(side, tcp, now),
+                tool: *tcp,
                 torso,
                 reason,
             };

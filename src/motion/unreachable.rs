@@ -15,6 +15,8 @@ pub struct UnreachablePose {
     pub frame: String,
     /// Pose of the wrist in that frame.
     pub wrist: Pose,
+    /// Pose of the tool in the frame of the base.
+    pub tool: Pose,
     /// Torso heights that were tried (m): least and greatest.
     pub torso: [f64; 2],
     /// Why.
@@ -46,6 +48,7 @@ impl fmt::Display for UnreachablePose {
             side,
             frame,
             wrist,
+            tool: _,
             torso: [low, high],
             reason,
         } = self;

@@ -43,6 +43,8 @@ pub(crate) enum Request {
     /// Forbid (-1), allow again, or allow in between (+1) that the current task is
     /// suspended or evaporated while it waits.
     Scheduling(i32),
+    /// Tell the tasks that are alive, and those of the last plan that have ended: a text.
+    Overview,
 }
 
 /// When a group of tasks has ended, and how.

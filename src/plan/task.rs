@@ -122,6 +122,11 @@ impl Task {
         self.status.get()
     }
 
+    /// What it ended with: its values, or its failure.
+    pub fn result(&self) -> Value {
+        self.result.borrow().clone().primary()
+    }
+
     pub(super) fn set_status(&self, status: Status) {
         self.status.set(status);
     }

@@ -6,20 +6,32 @@ const STRING: &str = "\x1b[32m";
 const COMMENT: &str = "\x1b[2m";
 const KEYWORD: &str = "\x1b[36m";
 const VARIABLE: &str = "\x1b[35m";
+const TYPE: &str = "\x1b[1;33m";
 const MATCHING: &str = "\x1b[1;34m";
 const UNMATCHED: &str = "\x1b[31m";
 const RESET: &str = "\x1b[0m";
 
 /// The text with escape sequences; the parentheses at the cursor stand out.
-pub(super) fn highlighted(text: &str, cursor: Option<usize>) -> String {
+///
+/// `is_type` knows the names of types of designators, which stand out behind `(type`.
+pub(super) fn highlighted(
+    text: &str,
+    cursor: Option<usize>,
+    is_type: impl Fn(&str) -> bool,
+) -> String {
     let tokens: Vec<Token> = Lexer::new(text).collect();
     let parentheses = Parentheses::of(&tokens, cursor);
     let mut colored = String::with_capacity(text.len() * 2);
     let mut at = 0;
+    let mut before = "";
     for token in &tokens {
         colored.push_str(text.get(at..token.start).unwrap_or(""));
         let part = text.get(token.start..token.end).unwrap_or("");
-        match parentheses.color(token).or_else(|| color(token.kind, part)) {
+        match parentheses
+            .color(token)
+            .or_else(|| type_color(before, part, &is_type))
+            .or_else(|| color(token.kind, part))
+        {
             Some(color) => {
                 colored.push_str(color);
                 colored.push_str(part);
@@ -28,9 +40,16 @@ pub(super) fn highlighted(text: &str, cursor: Option<usize>) -> String {
             None => colored.push_str(part),
         }
         at = token.end;
+        before = part;
     }
     colored.push_str(text.get(at..).unwrap_or(""));
     colored
+}
+
+/// The colour of a name behind `type`.
+fn type_color(before: &str, text: &str, is_type: impl Fn(&str) -> bool) -> Option<&'static str> {
+    let is_key = before.trim_start_matches(':').eq_ignore_ascii_case("type");
+    (is_key && is_type(text.trim_start_matches(':'))).then_some(TYPE)
 }
 
 fn color(kind: TokenKind, text: &str) -> Option<&'static str> {
@@ -92,12 +111,13 @@ mod tests {
 
     /// With the colours as letters in braces.
     fn shown(text: &str, cursor: usize) -> String {
-        let mut shown = highlighted(text, Some(cursor));
+        let mut shown = highlighted(text, Some(cursor), |name| name == "going");
         for (code, name) in [
             (STRING, "{s}"),
             (COMMENT, "{c}"),
             (KEYWORD, "{k}"),
             (VARIABLE, "{v}"),
+            (TYPE, "{t}"),
             (MATCHING, "{m}"),
             (UNMATCHED, "{u}"),
             (RESET, "{}"),
@@ -116,6 +136,14 @@ mod tests {
     }
 
     #[test]
+    fn types_of_designators_stand_out_where_they_are_types() {
+        assert_eq!(
+            shown("(type going) (going) (type x)", 99),
+            "(type {t}going{}) (going) (type x)"
+        );
+    }
+
+    #[test]
     fn the_pair_at_the_cursor_stands_out() {
         assert_eq!(shown("(a (b))", 0), "{m}({}a (b){m}){}");
         assert_eq!(shown("(a (b))", 6), "{m}({}a (b){m}){}");
@@ -125,7 +153,7 @@ mod tests {
 
     #[test]
     fn without_a_cursor_no_pair_stands_out() {
-        assert_eq!(highlighted("(a)", None), "(a)");
+        assert_eq!(highlighted("(a)", None, |_| false), "(a)");
     }
 
     #[test]

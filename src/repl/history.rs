@@ -5,14 +5,19 @@ use std::path::PathBuf;
 
 /// The history file, in a directory that exists; none where there is no place for it.
 pub(super) fn history_file() -> Option<PathBuf> {
-    let path = history_path(|name| std::env::var_os(name))?;
-    std::fs::create_dir_all(path.parent()?).ok()?;
-    Some(path)
+    let directory = state_directory()?;
+    std::fs::create_dir_all(&directory).ok()?;
+    Some(directory.join("history"))
 }
 
-/// `$XDG_STATE_HOME/planwright/history`, or that under `~/.local/state`. Relative paths
+/// Where what is to outlive a session is kept; none where there is no place for it.
+pub(super) fn state_directory() -> Option<PathBuf> {
+    state_path(|name| std::env::var_os(name))
+}
+
+/// `$XDG_STATE_HOME/planwright`, or that under `~/.local/state`. Relative paths
 /// are not to be used, says the XDG Base Directory Specification.
-fn history_path(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
+fn state_path(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
     let directory = |name| {
         variable(name)
             .map(PathBuf::from)
@@ -20,7 +25,7 @@ fn history_path(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> 
     };
     let state = directory("XDG_STATE_HOME")
         .or_else(|| Some(directory("HOME")?.join(".local").join("state")))?;
-    Some(state.join("planwright").join("history"))
+    Some(state.join("planwright"))
 }
 
 #[cfg(test)]
@@ -28,7 +33,7 @@ mod tests {
     use super::*;
 
     fn path(variables: &[(&str, &str)]) -> Option<PathBuf> {
-        history_path(|name| {
+        state_path(|name| {
             let found = variables.iter().find(|(key, _)| *key == name);
             found.map(|(_, value)| value.into())
         })
@@ -38,11 +43,11 @@ mod tests {
     fn the_state_directory_comes_before_home() {
         assert_eq!(
             path(&[("XDG_STATE_HOME", "/s"), ("HOME", "/h")]),
-            Some("/s/planwright/history".into())
+            Some("/s/planwright".into())
         );
         assert_eq!(
             path(&[("XDG_STATE_HOME", "s"), ("HOME", "/h")]),
-            Some("/h/.local/state/planwright/history".into())
+            Some("/h/.local/state/planwright".into())
         );
     }
 

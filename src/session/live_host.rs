@@ -1,6 +1,7 @@
 //! The simulation as the scheduler's host, with output told as it comes.
 
 use std::any::Any;
+use std::time::{Duration, Instant};
 
 use super::simulation::Simulation;
 use crate::dialogue::Event;
@@ -10,9 +11,28 @@ use crate::viewer::watch::Happening;
 
 /// A simulation, and whom to tell what is printed meanwhile.
 pub(super) struct LiveHost<'a> {
-    pub simulation: &'a mut Simulation,
-    pub sink: &'a mut dyn FnMut(Event),
+    simulation: &'a mut Simulation,
+    sink: &'a mut dyn FnMut(Event),
+    tells_progress: bool,
 }
+
+impl<'a> LiveHost<'a> {
+    pub fn new(
+        simulation: &'a mut Simulation,
+        sink: &'a mut dyn FnMut(Event),
+        tells_progress: bool,
+    ) -> LiveHost<'a> {
+        LiveHost {
+            simulation,
+            sink,
+            tells_progress,
+        }
+    }
+}
+
+/// How long a motion runs until its progress is told, and how often that is.
+const FIRST_PROGRESS: Duration = Duration::from_millis(150);
+const BETWEEN_PROGRESS: Duration = Duration::from_millis(100);
 
 /// Tells what was written to standard output, and what became of tasks.
 pub(super) fn flush(image: &mut Image, simulation: &mut Simulation, sink: &mut dyn FnMut(Event)) {
@@ -27,12 +47,31 @@ pub(super) fn flush(image: &mut Image, simulation: &mut Simulation, sink: &mut d
 
 impl Host for LiveHost<'_> {
     fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
-        self.simulation.request(image, task, request)
+        let reply = self.simulation.request(image, task, request);
+        for picture in self.simulation.take_pictures() {
+            flush(image, self.simulation, self.sink);
+            (self.sink)(Event::Picture(picture));
+        }
+        reply
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
         flush(image, self.simulation, self.sink);
-        self.simulation.advance(image, now, until)
+        if !self.tells_progress {
+            return self.simulation.advance(image, now, until);
+        }
+        let begin = Instant::now();
+        let mut told = begin;
+        let sink = &mut *self.sink;
+        self.simulation
+            .advance_watched(image, now, until, &mut |simulation| {
+                // The real time decides what is shown, never what happens.
+                let is_long = begin.elapsed() > FIRST_PROGRESS;
+                if is_long && told.elapsed() > BETWEEN_PROGRESS {
+                    told = Instant::now();
+                    sink(Event::Progress(simulation.progress()));
+                }
+            })
     }
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {

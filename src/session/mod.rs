@@ -2,11 +2,15 @@
 //!
 //! A session takes text and tells events; it prints nothing itself.
 
+mod assist;
 mod check;
+mod console;
+mod converse;
 mod live_host;
 mod options;
 mod plans;
 mod printing;
+mod record;
 pub mod simulation;
 mod text;
 
@@ -25,8 +29,10 @@ use crate::viewer::watch::{Cause, Happening};
 use live_host::LiveHost;
 use simulation::Simulation;
 
+use printing::on_one_line;
+
 pub use options::{SessionError, SessionOptions};
-pub use simulation::{LogLevel, WatchError};
+pub use simulation::{Filming, LogLevel, WatchError};
 
 /// A session.
 pub struct Session {
@@ -35,12 +41,16 @@ pub struct Session {
     simulation: Simulation,
     /// What checked texts define.
     checked: check::KnownNames,
+    /// What stands still, and what a person may do with it.
+    console: console::Console,
 }
 
 /// How the evaluation of one form ended.
 enum Ended {
     Values(Vec<Value>),
     Aborted(Box<Abort>),
+    /// It stands still; only where a person can decide.
+    Stopped(Evaluation),
 }
 
 impl Session {
@@ -58,6 +68,7 @@ impl Session {
             scheduler: Scheduler::new(),
             simulation,
             checked: check::KnownNames::default(),
+            console: console::Console::default(),
         };
         session.load_plans()?;
         Ok(session)
@@ -122,13 +133,16 @@ impl Session {
     /// Evaluates one form at top level.
     fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
         self.image.set_special(known::MINUS, form.clone());
-        let mut host = LiveHost {
-            simulation: &mut self.simulation,
-            sink,
-        };
+        self.simulation.begin_form(form);
+        let tells_progress = self.console.is_interactive;
+        let mut host = LiveHost::new(&mut self.simulation, sink, tells_progress);
         let evaluation = self.scheduler.evaluate(&mut self.image, &mut host, form);
         let ended = match evaluation {
             Evaluation::Values(values) => Ended::Values(values),
+            stopped if self.console.is_interactive => {
+                self.flush(sink);
+                return Ended::Stopped(stopped);
+            }
             Evaluation::Unhandled(condition) => {
                 let abort = self.describe(&condition);
                 self.abort(sink);
@@ -152,16 +166,26 @@ impl Session {
 
     /// Leaves an evaluation that has stopped: its cleanup forms run.
     fn abort(&mut self, sink: &mut dyn FnMut(Event)) {
-        let mut host = LiveHost {
-            simulation: &mut self.simulation,
-            sink,
-        };
+        let mut host = LiveHost::new(&mut self.simulation, sink, self.console.is_interactive);
         self.scheduler.abort(&mut self.image, &mut host);
     }
 
     /// Tells what was written to standard output.
     fn flush(&mut self, sink: &mut dyn FnMut(Event)) {
         live_host::flush(&mut self.image, &mut self.simulation, sink);
+    }
+
+    /// The name of the current package, or a short one.
+    fn package_name(&self) -> String {
+        let package = self.image.current_package();
+        if package == PackageTable::USER {
+            return "CL-USER".to_owned();
+        }
+        let package = self.image.packages.get(package);
+        std::iter::once(&package.name)
+            .chain(&package.nicknames)
+            .min_by_key(|name| name.chars().count())
+            .map_or_else(String::new, |name| name.to_string())
     }
 
     /// `+`, `++` and `+++`: the forms evaluated last.
@@ -199,14 +223,32 @@ impl Session {
 fn interrupted() -> Abort {
     Abort {
         report: "Interrupted.".to_owned(),
-        condition: "#<INTERACTIVE-INTERRUPT>".to_owned(),
+        condition: crate::dialogue::screen::INTERRUPT.to_owned(),
         ..Abort::default()
     }
 }
 
 impl Evaluate for Session {
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
-        self.evaluate_text(source_name, text, sink)
+        self.image.polls.begin(self.console.interrupt_next.take());
+        // Somebody who asked to leave and goes on has changed their mind.
+        self.simulation.quit = None;
+        if let Some(outcome) = self.inspector_input(text, sink) {
+            return outcome;
+        }
+        if self.console.level() > 0 {
+            return self.console_input(source_name, text, sink);
+        }
+        let record = self.image.extension::<record::Record>();
+        let record = record.unwrap_or_else(|| self.image.extend(record::Record::default()));
+        record.begin(self.package_name(), source_name, text);
+        let mut both = |event: Event| {
+            record.note(&event);
+            sink(event);
+        };
+        let asked = self.question(text);
+        let text = asked.as_deref().unwrap_or(text);
+        self.evaluate_text(source_name, text, &mut both)
     }
 
     fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
@@ -214,15 +256,7 @@ impl Evaluate for Session {
     }
 
     fn prompt(&self) -> String {
-        let package = self.image.current_package();
-        if package == PackageTable::USER {
-            return "CL-USER".to_owned();
-        }
-        let package = self.image.packages.get(package);
-        std::iter::once(&package.name)
-            .chain(&package.nicknames)
-            .min_by_key(|name| name.chars().count())
-            .map_or_else(String::new, |name| name.to_string())
+        self.package_name() + &self.console.prompt_suffix()
     }
 
     fn interrupt_handle(&self) -> Arc<AtomicBool> {

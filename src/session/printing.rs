@@ -23,7 +23,7 @@ fn is_built_in(place: &Location) -> bool {
 }
 
 /// `#<AN ACTION …>` as `(AN ACTION …)`, line breaks as blanks, cut where it gets long.
-fn on_one_line(shown: &str) -> String {
+pub(super) fn on_one_line(shown: &str) -> String {
     let words: Vec<&str> = shown.split_whitespace().collect();
     let line = words.join(" ");
     let line = match line.strip_prefix("#<").and_then(|l| l.strip_suffix('>')) {

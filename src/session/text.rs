@@ -1,10 +1,12 @@
 //! Evaluating a text: reading a form, evaluating it, and so on to the end.
 
+use super::console::Suspended;
 use super::{Ended, Session};
 use crate::dialogue::{Abort, Event, Outcome};
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
 use crate::lisp::vm::machine;
+use crate::reader::source::Place;
 use crate::reader::{self, Reader};
 
 impl Session {
@@ -17,24 +19,30 @@ impl Session {
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
         let source = self.image.sources.add(source_name, text);
-        let mut reader = Reader::new(&self.image, source);
+        let reader = Reader::new(&self.image, source);
+        self.evaluate_rest(reader, sink)
+    }
+
+    /// Evaluates all forms from where the reader stands.
+    pub(super) fn evaluate_rest(
+        &mut self,
+        mut rest: Reader,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
         loop {
-            let form = match self.read_form(&mut reader) {
+            let (form, place) = match self.read_placed(&mut rest) {
                 Ok(Some(form)) => form,
                 Ok(None) => return Outcome::Finished,
                 Err(abort) => {
                     sink(Event::Aborted(abort));
+                    self.image.output.begin_line();
                     return Outcome::Aborted;
                 }
             };
             match self.evaluate_form(&form, sink) {
                 Ended::Values(values) => {
-                    let printed = values.iter().map(|v| self.printed(v)).collect();
-                    self.flush(sink);
-                    sink(Event::Values(printed));
-                    self.image.output.begin_line();
-                    if let Some(status) = self.simulation.quit {
-                        return Outcome::Quit(status);
+                    if let Some(outcome) = self.tell_values(&values, sink) {
+                        return outcome;
                     }
                 }
                 Ended::Aborted(abort) => {
@@ -42,16 +50,58 @@ impl Session {
                     self.image.output.begin_line();
                     return Outcome::Aborted;
                 }
+                Ended::Stopped(evaluation) => {
+                    let base = Suspended { form, place, rest };
+                    return self.open_level(base, evaluation, sink);
+                }
             }
         }
     }
 
+    /// Evaluates a form that has been read, and those after it.
+    pub(super) fn evaluate_first(
+        &mut self,
+        first: Suspended,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        match self.evaluate_form(&first.form, sink) {
+            Ended::Values(values) => match self.tell_values(&values, sink) {
+                Some(outcome) => outcome,
+                None => self.evaluate_rest(first.rest, sink),
+            },
+            Ended::Aborted(abort) => {
+                sink(Event::Aborted(abort));
+                self.image.output.begin_line();
+                Outcome::Aborted
+            }
+            Ended::Stopped(evaluation) => self.open_level(first, evaluation, sink),
+        }
+    }
+
+    /// Tells the values of a form; the outcome, if the form asked to leave.
+    pub(super) fn tell_values(
+        &mut self,
+        values: &[Value],
+        sink: &mut dyn FnMut(Event),
+    ) -> Option<Outcome> {
+        let printed = values.iter().map(|v| self.printed(v)).collect();
+        self.flush(sink);
+        sink(Event::Values(printed));
+        self.image.output.begin_line();
+        self.open_inspector(sink);
+        self.simulation.quit.map(Outcome::Quit)
+    }
+
     /// The next form of the text, `#.` evaluated.
-    fn read_form(&mut self, reader: &mut Reader) -> Result<Option<Value>, Box<Abort>> {
+    pub(super) fn read_form(&mut self, reader: &mut Reader) -> Result<Option<Value>, Box<Abort>> {
+        Ok(self.read_placed(reader)?.map(|(form, _)| form))
+    }
+
+    fn read_placed(&mut self, reader: &mut Reader) -> Result<Option<(Value, Place)>, Box<Abort>> {
         let mut next = reader.next(&mut self.image);
         loop {
             match next {
-                Ok(reader::Outcome::Form(form, _)) => return Ok(Some(form)),
+                Ok(reader::Outcome::Form(form, place)) => return Ok(Some((form, place))),
                 Ok(reader::Outcome::End) => return Ok(None),
                 Ok(reader::Outcome::Evaluate(form)) => {
                     let value = self.evaluate_now(&form).map_err(|r| self.raised(r))?;

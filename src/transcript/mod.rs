@@ -20,5 +20,5 @@ mod verdict;
 
 pub use bless::blessed;
 pub use parse::{Entry, Transcript};
-pub use replay::{replay, replay_all};
+pub use replay::{replay, replay_all, replay_first};
 pub use verdict::{Difference, Verdict};

@@ -15,10 +15,20 @@ use crate::dialogue::{Evaluate, Outcome, Screen};
 ///
 /// When an input leaves the evaluator, the ones after it put out nothing.
 pub fn replay(transcript: &Transcript, evaluator: &mut impl Evaluate) -> Vec<Verdict> {
+    replay_first(transcript, transcript.entries.len(), evaluator)
+}
+
+/// As [`replay`], but only the first `count` inputs.
+pub fn replay_first(
+    transcript: &Transcript,
+    count: usize,
+    evaluator: &mut impl Evaluate,
+) -> Vec<Verdict> {
     let mut left = false;
     transcript
         .entries
         .iter()
+        .take(count)
         .enumerate()
         .map(|(number, entry)| {
             let mut output = String::new();

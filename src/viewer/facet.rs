@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::scene::{Finish, Scene};
+use super::scene::{Body, Finish, Kind, Scene};
 
 /// A triangle of a body.
 #[derive(Clone, Copy, Debug)]
@@ -11,61 +11,115 @@ pub(super) struct Facet {
     pub(super) points: [Vector3<f64>; 3],
     /// Unit normals at the corners.
     pub(super) normals: [Vector3<f64>; 3],
+    /// Away from the solid, of unit length.
+    pub(super) outward: Vector3<f64>,
     /// Place of its body in the scene.
     pub(super) body: usize,
 }
 
 impl Facet {
-    /// Away from the solid, not of unit length.
-    pub(super) fn outward(&self) -> Vector3<f64> {
-        let [a, b, c] = self.points;
-        (b - a).cross(&(c - a))
+    /// A triangle; none for one without area.
+    pub(super) fn new(
+        points: [Vector3<f64>; 3],
+        normals: [Vector3<f64>; 3],
+        body: usize,
+    ) -> Option<Self> {
+        let [a, b, c] = points;
+        Some(Self {
+            points,
+            normals,
+            outward: (b - a).cross(&(c - a)).try_normalize(1e-15)?,
+            body,
+        })
     }
 }
 
-/// All triangles, in the order of the scene, and how many of them, at the front, are floor.
+/// Bodies that are shorter (m) than this take no light from the sky away, nor do thin ones.
+const SHORT: f64 = 0.08;
+const THIN: f64 = 0.03;
+
+/// The same of the robot's parts, which are many and close together.
+const SHORT_PART: f64 = 0.17;
+
+/// All triangles, sorted by what they do to the light: those of the floor, which takes none
+/// away, of small bodies, and of the others, each in the order of the scene.
 pub(super) struct Facets {
     pub(super) all: Vec<Facet>,
-    floor: usize,
+    /// Where small and where large bodies begin.
+    starts: [usize; 2],
 }
 
 impl Facets {
     pub(super) fn of(scene: &Scene) -> Self {
-        let bodies = || scene.bodies.iter().enumerate();
-        let is_floor = |finish: Finish| finish == Finish::Boards;
-        let mut all = Vec::new();
-        let mut points = Vec::new();
-        let mut add = |(place, body): (usize, &super::scene::Body)| {
-            points.clear();
-            points.extend(body.surface.corners.iter().map(|corner| {
-                let point = body.pose.transform_point(&corner.point).coords;
-                (point, body.pose.rotation * corner.normal)
-            }));
-            all.extend(body.surface.triangles.iter().filter_map(|triangle| {
-                // A triangle that names a corner that there is not is left out.
-                let [a, b, c] = triangle.map(|i| points.get(i as usize).copied());
-                let (a, b, c) = (a?, b?, c?);
-                Some(Facet {
-                    points: [a.0, b.0, c.0],
-                    normals: [a.1, b.1, c.1],
-                    body: place,
-                })
-            }));
-            all.len()
+        let rank = |body: &Body| match body.finish {
+            Finish::Boards => 0,
+            _ if is_small(body) => 1,
+            _ => 2,
         };
-        let mut floor = 0;
-        for found in bodies().filter(|(_, b)| is_floor(b.finish)) {
-            floor = add(found);
+        let ranks: Vec<_> = scene.bodies.iter().map(rank).collect();
+        let count = scene.bodies.iter().map(|b| b.surface.triangles.len()).sum();
+        let mut all = Vec::with_capacity(count);
+        let mut points = Vec::new();
+        let starts = [0, 1, 2].map(|rank| {
+            let start = all.len();
+            let bodies = scene.bodies.iter().zip(&ranks).enumerate();
+            for (place, (body, _)) in bodies.filter(|(_, (_, r))| **r == rank) {
+                add(body, place, &mut points, &mut all);
+            }
+            start
+        });
+        Self {
+            all,
+            starts: [starts[1], starts[2]],
         }
-        for found in bodies().filter(|(_, b)| !is_floor(b.finish)) {
-            add(found);
-        }
-        Self { all, floor }
     }
 
     /// The triangles that cast shadows.
     pub(super) fn solid(&self) -> &[Facet] {
-        // The floor is a part of all.
-        &self.all[self.floor..]
+        // The start is within all.
+        &self.all[self.starts[0]..]
     }
+
+    /// The triangles that hide parts of the sky.
+    pub(super) fn large(&self) -> &[Facet] {
+        // The start is within all.
+        &self.all[self.starts[1]..]
+    }
+}
+
+/// Whether a body takes hardly any light from the sky away.
+fn is_small(body: &Body) -> bool {
+    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for corner in &body.surface.corners {
+        for axis in 0..3 {
+            bounds[0][axis] = bounds[0][axis].min(corner.point[axis]);
+            bounds[1][axis] = bounds[1][axis].max(corner.point[axis]);
+        }
+    }
+    let mut sizes = [0, 1, 2].map(|axis| bounds[1][axis] - bounds[0][axis]);
+    sizes.sort_by(f64::total_cmp);
+    let short = match body.owner.kind {
+        Kind::Robot => SHORT_PART,
+        _ => SHORT,
+    };
+    sizes[2] < short || sizes[1] < THIN
+}
+
+fn add(
+    body: &Body,
+    place: usize,
+    points: &mut Vec<(Vector3<f64>, Vector3<f64>)>,
+    all: &mut Vec<Facet>,
+) {
+    points.clear();
+    points.extend(body.surface.corners.iter().map(|corner| {
+        let point = body.pose.transform_point(&corner.point).coords;
+        (point, body.pose.rotation * corner.normal)
+    }));
+    all.extend(body.surface.triangles.iter().filter_map(|triangle| {
+        // A triangle that names a corner that there is not is left out.
+        let [a, b, c] = triangle.map(|i| points.get(i as usize).copied());
+        let (a, b, c) = (a?, b?, c?);
+        Facet::new([a.0, b.0, c.0], [a.1, b.1, c.1], place)
+    }));
 }

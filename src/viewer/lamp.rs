@@ -69,7 +69,7 @@ impl Lamp {
     }
 
     fn draw(&mut self, facet: &Facet) {
-        if facet.outward().dot(&self.towards) <= 0.0 {
+        if facet.outward.dot(&self.towards) <= 0.0 {
             return;
         }
         let corners = facet.points.map(|p| self.place(&p));
@@ -90,46 +90,51 @@ impl Lamp {
         }
     }
 
+    /// How far apart (m) places of the grid are.
+    pub(super) fn grain(&self) -> f64 {
+        1.0 / self.scale
+    }
+
     /// Share (0..1) of the light that reaches the neighbourhood of the point (m, map frame) of
-    /// a surface with the unit normal, over `WIDTH` places of the grid and the fraction of
-    /// one more.
-    pub(super) fn reaches<const WIDTH: usize>(
+    /// a surface with the unit normal, over `COUNT` less one places of the grid and the
+    /// fraction of one more.
+    pub(super) fn reaches<const COUNT: usize>(
         &self,
         point: &Vector3<f64>,
         normal: &Vector3<f64>,
     ) -> f32 {
+        let width = (COUNT - 1) as f64;
         // So far off the surface that a slanting one does not shade itself.
-        let cosine = self.towards.dot(normal);
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-        let lift = (0.3 + (0.7 * WIDTH as f64 + 0.7) * sine) / self.scale;
+        let cosine = self.towards.dot(normal) as f32;
+        let sine = f64::from((1.0 - cosine * cosine).max(0.0).sqrt());
+        let lift = (0.3 + (0.7 * width + 0.7) * sine) / self.scale;
         let [x, y, height] = self.place(&(point + normal * lift));
-        let half = WIDTH as f64 / 2.0;
-        let (x, y) = (x - half, y - half);
-        let (column, row) = (x.floor(), y.floor());
-        let last = (self.size - WIDTH - 1) as f64;
-        if !(column >= 0.0 && row >= 0.0 && column < last && row < last) {
+        let (x, y) = (x - width / 2.0, y - width / 2.0);
+        let last = (self.size - COUNT) as f64;
+        if !(x >= 0.0 && y >= 0.0 && x < last && y < last) {
             return 1.0;
         }
-        let (dx, dy) = ((x - column) as f32, (y - row) as f32);
-        let (column, row, height) = (column as usize, row as usize, height as f32);
-        let weight = |i: usize, d: f32| match i {
-            0 => 1.0 - d,
-            i if i == WIDTH => d,
-            _ => 1.0,
+        let (column, row) = (x as usize, y as usize);
+        let weights = |place: f64, first: usize| {
+            let share = (place - first as f64) as f32;
+            let mut weights = [1.0; COUNT];
+            weights[0] = 1.0 - share;
+            weights[COUNT - 1] = share;
+            weights
         };
+        let (across, down) = (weights(x, column), weights(y, row));
+        let height = height as f32;
         let mut sum = 0.0;
-        for j in 0..=WIDTH {
-            let mut across = 0.0;
+        for (j, down) in down.into_iter().enumerate() {
             // Both ends of the neighbourhood are inside of the grid, see above.
-            let heights = &self.heights[(row + j) * self.size + column..][..=WIDTH];
-            for (i, there) in heights.iter().enumerate() {
-                if *there <= height {
-                    across += weight(i, dx);
-                }
+            let heights = &self.heights[(row + j) * self.size + column..][..COUNT];
+            let mut lit = 0.0;
+            for (there, weight) in heights.iter().zip(across) {
+                lit += if *there <= height { weight } else { 0.0 };
             }
-            sum += across * weight(j, dy);
+            sum += lit * down;
         }
-        sum / (WIDTH * WIDTH) as f32
+        sum / ((COUNT - 1) * (COUNT - 1)) as f32
     }
 }
 
@@ -139,11 +144,7 @@ mod tests {
 
     fn square(z: f64, half: f64) -> [Facet; 2] {
         let corner = |x: f64, y: f64| Vector3::new(x * half, y * half, z);
-        let facet = |points| Facet {
-            points,
-            normals: [Vector3::z(); 3],
-            body: 0,
-        };
+        let facet = |points| Facet::new(points, [Vector3::z(); 3], 0).unwrap();
         [
             facet([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0)]),
             facet([corner(-1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]),
@@ -154,7 +155,7 @@ mod tests {
     fn what_is_under_a_board_is_dark_and_what_is_beside_it_is_lit() {
         let facets = [square(0.0, 1.0), square(0.5, 0.5)].concat();
         let lamp = Lamp::new(Vector3::z(), 200, &facets);
-        let light = |x: f64, z: f64| lamp.reaches::<3>(&Vector3::new(x, 0.0, z), &Vector3::z());
+        let light = |x: f64, z: f64| lamp.reaches::<4>(&Vector3::new(x, 0.0, z), &Vector3::z());
         assert_eq!(light(0.0, 0.01), 0.0);
         assert_eq!(light(0.0, 0.51), 1.0);
         assert_eq!(light(0.7, 0.01), 1.0);

@@ -4,24 +4,36 @@
 //! from where, [`render`](render::render) makes an [`Image`] of the two. Nothing here changes
 //! the world. The same world and view give the same bytes, however many threads draw.
 
+pub mod animation;
+pub mod camera_picture;
 mod facet;
 pub mod image;
+mod inline;
 mod lamp;
+mod lettering;
+mod loft;
 pub mod live;
+pub mod looks;
+pub mod map_picture;
+mod palette;
 mod projector;
 mod raster;
 pub mod recording;
 pub mod render;
 pub mod scene;
 mod shade;
+mod smooth;
 pub mod surface;
-mod trim;
-mod vessel;
+
 pub mod view;
 pub mod watch;
 
+pub use camera_picture::CameraPicture;
 pub use image::Image;
-pub use render::render;
-pub use scene::{Body, Finish, Scene};
+pub use inline::InlinePictures;
+pub use looks::Looks;
+pub use map_picture::{FloorMap, map_scene};
+pub use render::{render, segments};
+pub use scene::{Body, Finish, Kind, Owner, Scene};
 pub use surface::Surface;
 pub use view::{View, ViewError};

@@ -13,23 +13,36 @@ pub(super) const SAMPLES: usize = 2;
 pub(super) struct Seen {
     pub(super) patch: Patch,
     corners: [Corner; 3],
+    /// One over twice the area that the corners enclose.
+    per_area: f64,
     points: [Vector3<f64>; 3],
     normals: [Vector3<f64>; 3],
+    /// Away from the solid, of unit length.
+    outward: Vector3<f32>,
     pub(super) body: usize,
 }
 
+/// Cosine of the bend up to which a surface counts as one.
+const GENTLE: f32 = 0.97;
+
 impl Seen {
+    /// Whether the other triangle belongs to the same, hardly bent part of a body.
+    pub(super) fn continues(&self, other: &Self) -> bool {
+        self.body == other.body && self.outward.dot(&other.outward) > GENTLE
+    }
+
     /// Place (m, map frame) and normal of what is seen at the column and row of the grid.
     pub(super) fn at(&self, x: f64, y: f64) -> (Vector3<f64>, Vector3<f64>) {
         let [a, b, c] = self.corners;
         let here = [x, y, 0.0];
-        let area = twice_area(a, b, c);
+        let per_area = self.per_area;
         let weight =
-            |one, two, corner: Corner| (twice_area(one, two, here) / area).max(0.0) * corner[2];
+            |one, two, corner: Corner| (twice_area(one, two, here) * per_area).max(0.0) * corner[2];
         let weights = [weight(b, c, a), weight(c, a, b), weight(a, b, c)];
         let sum = weights[0] + weights[1] + weights[2];
         let weights = if sum > 0.0 {
-            weights.map(|w| w / sum)
+            let per_sum = 1.0 / sum;
+            weights.map(|w| w * per_sum)
         } else {
             [1.0 / 3.0; 3]
         };
@@ -83,7 +96,7 @@ impl Projector {
     pub(super) fn project(&self, facets: &[Facet]) -> Vec<Seen> {
         let mut seen = Vec::with_capacity(facets.len() / 2);
         for facet in facets {
-            if facet.outward().dot(&(facet.points[0] - self.eye)) < 0.0 {
+            if facet.outward.dot(&(facet.points[0] - self.eye)) < 0.0 {
                 self.project_one(facet, &mut seen);
             }
         }
@@ -102,7 +115,7 @@ impl Projector {
             return;
         }
         if !corners.iter().any(is_near) {
-            seen.extend(self.patch(corners, facet.body));
+            seen.extend(self.patch(corners, facet));
             return;
         }
         // A plane cuts a triangle into at most four corners.
@@ -123,11 +136,11 @@ impl Projector {
             }
         }
         for pair in kept.windows(2).skip(1) {
-            seen.extend(self.patch([kept[0], pair[0], pair[1]], facet.body));
+            seen.extend(self.patch([kept[0], pair[0], pair[1]], facet));
         }
     }
 
-    fn patch(&self, vertices: [Vertex; 3], body: usize) -> Option<Seen> {
+    fn patch(&self, vertices: [Vertex; 3], facet: &Facet) -> Option<Seen> {
         let corners = vertices.map(|v| {
             [
                 self.width as f64 / 2.0 + self.focal * v.camera.x / v.camera.z,
@@ -135,12 +148,16 @@ impl Projector {
                 1.0 / v.camera.z,
             ]
         });
+        let [a, b, c] = corners;
         Some(Seen {
             patch: Patch::new(corners, self.width, self.height)?,
             corners,
+            // A patch has an area.
+            per_area: 1.0 / twice_area(a, b, c),
             points: vertices.map(|v| v.point),
             normals: vertices.map(|v| v.normal),
-            body,
+            outward: facet.outward.cast(),
+            body: facet.body,
         })
     }
 }

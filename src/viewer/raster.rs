@@ -112,7 +112,9 @@ impl Patch {
 
 /// The first place whose centre, at a half, is not below `value`; the cast saturates.
 fn first_place(value: f64) -> usize {
-    (value - 0.5).ceil().max(0.0) as usize
+    let value = value - 0.5;
+    let below = value as usize;
+    below + usize::from((below as f64) < value)
 }
 
 /// Twice the signed area of the triangle.

@@ -12,7 +12,7 @@ use super::facet::Facets;
 use super::image::Image;
 use super::projector::{Projector, SAMPLES, Seen};
 use super::scene::Scene;
-use super::shade::{Color, Lights, SkyLight, background, unit};
+use super::shade::{Color, Lights, Reach, background, unit};
 use crate::perception::camera::Camera;
 
 /// Rows of pixels in a band; a multiple of [`BLOCK`].
@@ -40,7 +40,7 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
     let mut image = Image::black(camera.width, camera.height);
     let facets = Facets::of(scene);
     let plan = Lights::plan();
-    let lamps = in_parallel(threads, plan, |wanted| Lights::lamp(wanted, facets.solid()));
+    let lamps = in_parallel(threads, plan, |wanted| Lights::lamp(wanted, &facets));
     let Some(lights) = Lights::new(lamps) else {
         return image;
     };
@@ -59,6 +59,19 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
         painter.paint(i * BAND, bytes);
     });
     image
+}
+
+/// Which body every pixel shows, as a place in the scene, row by row from the top; none for
+/// the background. The first of a pixel's samples decides.
+pub fn segments(scene: &Scene, camera: &Camera) -> Vec<Option<usize>> {
+    let projector = Projector::new(camera);
+    let seen = projector.project(&Facets::of(scene).all);
+    let (width, height) = (projector.width, projector.height);
+    let samples = samples(scene, &seen, width, 0..height);
+    let body = |id: &u32| seen.get(*id as usize).map(|seen| seen.body);
+    let rows = samples.chunks(width.max(1)).step_by(SAMPLES);
+    rows.flat_map(|row| row.iter().step_by(SAMPLES).map(body))
+        .collect()
 }
 
 /// Does the work on every item, on as many threads; results in the order of the items.
@@ -109,8 +122,9 @@ impl Painter<'_> {
         let width = self.projector.width;
         let pixels = width / SAMPLES;
         let rows = bytes.len() / (pixels * 3);
-        let samples = self.samples(first * SAMPLES..(first + rows) * SAMPLES);
-        let mut known: Vec<(u32, SkyLight)> = Vec::new();
+        let rows_of_samples = first * SAMPLES..(first + rows) * SAMPLES;
+        let samples = samples(self.scene, self.seen, width, rows_of_samples);
+        let mut known: Vec<(u32, Reach)> = Vec::new();
         for block_row in (0..rows).step_by(BLOCK) {
             for block_column in (0..pixels).step_by(BLOCK) {
                 known.clear();
@@ -128,46 +142,21 @@ impl Painter<'_> {
         }
     }
 
-    /// The nearest triangle at every sample of the rows.
-    fn samples(&self, rows: Range<usize>) -> Vec<u32> {
-        let width = self.projector.width;
-        let mut nearness = vec![0f32; rows.len() * width];
-        let mut nearest = vec![NOTHING; rows.len() * width];
-        for (i, seen) in (0u32..).zip(self.seen) {
-            let covered = seen.patch.rows();
-            // Every triangle comes from a body of the scene.
-            let alpha = unit(self.scene.bodies[seen.body].color[3]);
-            for row in covered.start.max(rows.start)..covered.end.min(rows.end) {
-                let columns = seen.patch.columns(row, width);
-                if columns.is_empty() {
-                    continue;
-                }
-                let (start, slope) = seen.patch.nearness(columns.start, row);
-                let places = (row - rows.start) * width..;
-                // Rows and columns were cut to the grid by the patch.
-                let nearness = &mut nearness[places.clone()][columns.clone()];
-                let nearest = &mut nearest[places][columns.clone()];
-                for (j, (near, who)) in nearness.iter_mut().zip(nearest).enumerate() {
-                    let here = start + slope * j as f32;
-                    let wins =
-                        here > *near && (alpha == 1.0 || shows(columns.start + j, row, alpha));
-                    *near = if wins { here } else { *near };
-                    *who = if wins { i } else { *who };
-                }
-            }
-        }
-        nearest
-    }
-
     /// The colour of a pixel whose samples show the triangles.
     fn pixel(
         &self,
         column: usize,
         row: usize,
         samples: [u32; 4],
-        known: &mut Vec<(u32, SkyLight)>,
+        known: &mut Vec<(u32, Reach)>,
     ) -> Color {
+        if samples == [samples[0]; 4] {
+            let x = (column * SAMPLES) as f64 + 1.0;
+            let y = (row * SAMPLES) as f64 + 1.0;
+            return self.light(samples[0], x, y, known).map(tone);
+        }
         let mut sum = [0.0; 3];
+        let samples = self.merged(samples);
         for (i, id) in samples.iter().enumerate() {
             if samples[..i].contains(id) {
                 continue;
@@ -181,15 +170,37 @@ impl Painter<'_> {
             }
             let x = (column * SAMPLES) as f64 + x / count;
             let y = (row * SAMPLES) as f64 + y / count;
-            let color = match self.seen.get(*id as usize) {
-                None => background(&self.projector.ray(x, y)),
-                Some(seen) => self.surface(*id, seen, x, y, known),
-            };
+            let color = self.light(*id, x, y, known);
             for (sum, light) in sum.iter_mut().zip(color) {
                 *sum += tone(light) * (count / 4.0) as f32;
             }
         }
         sum
+    }
+
+    /// What the place of the grid of samples shows, which is that triangle or none.
+    fn light(&self, id: u32, x: f64, y: f64, known: &mut Vec<(u32, Reach)>) -> Color {
+        match self.seen.get(id as usize) {
+            None => background(&self.projector.ray(x, y)),
+            Some(seen) => self.surface(id, seen, x, y, known),
+        }
+    }
+
+    /// The samples with neighbours on a gently bent surface taken as one.
+    fn merged(&self, mut samples: [u32; 4]) -> [u32; 4] {
+        for i in 1..4 {
+            // What is not a triangle is not within those that are seen.
+            let Some(here) = self.seen.get(samples[i] as usize) else {
+                continue;
+            };
+            let is_near = |id: &&u32| {
+                let other = self.seen.get(**id as usize);
+                other.is_some_and(|other| other.continues(here))
+            };
+            let found = samples[..i].iter().find(is_near).copied();
+            samples[i] = found.unwrap_or(samples[i]);
+        }
+        samples
     }
 
     /// The light of a triangle at the column and row of the grid of samples.
@@ -199,22 +210,26 @@ impl Painter<'_> {
         seen: &Seen,
         x: f64,
         y: f64,
-        known: &mut Vec<(u32, SkyLight)>,
+        known: &mut Vec<(u32, Reach)>,
     ) -> Color {
         let (point, normal) = seen.at(x, y);
-        let sky = match known.iter().find(|(k, _)| *k == id) {
-            Some((_, sky)) => *sky,
-            None => {
-                let sky = self.lights.sky(&point, &normal);
-                known.push((id, sky));
-                sky
-            }
-        };
         let eye = &self.projector.eye;
         let grain = (point - eye).norm() * SAMPLES as f64 / self.projector.focal;
+        let is_known = |(k, _): &&(u32, Reach)| {
+            let other = self.seen.get(*k as usize);
+            *k == id || other.is_some_and(|other| other.continues(seen))
+        };
+        let reach = match known.iter().find(is_known) {
+            Some((_, reach)) => *reach,
+            None => {
+                let reach = self.lights.reach(&point, &normal, grain);
+                known.push((id, reach));
+                reach
+            }
+        };
         // Every triangle comes from a body of the scene.
         let body = &self.scene.bodies[seen.body];
-        self.lights.shade(body, &point, &normal, eye, &sky, grain)
+        self.lights.shade(body, &point, &normal, eye, reach, grain)
     }
 
     fn byte(&self, light: f32) -> u8 {
@@ -222,6 +237,45 @@ impl Painter<'_> {
         // Steps of the unit interval are within the table.
         self.tones[step]
     }
+}
+
+/// The nearest triangle at every sample of the rows.
+fn samples(scene: &Scene, seen: &[Seen], width: usize, rows: Range<usize>) -> Vec<u32> {
+    let mut nearness = vec![0f32; rows.len() * width];
+    let mut nearest = vec![NOTHING; rows.len() * width];
+    for (i, seen) in (0u32..).zip(seen) {
+        let covered = seen.patch.rows();
+        // Every triangle comes from a body of the scene.
+        let alpha = unit(scene.bodies[seen.body].color[3]);
+        for row in covered.start.max(rows.start)..covered.end.min(rows.end) {
+            let columns = seen.patch.columns(row, width);
+            if columns.is_empty() {
+                continue;
+            }
+            let (start, slope) = seen.patch.nearness(columns.start, row);
+            let places = (row - rows.start) * width..;
+            // Rows and columns were cut to the grid by the patch.
+            let nearness = &mut nearness[places.clone()][columns.clone()];
+            let nearest = &mut nearest[places][columns.clone()];
+            let places = nearness.iter_mut().zip(nearest).enumerate();
+            if alpha == 1.0 {
+                for (j, (near, who)) in places {
+                    let here = start + slope * j as i32 as f32;
+                    let wins = here > *near;
+                    *near = if wins { here } else { *near };
+                    *who = if wins { i } else { *who };
+                }
+            } else {
+                for (j, (near, who)) in places {
+                    let here = start + slope * j as i32 as f32;
+                    if here > *near && shows(columns.start + j, row, alpha) {
+                        (*near, *who) = (here, i);
+                    }
+                }
+            }
+        }
+    }
+    nearest
 }
 
 /// Whether a half-transparent surface is drawn at the sample: the better it covers, the more
@@ -262,16 +316,19 @@ fn tones() -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::spatial::Pose;
-    use crate::viewer::scene::{Body, Finish};
+    use crate::viewer::scene::{Body, Finish, Kind, Owner};
     use crate::viewer::surface::Surface;
 
     fn ball(color: [f32; 4]) -> Scene {
         let ball = crate::spatial::Shape::Sphere { radius: 0.5 };
         Scene {
             bodies: vec![Body {
-                surface: Surface::of(&ball, 0.0),
+                owner: Owner::new(Kind::Object, "ball"),
+                surface: Arc::new(Surface::of(&ball, 0.0)),
                 pose: Pose::translation(0.0, 0.0, 2.0),
                 color,
                 finish: Finish::Matt,

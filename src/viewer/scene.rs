@@ -1,28 +1,22 @@
 //! What there is to be seen: the surfaces of kitchen, robot and objects where they are now,
 //! the floor, and coordinate axes that somebody wants to see.
+//!
+//! This is the one description that every renderer draws: a body is a surface in its own
+//! frame, a pose, a colour and a name. Surfaces are shared, so that a renderer that keeps
+//! them needs only the poses of the next scene.
+
+use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use super::looks::{self, Looks};
 use super::surface::Surface;
-use super::trim::trim_of;
-use super::vessel::{Part, parts_of};
 use crate::robot::{KinematicTree, LinkId};
 use crate::spatial::{PlacedShape, Pose, Shape};
 use crate::world::{Object, World};
 
-/// Half the edge length (m) of the floor that is drawn.
-const FLOOR_HALF: f64 = 30.0;
-
-/// Linear colour of what has no colour of its own.
-const PLAIN: [f32; 4] = [0.6, 0.6, 0.6, 1.0];
-
 /// Thickness of coordinate axes as a share of their length.
 const AXIS_THICKNESS: f64 = 0.04;
-
-/// Greatest width (m) of broken edges.
-const FURNITURE_BEVEL: f64 = 0.003;
-const ROBOT_BEVEL: f64 = 0.022;
-const OBJECT_BEVEL: f64 = 0.006;
 
 /// How a surface takes the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,11 +31,45 @@ pub enum Finish {
     Boards,
 }
 
+/// What kind of thing a body is a part of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// The floor.
+    Floor,
+    /// The kitchen; the name is that of a link.
+    Furniture,
+    /// The robot; the name is that of a link.
+    Robot,
+    /// An object; the name is that under which it was spawned.
+    Object,
+    /// Something that only people see, such as coordinate axes.
+    Sign,
+}
+
+/// Whose part a body is.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Owner {
+    /// What kind of thing.
+    pub kind: Kind,
+    /// Its name, which is unique among those of the same kind.
+    pub name: Arc<str>,
+}
+
+impl Owner {
+    /// A thing of the kind with the name.
+    pub fn new(kind: Kind, name: &str) -> Self {
+        let name = name.into();
+        Self { kind, name }
+    }
+}
+
 /// A surface with its place and colour.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// The surface in its own frame.
-    pub surface: Surface,
+    /// Whose part it is. A thing may have several bodies.
+    pub owner: Owner,
+    /// The surface in its own frame; the same allocation as long as it does not change.
+    pub surface: Arc<Surface>,
     /// Pose of that frame in the map frame.
     pub pose: Pose,
     /// Linear colour, red green blue alpha in 0..1.
@@ -58,52 +86,30 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The world as it is now.
+    /// The world as it is now. Whoever draws it again and again keeps the [`Looks`].
     pub fn of(world: &World) -> Self {
-        let mut scene = Self::default();
-        scene.bodies.push(Body {
-            surface: Surface::ground(FLOOR_HALF),
-            pose: Pose::identity(),
-            color: PLAIN,
-            finish: Finish::Boards,
-        });
-        let models = world.models();
-        let furniture = |link| world.furniture_pose(link);
-        scene.add_tree(&models.kitchen, furniture, FURNITURE_BEVEL, Finish::Satin);
-        let robot = |link| world.link_pose(link);
-        scene.add_tree(&models.robot, robot, ROBOT_BEVEL, Finish::Gloss);
-        for object in world.objects() {
-            // The object comes from the world itself.
-            let Ok(pose) = world.object_pose(object.name()) else {
-                continue;
-            };
-            scene.add_object(object, &pose);
-        }
-        scene
+        Looks::of(world.models()).scene(world)
     }
 
-    /// What is seen of a link, in the link's frame; furniture has finer edges than the robot.
+    /// What is seen of a link, in the link's frame.
     pub fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
-        let (bevel, finish) = match is_robot {
-            true => (ROBOT_BEVEL, Finish::Gloss),
-            false => (FURNITURE_BEVEL, Finish::Satin),
+        let kind = if is_robot {
+            Kind::Robot
+        } else {
+            Kind::Furniture
         };
-        let mut scene = Self::default();
-        scene.add_link(tree, link, &Pose::identity(), bevel, finish);
-        scene
+        looks::link_scene(tree, link, kind)
     }
 
     /// What is seen of an object, in its own frame.
     pub fn of_object(object: &Object) -> Self {
-        let mut scene = Self::default();
-        scene.add_object(object, &Pose::identity());
-        scene
+        looks::object_scene(object)
     }
 
     /// Adds coordinate axes with bars of the length (m): x red, y green, z blue.
     pub fn add_axes(&mut self, pose: &Pose, length: f64) {
         let thickness = length * AXIS_THICKNESS;
-        for axis in 0..3 {
+        for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
             let mut size = [thickness; 3];
             size[axis] = length;
             let mut color = [0.02, 0.02, 0.02, 1.0];
@@ -115,69 +121,13 @@ impl Scene {
                 pose: Pose::translation(middle.x, middle.y, middle.z),
                 color: None,
             };
-            self.add(&placed, pose, color, 0.0, Finish::Matt);
+            self.bodies.push(Body {
+                owner: Owner::new(Kind::Sign, name),
+                surface: Arc::new(Surface::of(&placed.shape, 0.0)),
+                pose: pose * placed.pose,
+                color,
+                finish: Finish::Matt,
+            });
         }
-    }
-
-    fn add_object(&mut self, object: &Object, pose: &Pose) {
-        for part in parts_of(object.shapes()) {
-            match part {
-                Part::Shape(placed) => {
-                    let color = placed.color.unwrap_or(object.color());
-                    self.add(placed, pose, color, OBJECT_BEVEL, Finish::Gloss);
-                }
-                Part::Vessel { surface, at } => self.bodies.push(Body {
-                    surface,
-                    pose: pose * at,
-                    color: object.color(),
-                    finish: Finish::Gloss,
-                }),
-            }
-        }
-    }
-
-    fn add_tree(
-        &mut self,
-        tree: &KinematicTree,
-        pose_of: impl Fn(LinkId) -> Pose,
-        bevel: f64,
-        finish: Finish,
-    ) {
-        for (id, _) in tree.links() {
-            self.add_link(tree, id, &pose_of(id), bevel, finish);
-        }
-    }
-
-    fn add_link(
-        &mut self,
-        tree: &KinematicTree,
-        id: LinkId,
-        pose: &Pose,
-        bevel: f64,
-        finish: Finish,
-    ) {
-        let link = tree.link(id);
-        for placed in &link.visuals {
-            self.add(placed, pose, placed.color.unwrap_or(PLAIN), bevel, finish);
-        }
-        for (placed, color) in trim_of(tree.name(), &link.name) {
-            self.add(&placed, pose, color, bevel, Finish::Gloss);
-        }
-    }
-
-    fn add(
-        &mut self,
-        placed: &PlacedShape,
-        owner: &Pose,
-        color: [f32; 4],
-        bevel: f64,
-        finish: Finish,
-    ) {
-        self.bodies.push(Body {
-            surface: Surface::of(&placed.shape, bevel),
-            pose: owner * placed.pose,
-            color,
-            finish,
-        });
     }
 }

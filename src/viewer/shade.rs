@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 
-use super::facet::Facet;
+use super::facet::Facets;
 use super::lamp::Lamp;
 use super::scene::{Body, Finish};
 use crate::spatial::trig;
@@ -14,21 +14,17 @@ pub(super) type Color = [f32; 3];
 /// Towards the lamp.
 const KEY: [f64; 3] = [-0.55, -0.42, 1.25];
 const KEY_COLOR: Color = [0.80, 0.74, 0.65];
-const KEY_GRID: usize = 1536;
+const KEY_GRID: usize = 1100;
 
 /// Colours of the sky's light, of the light that comes back from the floor, and of the rest.
 const SKY_COLOR: Color = [0.42, 0.45, 0.50];
 const BOUNCE_COLOR: Color = [0.14, 0.12, 0.10];
 const REST: f32 = 0.05;
-const SKY_GRID: usize = 400;
+const SKY_GRID: usize = 320;
 
 /// Rings of directions of the sky: how many, their height over the horizon (degrees), and
 /// where the first one is (degrees).
 const SKY: [(usize, f64, f64); 2] = [(5, 28.0, 20.0), (3, 62.0, 75.0)];
-pub(super) const SKY_LAMPS: usize = 8;
-
-/// Share of the sky's light (0..1) that reaches a place from each direction.
-pub(super) type SkyLight = [f32; SKY_LAMPS];
 
 /// The colours of the floor and of the far distance.
 const BOARD: Color = [0.40, 0.27, 0.165];
@@ -40,8 +36,17 @@ const BOARD_WIDTH: f64 = 0.16;
 const BOARD_LENGTH: f64 = 1.9;
 const BOARD_GAP: f64 = 0.005;
 
-/// From where to where (m from the eye) the floor fades.
+/// From where to where (m from the eye, along the floor) the floor fades.
 const FADE: [f64; 2] = [7.0, 22.0];
+
+/// The light that reaches a place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    /// Share (0..1) of the sky's light.
+    open: f32,
+    /// Share (0 or 1) of the lamp's light, where it is the same all around.
+    key: Option<f32>,
+}
 
 /// All lights of a scene.
 pub(super) struct Lights {
@@ -65,7 +70,11 @@ impl Lights {
     }
 
     /// One lamp of the plan.
-    pub(super) fn lamp((towards, grid): (Vector3<f64>, usize), facets: &[Facet]) -> Lamp {
+    pub(super) fn lamp((towards, grid): (Vector3<f64>, usize), facets: &Facets) -> Lamp {
+        let facets = match grid {
+            KEY_GRID => facets.solid(),
+            _ => facets.large(),
+        };
         Lamp::new(towards, grid, facets)
     }
 
@@ -78,40 +87,44 @@ impl Lights {
         })
     }
 
-    /// How much of the sky is seen from the place with the normal.
-    pub(super) fn sky(&self, point: &Vector3<f64>, normal: &Vector3<f64>) -> SkyLight {
-        let mut light = [0.0; SKY_LAMPS];
-        for (share, lamp) in light.iter_mut().zip(&self.sky) {
-            if lamp.towards.dot(normal) > 0.0 {
-                *share = lamp.reaches::<2>(point, normal);
+    /// The light that reaches the place with the normal and its neighbours up to `grain` (m)
+    /// away.
+    pub(super) fn reach(&self, point: &Vector3<f64>, normal: &Vector3<f64>, grain: f64) -> Reach {
+        let (mut open, mut full) = (0.0, 0.0);
+        for lamp in &self.sky {
+            let facing = lamp.towards.dot(normal);
+            if facing > 0.0 {
+                open += facing as f32 * lamp.reaches::<2>(point, normal);
             }
+            full += lamp.towards.z as f32;
         }
-        light
+        let key = (grain < 1.5 * self.key.grain())
+            .then(|| self.key.reaches::<4>(point, normal))
+            .filter(|key| *key == 0.0 || *key == 1.0);
+        let open = open / full;
+        Reach { open, key }
     }
 
-    /// The light that the place of the body sends to the eye; `grain` is the size (m) of a
-    /// pixel there.
+    /// The light that the place of the body sends to the eye; `reach` is the light that
+    /// reaches it, `grain` the size (m) of a pixel there.
     pub(super) fn shade(
         &self,
         body: &Body,
         point: &Vector3<f64>,
         normal: &Vector3<f64>,
         eye: &Vector3<f64>,
-        sky: &SkyLight,
+        reach: Reach,
         grain: f64,
     ) -> Color {
         let view = (eye - point).normalize();
         let facing = self.key.towards.dot(normal) as f32;
         let mut lit = 0.0;
         if facing > 0.0 {
-            lit = self.key.reaches::<3>(point, normal);
+            lit = match reach.key {
+                Some(lit) => lit,
+                None => self.key.reaches::<3>(point, normal),
+            };
         }
-        let (mut open, mut full) = (0.0, 0.0);
-        for (share, lamp) in sky.iter().zip(&self.sky) {
-            open += share * (lamp.towards.dot(normal) as f32).max(0.0);
-            full += lamp.towards.z as f32;
-        }
-        let open = open / full;
         let below = (1.0 - normal.z as f32) / 2.0;
         let albedo = match body.finish {
             Finish::Boards => boards(point, grain),
@@ -120,13 +133,13 @@ impl Lights {
         let shine = lit * self.gloss(body.finish, normal, &view);
         let mut color = [0, 1, 2].map(|i| {
             let light = KEY_COLOR[i] * facing.max(0.0) * lit
-                + SKY_COLOR[i] * open
+                + SKY_COLOR[i] * reach.open
                 + BOUNCE_COLOR[i] * below
                 + REST;
             albedo[i] * light + KEY_COLOR[i] * shine
         });
         if body.finish == Finish::Boards {
-            let far = (point - eye).norm();
+            let far = (point - eye).xy().norm();
             let share = smooth((far - FADE[0]) / (FADE[1] - FADE[0])) as f32;
             color = mix(color, HORIZON, share);
         }

@@ -144,7 +144,7 @@ impl Surface {
     /// The surface that a line beside the z axis leaves when it is turned about the axis.
     /// The line is given by its points, as distance from the axis and height (m); the solid
     /// is to the left of it as it goes up.
-    pub(super) fn lathed(line: &[[f64; 2]]) -> Self {
+    pub(crate) fn lathed(line: &[[f64; 2]]) -> Self {
         let pieces: Vec<_> = line
             .windows(2)
             .filter_map(|pair| {
@@ -172,9 +172,9 @@ impl Surface {
             .flatten()
             .fold(0.0, |r: f64, p| r.max(p.radius));
         let count = match widest {
-            r if r < 0.012 => 12,
-            r if r < 0.06 => 28,
-            _ => 40,
+            r if r < 0.012 => 10,
+            r if r < 0.06 => 24,
+            _ => 36,
         };
         let mut surface = Self::default();
         for (piece, ends) in (0u32..).zip(pieces) {

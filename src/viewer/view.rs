@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 use thiserror::Error;
 
 use crate::perception::camera::Camera;
-use crate::spatial::Pose;
+use crate::spatial::{Pose, trig};
 use crate::world::World;
 
 /// Angle (rad) between the upper and the lower border where nothing else is asked for.
@@ -22,13 +22,16 @@ pub enum View {
     Kitchen,
     /// Straight down, x to the right.
     Top,
+    /// Straight down without perspective, x to the right: equal lengths on the floor are equal
+    /// in the picture.
+    Map,
     /// Through the robot's camera.
     Robot,
     /// The table.
     Table,
     /// The kitchen island.
     Island,
-    /// The robot, from behind and above.
+    /// The robot, from in front of it, to its left and above.
     Follow,
     /// From anywhere.
     Free {
@@ -63,14 +66,22 @@ pub enum ViewError {
     Impossible(f64),
 }
 
+/// Height (m) of the eye of [`View::Map`]: from so far away nothing looks nearer than the floor.
+const MAP_EYE: f64 = 400.0;
+
+/// What is in the middle of [`View::Map`], and how far it is from there to the upper border (m).
+const MAP_MIDDLE: [f64; 2] = [-1.0, 0.55];
+const MAP_HALF: f64 = 2.94;
+
 /// Coordinates (m) beyond which there is nothing to be seen.
 const REACH: f64 = 1000.0;
 
 impl View {
     /// All views that have a name.
-    pub const NAMED: [Self; 6] = [
+    pub const NAMED: [Self; 7] = [
         Self::Kitchen,
         Self::Top,
+        Self::Map,
         Self::Robot,
         Self::Table,
         Self::Island,
@@ -82,12 +93,19 @@ impl View {
         match self {
             Self::Kitchen => "kitchen",
             Self::Top => "top",
+            Self::Map => "map",
             Self::Robot => "robot",
             Self::Table => "table",
             Self::Island => "island",
             Self::Follow => "follow",
             Self::Free { .. } => "free",
         }
+    }
+
+    /// Corners (m, map frame) of the floor that [`View::Map`] shows in a picture of that size.
+    pub fn map_area(width: usize, height: usize) -> [[f64; 2]; 2] {
+        let half = [MAP_HALF * width as f64 / height.max(1) as f64, MAP_HALF];
+        [-1.0, 1.0].map(|sign| [0, 1].map(|i| MAP_MIDDLE[i] + sign * half[i]))
     }
 
     /// The camera that has the view, for a picture of that size (pixels).
@@ -109,6 +127,12 @@ impl View {
                 let (from, at) = ([-1.0, 0.55, 9.5], [-1.0, 0.55, 0.0]);
                 looking(from.into(), at.into(), Vector3::y()).map(|pose| camera(pose, 0.6))
             }
+            Self::Map => {
+                let [x, y] = MAP_MIDDLE;
+                let (from, at) = ([x, y, MAP_EYE], [x, y, 0.0]);
+                let fov = 2.0 * trig::atan2(MAP_HALF, MAP_EYE);
+                looking(from.into(), at.into(), Vector3::y()).map(|pose| camera(pose, fov))
+            }
             Self::Robot => {
                 let through = world.models().description.camera();
                 Ok(camera(
@@ -122,12 +146,12 @@ impl View {
             }
             Self::Island => {
                 let at = self.furniture(world, "kitchen_island_surface", [0.2, 0.2, 0.05])?;
-                look([at.x + 1.75, at.y - 1.85, 1.95], at.into(), FIELD_OF_VIEW)
+                look([at.x - 2.0, at.y - 1.7, 2.0], at.into(), FIELD_OF_VIEW)
             }
             Self::Follow => {
                 let base = world.robot_configuration().base;
-                let from = base * Point3::new(-1.9, 1.7, 2.2);
-                let at = base * Point3::new(0.45, 0.0, 0.72);
+                let from = base * Point3::new(2.15, 1.75, 2.0);
+                let at = base * Point3::new(0.25, -0.05, 0.8);
                 looking(from, at, Vector3::z()).map(|pose| camera(pose, FIELD_OF_VIEW))
             }
             Self::Free {

@@ -32,13 +32,35 @@ pub struct GraspDefinition {
     pub pregrasp: [f64; 3],
     /// Second pregrasp, relative to `translation`.
     pub second_pregrasp: [f64; 3],
-    /// First lift, relative to `translation`.
-    pub lift: [f64; 3],
-    /// Second lift, relative to `translation`.
-    pub second_lift: [f64; 3],
+    /// First lift.
+    pub lift: Lift,
+    /// Second lift.
+    pub second_lift: Lift,
 }
 
-/// Where the robot's tool goes for a grasp, in the frame in which the object was given.
+/// How the hand leaves with what it has grasped. CRAM has had two ways to say it; both
+/// together add up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lift {
+    /// Place of the hand relative to that of the grasp, along the object's axes (m). For an
+    /// object that lies on its side this does not lead upwards.
+    pub offset: [f64; 3],
+    /// Then hand and object are moved by this in the frame of the robot's base, whatever
+    /// the orientation of the object.
+    pub in_base: Pose,
+}
+
+impl Lift {
+    /// Along the object's axes only (m).
+    pub fn along_object(offset: [f64; 3]) -> Self {
+        Self {
+            offset,
+            in_base: Pose::identity(),
+        }
+    }
+}
+
+/// Where the robot's tool goes for a grasp, in the frame of the robot's base.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToolPoses {
     /// The tool comes here first.
@@ -80,8 +102,8 @@ impl GraspDefinition {
         Ok(UnitQuaternion::from_rotation_matrix(&rotation))
     }
 
-    /// The five poses of the tool for an object at `object`, in the frame in which that is
-    /// given; `tool_axes` is the tool's orientation in the hand's frame.
+    /// The five poses of the tool for an object at `object`, all in the frame of the robot's
+    /// base; `tool_axes` is the tool's orientation in the hand's frame.
     pub fn tool_poses(
         &self,
         object: &Pose,
@@ -92,12 +114,13 @@ impl GraspDefinition {
             let place = Vector3::from(self.translation) + Vector3::from(offset);
             object * Pose::from_parts(Translation3::from(place), orientation)
         };
+        let lifted = |lift: &Lift| lift.in_base * at(lift.offset);
         Ok(ToolPoses {
             pregrasp: at(self.pregrasp),
             second_pregrasp: at(self.second_pregrasp),
             grasp: at([0.0; 3]),
-            lift: at(self.lift),
-            second_lift: at(self.second_lift),
+            lift: lifted(&self.lift),
+            second_lift: lifted(&self.second_lift),
         })
     }
 }
@@ -261,8 +284,8 @@ impl GraspLibrary {
             },
             pregrasp: numbers("pregrasp")?,
             second_pregrasp: numbers("second-pregrasp")?,
-            lift: numbers("lift")?,
-            second_lift: numbers("second-lift")?,
+            lift: Lift::along_object(numbers("lift")?),
+            second_lift: Lift::along_object(numbers("second-lift")?),
         };
         let types = record.required("types")?.symbols()?;
         for arm in record.required("arms")?.list()? {
@@ -297,8 +320,8 @@ fn rotation_rows(node: Node<'_>) -> Result<[[f64; 3]; 3], DataError> {
         rotation,
         pregrasp: [0.0; 3],
         second_pregrasp: [0.0; 3],
-        lift: [0.0; 3],
-        second_lift: [0.0; 3],
+        lift: Lift::along_object([0.0; 3]),
+        second_lift: Lift::along_object([0.0; 3]),
     };
     let sound = probe.orientation();
     sound.map_err(|e| node.error(DataProblem::Invalid(e.to_string())))?;
@@ -320,8 +343,8 @@ mod tests {
             rotation,
             pregrasp: [0.0; 3],
             second_pregrasp: [0.0; 3],
-            lift: [0.0; 3],
-            second_lift: [0.0; 3],
+            lift: Lift::along_object([0.0; 3]),
+            second_lift: Lift::along_object([0.0; 3]),
         }
     }
 
@@ -405,6 +428,21 @@ mod tests {
         let poses = grasp.tool_poses(&lying, &tool_axes()).expect("a rotation");
         let lift = poses.lift.translation.vector - poses.grasp.translation.vector;
         assert!((lift + Vector3::new(0.0, 0.15, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn a_lift_in_the_base_leads_upwards_however_the_object_lies() {
+        let mut grasp = definition([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]);
+        grasp.lift.in_base = Pose::translation(0.0, 0.0, 0.1);
+        grasp.second_lift = Lift {
+            offset: [0.0, 0.05, 0.0],
+            in_base: Pose::translation(0.0, 0.0, 0.2),
+        };
+        let lying = from_xyz_rpy([1.0, 0.0, 0.5], [std::f64::consts::FRAC_PI_2, 0.0, 0.0]);
+        let poses = grasp.tool_poses(&lying, &tool_axes()).expect("a rotation");
+        assert_eq!(place(&poses.lift), [1.0, 0.0, 0.6]);
+        assert_eq!(place(&poses.second_lift), [1.0, 0.0, 0.75]);
+        assert!(poses.lift.rotation.angle_to(&poses.grasp.rotation) < 1e-12);
     }
 
     #[test]

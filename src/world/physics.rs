@@ -248,7 +248,13 @@ impl Physics {
     /// Lets a kinematic body move to the pose during the next step.
     pub(crate) fn move_to(&mut self, body: BodyHandle, pose: &Pose) {
         if let Some(b) = self.sets.bodies.get_mut(body.0) {
-            b.set_next_kinematic_position(to_parry(pose));
+            let mut next = to_parry(pose);
+            // Of the two quaternions of an orientation the other one would be a full turn
+            // within one step to the engine, which throws what the body carries.
+            if next.rotation.dot(*b.rotation()) < 0.0 {
+                next.rotation = -next.rotation;
+            }
+            b.set_next_kinematic_position(next);
         }
     }
 
@@ -362,9 +368,11 @@ impl Physics {
         self.sets.clone()
     }
 
-    /// Goes back to the state.
+    /// Goes back to the state. What the pipeline remembers of its last step belongs to the
+    /// state that is left.
     pub(crate) fn load(&mut self, sets: &Sets) {
         self.sets.clone_from(sets);
+        self.pipeline = PhysicsPipeline::new();
     }
 
     /// Feeds the bits of all poses and velocities.

@@ -283,10 +283,7 @@ impl Engine {
             budget -= 1;
             if budget == 0 {
                 budget = INTERRUPT_INTERVAL;
-                if image.interrupt.load(std::sync::atomic::Ordering::Relaxed) {
-                    image
-                        .interrupt
-                        .store(false, std::sync::atomic::Ordering::Relaxed);
+                if image.take_interrupt() {
                     return Err(Raise::new(known::INTERACTIVE_INTERRUPT, "Interrupted."));
                 }
             }

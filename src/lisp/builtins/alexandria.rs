@@ -4,6 +4,7 @@ use super::calls::{Args, Calls, callable, run};
 use super::criterion::{Key, Test};
 use super::hash_tables::table;
 use super::keywords;
+use super::list_trees::PairCount;
 use super::sequence::{ListBuilder, ListWalk, Sequence, index, list_items, list_length};
 use super::strings::{designated, string};
 use crate::lisp::builtin::{Builtin, control, pure};
@@ -124,9 +125,11 @@ fn ensure_function(image: &mut Image, args: &[Value]) -> Outcome {
 fn flatten(_: &mut Image, args: &[Value]) -> Outcome {
     let mut builder = ListBuilder::new();
     let mut pending = vec![args[0].clone()];
+    let mut pairs = PairCount::default();
     while let Some(value) = pending.pop() {
         match &value {
             Value::Cons(cons) => {
+                pairs.add_one()?;
                 pending.push(cons.cdr());
                 pending.push(cons.car());
             }
@@ -189,7 +192,7 @@ fn last_elt(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn lastcar(_: &mut Image, args: &[Value]) -> Outcome {
-    let last = super::lists::last_pair(&args[0]);
+    let last = super::lists::last_pair(&args[0])?;
     Ok(last.map_or(Value::NIL, |cons| cons.car()))
 }
 

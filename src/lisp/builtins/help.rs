@@ -65,7 +65,7 @@ fn shown(image: &Image, value: &Value) -> String {
     print::to_string(image, value, true)
 }
 
-fn of_symbol(image: &Image, sym: Sym) -> String {
+pub(crate) fn of_symbol(image: &Image, sym: Sym) -> String {
     let data = image.symbol(sym);
     let value = Value::Symbol(sym);
     if image.is_keyword(sym) {
@@ -91,48 +91,77 @@ fn of_symbol(image: &Image, sym: Sym) -> String {
     text
 }
 
-fn as_function(image: &Image, sym: Sym) -> String {
-    let (kind, call, doc, examples): (&str, _, _, &[&str]) = match &image.symbol(sym).function {
-        FunctionCell::Unbound => return String::new(),
-        FunctionCell::Builtin => match image.operators.get(&sym) {
-            Some(operator) => (
-                operator_kind(operator.expand.is_some()),
-                call(image, sym, operator.lambda_list),
-                Some(operator.doc.to_owned()),
-                operator.examples,
-            ),
-            None => return String::new(),
-        },
-        FunctionCell::Macro(function) => {
-            let (lambda_list, doc) = of_definition(image, function);
-            ("macro", call(image, sym, &lambda_list), doc, &[])
+/// What is known about a symbol's function or operator.
+pub(crate) struct Signature {
+    /// What it is.
+    pub kind: &'static str,
+    /// The lambda list, without its parentheses, in lower case.
+    pub lambda_list: String,
+    /// The documentation.
+    pub doc: Option<String>,
+    /// Examples of calls.
+    pub examples: &'static [&'static str],
+}
+
+impl Signature {
+    /// The shape of a call.
+    pub(crate) fn call(&self, image: &Image, sym: Sym) -> String {
+        call(image, sym, &self.lambda_list)
+    }
+}
+
+/// What is known about a symbol's function or operator; none if it has none.
+pub(crate) fn signature(image: &Image, sym: Sym) -> Option<Signature> {
+    let defined = |kind, function| {
+        let (lambda_list, doc) = of_definition(image, function);
+        Signature {
+            kind,
+            lambda_list,
+            doc,
+            examples: &[],
         }
+    };
+    Some(match &image.symbol(sym).function {
+        FunctionCell::Unbound => return None,
+        FunctionCell::Builtin => {
+            let operator = image.operators.get(&sym)?;
+            Signature {
+                kind: operator_kind(operator.expand.is_some()),
+                lambda_list: operator.lambda_list.to_owned(),
+                doc: Some(operator.doc.to_owned()),
+                examples: operator.examples,
+            }
+        }
+        FunctionCell::Macro(function) => defined("macro", function),
         FunctionCell::Function(function) => {
             let kind = match function.as_generic() {
                 Some(_) => "generic function",
                 None => "function",
             };
             match (&function.body, image.builtins.get(&sym)) {
-                (Body::Native(_), Some(builtin)) => (
+                (Body::Native(_), Some(builtin)) => Signature {
                     kind,
-                    call(image, sym, builtin.lambda_list),
-                    Some(builtin.doc.to_owned()),
-                    builtin.examples,
-                ),
-                _ => {
-                    let (lambda_list, doc) = of_definition(image, function);
-                    (kind, call(image, sym, &lambda_list), doc, &[])
-                }
+                    lambda_list: builtin.lambda_list.to_owned(),
+                    doc: Some(builtin.doc.to_owned()),
+                    examples: builtin.examples,
+                },
+                _ => defined(kind, function),
             }
         }
+    })
+}
+
+fn as_function(image: &Image, sym: Sym) -> String {
+    let Some(signature) = signature(image, sym) else {
+        return String::new();
     };
+    let (kind, call) = (signature.kind, signature.call(image, sym));
     let mut text = format!("\nNames a {kind}:\n  {call}\n");
-    add_indented(&mut text, doc.as_deref());
-    if !examples.is_empty() {
+    add_indented(&mut text, signature.doc.as_deref());
+    if !signature.examples.is_empty() {
         text.push_str("Examples:\n");
-        examples
-            .iter()
-            .for_each(|example| add_indented(&mut text, Some(example)));
+        let examples = signature.examples.iter();
+        examples.for_each(|example| add_indented(&mut text, Some(example)));
     }
     text
 }

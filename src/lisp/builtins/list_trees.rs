@@ -16,6 +16,25 @@ use crate::lisp::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
+/// Pairs that a tree may have before it is taken for a circular one.
+const MOST_PAIRS: usize = 10_000_000;
+
+/// Counts the pairs of a tree that is walked.
+#[derive(Default)]
+pub struct PairCount(usize);
+
+impl PairCount {
+    /// One more pair; an error if there are so many that the tree must be circular.
+    pub fn add_one(&mut self) -> Result<(), Box<Raise>> {
+        self.0 += 1;
+        if self.0 <= MOST_PAIRS {
+            return Ok(());
+        }
+        let text = format!("The tree has more than {MOST_PAIRS} pairs; it must be circular.");
+        Err(Raise::simple(text))
+    }
+}
+
 /// What takes the place of parts of a tree.
 enum Replacement {
     /// One value for all parts that satisfy a condition.
@@ -86,7 +105,9 @@ async fn replace(calls: Calls, tree: Value, replacement: Replacement, in_place: 
     let result = replacement
         .apply(&calls, tree, in_place, &mut pending)
         .await?;
+    let mut pairs = PairCount::default();
     while let Some(half) = pending.pop() {
+        pairs.add_one()?;
         match half {
             Half::Car(cons) => {
                 let new = replacement.apply(&calls, cons.car(), in_place, &mut pending);
@@ -201,7 +222,9 @@ fn nsublis(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rais
 
 async fn compare_trees(calls: Calls, a: Value, b: Value, test: Test) -> Outcome {
     let mut pending = vec![(a, b)];
+    let mut pairs = PairCount::default();
     while let Some((a, b)) = pending.pop() {
+        pairs.add_one()?;
         match (&a, &b) {
             (Value::Cons(x), Value::Cons(y)) => {
                 pending.push((x.cdr(), y.cdr()));

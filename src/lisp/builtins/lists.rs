@@ -3,13 +3,14 @@
 use std::rc::Rc;
 
 use super::keywords;
+use super::list_trees::PairCount;
 use super::sequence::{self, ListBuilder, ListWalk};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::cons::Cons;
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::raise::Raise;
-use crate::lisp::value::Value;
+use crate::lisp::value::{Rounds, Value};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -81,19 +82,25 @@ pub fn nconc_all(lists: &[Value]) -> Outcome {
             None => result = list.clone(),
         }
         if !is_last {
-            last = last_pair(list);
+            last = last_pair(list)?;
         }
     }
     Ok(result)
 }
 
 /// The last pair of a list that may be dotted.
-pub fn last_pair(list: &Value) -> Option<Rc<Cons>> {
-    let mut cons = list.as_cons()?.clone();
-    while let Value::Cons(next) = cons.cdr() {
-        cons = next;
+pub fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
+    let mut rounds = Rounds::default();
+    let mut rest = list.clone();
+    let mut last = None;
+    while let Value::Cons(cons) = rest {
+        rest = cons.cdr();
+        if rounds.is_closed_by(&rest) {
+            return Err(sequence::circular(list));
+        }
+        last = Some(cons);
     }
-    Some(cons)
+    Ok(last)
 }
 
 fn revappend(_: &mut Image, args: &[Value]) -> Outcome {
@@ -170,7 +177,9 @@ fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
     // Pairs that are copied while their halves are still the old ones.
     let mut pending = Vec::new();
     let result = copy_of(&args[0], &mut pending);
+    let mut pairs = PairCount::default();
     while let Some(cons) = pending.pop() {
+        pairs.add_one()?;
         cons.set_car(copy_of(&cons.car(), &mut pending));
         cons.set_cdr(copy_of(&cons.cdr(), &mut pending));
     }
@@ -184,7 +193,11 @@ fn ldiff(_: &mut Image, args: &[Value]) -> Outcome {
     }
     let mut builder = ListBuilder::new();
     let mut rest = list.clone();
+    let mut rounds = Rounds::default();
     while !rest.is_eql(tail) {
+        if rounds.is_closed_by(&rest) {
+            return Err(sequence::circular(list));
+        }
         let Value::Cons(cons) = &rest else {
             return Ok(builder.finish_with(rest));
         };
@@ -197,9 +210,13 @@ fn ldiff(_: &mut Image, args: &[Value]) -> Outcome {
 
 fn tailp(_: &mut Image, args: &[Value]) -> Outcome {
     let mut rest = args[1].clone();
+    let mut rounds = Rounds::default();
     loop {
         if rest.is_eql(&args[0]) {
             return Ok(Value::T);
+        }
+        if rounds.is_closed_by(&rest) {
+            return Ok(Value::NIL);
         }
         let Value::Cons(cons) = &rest else {
             return Ok(Value::NIL);

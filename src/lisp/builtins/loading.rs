@@ -1,7 +1,8 @@
 //! Loading files of forms.
 
+use std::path::{Component, Path, PathBuf};
+
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
@@ -16,7 +17,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 pub static TABLE: &[Builtin] = &[control(
     "LOAD",
     "file &key verbose print if-does-not-exist external-format",
-    "Evaluates all forms of a file; T.",
+    "Evaluates all forms of a file; T. A file that another file loads is looked for beside that one first.",
     &[],
     load,
 )];
@@ -108,13 +109,38 @@ fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let Some(path) = args[0].as_text() else {
         return Err(Raise::type_error(&args[0], known::STRING));
     };
-    match read_file(machine.image, &path) {
-        Ok(text) => Loading::start(machine, &path, &text),
-        Err(raise) => Err(raise),
-    }
+    let path = beside(machine, &path).unwrap_or(path);
+    let text = read_file(&path)?;
+    Loading::start(machine, &path, &text)
 }
 
-fn read_file(_: &Image, path: &str) -> Result<String> {
+/// The file of that name in the folder of the file whose form is being evaluated, if there
+/// is one.
+fn beside(machine: &Machine<'_>, path: &str) -> Option<String> {
+    let loader = machine.image.sources.locate(machine.place())?;
+    let neighbour = Path::new(&*loader.name).parent()?.join(path);
+    (Path::new(path).is_relative() && neighbour.is_file())
+        .then(|| without_detours(&neighbour))
+        .filter(|plain| plain.is_file())
+        .map(|plain| plain.to_string_lossy().into_owned())
+}
+
+/// The path without `folder/..`.
+fn without_detours(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match (part, plain.components().next_back()) {
+            (Component::ParentDir, Some(Component::Normal(_))) => {
+                plain.pop();
+            }
+            (Component::CurDir, _) => {}
+            _ => plain.push(part),
+        }
+    }
+    plain
+}
+
+fn read_file(path: &str) -> Result<String> {
     std::fs::read_to_string(path).map_err(|error| {
         Raise::new(
             known::FILE_ERROR,

@@ -21,7 +21,7 @@ pub mod format;
 pub mod forms;
 pub mod generic_functions;
 pub mod hash_tables;
-pub mod help;
+pub(crate) mod help;
 pub mod implementation;
 pub mod keywords;
 pub mod list_search;

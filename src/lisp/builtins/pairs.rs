@@ -4,7 +4,7 @@ use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::raise::Raise;
-use crate::lisp::value::Value;
+use crate::lisp::value::{Rounds, Value};
 
 use super::sequence;
 
@@ -140,7 +140,11 @@ fn last(_: &mut Image, args: &[Value]) -> Outcome {
     }
     let (mut front, mut back) = (list.clone(), list.clone());
     let mut lead = 0;
+    let mut rounds = Rounds::default();
     while let Value::Cons(cons) = &front {
+        if rounds.is_closed_by(&front) {
+            return Err(sequence::circular(list));
+        }
         let next = cons.cdr();
         front = next;
         if lead < count {

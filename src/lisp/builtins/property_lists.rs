@@ -5,9 +5,9 @@ use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::Sym;
-use crate::lisp::value::Value;
+use crate::lisp::value::{Rounds, Value};
 
-use super::sequence::ListWalk;
+use super::sequence::{ListWalk, circular};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -57,7 +57,11 @@ fn put(plist: &Value, indicator: &Value, value: &Value) -> Outcome {
 fn remove(plist: &Value, indicator: &Value) -> Result<(Value, bool), Box<Raise>> {
     let mut before: Option<Value> = None;
     let mut rest = plist.clone();
+    let mut rounds = Rounds::default();
     while let Value::Cons(cons) = &rest {
+        if rounds.is_closed_by(&rest) {
+            return Err(circular(plist));
+        }
         let after = match cons.cdr() {
             Value::Cons(value) => value.cdr(),
             _ => return Err(malformed(plist)),

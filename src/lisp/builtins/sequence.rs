@@ -8,7 +8,7 @@ use crate::lisp::known;
 use crate::lisp::raise::Raise;
 use crate::lisp::string::LispString;
 use crate::lisp::symbol::Sym;
-use crate::lisp::value::Value;
+use crate::lisp::value::{Rounds, Value};
 
 /// A sequence.
 #[derive(Clone)]
@@ -429,20 +429,15 @@ impl Walk {
 pub struct ListWalk {
     /// What has not been visited yet.
     pub rest: Value,
-    /// A pair visited before; the list is circular when it comes again.
-    mark: Value,
-    steps: usize,
-    next_mark: usize,
+    rounds: Rounds,
 }
 
 impl ListWalk {
     /// A walk over a list.
     pub fn new(list: Value) -> ListWalk {
         ListWalk {
-            mark: Value::NIL,
             rest: list,
-            steps: 0,
-            next_mark: 1024,
+            rounds: Rounds::default(),
         }
     }
 
@@ -453,13 +448,8 @@ impl ListWalk {
             Value::Symbol(known::NIL) => return Ok(None),
             other => return Err(Raise::type_error(other, known::LIST)),
         };
-        self.steps += 1;
-        if self.rest.is_eq(&self.mark) {
+        if self.rounds.is_closed_by(&self.rest) {
             return Err(circular(&self.rest));
-        }
-        if self.steps == self.next_mark {
-            self.mark = self.rest.clone();
-            self.next_mark *= 2;
         }
         self.rest = cons.cdr();
         Ok(Some(cons))
@@ -472,7 +462,8 @@ impl ListWalk {
     }
 }
 
-fn circular(list: &Value) -> Box<Raise> {
+/// A list has no end where it needs one.
+pub fn circular(list: &Value) -> Box<Raise> {
     Raise::new(known::TYPE_ERROR, "The list is circular.")
         .with(known::K_DATUM, list.clone())
         .with(known::K_EXPECTED_TYPE, known::LIST.into())

@@ -12,7 +12,7 @@ use crate::lisp::known;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
-use crate::lisp::vm::code::{Capture, Code, Op};
+use crate::lisp::vm::code::{Capture, Code, Local, Op};
 use crate::reader::source::Place;
 
 /// What the context of a form wants of its values.
@@ -50,7 +50,7 @@ struct Emitter<'a> {
     inner: Vec<(Rc<Code>, Vec<Capture>)>,
     tags: Vec<Vec<u32>>,
     places: Vec<(u32, Place)>,
-    locals: Vec<(u32, Sym)>,
+    locals: Vec<Local>,
     height: u32,
     dynamic: u32,
     blocks: Vec<OpenBlock>,
@@ -85,6 +85,7 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
         tags: emitter.tags,
         places: emitter.places,
         locals: emitter.locals,
+        free: lambda.free.iter().map(|var| var.name).collect(),
         lambda_list: lambda.lambda_list.clone(),
         doc: lambda.doc.clone(),
     }))
@@ -172,7 +173,7 @@ impl Emitter<'_> {
     fn emit_prologue(&mut self, lambda: &LambdaNode) -> Compiled<()> {
         for var in &lambda.slots {
             var.slot.set(self.height);
-            self.locals.push((self.height, var.name));
+            self.note_local(self.height, var.name);
             self.height += 1;
         }
         // Parameters with defaults are boxed once their value is known.
@@ -227,7 +228,7 @@ impl Emitter<'_> {
         match binding {
             Binding::Lexical(var) => {
                 var.slot.set(slot);
-                self.locals.push((slot, var.name));
+                self.note_local(slot, var.name);
                 if var.is_boxed() {
                     self.op(Op::MakeBox(slot));
                 }
@@ -237,6 +238,25 @@ impl Emitter<'_> {
                 self.op(Op::BindSpecial(*name));
                 self.dynamic += 1;
             }
+        }
+    }
+
+    /// Notes for the debugger that a variable's scope begins here.
+    fn note_local(&mut self, slot: u32, name: Sym) {
+        self.locals.push(Local {
+            slot,
+            name,
+            from: self.here(),
+            to: u32::MAX,
+        });
+    }
+
+    /// The scopes of the variables above `height` end here.
+    fn end_locals(&mut self, height: u32) {
+        let here = self.here();
+        let above = self.locals.iter_mut().rev();
+        for local in above.take_while(|l| l.slot >= height) {
+            local.to = local.to.min(here);
         }
     }
 
@@ -554,7 +574,7 @@ impl Emitter<'_> {
                 self.bind_top(binding);
             } else if let Binding::Lexical(var) = binding {
                 var.slot.set(self.height - 1);
-                self.locals.push((self.height - 1, var.name));
+                self.note_local(self.height - 1, var.name);
             }
         }
         if !sequential {
@@ -578,6 +598,7 @@ impl Emitter<'_> {
     /// Drops the values above `height` but for the result, and the dynamic entries above
     /// `dynamic`.
     fn close(&mut self, height: u32, dynamic: u32, want: Want) {
+        self.end_locals(height);
         if self.dynamic > dynamic {
             self.op(Op::PopDynamic(self.dynamic - dynamic));
             self.dynamic = dynamic;
@@ -616,7 +637,7 @@ impl Emitter<'_> {
             match binding {
                 Binding::Lexical(var) => {
                     var.slot.set(slot);
-                    self.locals.push((slot, var.name));
+                    self.note_local(slot, var.name);
                     if var.is_boxed() {
                         self.op(Op::MakeBox(slot));
                     }

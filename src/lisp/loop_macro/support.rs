@@ -57,7 +57,7 @@ fn extend_list(_: &mut Image, args: &[Value]) -> Outcome {
 
 fn join(tail: &Value, list: Value) -> Outcome {
     let cons = pair(tail)?;
-    let last = last_pair(&list);
+    let last = last_pair(&list)?;
     cons.set_cdr(list);
     Ok(last.map_or_else(|| tail.clone(), Value::Cons))
 }

@@ -49,10 +49,11 @@ pub fn instantiable_class(image: &Image, designator: &Value) -> Result<Rc<Class>
 }
 
 fn check_instantiable(image: &Image, class: &Class) -> Result<(), Box<Raise>> {
-    let name = super::text(image, &Value::Symbol(class.name));
+    let name = || super::text(image, &Value::Symbol(class.name));
     if class.kind == ClassKind::Builtin {
         return Err(Raise::simple(format!(
-            "Cannot allocate an instance of #<BUILT-IN-CLASS {name}>."
+            "Cannot allocate an instance of #<BUILT-IN-CLASS {}>.",
+            name()
         )));
     }
     if class.precedence.borrow().is_empty() {
@@ -63,7 +64,8 @@ fn check_instantiable(image: &Image, class: &Class) -> Result<(), Box<Raise>> {
             .find(|s| s.precedence.borrow().is_empty())
             .map_or_else(String::new, |s| super::text(image, &s.name.into()));
         return Err(Raise::simple(format!(
-            "The class {name} cannot be instantiated: its superclass {missing} is not defined."
+            "The class {} cannot be instantiated: its superclass {missing} is not defined.",
+            name()
         )));
     }
     Ok(())

@@ -179,10 +179,29 @@ pub struct Parameters {
 }
 
 impl Parameters {
+    /// Number of slots that they fill.
+    pub fn slots(&self) -> usize {
+        let positional = usize::from(self.required) + usize::from(self.optional);
+        positional + usize::from(self.rest) + self.keys.len()
+    }
+
     /// Is every parameter required?
     pub fn is_simple(&self) -> bool {
         self.optional == 0 && !self.rest && !self.has_keys
     }
+}
+
+/// A local variable: where its value lies, and for which operations that is so.
+#[derive(Clone, Copy, Debug)]
+pub struct Local {
+    /// Its slot, counted from the frame's base.
+    pub slot: u32,
+    /// Its name.
+    pub name: Sym,
+    /// The first operation in its scope.
+    pub from: u32,
+    /// The first operation behind its scope.
+    pub to: u32,
 }
 
 /// Compiled code of one function.
@@ -201,8 +220,10 @@ pub struct Code {
     pub tags: Vec<Vec<u32>>,
     /// Places of calls: (first operation, place), in ascending order.
     pub places: Vec<(u32, Place)>,
-    /// Names of locals by slot for the debugger: (slot, name), as bound.
-    pub locals: Vec<(u32, Sym)>,
+    /// Local variables, for the debugger, as bound.
+    pub locals: Vec<Local>,
+    /// Names of the free variables, in the order of the closure's captures.
+    pub free: Vec<Sym>,
     /// The lambda list as written.
     pub lambda_list: Value,
     /// The documentation string.

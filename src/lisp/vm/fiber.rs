@@ -115,6 +115,9 @@ pub enum Target {
     Exit(usize),
     /// To a tag of the tagbody at this dynamic index.
     Tag(usize, u32),
+    /// Out of the frame of this index; the value, a function and its arguments in a list,
+    /// is called in its place.
+    Frame(usize),
     /// Out of everything.
     Everything,
 }
@@ -142,6 +145,8 @@ pub struct Fiber {
     pub pending: Vec<Pending>,
     /// Does whoever made the request that waits want all values of the answer?
     pub(super) wants_all: bool,
+    /// A value that was on its way to the innermost frame when an interrupt came.
+    pub(super) undelivered: Option<Value>,
     /// Are the fiber's bindings of special variables in force?
     in_force: bool,
 }

@@ -106,21 +106,39 @@ impl<'a> Machine<'a> {
         self.go_on(next)
     }
 
+    /// Leaves a frame and all above it, running cleanup code, and goes on with a call in its
+    /// place.
+    pub fn replace_frame(&mut self, index: usize, function: Value, args: Vec<Value>) -> Event {
+        self.fiber.enter(self.image);
+        let call = Value::cons(function, Value::list(args));
+        let next = self.unwind(super::fiber::Target::Frame(index), call);
+        self.go_on(next)
+    }
+
     /// Goes on after an interrupt.
     pub fn run(&mut self) -> Event {
         self.fiber.enter(self.image);
-        self.go_on(Next::Run)
+        let undelivered = self.fiber.undelivered.take();
+        self.go_on(undelivered.map_or(Next::Run, Next::Deliver))
     }
 
     /// Unwinds the whole fiber, running its cleanup code.
     pub fn unwind_all(&mut self) -> Event {
         self.fiber.enter(self.image);
+        self.fiber.undelivered = None;
         let next = self.unwind(super::fiber::Target::Everything, Value::NIL);
         self.go_on(next)
     }
 
     fn go_on(&mut self, mut next: Next) -> Event {
+        let mut budget = INTERRUPT_INTERVAL;
         loop {
+            // Code that calls builtins that call code is here more often than it jumps back.
+            budget -= 1;
+            if budget == 0 {
+                next = self.or_interrupt(next, budget);
+                budget = INTERRUPT_INTERVAL;
+            }
             next = match next {
                 Next::Run => self.run_code(),
                 Next::Deliver(value) => self.deliver(value),
@@ -212,7 +230,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Calls a function, or the function of a symbol, with arguments in a vector.
-    fn call_value(&mut self, function: Value, args: Vec<Value>, multi: bool) -> Next {
+    pub(super) fn call_value(&mut self, function: Value, args: Vec<Value>, multi: bool) -> Next {
         let function = match self.image.coerce_to_function(&function) {
             Ok(f) => f,
             Err(raise) => return self.raise(raise),
@@ -284,7 +302,7 @@ impl<'a> Machine<'a> {
         } else {
             self.arrange_arguments(code, count)?;
         }
-        let slots = slot_count(code);
+        let slots = code.parameters.slots();
         self.fiber.frames.push(Frame {
             kind: FrameKind::Code { function, pc: 0 },
             base: self.fiber.stack.len() - slots,
@@ -833,15 +851,19 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn or_interrupt(&self, next: Next, budget: u32) -> Next {
-        match next {
-            Next::Run if budget == 0 && self.is_interrupted() => Next::Stop(Event::Interrupted),
-            next => next,
+    /// What to do next, which is to stop if the budget is used up and there is an interrupt.
+    fn or_interrupt(&mut self, next: Next, budget: u32) -> Next {
+        if budget > 0 || matches!(next, Next::Stop(_)) || !self.is_interrupted() {
+            return next;
         }
+        if let Next::Deliver(value) = next {
+            self.fiber.undelivered = Some(value);
+        }
+        Next::Stop(Event::Interrupted)
     }
 
     fn is_interrupted(&self) -> bool {
-        self.image.interrupt.swap(false, Ordering::Relaxed)
+        self.image.take_interrupt()
     }
 
     pub(super) fn save_pc(&mut self, new: usize) {
@@ -939,11 +961,6 @@ impl<'a> Machine<'a> {
             })
             .unwrap_or(Place::NONE)
     }
-}
-
-fn slot_count(code: &Code) -> usize {
-    let p = &code.parameters;
-    usize::from(p.required) + usize::from(p.optional) + usize::from(p.rest) + p.keys.len()
 }
 
 fn unbox(value: &Value) -> Value {

@@ -1,5 +1,7 @@
 //! The machine that runs compiled code: explicit frames, no recursion on the Rust stack.
 
+pub mod aside;
+pub mod backtrace;
 pub mod call;
 pub mod code;
 pub mod fiber;

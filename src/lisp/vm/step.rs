@@ -61,4 +61,9 @@ pub trait Resume {
     fn subject(&self) -> Option<&Value> {
         None
     }
+
+    /// How many motions had been begun before it, if that is worth knowing.
+    fn motions_before(&self) -> Option<u64> {
+        None
+    }
 }

@@ -53,6 +53,7 @@ impl Machine<'_> {
         let limit = match target {
             Target::Exit(i) => i + 1,
             Target::Tag(i, _) => i + 1,
+            Target::Frame(i) => self.fiber.frames.get(i).map_or(0, |frame| frame.dynamic),
             Target::Everything => 0,
         };
         while self.fiber.dynamic.len() > limit {
@@ -89,6 +90,17 @@ impl Machine<'_> {
                 self.fiber.stack.clear();
                 self.fiber.pending.clear();
                 return Next::Stop(Event::Unwound);
+            }
+            Target::Frame(i) => {
+                let Some(frame) = self.fiber.frames.get(i) else {
+                    return Next::Run;
+                };
+                let (cut, multi, dynamic) = (frame.cut, frame.multi, frame.dynamic);
+                self.fiber.pending.retain(|p| p.dynamic <= dynamic);
+                self.fiber.frames.truncate(i);
+                self.fiber.stack.truncate(cut);
+                let args = value.cdr_or_nil().iter_list().collect();
+                return self.call_value(value.car_or_nil(), args, multi);
             }
             Target::Exit(i) => {
                 if let Some(

@@ -1,7 +1,7 @@
 //! Ending tasks before their time.
 
 use super::Scheduler;
-use super::live::{Answer, Ending, Slot, Told, Wait};
+use super::live::{Answer, Ending, Live, Slot, Told, Wait};
 use crate::lisp::image::Image;
 use crate::plan::host::Host;
 
@@ -61,19 +61,36 @@ impl Scheduler {
     }
 
     /// Ends those that are dying but will never come to an end, without their cleanup
-    /// code. Was there one?
+    /// code; if that waits for tasks of its own, these are told to end first. Was there one?
     pub(super) fn bury(&mut self, image: &mut Image, host: &mut dyn Host) -> bool {
         let stuck: Vec<Slot> = self
-            .entries
-            .iter()
-            .flatten()
-            .filter(|l| l.task.is_some() && l.ending.is_some() && l.children.is_empty())
+            .dying()
+            .filter(|l| l.children.is_empty())
             .filter_map(|l| l.task.as_ref().and_then(|t| t.get().slot.get()))
             .collect();
         for slot in &stuck {
             self.give_up_wait(image, host, *slot);
             self.end(image, *slot);
         }
-        !stuck.is_empty()
+        if !stuck.is_empty() {
+            return true;
+        }
+        let begun_late: Vec<Slot> = self
+            .dying()
+            .flat_map(|l| l.children.iter().copied())
+            .filter(|child| self.live(*child).is_some_and(|l| l.ending.is_none()))
+            .collect();
+        for slot in &begun_late {
+            if let Some(live) = self.live_mut(*slot) {
+                live.scheduling = 0;
+            }
+            self.evaporate(image, host, *slot);
+        }
+        !begun_late.is_empty()
+    }
+
+    fn dying(&self) -> impl Iterator<Item = &Live> {
+        let alive = self.entries.iter().flatten().map(|live| &**live);
+        alive.filter(|live| live.ending.is_some())
     }
 }

@@ -1,8 +1,8 @@
 //! How tasks begin and end.
 
-use super::Scheduler;
 use super::group::unwrapped;
 use super::live::{Answer, Ending, Live, Slot, Told, Wait};
+use super::{Scheduler, TaskInfo};
 use crate::lisp::function::Function;
 use crate::lisp::image::Image;
 use crate::lisp::known;
@@ -69,6 +69,10 @@ impl Scheduler {
         live.parent = Some(parent);
         if inner.is_held.take() {
             live.told = Told::Suspend;
+        }
+        let root = std::iter::successors(Some(parent), |slot| self.live(*slot)?.parent).last();
+        if let Some(root) = root.and_then(|root| self.live(root)).map(|live| live.id) {
+            self.note_begun(root);
         }
         let slot = self.add(live);
         inner.slot.set(Some(slot));
@@ -204,6 +208,16 @@ impl Scheduler {
             }
             *task.get().result.borrow_mut() = result;
             task.get().slot.set(None);
+            let parent = live.parent.and_then(|slot| self.live(slot));
+            let parent = parent.filter(|p| p.task.is_some()).map(|p| p.id);
+            self.note_ended(TaskInfo {
+                id: live.id,
+                name: task.get().name.to_string(),
+                status,
+                parent,
+                path: task.get().node.path.clone(),
+                waits_for: None,
+            });
         }
         for child in &live.children {
             if let Some(child) = self.live_mut(*child) {

@@ -98,6 +98,8 @@ pub(super) enum Answer {
     GoOn,
     /// Go on with a call on top.
     Call(Value, Vec<Value>),
+    /// Leave the frame of this index and go on with a call in its place.
+    Replace(usize, Value, Vec<Value>),
     /// Decide what comes of its children.
     Decide(Group),
     /// Leave everything.

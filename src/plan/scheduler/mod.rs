@@ -11,6 +11,7 @@
 
 mod advance;
 mod answer;
+mod debug;
 mod dying;
 mod finish;
 mod group;
@@ -31,6 +32,7 @@ use std::collections::{BinaryHeap, VecDeque};
 
 use super::host::Ticket;
 use super::task::TaskId;
+use crate::lisp::value::Value;
 use advance::Alarm;
 use live::{Live, Slot};
 
@@ -50,6 +52,16 @@ pub struct Scheduler {
     roots: Vec<Slot>,
     /// The entry that an interrupt stopped.
     interrupted: Option<Slot>,
+    /// Does a task whose condition nobody handles stay where it is?
+    stops_in_place: bool,
+    /// Tasks that have stopped so, with their conditions, newest last.
+    stops: Vec<(Slot, Value)>,
+    /// The condition of a stop that has not been told yet.
+    untold_stop: Option<Value>,
+    /// Tasks of the last plan that have ended, in the order in which they did.
+    ended: Vec<TaskInfo>,
+    /// The root whose tasks these are.
+    ended_root: Option<TaskId>,
     /// Number of the last task or root.
     last_id: u64,
     /// Number of the last wait.

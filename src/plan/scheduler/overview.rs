@@ -54,6 +54,46 @@ impl Scheduler {
         tasks
     }
 
+    /// The tasks that are alive and those of the last plan that have ended, as a tree.
+    pub fn task_tree(&self, image: &Image) -> String {
+        let mut tasks = self.tasks(image);
+        tasks.extend(self.ended.iter().cloned());
+        tasks.sort_by_key(|task| task.id);
+        if tasks.is_empty() {
+            return "; There are no tasks.\n".to_owned();
+        }
+        let mut text = String::new();
+        let is_known = |id: TaskId| tasks.iter().any(|task| task.id == id);
+        let roots = tasks
+            .iter()
+            .filter(|task| !task.parent.is_some_and(is_known));
+        // Depth first, children in order of creation.
+        let mut pending: Vec<(&TaskInfo, usize)> = roots.map(|task| (task, 0)).collect();
+        pending.reverse();
+        while let Some((task, depth)) = pending.pop() {
+            text.push_str(&line(image, task, depth));
+            let children = tasks.iter().filter(|t| t.parent == Some(task.id));
+            let below: Vec<_> = children.map(|child| (child, depth + 1)).collect();
+            pending.extend(below.into_iter().rev());
+        }
+        text
+    }
+
+    /// Remembers a task that has ended.
+    pub(super) fn note_ended(&mut self, info: TaskInfo) {
+        if self.ended.len() < MOST_ENDED {
+            self.ended.push(info);
+        }
+    }
+
+    /// A task begins: those of plans before it are forgotten.
+    pub(super) fn note_begun(&mut self, root: TaskId) {
+        if self.ended_root != Some(root) {
+            self.ended_root = Some(root);
+            self.ended.clear();
+        }
+    }
+
     /// Why nobody can go on.
     pub(super) fn describe_deadlock(&self, image: &Image) -> String {
         let mut lines =
@@ -73,6 +113,28 @@ impl Scheduler {
         }
         lines.join("\n")
     }
+}
+
+/// Tasks that have ended and are remembered.
+const MOST_ENDED: usize = 200;
+
+fn line(image: &Image, task: &TaskInfo, depth: usize) -> String {
+    let status = format!("{:?}", task.status).to_lowercase();
+    let waits = task.waits_for.as_ref();
+    let waits = waits
+        .map(|what| format!(", waits for {what}"))
+        .unwrap_or_default();
+    let part = task.path.car_or_nil();
+    let path = if part.is_true() {
+        format!("  {}", print::to_string(image, &part, true))
+    } else {
+        String::new()
+    };
+    format!(
+        "{}{}: {status}{waits}{path}\n",
+        "  ".repeat(depth),
+        task.name
+    )
 }
 
 fn describe(image: &Image, live: &Live) -> Option<String> {

@@ -124,6 +124,10 @@ impl Scheduler {
                 }
                 return Some(Answer::Value(Value::NIL));
             }
+            Request::Overview => {
+                let text = self.task_tree(image);
+                return Some(Answer::Value(Value::string(text)));
+            }
             Request::HooksDone => self.resume_aside(slot),
             Request::Scheduling(change) => {
                 return self.allow_scheduling(image, host, slot, change);

@@ -1,7 +1,5 @@
 //! Evaluating forms at the prompt.
 
-use std::sync::atomic::Ordering;
-
 use super::Scheduler;
 use super::advance::Passed;
 use super::live::{Answer, Ending, Live, Slot, Wait};
@@ -10,7 +8,6 @@ use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
-use crate::lisp::vm::fiber::Fiber;
 use crate::plan::host::Host;
 use crate::plan::state::Plan;
 
@@ -60,6 +57,9 @@ impl Scheduler {
             return Evaluation::Values(Vec::new());
         };
         loop {
+            if let Some(condition) = self.untold_stop.take() {
+                return Evaluation::Unhandled(condition);
+            }
             if let Some(evaluation) = self.ended(image, host, root) {
                 return evaluation;
             }
@@ -80,13 +80,8 @@ impl Scheduler {
         function: Value,
         args: Vec<Value>,
     ) -> Evaluation {
-        if let Some(root) = self.roots.last().copied()
-            && let Some(live) = self.live_mut(root)
-        {
-            if matches!(live.wait, Wait::Debugger) {
-                live.ending = None;
-            }
-            self.make_ready(root, Answer::Call(function, args));
+        if let Some(slot) = self.leave_stop() {
+            self.make_ready(slot, Answer::Call(function, args));
         }
         self.go_on(image, host)
     }
@@ -119,6 +114,8 @@ impl Scheduler {
         self.evaporate_children(image, host, root);
         self.drain(image, host, root);
         self.discard(root);
+        self.stops.clear();
+        self.untold_stop = None;
     }
 
     /// The number of evaluations that have stopped and not been left.
@@ -126,15 +123,9 @@ impl Scheduler {
         self.roots.len()
     }
 
-    /// The fiber of the evaluation that stopped last, for a debugger to look at.
-    pub fn stopped_fiber(&mut self) -> Option<&mut Fiber> {
-        let root = self.roots.last().copied()?;
-        self.live_mut(root).map(|l| &mut l.fiber)
-    }
-
     /// One step: an entry runs, or time passes.
     fn turn(&mut self, image: &mut Image, host: &mut dyn Host) -> Turn {
-        if image.interrupt.swap(false, Ordering::Relaxed) {
+        if image.take_interrupt() {
             return Turn::Interrupted;
         }
         let plan = Plan::of(image);
@@ -150,7 +141,7 @@ impl Scheduler {
         };
         match passed {
             Passed::Something => Turn::Done,
-            Passed::Nothing if image.interrupt.swap(false, Ordering::Relaxed) => Turn::Interrupted,
+            Passed::Nothing if image.take_interrupt() => Turn::Interrupted,
             Passed::Nothing => Turn::Stuck,
         }
     }
@@ -192,7 +183,7 @@ impl Scheduler {
     }
 
     /// Lets the children of a root, which have all been told to end, come to their end.
-    fn drain(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
+    pub(super) fn drain(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
         while self.live(root).is_some_and(|l| !l.children.is_empty()) {
             match self.turn(image, host) {
                 Turn::Done => {}
@@ -209,7 +200,7 @@ impl Scheduler {
 
     /// Nobody can go on: those that are dying are buried; else the root hears of it.
     fn stuck(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
-        if self.bury(image, host) {
+        if self.bury(image, host) || self.tell_stop_again() {
             return;
         }
         let text = self.describe_deadlock(image);

@@ -54,6 +54,9 @@ impl Scheduler {
                 Answer::Call(function, args) => {
                     Machine::new(image, &mut fiber).resume_with_call(function, args)
                 }
+                Answer::Replace(frame, function, args) => {
+                    Machine::new(image, &mut fiber).replace_frame(frame, function, args)
+                }
                 Answer::Unwind => {
                     if let Some(live) = self.live_mut(slot) {
                         live.is_unwinding = true;
@@ -139,6 +142,13 @@ impl Scheduler {
             }
             return None;
         }
+        if self.may_stop(image, slot, &condition) {
+            self.block(slot, Wait::Debugger, None);
+            self.stops.push((slot, condition.clone()));
+            self.untold_stop = Some(condition);
+            return None;
+        }
+        let live = self.live_mut(slot)?;
         if live.ending.is_none() {
             live.ending = Some(Ending::Failed(wrapped(&plan, image, condition)));
         }

@@ -4,19 +4,26 @@
 //! Everything that a plan asks of the world comes here as a request of a builtin.
 
 pub mod call;
+mod explain;
+mod film;
 mod following;
 mod frames;
 mod functions;
 mod held;
+mod imagined;
+mod moments;
 mod motions;
 mod names;
 mod pace;
+pub(super) mod parts;
 mod pose_argument;
 mod properties;
 mod raising;
 pub mod request;
 mod tables;
+pub mod tour;
 
+use std::cell::OnceCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -24,14 +31,16 @@ use indexmap::IndexMap;
 
 use super::{SessionError, SessionOptions};
 use crate::lisp::value::Value;
-use crate::motion::{Motion, ProcessModule};
+use crate::motion::{DetectQuery, Motion, ProcessModule};
 use crate::plan::{TaskId, Ticket};
 use crate::spatial::Pose;
 use crate::viewer::live::{PaceControl, Speed};
+use crate::viewer::{self, Looks};
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
 
+pub use film::Filming;
 pub use following::FollowerId;
 pub use functions::watching::WatchError;
 use pace::Pace;
@@ -84,10 +93,23 @@ pub struct Simulation {
     /// The exit status, once somebody has asked to leave.
     pub(super) quit: Option<u8>,
     observer: Option<Observer>,
+    /// The last failure of a motion, to be explained on demand.
+    last_failure: Option<Box<explain::Remembered>>,
+    /// What was looked for last.
+    sought: Option<DetectQuery>,
+    /// Pictures that were made and not yet told of.
+    pictures: Vec<Arc<viewer::Image>>,
+    looks: OnceCell<Looks>,
+    film: Option<film::Film>,
     followers: following::Followers,
     watching: functions::watching::Watching,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
+    moments: moments::Moments,
+    /// The step of the tour that comes next, from zero.
+    tour_step: usize,
+    /// A value that somebody wants to take apart.
+    pub(super) inspected: Option<Value>,
 }
 
 /// Severity of log lines.
@@ -129,9 +151,17 @@ impl Simulation {
                 .map(|factor| Pace::new(PaceControl::new(Speed::Times(factor)))),
             quit: None,
             observer: None,
+            last_failure: None,
+            sought: None,
+            pictures: Vec::new(),
+            looks: OnceCell::new(),
+            film: None,
             followers: following::Followers::default(),
             watching: functions::watching::Watching::default(),
             now: 0.0,
+            moments: moments::Moments::default(),
+            tour_step: 0,
+            inspected: None,
         })
     }
 
@@ -142,6 +172,7 @@ impl Simulation {
         self.names.clear();
         self.held.clear();
         self.axes = None;
+        self.sought = None;
     }
 
     /// Simulated time (s).
@@ -152,6 +183,11 @@ impl Simulation {
     /// The world.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// How everything looks.
+    fn looks(&self) -> &Looks {
+        self.looks.get_or_init(|| Looks::of(&self.models))
     }
 
     /// The types of objects that can be spawned.

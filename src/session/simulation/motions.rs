@@ -150,8 +150,9 @@ impl Simulation {
             "LOOKING" => return self.looking(image, designator),
             "DETECTING" => {
                 let object = required(image, "OBJECT")?;
-                let motion = self.detecting(image, &object);
-                return Ok((Box::new(motion), object));
+                let query = self.detecting(image, &object);
+                self.sought = Some(query.clone());
+                return Ok((Box::new(Detect::new(query)), object));
             }
             "OPENING" | "OPENING-GRIPPER" => {
                 self.gripper(image, designator, |_| Ok(GripperCommand::Open))?
@@ -310,17 +311,17 @@ impl Simulation {
         ))
     }
 
-    fn detecting(&self, image: &mut Image, object: &Value) -> Detect {
+    fn detecting(&self, image: &mut Image, object: &Value) -> DetectQuery {
         let name = property(image, object, "NAME");
         let types = property(image, object, "TYPE");
-        Detect::new(DetectQuery {
+        DetectQuery {
             name: name.and_then(|n| name_text(image, &n)),
             types: types
                 .and_then(|t| type_text(image, &t))
                 .into_iter()
                 .collect(),
             description: print::to_string(image, object, false),
-        })
+        }
     }
 
     /// Designators of detected objects: the first one, or the list of all if all were

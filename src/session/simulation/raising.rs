@@ -10,10 +10,12 @@ use crate::motion::MotionFailure;
 impl Simulation {
     /// The failure condition for a motion's failure; `subject` is the designator it is about.
     pub(super) fn failure(
+        &mut self,
         image: &mut Image,
         failure: &MotionFailure,
         subject: &Value,
     ) -> Box<Raise> {
+        self.remember(failure);
         let package = image
             .packages
             .find("CRAM-COMMON-FAILURES")

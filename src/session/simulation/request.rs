@@ -1,7 +1,6 @@
 //! Carrying out requests of tasks, and advancing the world while all tasks wait.
 
 use std::any::Any;
-use std::sync::atomic::Ordering;
 
 use super::call::HostCall;
 use super::{Job, Simulation};
@@ -19,46 +18,14 @@ type Completion = (Ticket, Result<Value, Box<Raise>>);
 impl Host for Simulation {
     fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
         self.asking = task;
-        let request = match request.downcast::<HostCall>() {
-            Ok(call) => {
-                let reply = (call.call)(self, image, &call.args);
-                self.show(Cause::Edit);
-                return reply.unwrap_or_else(|raise| Reply::Now(Err(raise)));
-            }
-            Err(request) => request,
-        };
-        match request.downcast::<MotionRequest>() {
-            Ok(request) => match self.motion_for(image, &request) {
-                Ok((motion, subject)) => {
-                    // The task is told before what it does.
-                    self.tell_tasks(image);
-                    let name = request.motion_type.to_lowercase();
-                    Reply::Later(self.start(motion, subject, name))
-                }
-                Err(raise) => Reply::Now(Err(raise)),
-            },
-            Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
-        }
+        self.touch();
+        let reply = self.reply(image, request);
+        self.note_motions(image);
+        reply
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
-        self.now = now;
-        let mut done = Vec::new();
-        let mut steps = 0u32;
-        while done.is_empty()
-            && until.is_none_or(|until| self.now < until)
-            && !self.is_interrupted(image)
-        {
-            self.admit_waiting();
-            self.tick(image, &mut done);
-            self.step(image);
-            steps += 1;
-            self.now = now + f64::from(steps) * STEP_SECONDS;
-        }
-        Advance {
-            now: self.now,
-            done,
-        }
+        self.advance_watched(image, now, until, &mut |_| {})
     }
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
@@ -115,6 +82,72 @@ impl Host for Simulation {
 }
 
 impl Simulation {
+    /// As [`Host::advance`]; `watch` is called after every step.
+    pub(in crate::session) fn advance_watched(
+        &mut self,
+        image: &mut Image,
+        now: f64,
+        until: Option<f64>,
+        watch: &mut dyn FnMut(&Simulation),
+    ) -> Advance {
+        self.now = now;
+        let mut done = Vec::new();
+        let mut steps = 0u32;
+        while done.is_empty()
+            && until.is_none_or(|until| self.now < until)
+            && !self.is_interrupted(image)
+        {
+            self.admit_waiting();
+            self.tick(image, &mut done);
+            self.step(image);
+            steps += 1;
+            self.now = now + f64::from(steps) * STEP_SECONDS;
+            watch(self);
+        }
+        Advance {
+            now: self.now,
+            done,
+        }
+    }
+
+    /// What the robot is doing, how far that is, and the simulated time, on one line.
+    pub(in crate::session) fn progress(&self) -> String {
+        let jobs = self.active.iter().filter(|job| !job.is_paused);
+        let mut parts: Vec<String> = jobs
+            .map(|job| {
+                let progress = job.motion.progress();
+                let percent = (progress.fraction * 100.0).clamp(0.0, 100.0);
+                format!("{} {percent:.0} %", progress.what)
+            })
+            .collect();
+        parts.push(format!("{:.1} s", self.now));
+        format!("… {}", parts.join(" · "))
+    }
+
+    /// The reply to a request.
+    fn reply(&mut self, image: &mut Image, request: Box<dyn Any>) -> Reply {
+        let request = match request.downcast::<HostCall>() {
+            Ok(call) => {
+                let reply = (call.call)(self, image, &call.args);
+                self.show(Cause::Edit);
+                return reply.unwrap_or_else(|raise| Reply::Now(Err(raise)));
+            }
+            Err(request) => request,
+        };
+        match request.downcast::<MotionRequest>() {
+            Ok(request) => match self.motion_for(image, &request) {
+                Ok((motion, subject)) => {
+                    // The task is told before what it does.
+                    self.tell_tasks(image);
+                    let name = request.motion_type.to_lowercase();
+                    Reply::Later(self.start(motion, subject, name))
+                }
+                Err(raise) => Reply::Now(Err(raise)),
+            },
+            Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
+        }
+    }
+
     /// Starts a motion as soon as its process module is free.
     pub(super) fn start(
         &mut self,
@@ -123,6 +156,7 @@ impl Simulation {
         name: String,
     ) -> Ticket {
         self.next_ticket += 1;
+        self.begin_motion();
         let ticket = Ticket(self.next_ticket);
         let job = Job {
             ticket,
@@ -170,7 +204,7 @@ impl Simulation {
                     if let Some(hit) = failure.hit() {
                         self.tell_collision(hit);
                     }
-                    Err(Simulation::failure(image, &failure, &job.subject))
+                    Err(self.failure(image, &failure, &job.subject))
                 }
             };
             completions.push((job.ticket, result));
@@ -199,6 +233,7 @@ impl Simulation {
     fn step(&mut self, image: &Image) {
         self.world.step();
         self.observe();
+        self.film();
         self.show(Cause::Step);
         if let Some(pace) = &mut self.pace {
             pace.wait(STEP_SECONDS, &image.interrupt);
@@ -214,6 +249,6 @@ impl Simulation {
     }
 
     fn is_interrupted(&self, image: &Image) -> bool {
-        image.interrupt.load(Ordering::Relaxed)
+        image.is_interrupted()
     }
 }

@@ -8,18 +8,27 @@ use crate::lisp::package::PackageTable;
 /// Builtins by package.
 static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("CRAM-PICK-PLACE-TUTORIAL", functions::tutorial::TABLE),
+    ("CRAM-PICK-PLACE-TUTORIAL", functions::reaching::TABLE),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::plans::TABLE),
     ("CRAM-BULLET-REASONING-UTILITIES", functions::objects::TABLE),
     ("CRAM-OBJECT-INTERFACES", functions::grasps::TABLE),
     ("ROSLISP", functions::ros::LOG_TABLE),
     ("ROSLISP-UTILITIES", functions::ros::UTILITIES_TABLE),
     ("ROS-LOAD", functions::ros::LOAD_TABLE),
-    ("COMMON-LISP-USER", functions::watching::TABLE),
+    ("PLANWRIGHT", functions::explaining::TABLE),
+    ("PLANWRIGHT", functions::moments::TABLE),
+    ("PLANWRIGHT", functions::pictures::TABLE),
+    ("PLANWRIGHT", functions::prompt::TABLE),
+    ("PLANWRIGHT", functions::watching::TABLE),
+    ("PLANWRIGHT", crate::session::record::TABLE),
+    ("SYSTEM", functions::prompt::SYSTEM_TABLE),
 ];
 
 /// Operators by package.
-static OPERATORS: &[(&str, &[Operator])] =
-    &[("CRAM-PR2-PROJECTION", functions::robot_macros::OPERATORS)];
+static OPERATORS: &[(&str, &[Operator])] = &[
+    ("CRAM-PR2-PROJECTION", functions::robot_macros::OPERATORS),
+    ("PLANWRIGHT", functions::prompt::OPERATORS),
+];
 
 /// Functions of one package that another package offers under the same name.
 static ALIASES: &[(&str, &str, &[&str])] = &[
@@ -37,11 +46,6 @@ static ALIASES: &[(&str, &str, &[&str])] = &[
         "CRAM-PR2-PROJECTION",
         "CRAM-PICK-PLACE-TUTORIAL",
         &["WITH-SIMULATED-ROBOT", "WITH-PROJECTED-ROBOT"],
-    ),
-    (
-        "COMMON-LISP-USER",
-        "CRAM-PICK-PLACE-TUTORIAL",
-        &["VIEW", "RECORD"],
     ),
 ];
 

@@ -9,20 +9,23 @@ use crate::lisp::print;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
 use crate::plan::Reply;
-use crate::session::simulation::Simulation;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::motions::sides;
 use crate::session::simulation::names::type_text;
-use crate::world::grasp_library::GraspDefinition;
+use crate::session::simulation::{LogLevel, Simulation};
+use crate::transform::argument;
+use crate::world::grasp_library::{GraspDefinition, Lift};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-OBJECT-INTERFACES`.
 pub static TABLE: &[Builtin] = &[control(
     "DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS",
-    "types arms grasp &key grasp-translation grasp-rot-matrix pregrasp-offsets 2nd-pregrasp-offsets lift-offsets 2nd-lift-offsets lift-translation 2nd-lift-translation location-type",
-    "Defines how objects of the types are grasped by the arms.",
-    &[],
+    "types arms grasp &key grasp-translation grasp-rot-matrix pregrasp-offsets 2nd-pregrasp-offsets lift-offsets 2nd-lift-offsets lift-translation lift-rotation 2nd-lift-translation 2nd-lift-rotation location-type",
+    "Defines how objects of the types (one or a list) are grasped by the arms (one or a list). Offsets are relative to the translation, along the object's axes (m); LIFT-TRANSLATION and LIFT-ROTATION (a quaternion) move hand and object along the axes of the robot's base. A grasp that exists is replaced.",
+    &[
+        "(progn (obj-int:def-object-type-to-gripper-transforms :mug '(:left :right) :from-above :grasp-translation '(0 0 0.02) :grasp-rot-matrix '((0 1 0) (1 0 0) (0 0 -1)) :pregrasp-offsets '(0 0 0.15) :lift-offsets '(0 0 0.15)) (pp-tut:list-defined-grasps :mug)) => (:FROM-ABOVE)",
+    ],
     host!(define_grasp),
 )];
 
@@ -48,6 +51,27 @@ fn matrix(image: &Image, value: &Value) -> Result<[[f64; 3]; 3]> {
         .map_err(|_| Raise::simple("A rotation matrix is a list of three rows of three numbers."))
 }
 
+/// The offset (m) along the object's axes; none unless it is given.
+fn offsets(image: &Image, value: Option<Value>, what: &str) -> Result<[f64; 3]> {
+    value.map_or(Ok([0.0; 3]), |value| triple(image, &value, what))
+}
+
+/// A lift from its offset along the object's axes and from its translation and rotation, a
+/// quaternion, in the frame of the robot's base.
+fn lift_of(
+    image: &Image,
+    offset: Option<Value>,
+    in_base: Option<Value>,
+    turn: Option<Value>,
+) -> Result<Lift> {
+    let mut lift = Lift::along_object(offsets(image, offset, "lift offset")?);
+    lift.in_base.translation = offsets(image, in_base, "lift translation")?.into();
+    if let Some(turn) = turn {
+        lift.in_base.rotation = argument::quaternion(image, &turn)?.rotation();
+    }
+    Ok(lift)
+}
+
 fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let types: Vec<Value> = match &args[0] {
         Value::Cons(_) => args[0].iter_list().collect(),
@@ -63,10 +87,10 @@ fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         "PREGRASP-OFFSETS",
         "2ND-PREGRASP-OFFSETS",
         "LIFT-OFFSETS",
-        "2ND-LIFT-OFFSETS",
         "LIFT-TRANSLATION",
-        "2ND-LIFT-TRANSLATION",
         "LIFT-ROTATION",
+        "2ND-LIFT-OFFSETS",
+        "2ND-LIFT-TRANSLATION",
         "2ND-LIFT-ROTATION",
         "LOCATION-TYPE",
     ]
@@ -76,28 +100,42 @@ fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         rotation,
         pregrasp,
         second_pregrasp,
-        lift,
-        second_lift,
-        lift_in_base,
-        second_lift_in_base,
-        ..,
+        lift @ ..,
+        location,
     ] = keywords::parse(image, &args[3..], names)?;
-    let offset = |image: &Image, value: Option<Value>, what: &str| match value {
-        Some(value) => triple(image, &value, what),
-        None => Ok([0.0; 3]),
-    };
-    let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let [
+        offset,
+        in_base,
+        turn,
+        second_offset,
+        second_in_base,
+        second_turn,
+    ] = lift;
     let definition = GraspDefinition {
-        translation: offset(image, translation, "grasp translation")?,
+        translation: offsets(image, translation, "grasp translation")?,
         rotation: match rotation {
             Some(rows) => matrix(image, &rows)?,
-            None => identity,
+            None => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         },
-        pregrasp: offset(image, pregrasp, "pregrasp offset")?,
-        second_pregrasp: offset(image, second_pregrasp, "pregrasp offset")?,
-        lift: offset(image, lift.or(lift_in_base), "lift offset")?,
-        second_lift: offset(image, second_lift.or(second_lift_in_base), "lift offset")?,
+        pregrasp: offsets(image, pregrasp, "pregrasp offset")?,
+        second_pregrasp: offsets(image, second_pregrasp, "pregrasp offset")?,
+        lift: lift_of(image, offset, in_base, turn)?,
+        second_lift: lift_of(image, second_offset, second_in_base, second_turn)?,
     };
+    if let Some(location) = location.filter(Value::is_true) {
+        let [grasp, location] =
+            [&args[2], &location].map(|name| print::to_string(image, name, true));
+        simulation.log(
+            image,
+            LogLevel::Warn,
+            "(OBJ-INT DEF-OBJECT-TYPE-TO-GRIPPER-TRANSFORMS)",
+            &format!(
+                "The grasp {grasp} for objects in a {location} is left out: grasps hold for \
+                 objects in any place."
+            ),
+        );
+        return done(args[2].clone());
+    }
     for kind in &types {
         let Some(kind) = type_text(image, kind) else {
             return Err(Raise::type_error(kind, known::SYMBOL));

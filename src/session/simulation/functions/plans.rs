@@ -10,17 +10,18 @@ use crate::lisp::number;
 use crate::lisp::print;
 use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
-use crate::motion::{LetGo, take_hold};
+use crate::motion::{CollisionMode, LetGo, can_reach, take_hold};
 use crate::plan::Reply;
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::held::Held;
+use crate::session::simulation::imagined::Imagined;
 use crate::session::simulation::motions::{side, side_keyword};
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use crate::spatial::{Pose, Shape, trig};
 use crate::transform::value::{as_placement, frame_of, pose_stamped};
-use crate::world::grasp_library::{GraspDefinition, Grip};
+use crate::world::grasp_library::{GraspDefinition, Grip, Lift};
 use crate::world::object_library::ObjectType;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -121,16 +122,16 @@ const HEADINGS: [f64; 24] = [
 ];
 
 /// An object as perception has described it.
-struct Perceived {
-    name: String,
-    kind: String,
+pub(super) struct Perceived {
+    pub(super) name: String,
+    pub(super) kind: String,
     /// Its pose in the frame of the robot's base as it stands now.
-    in_base: Pose,
+    pub(super) in_base: Pose,
 }
 
 impl Simulation {
     /// Reads the designator of a perceived object.
-    fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
+    pub(super) fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
         let current = current(object);
         let name = property(image, &current, "NAME");
         let kind = property(image, &current, "TYPE");
@@ -171,7 +172,7 @@ impl Simulation {
     }
 
     /// The definition of a grasp, or an error that lists those there are.
-    fn grasp(
+    pub(super) fn grasp(
         &self,
         image: &Image,
         kind: &str,
@@ -207,7 +208,7 @@ impl Simulation {
 
     /// Names of the grasps of a type that are defined for an arm, in the order in which
     /// they are tried.
-    fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
+    pub(super) fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
         let kinds = self.models.objects.lineage(kind);
         for kind in kinds {
             let names: Vec<String> = self
@@ -229,7 +230,7 @@ impl Simulation {
     }
 
     /// Can the hand be brought to all poses, given in the frame of the base?
-    fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
+    pub(super) fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
         let description = &self.models.description;
         let joints = &self.world.robot_configuration().joints;
         let search = description.torso_search(&self.models.robot, joints, arm);
@@ -237,6 +238,35 @@ impl Simulation {
             let wrist = description.arm(arm).wrist_for_tool(tool);
             search.reach(&wrist).is_ok()
         })
+    }
+}
+
+impl Simulation {
+    /// Could the hand open around an object at a pose in the frame of the base, and be at
+    /// all poses that belong to the object's, without touching anything else?
+    fn is_free_around(
+        &self,
+        side: Side,
+        name: &str,
+        object: &Pose,
+        poses_for: impl Fn(&Pose) -> [Pose; 4],
+    ) -> bool {
+        let imagined = Imagined {
+            object: name,
+            object_pose: Some(self.base() * object),
+            base_pose: None,
+            side,
+            opening: f64::INFINITY,
+        };
+        let Ok(world) = imagined.world(&self.world) else {
+            return false;
+        };
+        let Ok(stands) = world.object_pose(name) else {
+            return false;
+        };
+        poses_for(&(self.base().inverse() * stands))
+            .iter()
+            .all(|tool| can_reach(&world, side, tool, CollisionMode::AllowHand))
     }
 }
 
@@ -326,7 +356,7 @@ fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let object = simulation.perceived(image, &args[0])?;
     let side = side(image, &args[1])?;
     take_hold(&mut simulation.world, side, &object.name)
-        .map_err(|failure| Simulation::failure(image, &failure, &args[0]))?;
+        .map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
     let held = Held {
         side,
         grasp: type_text(image, &args[2]),
@@ -447,35 +477,45 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         }
         None => None,
     };
-    let offsets = definition.map_or(
-        ([0.0, 0.0, 0.15], [0.0, 0.0, 0.15], [0.0, 0.0, 0.15]),
-        |d| (d.lift, d.second_pregrasp, d.pregrasp),
-    );
+    let up = [0.0, 0.0, 0.15];
+    let (lift, second_pregrasp, pregrasp) = definition
+        .map_or((Lift::along_object(up), up, up), |d| {
+            (d.lift, d.second_pregrasp, d.pregrasp)
+        });
     let is_round = simulation.models.objects.get(&kind).is_some_and(is_round);
     let headings: &[f64] = if is_round { &HEADINGS } else { &HEADINGS[..1] };
-    let poses_at = |heading: f64| {
+    let turned = |heading: f64| {
         let (s, c) = trig::sin_cos(heading.to_radians() / 2.0);
-        let turn = UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(c, 0.0, 0.0, s));
-        let turned = target * turn;
-        let tool = |offset: [f64; 3]| turned * Translation3::from(offset) * tool_in_object;
+        target * UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(c, 0.0, 0.0, s))
+    };
+    let poses_for = |object: &Pose| {
+        let tool = |offset: [f64; 3]| object * Translation3::from(offset) * tool_in_object;
         [
-            tool(offsets.0),
+            lift.in_base * tool(lift.offset),
             tool([0.0; 3]),
-            tool(offsets.1),
-            tool(offsets.2),
+            tool(second_pregrasp),
+            tool(pregrasp),
         ]
     };
-    // Best is a heading at which the hand can also retract; what cannot be reached at any
-    // heading fails later, and says why.
+    // Best is a heading at which the hand can also open and retract, best of all without
+    // touching anything; what cannot be reached at any heading fails later, and says why.
     let reachable = |count: usize| {
-        headings
-            .iter()
-            .map(|heading| poses_at(*heading))
+        let poses = headings.iter().map(|heading| poses_for(&turned(*heading)));
+        poses
+            .into_iter()
             .find(|poses| simulation.is_reachable(side, &poses[..count]))
     };
-    let poses = reachable(4)
+    let free = headings.iter().find_map(|heading| {
+        let object = turned(*heading);
+        let poses = poses_for(&object);
+        let free = simulation.is_reachable(side, &poses)
+            && simulation.is_free_around(side, &name, &object, poses_for);
+        free.then_some(poses)
+    });
+    let poses = free
+        .or_else(|| reachable(4))
         .or_else(|| reachable(2))
-        .unwrap_or_else(|| poses_at(0.0));
+        .unwrap_or_else(|| poses_for(&target));
     done(Value::list(poses.map(|pose| in_base(&pose))))
 }
 

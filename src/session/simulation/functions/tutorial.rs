@@ -3,20 +3,25 @@
 use super::objects::Spawning;
 use crate::designator::value::current;
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::builtins::keywords;
+use crate::lisp::builtins::keywords::{self, optional};
 use crate::lisp::foreign::Foreign;
 use crate::lisp::image::Image;
 use crate::lisp::known;
 use crate::lisp::number;
+use crate::lisp::print;
 use crate::lisp::raise::Raise;
 use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
 use crate::plan::Reply;
 use crate::session::simulation::call::{done, host};
+use crate::session::simulation::motions::side;
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use crate::session::simulation::properties::property;
 use crate::session::simulation::{Axes, LogLevel, Simulation};
 use crate::transform::value::{as_placement, frame_of, pose_stamped, transform_stamped};
+
+/// Length of coordinate axes (m) unless told.
+const AXES_SIZE: f64 = 0.3;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -47,16 +52,21 @@ pub static TABLE: &[Builtin] = &[
     ),
     control(
         "LIST-DEFINED-GRASPS",
-        "type",
-        "The grasps that are defined for a type of objects.",
-        &["(pp-tut:list-defined-grasps :cup) => (:BACK :FRONT :LEFT-SIDE :RIGHT-SIDE)"],
+        "type &optional arm",
+        "The grasps that are defined for a type of objects; with an arm, those for that arm.",
+        &[
+            "(pp-tut:list-defined-grasps :cup) => (:BACK :FRONT :LEFT-SIDE :RIGHT-SIDE)",
+            "(pp-tut:list-defined-grasps :plate :left) => (:LEFT-SIDE)",
+        ],
         host!(list_defined_grasps),
     ),
     control(
         "VISUALIZE-COORDINATES",
         "object-or-pose &optional size",
-        "Shows coordinate axes at an object or a pose.",
-        &[],
+        "Shows coordinate axes, as long as SIZE (m), at an object, given by its name or type, or at a pose; x is red, y green, z blue. They stay until others are shown.",
+        &[
+            "(pp-tut:visualize-coordinates (pp-tut:make-pose \"map\" '((0 1 0) (0 0 0 1))) 0.5) => NIL",
+        ],
         host!(visualize_coordinates),
     ),
     control(
@@ -168,10 +178,15 @@ fn list_defined_grasps(
     let Some(kind) = type_text(image, &args[0]) else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
     };
-    let grasps: Vec<Value> = simulation
-        .grasps
+    let arm = match optional(args, 1) {
+        Some(arm) => Some(side(image, arm)?),
+        None => None,
+    };
+    let library = &simulation.grasps;
+    let grasps: Vec<Value> = library
         .grasps(&kind)
         .iter()
+        .filter(|name| arm.is_none_or(|arm| library.get(&kind, arm, name).is_some()))
         .map(|name| type_keyword(image, name))
         .collect();
     done(Value::list(grasps))
@@ -182,7 +197,17 @@ fn visualize_coordinates(
     image: &mut Image,
     args: &[Value],
 ) -> Result<Reply> {
-    let size = args.get(1).and_then(number::to_f64).unwrap_or(0.3);
+    let size = match args.get(1) {
+        Some(size) => number::to_f64(size)
+            .filter(|size| size.is_finite() && *size > 0.0)
+            .ok_or_else(|| {
+                let shown = print::to_string(image, size, true);
+                Raise::simple(format!(
+                    "{shown} is no length of axes: a number of metres above 0 was expected."
+                ))
+            })?,
+        None => AXES_SIZE,
+    };
     let pose = match as_placement(&args[0]) {
         Some(placement) => {
             if frame_of(&args[0]).is_some_and(|frame| &*frame != "map") {
@@ -195,9 +220,9 @@ fn visualize_coordinates(
         }
         None => {
             let Some(name) = name_text(image, &args[0]) else {
-                let shown = crate::lisp::print::to_string(image, &args[0], true);
+                let shown = print::to_string(image, &args[0], true);
                 return Err(Raise::simple(format!(
-                    "{shown} cannot be visualized: the name or type of an object, or a pose, was expected."
+                    "{shown} cannot be visualized: the name or type of an object, or a pose as make-pose makes it, was expected."
                 )));
             };
             let named = simulation.world.object_pose(&name).ok();
@@ -339,4 +364,50 @@ fn look_up_transformation(
     let from = simulation.frame_pose(image, &parent)?;
     let to = simulation.frame_pose(image, &child)?;
     done(transform_stamped(&parent, &child, &(from.inverse() * to)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dialogue::Evaluate;
+    use crate::session::{Session, SessionOptions};
+    use crate::spatial::Pose;
+
+    fn session() -> Session {
+        let mut session = Session::new(&SessionOptions::default()).expect("a session");
+        run(&mut session, "(in-package :pp-tut)");
+        session
+    }
+
+    fn run(session: &mut Session, text: &str) {
+        session.evaluate("test", text, &mut |_| {});
+    }
+
+    fn axes(session: &Session) -> Option<Axes> {
+        session.simulation().axes().cloned()
+    }
+
+    #[test]
+    fn axes_are_in_the_world_until_others_are_shown_or_it_begins_anew() {
+        let mut session = session();
+        run(
+            &mut session,
+            "(spawn-object '((1.5 1 1) (0 0 0 1)) :cup 'cup-1)",
+        );
+        let cup = session.simulation().world().object_pose("CUP-1");
+        let pose = cup.expect("there is a cup");
+        let size = AXES_SIZE;
+        run(&mut session, "(visualize-coordinates 'cup-1)");
+        assert_eq!(axes(&session), Some(Axes { pose, size }));
+        let text = "(visualize-coordinates (make-pose \"base_footprint\" '((1 2 0) (0 0 0 1))) 1)";
+        run(&mut session, text);
+        let pose = Pose::translation(1.0, 2.0, 0.0);
+        let elsewhere = Some(Axes { pose, size: 1.0 });
+        assert_eq!(axes(&session), elsewhere);
+        run(&mut session, "(visualize-coordinates 'saucer-1)");
+        run(&mut session, "(visualize-coordinates 'cup-1 -1)");
+        assert_eq!(axes(&session), elsewhere);
+        run(&mut session, "(init-projection)");
+        assert_eq!(axes(&session), None);
+    }
 }

@@ -21,20 +21,20 @@ use crate::viewer::live::{
 use crate::viewer::recording::{Recorder, RecordingError, RecordingResult};
 use crate::viewer::watch::{Cause, Witness};
 
-/// Builtins of package `COMMON-LISP-USER`.
+/// Builtins of package `PLANWRIGHT`.
 pub static TABLE: &[Builtin] = &[
     control(
         "VIEW",
         "&optional (on t)",
         "Opens the live view in the browser and returns its address; closes it if told NIL. Simulated time passes as fast as the real one while it is open.",
-        &["(view nil) => NIL"],
+        &["(pw:view nil) => NIL"],
         host!(view),
     ),
     control(
         "RECORD",
         "file",
         "Records from here on what happens into an MCAP file, which Foxglove and `planwright view` show; ends the recording if told NIL.",
-        &["(record nil) => NIL"],
+        &["(pw:record nil) => NIL"],
         host!(record),
     ),
 ];

@@ -3,7 +3,7 @@
 
 use crate::spatial::{PlacedShape, Pose, Shape};
 
-use super::surface::Surface;
+use crate::viewer::surface::Surface;
 
 /// Fewest boxes that are taken for a ring.
 const LEAST_COUNT: usize = 6;

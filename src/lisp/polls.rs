@@ -1,0 +1,62 @@
+//! Counting how often the interrupt flag is looked at. The count depends on the program
+//! alone, so it tells where an interrupt came, and where to repeat it.
+
+use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A count of looks at the interrupt flag.
+#[derive(Debug, Default)]
+pub struct Polls {
+    count: Cell<u64>,
+    seen_at: Cell<Option<u64>>,
+    due_at: Cell<Option<u64>>,
+}
+
+impl Polls {
+    /// Begins a new count. At the given look, if any, the flag will be found set.
+    pub fn begin(&self, due_at: Option<u64>) {
+        self.count.set(0);
+        self.seen_at.set(None);
+        self.due_at.set(due_at);
+    }
+
+    /// The first look at which the flag was set.
+    pub fn seen_at(&self) -> Option<u64> {
+        self.seen_at.get()
+    }
+
+    /// Looks at the flag.
+    pub(super) fn look(&self, flag: &AtomicBool) -> bool {
+        let count = self.count.get() + 1;
+        self.count.set(count);
+        let is_set = flag.load(Ordering::Relaxed) || self.due_at.get() == Some(count);
+        if is_set {
+            flag.store(true, Ordering::Relaxed);
+            if self.seen_at.get().is_none() {
+                self.seen_at.set(Some(count));
+            }
+        }
+        is_set
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interrupt_can_be_repeated() {
+        let flag = AtomicBool::new(false);
+        let polls = Polls::default();
+        assert!(!polls.look(&flag));
+        flag.store(true, Ordering::Relaxed);
+        assert!(polls.look(&flag));
+        assert_eq!(polls.seen_at(), Some(2));
+
+        flag.store(false, Ordering::Relaxed);
+        polls.begin(Some(2));
+        assert!(!polls.look(&flag));
+        assert!(polls.look(&flag));
+        assert!(flag.load(Ordering::Relaxed));
+    }
+}

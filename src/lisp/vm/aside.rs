@@ -1,0 +1,142 @@
+//! Evaluation on top of a fiber that has stopped at a condition: a debugger's. The fiber's
+//! bindings and restarts are in force, its handlers are not. When the evaluation has ended,
+//! the fiber stands as before.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use super::fiber::Dynamic;
+use super::machine::Machine;
+use super::step::{Resume, Step};
+use crate::lisp::foreign::Foreign;
+use crate::lisp::function::Function;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+
+/// How an evaluation on top of a stopped fiber stands.
+#[derive(Clone, Default)]
+pub enum AsideState {
+    /// It is under way.
+    #[default]
+    Running,
+    /// It has returned these values to the debugger.
+    Returned(Vec<Value>),
+    /// It was ended by [`Aside::leave`].
+    Ended,
+    /// It left the stopped fiber's place by a non-local exit: a restart.
+    Left,
+}
+
+/// An evaluation on top of a stopped fiber.
+#[derive(Clone)]
+pub struct Aside {
+    state: Rc<RefCell<AsideState>>,
+    tag: Value,
+}
+
+struct Tag;
+
+impl Foreign for Tag {
+    fn type_symbol(&self) -> Sym {
+        known::CATCH
+    }
+
+    fn print(&self, _: &Image, _: bool) -> String {
+        "#<DEBUGGER>".to_owned()
+    }
+}
+
+impl Aside {
+    /// An evaluation that has not begun.
+    pub fn new() -> Aside {
+        Aside {
+            state: Rc::default(),
+            tag: Value::foreign(Tag),
+        }
+    }
+
+    /// How it stands.
+    pub fn state(&self) -> AsideState {
+        self.state.borrow().clone()
+    }
+
+    /// The tag of a `catch` that the function must establish around its work.
+    pub fn tag(&self) -> Value {
+        self.tag.clone()
+    }
+
+    /// The function that calls another one aside, on a fiber that has stopped at
+    /// `condition`. It must be called once.
+    pub fn call(&self, condition: Value, function: Value, args: Vec<Value>) -> Value {
+        let state = self.state.clone();
+        let call = move |machine: &mut Machine<'_>, _| {
+            machine.fiber.dynamic.push(Dynamic::HandlerMask(0));
+            Ok(Step::CallForValues {
+                function: function.clone(),
+                args: args.clone(),
+                then: Box::new(Back {
+                    state: state.clone(),
+                    condition: condition.clone(),
+                }),
+            })
+        };
+        Value::Function(Function::made_control(known::EVAL, (0, Some(0)), call))
+    }
+
+    /// The function that ends the evaluation from further in, wherever it is.
+    pub fn leave(&self) -> Value {
+        let (state, tag) = (self.state.clone(), self.tag.clone());
+        let call = move |machine: &mut Machine<'_>, _| {
+            *state.borrow_mut() = AsideState::Ended;
+            machine.throw(&tag, Value::NIL)
+        };
+        Value::Function(Function::made_control(known::THROW, (0, Some(0)), call))
+    }
+}
+
+impl Default for Aside {
+    fn default() -> Aside {
+        Aside::new()
+    }
+}
+
+/// The way back to the debugger.
+struct Back {
+    state: Rc<RefCell<AsideState>>,
+    condition: Value,
+}
+
+impl Resume for Back {
+    fn resume(
+        self: Box<Self>,
+        machine: &mut Machine<'_>,
+        value: Value,
+    ) -> Result<Step, Box<Raise>> {
+        if matches!(machine.fiber.dynamic.last(), Some(Dynamic::HandlerMask(_))) {
+            machine.fiber.dynamic.pop();
+        }
+        let mut state = self.state.borrow_mut();
+        if matches!(*state, AsideState::Running) {
+            *state = AsideState::Returned(value.into_values());
+        }
+        drop(state);
+        Ok(Step::Unhandled(self.condition.clone()))
+    }
+
+    fn name(&self) -> &'static str {
+        "DEBUGGER"
+    }
+}
+
+impl Drop for Back {
+    /// Dropped without having been resumed: something has left it.
+    fn drop(&mut self) {
+        let mut state = self.state.borrow_mut();
+        if matches!(*state, AsideState::Running) {
+            *state = AsideState::Left;
+        }
+    }
+}

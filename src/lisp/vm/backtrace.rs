@@ -1,0 +1,158 @@
+//! The frames of a fiber that stands still, as a debugger shows them: who was called with
+//! what, and the variables that were in force.
+
+use super::fiber::{Fiber, Frame, FrameKind};
+use crate::lisp::function::Body;
+use crate::lisp::symbol::Sym;
+use crate::lisp::value::Value;
+use crate::reader::source::Place;
+
+/// A frame as people see it.
+pub struct FrameView {
+    /// Its index in the fiber, outermost first.
+    pub index: usize,
+    /// What was called: a symbol, `(setf name)`, `(lambda …)`; a text for a builtin.
+    pub name: Value,
+    /// The parameters that are known, in order.
+    pub arguments: Vec<Value>,
+    /// The place in the source of what it was doing.
+    pub place: Place,
+    /// The action that a plan carries out, if the frame is `PERFORM`'s.
+    pub action: Option<Value>,
+    /// How many motions had been begun before that action.
+    pub motions_before: u64,
+}
+
+/// A variable of a frame.
+pub struct Variable {
+    /// Its name.
+    pub name: Sym,
+    /// Its value; unbound for a parameter that was not supplied.
+    pub value: Value,
+    place: VariablePlace,
+}
+
+/// Where a variable lies.
+#[derive(Clone)]
+pub enum VariablePlace {
+    /// On the value stack, counted from its bottom.
+    Stack(usize),
+    /// In a closure that cannot be changed.
+    Closure,
+    /// In a box.
+    Cell(Value),
+}
+
+impl Variable {
+    /// Where it lies.
+    pub fn place(&self) -> VariablePlace {
+        self.place.clone()
+    }
+}
+
+impl VariablePlace {
+    /// Assigns a variable of a fiber.
+    pub fn set(&self, fiber: &mut Fiber, value: Value) {
+        match self {
+            VariablePlace::Stack(at) => {
+                if let Some(place) = fiber.stack.get_mut(*at) {
+                    *place = value;
+                }
+            }
+            VariablePlace::Cell(Value::Cell(cell)) => cell.set(value),
+            VariablePlace::Cell(_) | VariablePlace::Closure => {}
+        }
+    }
+}
+
+impl Fiber {
+    /// The frames, innermost first.
+    pub fn views(&self) -> Vec<FrameView> {
+        let frames = self.frames.iter().enumerate().rev();
+        frames
+            .map(|(index, frame)| self.view(index, frame))
+            .collect()
+    }
+
+    fn view(&self, index: usize, frame: &Frame) -> FrameView {
+        match &frame.kind {
+            FrameKind::Native { then, .. } => FrameView {
+                index,
+                name: then.name().into(),
+                arguments: then.subject().cloned().into_iter().collect(),
+                place: Place::NONE,
+                action: then.subject().cloned(),
+                motions_before: then.motions_before().unwrap_or(0),
+            },
+            FrameKind::Code { function, pc } => match &function.body {
+                Body::Closure { code, .. } => {
+                    let count = code.parameters.slots();
+                    let values = self.stack.iter().skip(frame.base).take(count);
+                    let values = values.map(|value| match value {
+                        Value::Cell(cell) => cell.get(),
+                        other => other.clone(),
+                    });
+                    FrameView {
+                        index,
+                        name: code.name.clone(),
+                        arguments: values.filter(|value| !value.is_unbound()).collect(),
+                        place: code.place_at(pc.saturating_sub(1)),
+                        action: None,
+                        motions_before: 0,
+                    }
+                }
+                _ => FrameView {
+                    index,
+                    name: Value::NIL,
+                    arguments: Vec::new(),
+                    place: Place::NONE,
+                    action: None,
+                    motions_before: 0,
+                },
+            },
+        }
+    }
+
+    /// The variables in whose scope a frame is, each name once: the innermost.
+    pub fn variables(&self, frame: usize) -> Vec<Variable> {
+        let Some(frame) = self.frames.get(frame) else {
+            return Vec::new();
+        };
+        let FrameKind::Code { function, pc } = &frame.kind else {
+            return Vec::new();
+        };
+        let Body::Closure { code, captured } = &function.body else {
+            return Vec::new();
+        };
+        let pc = u32::try_from(pc.saturating_sub(1)).unwrap_or(u32::MAX);
+        let mut found: Vec<Variable> = Vec::new();
+        let locals = code.locals.iter().rev();
+        for local in locals.filter(|local| local.from <= pc && pc < local.to) {
+            let at = frame.base + local.slot as usize;
+            let Some(value) = self.stack.get(at) else {
+                continue;
+            };
+            let (value, place) = seen(value, VariablePlace::Stack(at));
+            add(&mut found, local.name, value, place);
+        }
+        found.reverse();
+        for (name, value) in code.free.iter().zip(captured) {
+            let (value, place) = seen(value, VariablePlace::Closure);
+            add(&mut found, *name, value, place);
+        }
+        found
+    }
+}
+
+fn seen(value: &Value, place: VariablePlace) -> (Value, VariablePlace) {
+    match value {
+        Value::Cell(cell) => (cell.get(), VariablePlace::Cell(value.clone())),
+        other => (other.clone(), place),
+    }
+}
+
+fn add(to: &mut Vec<Variable>, name: Sym, value: Value, place: VariablePlace) {
+    if !to.iter().any(|known| known.name == name) {
+        to.push(Variable { name, value, place });
+    }
+}

@@ -1,0 +1,50 @@
+//! What the robot could do from a place, without moving: stand there, and bring a hand to a
+//! pose.
+//!
+//! The answers are those that the motions would come to; whether there is a way is not
+//! looked at.
+
+use super::base_path::BasePlace;
+use super::drive_plan::{BaseJudge, at_place};
+use super::expected_contacts::{CollisionMode, ExpectedContacts};
+use super::judge::Judge;
+use super::tcp_plan::{REASON_STEP, TcpTask};
+use crate::robot::Side;
+use crate::spatial::Pose;
+use crate::world::{AllowedPairs, CollisionHit, World};
+
+/// Whether the base could be at the place (m, m, rad) with torso and arms as they are,
+/// touching nothing.
+pub fn can_stand(world: &World, place: &BasePlace) -> bool {
+    BaseJudge::new(world).blocked(place, 0.0).is_none()
+}
+
+/// What the robot would touch with its base at the place (m, m, rad), torso and arms as they
+/// are.
+pub fn touching_at(world: &World, place: &BasePlace) -> Vec<CollisionHit> {
+    let robot = at_place(world.robot_configuration(), place);
+    let mut checker = world.collision_checker();
+    checker.all_hits(&robot, &AllowedPairs::none(), 0.0)
+}
+
+/// Whether the tool of a hand could be at the pose in the frame of the base, at any height
+/// of the torso, while the robot touches nothing but what the mode lets it.
+pub fn can_reach(world: &World, side: Side, tool: &Pose, mode: CollisionMode) -> bool {
+    let contacts = ExpectedContacts::of(world, [side].into_iter(), mode);
+    let task = TcpTask {
+        world,
+        goals: vec![(side, *tool)],
+        contacts,
+    };
+    task.heights(REASON_STEP).into_iter().any(|height| {
+        let axes = task.axes(height);
+        let postures = task.postures(height, &axes);
+        if postures.is_empty() {
+            return false;
+        }
+        let mut judge = Judge::new(world, axes.joints.clone(), &task.contacts);
+        postures
+            .iter()
+            .any(|posture| judge.blocked(&posture.positions).is_none())
+    })
+}

@@ -1,0 +1,169 @@
+//! Tasks that stop where a condition finds no handler, so that a person can look at them
+//! and decide how they go on.
+
+use super::Scheduler;
+use super::group::{unwrapped, wrapped};
+use super::live::{Answer, Slot, Wait};
+use super::root::Evaluation;
+use crate::lisp::condition;
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::vm::fiber::{Dynamic, Fiber};
+use crate::plan::host::Host;
+use crate::plan::request::GroupKind;
+use crate::plan::state::Plan;
+use crate::plan::task::TaskId;
+
+impl Scheduler {
+    /// From here on, a task stays where it is when a condition finds no handler in it and
+    /// would find none further out either; or, as by default, it fails.
+    pub fn set_stops_in_place(&mut self, stops: bool) {
+        self.stops_in_place = stops;
+    }
+
+    /// The task or root that stopped last.
+    fn stopped(&self) -> Option<Slot> {
+        let of_task = self.stops.last().map(|(slot, _)| *slot);
+        let of_root = || {
+            let root = self.roots.last().copied()?;
+            let live = self.live(root)?;
+            matches!(live.wait, Wait::Debugger).then_some(root)
+        };
+        of_task.or_else(of_root)
+    }
+
+    /// Which task or root stopped last.
+    pub fn stopped_id(&self) -> Option<TaskId> {
+        self.live(self.stopped()?).map(|live| live.id)
+    }
+
+    /// The stopped entry and those above it, the root last.
+    fn stopped_chain(&self) -> Vec<Slot> {
+        let first = self.stopped();
+        std::iter::successors(first, |slot| self.live(*slot)?.parent).collect()
+    }
+
+    /// The fibers of the task that stopped last and of those that wait for it, innermost
+    /// first.
+    pub fn stopped_fibers(&self) -> Vec<&Fiber> {
+        let chain = self.stopped_chain();
+        chain
+            .iter()
+            .filter_map(|slot| self.live(*slot))
+            .map(|live| &live.fiber)
+            .collect()
+    }
+
+    /// The fiber of the task that stopped last.
+    pub fn stopped_fiber(&mut self) -> Option<&mut Fiber> {
+        let slot = self.stopped()?;
+        self.live_mut(slot).map(|live| &mut live.fiber)
+    }
+
+    /// Is the host working on anything?
+    pub fn has_requests(&self) -> bool {
+        !self.tickets.is_empty()
+    }
+
+    /// The stopped entry is about to go on.
+    pub(super) fn leave_stop(&mut self) -> Option<Slot> {
+        let slot = self.stopped()?;
+        self.stops.pop();
+        if let Some(live) = self.live_mut(slot) {
+            live.ending = None;
+        }
+        Some(slot)
+    }
+
+    /// Tells of the last stop again, because nobody else can go on.
+    pub(super) fn tell_stop_again(&mut self) -> bool {
+        self.untold_stop = self.stops.last().map(|(_, condition)| condition.clone());
+        self.untold_stop.is_some()
+    }
+
+    /// Leaves a frame, and all that was called from it, and goes on with a call in its
+    /// place. The frame is one of the `link`th of the stopped fibers; tasks that were begun
+    /// from further in end first.
+    pub fn replace_frame(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host,
+        (link, frame): (usize, usize),
+        (function, args): (Value, Vec<Value>),
+    ) -> Evaluation {
+        let Some(slot) = self.stopped_chain().get(link).copied() else {
+            return self.go_on(image, host);
+        };
+        self.leave_stop();
+        if link > 0 {
+            self.leave_wait(slot);
+            self.evaporate_children(image, host, slot);
+            self.drain(image, host, slot);
+            let alive: Vec<bool> = self
+                .stops
+                .iter()
+                .map(|(s, _)| self.live(*s).is_some())
+                .collect();
+            let mut alive = alive.into_iter();
+            self.stops.retain(|_| alive.next().unwrap_or(false));
+        }
+        self.make_ready(slot, Answer::Replace(frame, function, args));
+        self.go_on(image, host)
+    }
+
+    /// Is this the place for a task to stop, because nobody will handle its condition?
+    pub(super) fn may_stop(&self, image: &mut Image, slot: Slot, condition: &Value) -> bool {
+        self.stops_in_place
+            && self.live(slot).is_some_and(|live| live.ending.is_none())
+            && !self.is_handled_above(image, slot, condition)
+    }
+
+    /// Does anybody handle the condition that the task fails with? A handler that only
+    /// looks at it counts, too.
+    fn is_handled_above(&self, image: &mut Image, slot: Slot, condition: &Value) -> bool {
+        let plan = Plan::of(image);
+        let in_task = wrapped(&plan, image, condition.clone());
+        let mut current = slot;
+        loop {
+            let Some(live) = self.live(current) else {
+                return true;
+            };
+            let Some(parent) = live.parent.and_then(|parent| self.live(parent)) else {
+                return true;
+            };
+            let waits = match &parent.wait {
+                Wait::Group(group) => {
+                    let is_member = |task| group.children.iter().any(|c| c.is(task));
+                    let others = group.children.len() > 1 && group.kind == GroupKind::Any;
+                    live.task.as_ref().is_some_and(is_member) && !others
+                }
+                _ => false,
+            };
+            if !waits || !live.joiners.is_empty() {
+                return true;
+            }
+            let is_root = parent.task.is_none();
+            let as_seen = if is_root {
+                unwrapped(&plan, condition.clone())
+            } else {
+                in_task.clone()
+            };
+            if has_handler(image, &parent.fiber, &as_seen) {
+                return true;
+            }
+            match live.parent {
+                Some(parent) if !is_root => current = parent,
+                _ => return false,
+            }
+        }
+    }
+}
+
+fn has_handler(image: &mut Image, fiber: &Fiber, condition: &Value) -> bool {
+    fiber.dynamic.iter().any(|entry| match entry {
+        Dynamic::Handlers(handlers) => handlers.iter().any(|handler| {
+            condition::is_of_type(image, condition, &handler.condition_type).unwrap_or(true)
+        }),
+        _ => false,
+    })
+}

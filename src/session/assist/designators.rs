@@ -1,0 +1,222 @@
+//! Designators: the keys that a type takes, and the values that a key takes.
+
+use super::context::{Context, Open, bare};
+use super::{first_sentence, lower};
+use crate::designator::schema::{self, Key, Kind, TypeRow};
+use crate::designator::value::Class;
+use crate::dialogue::Candidate;
+use crate::session::Session;
+
+/// A designator form around the cursor.
+pub(super) struct Described<'c, 't> {
+    pub class: Class,
+    list: &'c Open<'t>,
+}
+
+/// Where in a designator form the cursor stands.
+pub(super) enum Spot<'c, 't> {
+    /// At the name of the class.
+    Class,
+    /// At a key.
+    Key(Described<'c, 't>),
+    /// At a value of a key.
+    Value(Described<'c, 't>, &'t str),
+}
+
+fn is_article(name: &str) -> bool {
+    matches!(lower(bare(name)).as_str(), "a" | "an" | "all")
+}
+
+fn class_of(name: &str) -> Option<Class> {
+    Class::named(bare(name)).or_else(|| Class::named(bare(name).trim_end_matches(['s', 'S'])))
+}
+
+/// The designator form around the cursor.
+pub(super) fn spot<'c, 't>(context: &'c Context<'t>) -> Option<Spot<'c, 't>> {
+    let (last, outer) = context.lists.split_last()?;
+    if last.operator.is_some_and(is_article) && last.elements == 1 {
+        return Some(Spot::Class);
+    }
+    // `(desig:when ?x (key …))` stands between.
+    let outer = outer.iter().rev().find(|list| {
+        !list
+            .operator
+            .is_some_and(|name| lower(bare(name)) == "when")
+    })?;
+    let is_designator = outer.operator.is_some_and(is_article);
+    let class = outer.second.and_then(class_of).filter(|_| is_designator)?;
+    let described = Described { class, list: outer };
+    Some(match last.operator {
+        None => Spot::Key(described),
+        Some(key) => Spot::Value(described, key),
+    })
+}
+
+impl Described<'_, '_> {
+    fn value_of(&self, key: &str) -> Option<&str> {
+        let mut lists = self.list.lists.iter();
+        lists
+            .find(|(name, _)| bare(name).eq_ignore_ascii_case(key))
+            .and_then(|(_, value)| *value)
+    }
+
+    /// The rows of its type.
+    pub(super) fn rows(&self) -> Vec<&'static TypeRow> {
+        let name = self.value_of("type").map(|name| bare(name).to_uppercase());
+        name.map_or_else(Vec::new, |name| schema::rows(self.class, &name).collect())
+    }
+
+    /// The keys that it takes.
+    pub(super) fn keys(&self) -> Vec<&'static Key> {
+        match self.class {
+            Class::Object => schema::OBJECT_KEYS.iter().collect(),
+            Class::Location => schema::LOCATION_KEYS.iter().collect(),
+            _ => {
+                let mut keys: Vec<&'static Key> = Vec::new();
+                for key in self.rows().into_iter().flat_map(|row| row.keys) {
+                    if !keys.iter().any(|known| known.name == key.name) {
+                        keys.push(key);
+                    }
+                }
+                keys
+            }
+        }
+    }
+
+    /// The key of that name.
+    pub(super) fn key(&self, name: &str) -> Option<&'static Key> {
+        let name = bare(name).to_uppercase();
+        let keys = self.keys().into_iter();
+        keys.clone().find(|key| key.name == name).or_else(|| {
+            keys.clone()
+                .find(|key| key.aliases.contains(&name.as_str()))
+        })
+    }
+}
+
+fn candidate(text: impl Into<String>, doc: impl Into<String>) -> Candidate {
+    Candidate {
+        text: text.into(),
+        doc: doc.into(),
+    }
+}
+
+/// The classes of designators.
+pub(super) fn classes() -> Vec<Candidate> {
+    vec![
+        candidate("action", "something that a plan does"),
+        candidate("motion", "one movement of the robot"),
+        candidate("object", "a thing"),
+        candidate("location", "a place"),
+    ]
+}
+
+/// The keys that could stand there, those that are there already left out.
+pub(super) fn keys(described: &Described<'_, '_>) -> Vec<Candidate> {
+    let mut keys: Vec<Candidate> = Vec::new();
+    if described.value_of("type").is_none() && described.class != Class::Location {
+        keys.push(candidate("type", "what kind it is"));
+    }
+    let is_new = |key: &&Key| key.name != "TYPE" && described.value_of(key.name).is_none();
+    for key in described.keys().into_iter().filter(is_new) {
+        let mark = if key.is_required { " (needed)" } else { "" };
+        keys.push(candidate(lower(key.name), format!("{}{mark}", key.doc)));
+    }
+    keys
+}
+
+impl Session {
+    /// The values that are known for a key.
+    pub(super) fn values_of_key(
+        &self,
+        described: &Described<'_, '_>,
+        key: &str,
+        context: &Context<'_>,
+    ) -> Vec<Candidate> {
+        let name = lower(bare(key));
+        match (name.as_str(), described.class) {
+            ("type", Class::Action | Class::Motion) => types(described.class),
+            ("type", _) => self.object_types(),
+            ("name", _) => self.object_names(),
+            ("arm" | "arms" | "gripper" | "camera", _) => vec![
+                candidate("left", "the left one"),
+                candidate("right", "the right one"),
+            ],
+            ("grasp" | "left-grasp" | "right-grasp", _) => self.grasps(context),
+            ("direction", _) => ["forward", "left", "right", "up", "down"]
+                .map(|direction| candidate(direction, "where to look"))
+                .to_vec(),
+            ("collision-mode", _) => vec![
+                candidate("avoid-all", "touch nothing"),
+                candidate("allow-hand", "the hand may touch"),
+                candidate("allow-all", "the arm may touch"),
+            ],
+            ("object" | "of", _) => vec![candidate("(an object ", "a description of an object")],
+            _ => match described.key(key).map(|key| key.kind) {
+                Some(Kind::Location | Kind::Place) => {
+                    vec![candidate("(a location ", "a description of a place")]
+                }
+                Some(Kind::Object | Kind::Objects) => {
+                    vec![candidate("(an object ", "a description of an object")]
+                }
+                _ => Vec::new(),
+            },
+        }
+    }
+
+    /// The types of objects.
+    pub(super) fn object_types(&self) -> Vec<Candidate> {
+        let types = self.simulation.object_types().types();
+        types
+            .map(|kind| candidate(kind.name.clone(), format!("an object of {} kg", kind.mass)))
+            .collect()
+    }
+
+    /// The objects in the world.
+    pub(super) fn object_names(&self) -> Vec<Candidate> {
+        let objects = self.simulation.world().objects();
+        objects
+            .map(|object| {
+                let kind = object.type_name();
+                candidate(lower(object.name()), format!("a {kind} in the world"))
+            })
+            .collect()
+    }
+
+    /// The grasps that are defined for the type of object that the text names, or all.
+    pub(super) fn grasps(&self, context: &Context<'_>) -> Vec<Candidate> {
+        let named = context.lists.iter().flat_map(|list| &list.lists);
+        let kind = named
+            .filter(|(key, _)| bare(key).eq_ignore_ascii_case("type"))
+            .filter_map(|(_, value)| *value)
+            .map(|value| lower(bare(value)))
+            .find(|value| self.simulation.object_types().get(value).is_some());
+        let library = self.simulation.grasp_library();
+        let mut found: Vec<Candidate> = Vec::new();
+        for known in self.simulation.object_types().types() {
+            if kind.as_ref().is_some_and(|kind| *kind != known.name) {
+                continue;
+            }
+            for grasp in library.grasps(&known.name) {
+                let name = lower(grasp);
+                match found.iter_mut().find(|c| c.text == name) {
+                    Some(c) => c.doc = format!("{}, {}", c.doc, known.name),
+                    None => found.push(candidate(name, format!("defined for {}", known.name))),
+                }
+            }
+        }
+        found
+    }
+}
+
+/// The types of a class, without aliases.
+fn types(class: Class) -> Vec<Candidate> {
+    let mut found: Vec<Candidate> = Vec::new();
+    for row in schema::TYPES.iter().filter(|row| row.class == class) {
+        let name = lower(row.name);
+        if !found.iter().any(|c| c.text == name) {
+            found.push(candidate(name, first_sentence(row.doc)));
+        }
+    }
+    found
+}

@@ -1,0 +1,40 @@
+//! Names of files, in strings.
+
+use std::path::Path;
+
+use crate::dialogue::{Candidate, Completions};
+
+/// Files that are offered.
+const MOST_FILES: usize = 100;
+
+/// The files whose names begin like the text, which stands in a string that begins at byte
+/// `start` of the input.
+pub(super) fn completions(text: &str, start: usize) -> Completions {
+    let (directory, name) = match text.rfind('/') {
+        Some(slash) => text.split_at(slash + 1),
+        None => ("", text),
+    };
+    let searched = if directory.is_empty() { "." } else { directory };
+    let entries = std::fs::read_dir(Path::new(searched));
+    let mut candidates: Vec<Candidate> = entries
+        .into_iter()
+        .flatten()
+        .flatten()
+        .filter_map(|entry| {
+            let found = entry.file_name().into_string().ok()?;
+            let is_wanted =
+                found.starts_with(name) && (name.starts_with('.') || !found.starts_with('.'));
+            let end = if entry.path().is_dir() { "/" } else { "" };
+            is_wanted.then(|| Candidate {
+                text: format!("{found}{end}"),
+                doc: String::new(),
+            })
+        })
+        .collect();
+    candidates.sort();
+    candidates.truncate(MOST_FILES);
+    Completions {
+        start: start + directory.len(),
+        candidates,
+    }
+}

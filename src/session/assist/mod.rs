@@ -1,0 +1,37 @@
+//! What could be typed next: completion, and the shape of the form being typed. Both read
+//! the tables and the image, and change nothing.
+
+mod completion;
+mod context;
+mod designators;
+mod files;
+mod hint;
+mod symbols;
+
+use super::Session;
+use crate::designator::schema;
+use crate::designator::value::Class;
+
+/// A name for people: as they type it.
+fn lower(name: &str) -> String {
+    name.to_lowercase()
+}
+
+/// The first sentence of a text, on one line.
+fn first_sentence(text: &str) -> String {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.find(". ") {
+        Some(end) => line.get(..=end).unwrap_or(&line).to_owned(),
+        None => line,
+    }
+}
+
+impl Session {
+    /// Is the name that of a type of actions, motions or objects?
+    pub(super) fn is_type_name(&self, name: &str) -> bool {
+        let upper = name.to_uppercase();
+        let mut described = [Class::Action, Class::Motion].into_iter();
+        described.any(|class| schema::type_names(class).any(|known| known == upper))
+            || self.simulation.object_types().get(&lower(name)).is_some()
+    }
+}

@@ -1,0 +1,158 @@
+//! Evaluating forms in a frame of a suspended evaluation.
+
+use super::{Cause, Session};
+use crate::dialogue::{Event, Outcome};
+use crate::lisp::compile;
+use crate::lisp::function::Function;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::symbol::{Sym, VariableKind};
+use crate::lisp::value::Value;
+use crate::lisp::vm::aside::Aside;
+use crate::lisp::vm::backtrace::VariablePlace;
+use crate::reader::Reader;
+
+/// A function with the variables of a frame as its parameters, and their values.
+struct InFrame {
+    function: Value,
+    args: Vec<Value>,
+}
+
+impl Session {
+    /// Evaluates forms in the frame that is looked at, up to the first that does not come
+    /// back.
+    pub(super) fn evaluate_aside(
+        &mut self,
+        source_name: &str,
+        text: &str,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        let forms = match self.forms_of(source_name, text) {
+            Ok(forms) => forms,
+            Err(abort) => {
+                sink(Event::Aborted(abort));
+                self.image.output.begin_line();
+                return Outcome::Aborted;
+            }
+        };
+        let mut outcome = Outcome::Finished;
+        for form in forms {
+            outcome = self.evaluate_form_aside(&form, sink);
+            if outcome != Outcome::Finished {
+                break;
+            }
+        }
+        outcome
+    }
+
+    fn forms_of(
+        &mut self,
+        source_name: &str,
+        text: &str,
+    ) -> Result<Vec<Value>, Box<crate::dialogue::Abort>> {
+        let source = self.image.sources.add(source_name, text);
+        let mut reader = Reader::new(&self.image, source);
+        let mut forms = Vec::new();
+        while let Some(form) = self.read_form(&mut reader)? {
+            forms.push(form);
+        }
+        Ok(forms)
+    }
+
+    /// The one form of a text.
+    pub(super) fn form_of(&mut self, source_name: &str, text: &str) -> Option<Value> {
+        let forms = self.forms_of(source_name, text).ok()?;
+        let mut forms = forms.into_iter();
+        let first = forms.next()?;
+        forms.next().is_none().then_some(first)
+    }
+
+    /// Evaluates a form in the frame that is looked at.
+    pub(super) fn evaluate_form_aside(
+        &mut self,
+        form: &Value,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        let aside = Aside::new();
+        let Some(Cause::Condition(condition)) = self.console.levels.last().map(|l| &l.cause) else {
+            return Outcome::Aborted;
+        };
+        let condition = condition.clone();
+        let in_frame = match self.in_frame(form, &aside) {
+            Ok(in_frame) => in_frame,
+            Err(raise) => {
+                let abort = self.raised(raise);
+                sink(Event::Aborted(Box::new(abort)));
+                self.image.output.begin_line();
+                return Outcome::Aborted;
+            }
+        };
+        let call = aside.call(condition, in_frame.function, in_frame.args);
+        if let Some(level) = self.console.levels.last_mut() {
+            level.aside = Some(aside);
+        }
+        self.simulation.set_aside(true);
+        let evaluation = self.go_on_with(sink, |scheduler, image, host| {
+            scheduler.call(image, host, call, Vec::new())
+        });
+        self.simulation.set_aside(false);
+        self.settle(evaluation, sink)
+    }
+
+    /// The form as the body of a function of the frame's variables:
+    /// `(lambda (variable… store tag)
+    ///    (catch tag (multiple-value-prog1 form (funcall store variable…))))`.
+    fn in_frame(&mut self, form: &Value, aside: &Aside) -> Result<InFrame, Box<Raise>> {
+        let (link, frame) = self.selected_frame().unwrap_or((0, usize::MAX));
+        let fibers = self.scheduler.stopped_fibers();
+        let variables = fibers.get(link).map(|fiber| fiber.variables(frame));
+        let is_own = link == 0;
+        let mut names: Vec<Value> = Vec::new();
+        let mut args = Vec::new();
+        let mut places = Vec::new();
+        for variable in variables.unwrap_or_default() {
+            let is_lexical = self.image.symbol(variable.name).kind == VariableKind::Lexical;
+            if !is_lexical || variable.value.is_unbound() || self.image.is_keyword(variable.name) {
+                continue;
+            }
+            names.push(variable.name.into());
+            places.push(match variable.place() {
+                // The other tasks' stacks cannot be written from here.
+                VariablePlace::Stack(_) if !is_own => VariablePlace::Closure,
+                place => place,
+            });
+            args.push(variable.value);
+        }
+        args.push(store(places));
+        args.push(aside.tag());
+        let lambda = self.lambda(form, names);
+        let function = compile::compile_lambda(&mut self.image, &lambda)?;
+        Ok(InFrame {
+            function: Value::Function(function),
+            args,
+        })
+    }
+
+    fn lambda(&mut self, form: &Value, names: Vec<Value>) -> Value {
+        let mut fresh = |name| -> Value { self.image.make_symbol(name).into() };
+        let (store, tag) = (fresh("STORE"), fresh("TAG"));
+        let list = |items: Vec<Value>| Value::list(items);
+        let call = |operator: Sym, rest: Vec<Value>| list([vec![operator.into()], rest].concat());
+        let parameters = [names.clone(), vec![store.clone(), tag.clone()]].concat();
+        let stored = call(known::FUNCALL, [vec![store], names].concat());
+        let body = call(known::MULTIPLE_VALUE_PROG1, vec![form.clone(), stored]);
+        let caught = call(known::CATCH, vec![tag, body]);
+        call(known::LAMBDA, vec![list(parameters), caught])
+    }
+}
+
+/// A function that assigns the variables.
+fn store(places: Vec<VariablePlace>) -> Value {
+    let store = Function::made_control(known::SETQ, (0, None), move |machine, values| {
+        for (place, value) in places.iter().zip(values) {
+            place.set(machine.fiber, value);
+        }
+        Ok(crate::lisp::vm::step::Step::Return(Value::NIL))
+    });
+    Value::Function(store)
+}

@@ -1,0 +1,257 @@
+//! The ways in which an evaluation that stands still can go on.
+
+use super::{Asking, Outcome, Session};
+use crate::dialogue::Event;
+use crate::lisp::function::Body;
+use crate::lisp::function::Function;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::package::PackageTable;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::vm::fiber::Dynamic;
+use crate::lisp::vm::machine;
+use crate::lisp::vm::restart::Restart;
+use crate::lisp::vm::step::Step;
+
+/// A way to go on.
+#[derive(Clone)]
+pub(super) enum Choice {
+    /// A restart of the program.
+    Restart {
+        restart: Value,
+        /// Does it need a value?
+        takes_value: bool,
+    },
+    /// Leave a frame and call a function in its place.
+    Call {
+        /// Number of the frame's fiber, and its index there.
+        frame: (usize, usize),
+        function: Value,
+        args: Vec<Value>,
+        /// The world is first taken back to before the motion of this number.
+        moment: Option<u64>,
+    },
+    /// Evaluate the form at top level again.
+    RetryForm,
+    /// Evaluate another form instead.
+    EditForm,
+    /// Back to the level below.
+    AbortLevel,
+    /// Back to the top.
+    Abort,
+}
+
+impl Session {
+    /// What can be chosen at the last level, with labels.
+    pub(super) fn choices(&mut self) -> Vec<(Choice, String)> {
+        let mut choices = self.restart_choices();
+        choices.extend(self.robot_choices());
+        choices.push((
+            Choice::RetryForm,
+            "[RETRY-FORM] Evaluate the form again.".to_owned(),
+        ));
+        choices.push((
+            Choice::EditForm,
+            "[EDIT-FORM] Change the form and evaluate it again.".to_owned(),
+        ));
+        let level = self.console.levels.len();
+        if level > 1 {
+            let label = format!("[ABORT-LEVEL] Back to level {}.", level - 1);
+            choices.push((Choice::AbortLevel, label));
+        }
+        choices.push((Choice::Abort, "[ABORT] Back to the top.".to_owned()));
+        choices
+    }
+
+    fn restart_choices(&mut self) -> Vec<(Choice, String)> {
+        let Some(fiber) = self.scheduler.stopped_fiber() else {
+            return Vec::new();
+        };
+        let restarts: Vec<Value> = fiber
+            .dynamic
+            .iter()
+            .rev()
+            .filter_map(|entry| match entry {
+                Dynamic::Restarts(list) => Some(list.iter_list()),
+                _ => None,
+            })
+            .flatten()
+            .collect();
+        let mut choices = Vec::new();
+        for value in restarts {
+            let Some(restart) = value.as_foreign::<Restart>() else {
+                continue;
+            };
+            let name = match restart.name {
+                known::NIL => "RESTART".to_owned(),
+                name => self.image.name(name).to_owned(),
+            };
+            let report = self.report_of(restart, &value);
+            let takes_value = takes_value(&self.image, restart);
+            let choice = Choice::Restart {
+                restart: value.clone(),
+                takes_value,
+            };
+            choices.push((choice, format!("[{name}] {report}")));
+        }
+        choices
+    }
+
+    fn report_of(&mut self, restart: &Restart, value: &Value) -> String {
+        let text = match &restart.report {
+            Value::Str(text) => Some(text.text()),
+            report if !report.is_true() => None,
+            function => {
+                let text = "(lambda (report) (with-output-to-string (s) (funcall report s)))";
+                let lambda = self.form_of("restart", text);
+                let compiled = lambda.and_then(|lambda| {
+                    crate::lisp::compile::compile_lambda(&mut self.image, &lambda).ok()
+                });
+                compiled
+                    .and_then(|show| {
+                        let show = Value::Function(show);
+                        machine::call_nested(&mut self.image, show, vec![function.clone()]).ok()
+                    })
+                    .and_then(|text| text.as_text())
+            }
+        };
+        text.unwrap_or_else(|| print::to_string(&self.image, value, false))
+    }
+
+    /// Chooses, or asks for the value that the choice needs.
+    pub(super) fn choose_or_ask(&mut self, number: usize, sink: &mut dyn FnMut(Event)) -> Outcome {
+        match self.choice(number) {
+            Some(Choice::Restart {
+                takes_value: true, ..
+            }) => {
+                self.console.asking = Asking::Value(number);
+                self.tell("; Which value? Type a form, or nothing to leave it.", sink)
+            }
+            _ => self.choose(number, "", "", sink),
+        }
+    }
+
+    fn choice(&self, number: usize) -> Option<Choice> {
+        let choices = &self.console.levels.last()?.choices;
+        choices.get(number).map(|(choice, _)| choice.clone())
+    }
+
+    /// Chooses the first restart of that name.
+    pub(super) fn choose_by_name(&mut self, name: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let begin = format!("[{name}]");
+        let choices = self.console.levels.last().map(|level| &level.choices);
+        let found = choices.and_then(|choices| {
+            choices
+                .iter()
+                .position(|(_, label)| label.starts_with(&begin))
+        });
+        match found {
+            Some(number) => self.choose_or_ask(number, sink),
+            None => self.tell("; There is no restart that continues.", sink),
+        }
+    }
+
+    /// Chooses; the text, unless empty, is a form for the value that the choice needs.
+    pub(super) fn choose(
+        &mut self,
+        number: usize,
+        source_name: &str,
+        text: &str,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        let Some(choice) = self.choice(number) else {
+            return self.tell("; There is no restart of that number; :r tells them.", sink);
+        };
+        match choice {
+            Choice::Restart {
+                restart,
+                takes_value,
+            } => {
+                let mut form = vec![
+                    self.image.intern(PackageTable::CL, "INVOKE-RESTART").into(),
+                    Value::list([known::QUOTE.into(), restart]),
+                ];
+                if !text.trim().is_empty() {
+                    match self.form_of(source_name, text) {
+                        Some(value) => form.push(value),
+                        None => return self.tell("; One form was expected.", sink),
+                    }
+                } else if takes_value {
+                    return Outcome::Finished;
+                }
+                self.evaluate_form_aside(&Value::list(form), sink)
+            }
+            Choice::Call {
+                frame,
+                function,
+                args,
+                moment,
+            } => {
+                if let Some(moment) = moment {
+                    self.simulation.go_back_to(moment);
+                }
+                self.replace_frame(frame, function, args, sink)
+            }
+            Choice::RetryForm => self.retry_form(sink),
+            Choice::EditForm => self.edit_form(),
+            Choice::AbortLevel => self.leave_level(sink),
+            Choice::Abort => self.give_up(sink),
+        }
+    }
+
+    fn replace_frame(
+        &mut self,
+        frame: (usize, usize),
+        function: Value,
+        args: Vec<Value>,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        self.console.levels.pop();
+        let evaluation = self.go_on_with(sink, |scheduler, image, host| {
+            scheduler.replace_frame(image, host, frame, (function, args))
+        });
+        self.settle(evaluation, sink)
+    }
+
+    /// Returns the value of a form from the frame that is looked at.
+    pub(super) fn return_from_frame(
+        &mut self,
+        source_name: &str,
+        text: &str,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        let (Some(form), Some(frame)) = (self.form_of(source_name, text), self.selected_frame())
+        else {
+            return self.tell("; One form was expected.", sink);
+        };
+        let outcome = self.evaluate_form_aside(&form, &mut |event| {
+            if !matches!(event, Event::Values(_)) {
+                sink(event);
+            }
+        });
+        if outcome != Outcome::Finished {
+            return outcome;
+        }
+        let value = self.image.special(known::TIMES).clone();
+        let identity = Function::made_control(known::VALUES, (1, Some(1)), |_, args| {
+            Ok(Step::Return(args.into_iter().next().unwrap_or_default()))
+        });
+        self.replace_frame(frame, Value::Function(identity), vec![value], sink)
+    }
+}
+
+/// Does a restart need a value that a person gives?
+fn takes_value(image: &Image, restart: &Restart) -> bool {
+    if matches!(restart.name, known::USE_VALUE | known::STORE_VALUE) {
+        return true;
+    }
+    let Ok(function) = image.coerce_to_function(&restart.function) else {
+        return false;
+    };
+    match &function.body {
+        Body::Closure { code, .. } => code.parameters.required > 0,
+        Body::Native(native) => native.min > 0,
+        Body::Generic(_) => false,
+    }
+}

@@ -1,0 +1,122 @@
+//! What can be typed while an evaluation stands still.
+
+/// An input while an evaluation stands still at a condition.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Command<'a> {
+    /// Back to the top.
+    Abort,
+    /// Back to the level below.
+    AbortLevel,
+    /// The restart `continue`.
+    Continue,
+    /// The choice of that number, with the form of its value, if there is one.
+    Choose(usize, &'a str),
+    /// So many frames, or all.
+    Backtrace(Option<usize>),
+    /// Look at that frame.
+    Frame(usize),
+    /// Look at the frame further out.
+    Up,
+    /// Look at the frame further in.
+    Down,
+    /// The variables of the frame.
+    Locals,
+    /// What can be chosen.
+    Choices,
+    /// The tasks.
+    Tasks,
+    /// Evaluate the form again.
+    Retry,
+    /// Change the form and evaluate it again.
+    Edit,
+    /// Return the value of a form from the frame.
+    Return(&'a str),
+    /// What can be typed.
+    Help,
+    /// Forms to be evaluated in the frame.
+    Evaluate(&'a str),
+    /// A command that is not so.
+    Wrong(&'static str),
+}
+
+/// What can be typed, for people.
+pub(super) const HELP: &str = "\
+N          chooses the restart of that number; N FORM gives it a value
+q          aborts: back to the top          a        aborts this level only
+:bt [N]    the frames, innermost first      :frame N looks at a frame
+:up :down  the frame further out, in        :locals  the variables of the frame
+:tasks     the tasks
+:r         the restarts again               c        continues, where that is possible
+:retry     evaluates the form again         :edit    the same, but lets you change it
+:return F  returns the value of form F from the frame
+Anything else is evaluated in the frame that is looked at.
+";
+
+impl<'a> Command<'a> {
+    pub(super) fn of(text: &'a str) -> Command<'a> {
+        let text = text.trim();
+        let (word, rest) = match text.split_once(char::is_whitespace) {
+            Some((word, rest)) => (word, rest.trim()),
+            None => (text, ""),
+        };
+        let is_number = !word.is_empty() && word.bytes().all(|b| b.is_ascii_digit());
+        if is_number {
+            return match word.parse() {
+                Ok(number) => Command::Choose(number, rest),
+                Err(_) => Command::Wrong("; There is no such restart."),
+            };
+        }
+        let number = || rest.parse::<usize>().ok();
+        match (word.to_lowercase().as_str(), rest.is_empty()) {
+            ("" | ":r" | ":restarts", true) => Command::Choices,
+            ("q" | ":q" | ":quit" | ":abort", true) => Command::Abort,
+            ("a" | ":a", true) => Command::AbortLevel,
+            ("c" | ":c" | ":continue", true) => Command::Continue,
+            (":bt" | ":backtrace", true) => Command::Backtrace(None),
+            (":bt" | ":backtrace", false) => match number() {
+                Some(count) => Command::Backtrace(Some(count)),
+                None => Command::Wrong("; :bt takes a number of frames."),
+            },
+            (":f" | ":frame", _) => match number() {
+                Some(number) => Command::Frame(number),
+                None => Command::Wrong("; :frame takes the number of a frame; :bt tells them."),
+            },
+            (":up", true) => Command::Up,
+            (":down", true) => Command::Down,
+            (":l" | ":locals", true) => Command::Locals,
+            (":tasks", true) => Command::Tasks,
+            (":retry", true) => Command::Retry,
+            (":e" | ":edit", true) => Command::Edit,
+            (":return", false) => Command::Return(rest),
+            (":return", true) => Command::Wrong("; :return takes a form."),
+            (":h" | ":help" | "?", true) => Command::Help,
+            _ => Command::Evaluate(text),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commands_are_told_from_forms() {
+        assert_eq!(Command::of(" 2 "), Command::Choose(2, ""));
+        assert_eq!(Command::of("2 (list 1)"), Command::Choose(2, "(list 1)"));
+        assert_eq!(Command::of("q"), Command::Abort);
+        assert_eq!(Command::of("(q)"), Command::Evaluate("(q)"));
+        assert_eq!(Command::of(":frame 3"), Command::Frame(3));
+        assert_eq!(Command::of(":bt"), Command::Backtrace(None));
+        assert_eq!(Command::of("?object"), Command::Evaluate("?object"));
+        assert_eq!(Command::of(":return (f)"), Command::Return("(f)"));
+        assert_eq!(Command::of(":keyword"), Command::Evaluate(":keyword"));
+    }
+
+    #[test]
+    fn a_number_too_large_is_no_panic() {
+        assert!(matches!(
+            Command::of("99999999999999999999999"),
+            Command::Wrong(_)
+        ));
+    }
+}

@@ -1,0 +1,192 @@
+//! The frames of what stands still: the stopped task's and those of the tasks that wait for
+//! it, innermost first.
+
+use super::Session;
+use crate::dialogue::{ActionStep, Event, Outcome};
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::vm::backtrace::FrameView;
+use crate::reader::source::Place;
+use crate::session::on_one_line;
+
+/// Frames that are told unless more are asked for.
+const MOST_FRAMES: usize = 40;
+/// Actions that are told around a condition.
+const MOST_ACTIONS: usize = 8;
+
+/// A frame with the number of its fiber.
+pub(super) struct Told {
+    pub link: usize,
+    pub view: FrameView,
+}
+
+/// Builtins that are steps of the machinery: nobody wrote a call of them.
+const HIDDEN: [&str; 4] = ["SIGNAL", "DEBUGGER", "EVAL", "FUNCALL"];
+
+impl Session {
+    /// All frames that are told, innermost first.
+    pub(super) fn frames(&self) -> Vec<Told> {
+        let fibers = self.scheduler.stopped_fibers();
+        let mut frames = Vec::new();
+        for (link, fiber) in fibers.into_iter().enumerate() {
+            let views = fiber.views().into_iter();
+            frames.extend(
+                views
+                    .filter(|view| !is_hidden(view))
+                    .map(|view| Told { link, view }),
+            );
+        }
+        frames
+    }
+
+    /// The frame that is looked at: its fiber's number and its index there.
+    pub(super) fn selected_frame(&self) -> Option<(usize, usize)> {
+        let selected = self.console.levels.last()?.frame;
+        let frames = self.frames();
+        let told = frames.get(selected)?;
+        Some((told.link, told.view.index))
+    }
+
+    /// A call on one line.
+    fn call_text(&self, view: &FrameView) -> String {
+        let image = &self.image;
+        let name = match &view.name {
+            Value::Str(text) => text.text(),
+            name if !name.is_true() => "(top level)".to_owned(),
+            name => print::to_string(image, name, true),
+        };
+        if name == "(top level)" {
+            return name;
+        }
+        let mut text = format!("({}", on_one_line(&name));
+        for argument in &view.arguments {
+            text.push(' ');
+            text.push_str(&on_one_line(&print::to_string(image, argument, true)));
+        }
+        text.push(')');
+        shortened(&text)
+    }
+
+    /// ` at file:line:column`, for a place that a person can find.
+    fn place_text(&self, place: Place) -> String {
+        match self.image.sources.locate(place) {
+            Some(place) if !place.name.starts_with("prompt[") => format!("  at {place}"),
+            Some(place) => format!("  at line {}, column {}", place.line, place.column),
+            None => String::new(),
+        }
+    }
+
+    /// The actions that are being carried out, innermost first.
+    pub(super) fn open_actions(&self) -> Vec<ActionStep> {
+        let frames = self.frames();
+        let actions = frames.iter().enumerate().filter_map(|(at, told)| {
+            let action = told.view.action.as_ref()?;
+            let outer = frames.get(at + 1..).unwrap_or_default();
+            let places = outer.iter().map(|told| told.view.place);
+            Some(ActionStep {
+                call: self.action_text(action),
+                place: places
+                    .filter_map(|place| self.image.sources.locate(place))
+                    .next(),
+            })
+        });
+        actions.take(MOST_ACTIONS).collect()
+    }
+
+    /// `(PERFORM (AN ACTION …))`.
+    pub(super) fn action_text(&self, action: &Value) -> String {
+        let shown = print::to_string(&self.image, action, false);
+        format!("(PERFORM {})", on_one_line(&shown))
+    }
+
+    pub(super) fn tell_backtrace(
+        &mut self,
+        count: Option<usize>,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        let frames = self.frames();
+        let selected = self.console.levels.last().map_or(0, |level| level.frame);
+        let count = count.unwrap_or(MOST_FRAMES);
+        let mut text = String::new();
+        for (number, told) in frames.iter().enumerate().take(count) {
+            let mark = if number == selected { '*' } else { ' ' };
+            let call = self.call_text(&told.view);
+            let place = self.place_text(told.view.place);
+            text.push_str(&format!("{mark}{number:>3}: {call}{place}\n"));
+        }
+        if frames.len() > count {
+            text.push_str(&format!("     … {} more\n", frames.len() - count));
+        }
+        if frames.is_empty() {
+            text.push_str("; There are no frames.\n");
+        }
+        self.tell(&text, sink)
+    }
+
+    pub(super) fn look_at_next_frame(&mut self, by: isize, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let selected = self.console.levels.last().map_or(0, |level| level.frame);
+        self.look_at_frame(selected.checked_add_signed(by), sink)
+    }
+
+    pub(super) fn look_at_frame(
+        &mut self,
+        number: Option<usize>,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        let frames = self.frames();
+        let Some((number, told)) = number.and_then(|n| Some((n, frames.get(n)?))) else {
+            let text = format!(
+                "; There is no such frame: they are 0 to {}.",
+                frames.len().max(1) - 1
+            );
+            return self.tell(&text, sink);
+        };
+        let call = self.call_text(&told.view);
+        let place = self.place_text(told.view.place);
+        let source = self.image.sources.locate(told.view.place);
+        let source = source.map(|place| place.underlined()).unwrap_or_default();
+        if let Some(level) = self.console.levels.last_mut() {
+            level.frame = number;
+        }
+        self.tell(&format!("{number}: {call}{place}\n{source}"), sink)
+    }
+
+    pub(super) fn tell_locals(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let Some((link, frame)) = self.selected_frame() else {
+            return self.tell("; There are no frames.", sink);
+        };
+        let fibers = self.scheduler.stopped_fibers();
+        let variables = fibers.get(link).map(|fiber| fiber.variables(frame));
+        let mut text = String::new();
+        for variable in variables.unwrap_or_default() {
+            let value = if variable.value.is_unbound() {
+                "(not supplied)".to_owned()
+            } else {
+                self.printed(&variable.value)
+            };
+            let name = print::to_string(&self.image, &variable.name.into(), true);
+            text.push_str(&format!("  {name} = {value}\n"));
+        }
+        if text.is_empty() {
+            text.push_str("; The frame has no variables.");
+        }
+        self.tell(&text, sink)
+    }
+}
+
+fn is_hidden(view: &FrameView) -> bool {
+    match &view.name {
+        Value::Str(name) => view.action.is_none() && HIDDEN.contains(&name.text().as_str()),
+        _ => false,
+    }
+}
+
+/// Characters of a call that are told.
+const LONGEST_CALL: usize = 150;
+
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_CALL) {
+        Some((end, _)) => format!("{} …", text.get(..end).unwrap_or(text)),
+        None => text.to_owned(),
+    }
+}

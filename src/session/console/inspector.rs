@@ -1,0 +1,116 @@
+//! Going into the parts of a value, and back.
+
+use super::{Asking, Session};
+use crate::dialogue::{Event, Outcome};
+use crate::lisp::known;
+use crate::lisp::symbol::FunctionCell;
+use crate::lisp::value::Value;
+use crate::session::simulation::parts::View;
+
+/// What can be typed, for people.
+const REMARK: &str = "; A number goes into a part, b back, q leaves; * is what is looked at.";
+
+impl Session {
+    /// Takes an input that is for the inspector; none if it is not, or if nothing is being
+    /// inspected.
+    pub(in crate::session) fn inspector_input(
+        &mut self,
+        text: &str,
+        sink: &mut dyn FnMut(Event),
+    ) -> Option<Outcome> {
+        if self.console.asking != Asking::Nothing {
+            return None;
+        }
+        let current = self.console.inspected.last()?.clone();
+        match text.trim().to_lowercase().as_str() {
+            "q" | ":q" | "quit" => {
+                self.console.inspected.clear();
+                return Some(Outcome::Finished);
+            }
+            "b" | ":b" | "back" => {
+                if self.console.inspected.len() > 1 {
+                    self.console.inspected.pop();
+                }
+            }
+            "" => {}
+            word => {
+                let number: usize = word.parse().ok()?;
+                let view = View::of(&self.simulation, &mut self.image, &current);
+                match view.parts.into_iter().nth(number) {
+                    Some((_, part)) if !part.is_unbound() => self.console.inspected.push(part),
+                    _ => return Some(self.tell("; There is no such part.", sink)),
+                }
+            }
+        }
+        let current = self.console.inspected.last()?.clone();
+        self.image.set_special(known::TIMES, current.clone());
+        Some(self.tell_inspected(&current, sink))
+    }
+
+    fn tell_inspected(&mut self, value: &Value, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let view = View::of(&self.simulation, &mut self.image, value);
+        let text = view.text(&self.image);
+        self.tell(&format!("{text}{REMARK}"), sink)
+    }
+
+    /// After a form: begins to inspect what it asked for, where somebody can answer.
+    pub(in crate::session) fn open_inspector(&mut self, sink: &mut dyn FnMut(Event)) {
+        let Some(value) = self.simulation.inspected.take() else {
+            return;
+        };
+        if self.console.is_interactive {
+            self.console.inspected = vec![value.clone()];
+            self.image.set_special(known::TIMES, value);
+            sink(Event::Output(format!("{REMARK}\n")));
+            self.image.output.begin_line();
+        }
+    }
+
+    /// What is typed in short: `?name` asks for documentation, unless it is a variable with
+    /// a value; and what package `PLANWRIGHT` offers can be called from every package.
+    pub(in crate::session) fn question(&self, text: &str) -> Option<String> {
+        if !self.console.is_interactive {
+            return None;
+        }
+        self.documentation_asked(text)
+            .or_else(|| self.call_of_prompt(text))
+    }
+
+    /// `(rewind …)` as `(pw:rewind …)` where that name means nothing.
+    fn call_of_prompt(&self, text: &str) -> Option<String> {
+        let rest = text.trim_start().strip_prefix('(')?;
+        let end = rest.find(|c: char| c.is_whitespace() || c == ')')?;
+        let (name, arguments) = rest.split_at_checked(end)?;
+        let upper = name.to_uppercase();
+        let (current, own) = (
+            self.image.current_package(),
+            self.image.packages.find("PLANWRIGHT")?,
+        );
+        let known = self.image.packages.find_symbol(current, &upper);
+        let is_defined = known.is_some_and(|(sym, _)| {
+            !matches!(self.image.symbol(sym).function, FunctionCell::Unbound)
+        });
+        let package = self.image.packages.get(own);
+        let is_offered = package
+            .symbols
+            .get(upper.as_str())
+            .is_some_and(|(_, external)| *external);
+        (!is_defined && is_offered).then(|| format!("(pw:{name}{arguments}"))
+    }
+
+    fn documentation_asked(&self, text: &str) -> Option<String> {
+        let name = text.trim().strip_prefix('?')?;
+        let is_name = !name.is_empty()
+            && name
+                .chars()
+                .all(|c| !c.is_whitespace() && !"()\"';`,|".contains(c));
+        if !is_name {
+            return None;
+        }
+        let current = self.image.current_package();
+        let whole = text.trim().to_uppercase();
+        let variable = self.image.packages.find_symbol(current, &whole);
+        let has_value = variable.is_some_and(|(sym, _)| !self.image.special(sym).is_unbound());
+        (!has_value).then(|| format!("(pw:doc {name})"))
+    }
+}

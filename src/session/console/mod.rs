@@ -1,0 +1,256 @@
+//! Evaluations that stand still, and what a person may do with them: a debugger on top of
+//! the suspended task, and the choice after an interrupt.
+//!
+//! Everything is said in inputs and told in events, so that a session can be repeated from
+//! its inputs alone. Without a person (`is_interactive` is false) nothing ever stands
+//! still.
+
+mod aside;
+mod choices;
+mod commands;
+mod frames;
+mod inspector;
+mod robot_choices;
+mod settle;
+
+use crate::dialogue::{Abort, Event, Outcome};
+use crate::lisp::value::Value;
+use crate::lisp::vm::aside::Aside;
+use crate::plan::TaskId;
+use crate::reader::Reader;
+use crate::reader::source::Place;
+
+use super::Session;
+use choices::Choice;
+use commands::Command;
+
+/// Evaluations that stand still, innermost last, and what is being asked.
+#[derive(Default)]
+pub(super) struct Console {
+    pub is_interactive: bool,
+    levels: Vec<Level>,
+    /// The form at top level that all of it began with.
+    base: Option<Suspended>,
+    asking: Asking,
+    draft: Option<String>,
+    /// What is being inspected, and through what one came there.
+    inspected: Vec<Value>,
+    /// Where the next input is to be interrupted.
+    pub interrupt_next: Option<u64>,
+}
+
+/// What the next input is.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+enum Asking {
+    /// A command, or a form.
+    #[default]
+    Nothing,
+    /// The value for a choice.
+    Value(usize),
+    /// The form to evaluate instead.
+    Form,
+}
+
+/// A form whose evaluation stands still, and the text that comes after it.
+pub(super) struct Suspended {
+    pub form: Value,
+    pub place: Place,
+    pub rest: Reader,
+}
+
+/// An evaluation that stands still.
+struct Level {
+    cause: Cause,
+    abort: Abort,
+    choices: Vec<(Choice, String)>,
+    /// The evaluation under way on top of it.
+    aside: Option<Aside>,
+    /// The frame that is looked at, among those that are told.
+    frame: usize,
+    task: Option<TaskId>,
+}
+
+enum Cause {
+    Condition(Value),
+    Interrupt,
+}
+
+impl Console {
+    pub fn level(&self) -> usize {
+        self.levels.len()
+    }
+
+    pub fn take_draft(&mut self) -> Option<String> {
+        self.draft.take()
+    }
+
+    /// What a second Ctrl-C says.
+    pub fn answer_to_interrupt(&self) -> Option<&'static str> {
+        match self.levels.last()?.cause {
+            Cause::Interrupt => Some("abort"),
+            Cause::Condition(_) => None,
+        }
+    }
+
+    /// What the prompt shows behind the package's name.
+    pub fn prompt_suffix(&self) -> String {
+        let level = match self.levels.last().map(|level| &level.cause) {
+            None => String::new(),
+            Some(Cause::Interrupt) => " stopped".to_owned(),
+            Some(Cause::Condition(_)) => format!(" {}]", self.levels.len()),
+        };
+        let asking = match self.asking {
+            Asking::Value(_) => " value",
+            Asking::Form => " form",
+            Asking::Nothing if !self.inspected.is_empty() => " inspect",
+            Asking::Nothing => "",
+        };
+        level + asking
+    }
+}
+
+impl Session {
+    /// Takes an input while an evaluation stands still.
+    pub(super) fn console_input(
+        &mut self,
+        source_name: &str,
+        text: &str,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        match std::mem::take(&mut self.console.asking) {
+            Asking::Nothing => {}
+            Asking::Value(choice) => return self.choose(choice, source_name, text, sink),
+            Asking::Form => return self.evaluate_instead(source_name, text, sink),
+        }
+        if self.console.answer_to_interrupt().is_some() {
+            return self.after_interrupt(text, sink);
+        }
+        match Command::of(text) {
+            Command::Evaluate(text) => self.evaluate_aside(source_name, text, sink),
+            Command::Choose(number, value) if value.is_empty() => self.choose_or_ask(number, sink),
+            Command::Choose(number, value) => self.choose(number, source_name, value, sink),
+            Command::Abort => self.give_up(sink),
+            Command::AbortLevel => self.leave_level(sink),
+            Command::Continue => self.choose_by_name("CONTINUE", sink),
+            Command::Backtrace(count) => self.tell_backtrace(count, sink),
+            Command::Frame(number) => self.look_at_frame(Some(number), sink),
+            Command::Up => self.look_at_next_frame(1, sink),
+            Command::Down => self.look_at_next_frame(-1, sink),
+            Command::Locals => self.tell_locals(sink),
+            Command::Choices => self.tell_stop(sink),
+            Command::Tasks => self.tell_tasks(sink),
+            Command::Retry => self.retry_form(sink),
+            Command::Edit => self.edit_form(),
+            Command::Return(form) => self.return_from_frame(source_name, form, sink),
+            Command::Help => self.tell(commands::HELP, sink),
+            Command::Wrong(message) => self.tell(message, sink),
+        }
+    }
+
+    fn tell(&mut self, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let text = text.trim_end();
+        sink(Event::Output(format!("{text}\n")));
+        Outcome::Finished
+    }
+
+    /// Gives everything up: back to the top.
+    fn give_up(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let condition = self
+            .console
+            .levels
+            .first()
+            .map(|level| level.abort.condition.clone());
+        self.clear_console(sink);
+        sink(Event::Left(condition.unwrap_or_default()));
+        self.image.output.begin_line();
+        Outcome::Aborted
+    }
+
+    /// Ends what stands still, with its cleanup code; returns what it began with.
+    fn clear_console(&mut self, sink: &mut dyn FnMut(Event)) -> Option<Suspended> {
+        self.console.levels.clear();
+        self.console.inspected.clear();
+        self.console.asking = Asking::Nothing;
+        self.abort(sink);
+        self.flush(sink);
+        let base = self.console.base.take();
+        if let Some(base) = &base {
+            self.shift_forms(&base.form);
+        }
+        base
+    }
+
+    /// Gives up the last level: back to the one below.
+    fn leave_level(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let below = self.console.levels.iter().rev().nth(1);
+        let task = self.console.levels.last().and_then(|level| level.task);
+        let leave = below.filter(|level| level.task == task);
+        let Some(aside) = leave.and_then(|level| level.aside.clone()) else {
+            return self.give_up(sink);
+        };
+        self.console.levels.pop();
+        let evaluation = self.go_on_with(sink, |scheduler, image, host| {
+            scheduler.call(image, host, aside.leave(), Vec::new())
+        });
+        self.settle(evaluation, sink)
+    }
+
+    /// The input after an interrupt.
+    fn after_interrupt(&mut self, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
+        match text.trim().trim_start_matches(':').to_lowercase().as_str() {
+            "0" | "c" | "continue" => {
+                self.console.levels.pop();
+                let evaluation =
+                    self.go_on_with(sink, |scheduler, image, host| scheduler.go_on(image, host));
+                self.settle(evaluation, sink)
+            }
+            "1" | "a" | "q" | "abort" => self.give_up(sink),
+            "2" | "p" | "park" => {
+                self.give_up(sink);
+                self.evaluate_text("park", PARK, sink)
+            }
+            "" => self.tell_stop(sink),
+            "tasks" | "(tasks)" => self.tell_tasks(sink),
+            _ => self.tell(
+                "; Type 0 to continue, 1 to abort, or 2 to abort and park.",
+                sink,
+            ),
+        }
+    }
+
+    fn tell_tasks(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let text = self.scheduler.task_tree(&self.image);
+        self.tell(&text, sink)
+    }
+
+    fn retry_form(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        match self.clear_console(sink) {
+            Some(base) => self.evaluate_first(base, sink),
+            None => Outcome::Aborted,
+        }
+    }
+
+    fn edit_form(&mut self) -> Outcome {
+        let base = self.console.base.as_ref();
+        let text = base.and_then(|base| self.image.sources.text(base.place));
+        self.console.draft = text.map(str::to_owned);
+        self.console.asking = Asking::Form;
+        Outcome::Finished
+    }
+
+    fn evaluate_instead(
+        &mut self,
+        source_name: &str,
+        text: &str,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        if text.trim().is_empty() {
+            return Outcome::Finished;
+        }
+        self.clear_console(sink);
+        self.evaluate_text(source_name, text, sink)
+    }
+}
+
+/// What parks the robot after an interrupt.
+const PARK: &str = "(pr2-proj:with-simulated-robot (pp-plans::park-arms))";

@@ -1,0 +1,176 @@
+//! Ways to go on that are aimed at the robot: an action again, another grasp or arm, from
+//! another place, or with the world as it was before the action.
+
+use super::choices::Choice;
+use super::frames::Told;
+use crate::designator::packages;
+use crate::designator::value::{Class, as_class};
+use crate::lisp::compile;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::session::{Session, on_one_line};
+
+/// Actions for which it is offered to begin them again.
+const MOST_ACTIONS: usize = 3;
+
+/// An action that is being carried out.
+struct Action {
+    frame: (usize, usize),
+    designator: Value,
+    shown: String,
+    motions_before: u64,
+}
+
+impl Session {
+    /// What can be chosen about the actions that are being carried out, with labels.
+    pub(super) fn robot_choices(&mut self) -> Vec<(Choice, String)> {
+        let actions = self.actions_to_retry();
+        let perform: Value = packages::symbol(&mut self.image, "CRAM-EXECUTIVE", "PERFORM").into();
+        let again = |action: &Action, designator: &Value, moment| Choice::Call {
+            frame: action.frame,
+            function: perform.clone(),
+            args: vec![designator.clone()],
+            moment,
+        };
+        let mut choices = Vec::new();
+        for action in actions.iter().take(MOST_ACTIONS) {
+            let choice = again(action, &action.designator, None);
+            choices.push((choice, format!("[RETRY] Retry {}.", action.shown)));
+        }
+        if let Some(picking) = actions
+            .iter()
+            .find(|a| self.type_of_action(a) == "PICKING-UP")
+        {
+            for (arm, grasp) in self
+                .simulation
+                .reachable_grasps(&mut self.image, &picking.designator)
+            {
+                let others = [("ARM", arm.clone()), ("GRASP", grasp.clone())];
+                let designator = self.with_properties(&picking.designator, &others);
+                let shown = |value: &Value| print::to_string(&self.image, value, true);
+                let label = format!(
+                    "[GRASP] Pick it up with {} and {}.",
+                    shown(&arm),
+                    shown(&grasp)
+                );
+                choices.push((again(picking, &designator, None), label));
+            }
+            choices.extend(self.base_choice(picking));
+        }
+        // A motion of another task would go on in a world that is not its own.
+        if !self.scheduler.has_requests() {
+            for action in actions.iter().take(MOST_ACTIONS) {
+                let first = action.motions_before + 1;
+                if self.simulation.has_motion_moment(first) {
+                    let choice = again(action, &action.designator, Some(first));
+                    let label = format!(
+                        "[BEFORE] Take the world back to before {}, and retry it.",
+                        action.shown
+                    );
+                    choices.push((choice, label));
+                }
+            }
+        }
+        choices
+    }
+
+    fn actions_to_retry(&self) -> Vec<Action> {
+        let frames = self.frames();
+        let action = |told: &Told| {
+            let designator = told.view.action.clone()?;
+            let text = print::to_string(&self.image, &designator, false);
+            Some(Action {
+                frame: (told.link, told.view.index),
+                shown: shortened(&on_one_line(&text)),
+                designator,
+                motions_before: told.view.motions_before,
+            })
+        };
+        frames.iter().filter_map(action).collect()
+    }
+
+    fn type_of_action(&self, action: &Action) -> String {
+        as_class(&action.designator, Class::Action)
+            .and_then(|designator| designator.type_name(&self.image))
+            .unwrap_or_default()
+    }
+
+    /// A copy of an action with other values for some keys.
+    fn with_properties(&mut self, action: &Value, others: &[(&str, Value)]) -> Value {
+        let Some(designator) = as_class(action, Class::Action) else {
+            return action.clone();
+        };
+        let is_other = |key: &Value, image: &crate::lisp::image::Image| {
+            let name = key.as_symbol().map(|sym| image.name(sym).to_owned());
+            name.is_some_and(|name| others.iter().any(|(other, _)| *other == name))
+        };
+        let mut properties: Vec<Value> = designator
+            .properties()
+            .into_iter()
+            .filter(|(key, _)| !is_other(key, &self.image))
+            .map(|(key, values)| Value::cons(key, values))
+            .collect();
+        let (class, quantifier) = (designator.class, designator.quantifier);
+        for (name, value) in others {
+            let key = self.image.keyword(name).into();
+            properties.push(Value::list([key, value.clone()]));
+        }
+        let description = Value::list(properties);
+        let copy = crate::designator::value::Designator::new(
+            &mut self.image,
+            class,
+            quantifier,
+            description,
+        );
+        Value::foreign(copy)
+    }
+
+    /// Driving to where the object can be grasped, and then the action again.
+    fn base_choice(&mut self, picking: &Action) -> Option<(Choice, String)> {
+        let (pose, arm, grasp) = self
+            .simulation
+            .place_to_grasp_from(&mut self.image, &picking.designator)?;
+        let others = [("ARM", arm.clone()), ("GRASP", grasp.clone())];
+        let designator = self.with_properties(&picking.designator, &others);
+        let function = self.drive_and_perform()?;
+        let shown = |value: &Value| print::to_string(&self.image, value, true);
+        let label = format!(
+            "[BASE] Park, drive to where {} reaches it with {}, and pick it up from there.",
+            shown(&arm),
+            shown(&grasp)
+        );
+        let choice = Choice::Call {
+            frame: picking.frame,
+            function,
+            args: vec![pose, designator],
+            moment: None,
+        };
+        Some((choice, label))
+    }
+
+    fn drive_and_perform(&mut self) -> Option<Value> {
+        const TEXT: &str = "(lambda (?pose action)
+            (park-arms)
+            (perform (an action (type going) (target (a location (pose ?pose)))))
+            (perform action))";
+        let package = self.image.packages.find("CRAM-MOBILE-PICK-PLACE-PLANS")?;
+        let before = self.image.special(known::V_PACKAGE).clone();
+        self.image
+            .set_special(known::V_PACKAGE, Value::Package(package));
+        let lambda = self.form_of("debugger", TEXT);
+        self.image.set_special(known::V_PACKAGE, before);
+        let function = compile::compile_lambda(&mut self.image, &lambda?).ok()?;
+        Some(Value::Function(function))
+    }
+}
+
+/// Characters of an action in a label.
+const LONGEST_ACTION: usize = 70;
+
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_ACTION) {
+        Some((end, _)) => format!("{} …)", text.get(..end).unwrap_or(text)),
+        None => text.to_owned(),
+    }
+}

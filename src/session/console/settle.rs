@@ -1,0 +1,181 @@
+//! What comes of an evaluation that went on.
+
+use super::{Asking, Cause, Level, Suspended};
+use crate::dialogue::{Abort, Event, Outcome, Stop};
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::vm::aside::AsideState;
+use crate::plan::{Evaluation, Scheduler};
+use crate::session::Session;
+use crate::session::live_host::LiveHost;
+
+const DEBUGGER_REMARK: &str =
+    "; Type a number, or a form to look around; q aborts, :bt shows the frames, :help the rest.";
+const INTERRUPT_REMARK: &str = "; Type a number; another Ctrl-C aborts.";
+
+impl Session {
+    /// Lets the scheduler go on.
+    pub(super) fn go_on_with(
+        &mut self,
+        sink: &mut dyn FnMut(Event),
+        how: impl FnOnce(&mut Scheduler, &mut Image, &mut LiveHost<'_>) -> Evaluation,
+    ) -> Evaluation {
+        let mut host = LiveHost::new(&mut self.simulation, sink, self.console.is_interactive);
+        let evaluation = how(&mut self.scheduler, &mut self.image, &mut host);
+        self.flush(sink);
+        evaluation
+    }
+
+    /// Begins to treat an evaluation that has stopped for the first time.
+    pub(in crate::session) fn open_level(
+        &mut self,
+        base: Suspended,
+        evaluation: Evaluation,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        self.console.base = Some(base);
+        self.settle(evaluation, sink)
+    }
+
+    /// Treats an evaluation that went on from a level: it has ended, has come back to a
+    /// level, or has stopped again.
+    pub(super) fn settle(
+        &mut self,
+        evaluation: Evaluation,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        match evaluation {
+            Evaluation::Values(values) => self.finish(values, sink),
+            Evaluation::Unhandled(condition) => self.stopped_at(condition, sink),
+            Evaluation::Interrupted => {
+                self.console.inspected.clear();
+                self.console.levels.push(Level {
+                    cause: Cause::Interrupt,
+                    abort: super::super::interrupted(),
+                    choices: Vec::new(),
+                    aside: None,
+                    frame: 0,
+                    task: None,
+                });
+                self.tell_stop(sink)
+            }
+        }
+    }
+
+    /// The form at top level has come to its end; the forms after it go on.
+    fn finish(&mut self, values: Vec<Value>, sink: &mut dyn FnMut(Event)) -> Outcome {
+        self.console.levels.clear();
+        self.console.asking = Asking::Nothing;
+        let Some(base) = self.console.base.take() else {
+            return Outcome::Finished;
+        };
+        self.shift_forms(&base.form);
+        self.shift_values(&values);
+        match self.tell_values(&values, sink) {
+            Some(outcome) => outcome,
+            None => self.evaluate_rest(base.rest, sink),
+        }
+    }
+
+    fn stopped_at(&mut self, condition: Value, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let state_at = |level: &Level| level.aside.as_ref().map(|aside| aside.state());
+        let states: Vec<Option<AsideState>> = self.console.levels.iter().map(state_at).collect();
+        for (at, state) in states.into_iter().enumerate() {
+            match state {
+                None | Some(AsideState::Running) => {}
+                Some(AsideState::Returned(values)) => {
+                    self.come_back(at);
+                    return self.tell_aside(&values, sink);
+                }
+                Some(AsideState::Ended) => {
+                    self.come_back(at);
+                    return self.tell_stop(sink);
+                }
+                Some(AsideState::Left) => {
+                    self.console.levels.truncate(at);
+                    break;
+                }
+            }
+        }
+        let task = self.scheduler.stopped_id();
+        let known = self.console.levels.iter().position(|level| {
+            level.task == task
+                && level.aside.is_none()
+                && matches!(&level.cause, Cause::Condition(c) if c.is_eq(&condition))
+        });
+        if let Some(at) = known {
+            self.come_back(at);
+            return self.tell_stop(sink);
+        }
+        self.console.inspected.clear();
+        let abort = self.described_in_place(&condition);
+        self.console.levels.push(Level {
+            cause: Cause::Condition(condition),
+            abort,
+            choices: Vec::new(),
+            aside: None,
+            frame: 0,
+            task,
+        });
+        let choices = self.choices();
+        if let Some(level) = self.console.levels.last_mut() {
+            level.choices = choices;
+        }
+        self.tell_stop(sink)
+    }
+
+    fn come_back(&mut self, at: usize) {
+        self.console.levels.truncate(at + 1);
+        if let Some(level) = self.console.levels.last_mut() {
+            level.aside = None;
+        }
+    }
+
+    /// Tells the values of a form that was evaluated on top of a level.
+    fn tell_aside(&mut self, values: &[Value], sink: &mut dyn FnMut(Event)) -> Outcome {
+        self.shift_values(values);
+        self.tell_values(values, sink).unwrap_or(Outcome::Finished)
+    }
+
+    /// Tells where the evaluation stands, and what can be chosen.
+    pub(super) fn tell_stop(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let level = self.console.levels.len();
+        let Some(last) = self.console.levels.last() else {
+            return Outcome::Finished;
+        };
+        let (choices, remark) = match last.cause {
+            Cause::Interrupt => (
+                vec![
+                    "Continue.".to_owned(),
+                    "Abort.".to_owned(),
+                    "Abort, and park the arms.".to_owned(),
+                ],
+                INTERRUPT_REMARK,
+            ),
+            Cause::Condition(_) => {
+                let labels = last.choices.iter().map(|(_, label)| label.clone());
+                (labels.collect(), DEBUGGER_REMARK)
+            }
+        };
+        let stop = Stop {
+            level,
+            abort: last.abort.clone(),
+            choices,
+            remark,
+        };
+        sink(Event::Stopped(Box::new(stop)));
+        self.image.output.begin_line();
+        Outcome::Stopped
+    }
+
+    /// What is told of a condition, with the actions of all tasks that wait for the one
+    /// that stopped.
+    fn described_in_place(&mut self, condition: &Value) -> Abort {
+        let mut abort = self.describe(condition);
+        let actions = self.open_actions();
+        if !actions.is_empty() {
+            abort.actions = actions;
+        }
+        abort
+    }
+}

@@ -1,0 +1,48 @@
+//! The session as the prompt talks to it.
+
+use super::Session;
+use crate::dialogue::{Completions, Converse};
+
+impl Converse for Session {
+    fn set_interactive(&mut self, is_interactive: bool) {
+        self.console.is_interactive = is_interactive;
+        self.scheduler.set_stops_in_place(is_interactive);
+        self.simulation.keep_moments_of_motions(is_interactive);
+    }
+
+    fn level(&self) -> usize {
+        self.console.level()
+    }
+
+    fn answer_to_interrupt(&self) -> Option<&'static str> {
+        self.console.answer_to_interrupt()
+    }
+
+    fn take_draft(&mut self) -> Option<String> {
+        self.console.take_draft()
+    }
+
+    fn completions(&self, text: &str, at: usize) -> Completions {
+        self.complete(text, at)
+    }
+
+    fn hint(&self, text: &str, at: usize) -> Option<String> {
+        self.hint_at(text, at)
+    }
+
+    fn is_designator_type(&self, name: &str) -> bool {
+        self.is_type_name(name)
+    }
+
+    fn interrupted_at(&self) -> Option<u64> {
+        self.image.polls.seen_at()
+    }
+
+    fn interrupt_next_at(&mut self, at: u64) {
+        self.console.interrupt_next = Some(at);
+    }
+
+    fn world_hash(&self) -> u64 {
+        self.simulation.world().hash()
+    }
+}

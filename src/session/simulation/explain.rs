@@ -1,0 +1,289 @@
+//! The long form of a failure: what is known about it, and what would work.
+//!
+//! The world as it was when the failure came up is kept, so that the answer does not depend
+//! on what has happened since.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use nalgebra::{Point3, Vector3};
+
+use super::Simulation;
+use super::functions::reach::Wanted;
+use crate::lisp::image::Image;
+use crate::motion::base_path::BasePlace;
+use crate::motion::{
+    CollisionMode, MotionFailure, UnreachablePose, UnreachableReason, can_reach, can_stand,
+    pan_and_tilt, touching_at,
+};
+use crate::perception::{Sight, Visibility};
+use crate::robot::Side;
+use crate::spatial::{Pose, pose};
+use crate::world::World;
+
+/// A hand that is to be nearer to an object than this (m) is taken to be meant for it.
+const AT_THE_OBJECT: f64 = 0.4;
+/// Headings that are tried where the robot cannot stand.
+const HEADINGS: u32 = 8;
+/// Pairs of bodies that are told.
+const MOST_PAIRS: usize = 6;
+
+/// A failure with the world in which it came up.
+pub(super) struct Remembered {
+    pub failure: MotionFailure,
+    /// Simulated time (s).
+    pub time: f64,
+    pub world: World,
+}
+
+impl Simulation {
+    /// Keeps a failure, to be explained on demand.
+    pub(super) fn remember(&mut self, failure: &MotionFailure) {
+        self.last_failure = Some(Box::new(Remembered {
+            failure: failure.clone(),
+            time: self.now,
+            world: self.world.clone(),
+        }));
+    }
+
+    /// The long form of the last failure of a motion, if there was one.
+    pub(super) fn explain_last(&mut self, image: &mut Image) -> Option<String> {
+        let mut last = self.last_failure.take()?;
+        std::mem::swap(&mut self.world, &mut last.world);
+        let text = self.explanation(image, &last.failure, last.time);
+        std::mem::swap(&mut self.world, &mut last.world);
+        self.last_failure = Some(last);
+        Some(text)
+    }
+
+    fn explanation(&self, image: &mut Image, failure: &MotionFailure, time: f64) -> String {
+        let mut text = format!("{} at {time:.3} s\n", failure.class_name());
+        section(&mut text, "What happened", failure.to_string().lines());
+        section(&mut text, "What is known", self.facts(failure));
+        let remedies = match self.remedies(image, failure) {
+            none if none.is_empty() => vec!["nothing was found".to_owned()],
+            some => some,
+        };
+        section(&mut text, "What would work", remedies);
+        text
+    }
+
+    fn facts(&self, failure: &MotionFailure) -> Vec<String> {
+        let base = self.base();
+        let t = base.translation;
+        let heading = pose::yaw(&base).to_degrees();
+        let mut facts = vec![format!(
+            "the robot stands at x {:.3}, y {:.3}, heading {heading:.1} degrees",
+            t.x, t.y
+        )];
+        match failure {
+            MotionFailure::GoalOccupied { goal, .. } | MotionFailure::Enclosed { goal, .. } => {
+                facts.extend(self.touching(goal));
+            }
+            MotionFailure::ObjectNotFound { candidates, .. } => {
+                facts.extend(candidates.iter().filter_map(|c| self.whereabouts(c)));
+            }
+            MotionFailure::PoseUnreachable(pose) => facts.extend(self.about_hand(pose)),
+            _ => {}
+        }
+        facts
+    }
+
+    /// The pairs that would touch with the base at a place, the deepest of each.
+    fn touching(&self, place: &BasePlace) -> Vec<String> {
+        let mut deepest: BTreeMap<String, f64> = BTreeMap::new();
+        for hit in touching_at(&self.world, place) {
+            let pair = format!("{} and {}", hit.moving, hit.other);
+            let depth = deepest.entry(pair).or_insert(hit.depth);
+            *depth = depth.max(hit.depth);
+        }
+        let mut pairs: Vec<(String, f64)> = deepest.into_iter().collect();
+        pairs.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let lines = pairs.iter().take(MOST_PAIRS);
+        lines
+            .map(|(pair, depth)| format!("{pair} would overlap by {:.1} mm", depth * 1e3))
+            .collect()
+    }
+
+    fn whereabouts(&self, seen: &Visibility) -> Option<String> {
+        let at = self.world.object_pose(&seen.object).ok()?;
+        let camera = &self.world.models().description.camera();
+        let eye = self.world.link_pose(camera.frame);
+        let distance = (at.translation.vector - eye.translation.vector).norm();
+        Some(format!(
+            "{} is at {}, {distance:.2} m from the camera; {:.0} % of it must be in sight",
+            seen.object,
+            point(&at.translation.vector),
+            seen.needed_share * 100.0
+        ))
+    }
+
+    fn about_hand(&self, unreachable: &UnreachablePose) -> Vec<String> {
+        let in_map = self.base() * unreachable.tool;
+        let from_base = unreachable.tool.translation.vector;
+        let mut facts = vec![
+            format!(
+                "the {} hand was to be at {} of the map",
+                unreachable.side,
+                point(&in_map.translation.vector)
+            ),
+            format!(
+                "that is {:.2} m from the axis of the base, at a height of {:.2} m",
+                from_base.xy().norm(),
+                from_base.z
+            ),
+        ];
+        if let UnreachableReason::Collisions { hit, .. } = &unreachable.reason {
+            facts.push(format!(
+                "{} would be {:.1} mm deep in {} at {}",
+                hit.moving,
+                hit.depth * 1e3,
+                hit.other,
+                point(&hit.point.coords)
+            ));
+        }
+        facts
+    }
+
+    fn remedies(&self, image: &mut Image, failure: &MotionFailure) -> Vec<String> {
+        match failure {
+            MotionFailure::GoalOccupied {
+                goal, nearest_free, ..
+            } => self.places(goal, nearest_free.as_ref()),
+            MotionFailure::Enclosed { blockers, .. } => {
+                let name = |body: &crate::world::BodyName| format!("move {body} out of the way");
+                blockers.iter().map(name).collect()
+            }
+            MotionFailure::TorsoGoalOutOfLimits { lower, upper, .. } => {
+                vec![format!("a joint angle from {lower} to {upper}")]
+            }
+            MotionFailure::ObjectNotFound { candidates, .. } => {
+                candidates.iter().map(|c| self.where_to_look(c)).collect()
+            }
+            MotionFailure::PoseUnreachable(pose) => self.other_reach(image, pose),
+            _ => Vec::new(),
+        }
+    }
+
+    fn places(&self, goal: &BasePlace, nearest: Option<&BasePlace>) -> Vec<String> {
+        let [x, y, heading] = *goal;
+        let step = std::f64::consts::TAU / f64::from(HEADINGS);
+        let turned = (1..HEADINGS).map(|i| heading + step * f64::from(i));
+        let free: Vec<String> = turned
+            .filter(|yaw| can_stand(&self.world, &[x, y, *yaw]))
+            .map(|yaw| format!("{:.0}", crate::spatial::trig::wrap(yaw).to_degrees()))
+            .collect();
+        let mut lines = Vec::new();
+        if let Some(place) = nearest {
+            lines.push(format!("standing at {}", place_form(place)));
+        }
+        if !free.is_empty() {
+            lines.push(format!(
+                "standing at the same place with a heading of {} degrees",
+                free.join(" or ")
+            ));
+        }
+        lines
+    }
+
+    /// What the camera would see with the head turned to the object.
+    fn where_to_look(&self, seen: &Visibility) -> String {
+        let name = &seen.object;
+        let Ok(at) = self.world.object_pose(name) else {
+            return format!("{name} is not there any more");
+        };
+        let target = Point3::from(at.translation.vector);
+        let neck = &self.world.models().description.neck;
+        let mut world = self.world.clone();
+        let mut robot = world.robot_configuration().clone();
+        let angles = pan_and_tilt(&world, &target);
+        for (joint, angle) in [neck.pan_joint, neck.tilt_joint].into_iter().zip(angles) {
+            let limits = world.models().robot.joint(joint).limits;
+            if limits.is_some_and(|l| angle < l.lower || angle > l.upper) {
+                return format!("driving elsewhere: the neck cannot turn to {name} from here");
+            }
+            robot.joints.set(joint, angle);
+        }
+        world.teleport_robot(&robot);
+        let there = point(&(self.base().inverse() * at).translation.vector);
+        match Sight::of_robot(&world).visibility(name) {
+            Ok(seen) if seen.is_seen() => format!(
+                "looking at {there} of base_footprint first: {:.0} % of {name} would be in sight",
+                seen.fraction() * 100.0
+            ),
+            Ok(seen) => format!("not looking at {there} of base_footprint: even then, {seen}"),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    fn other_reach(&self, image: &mut Image, unreachable: &UnreachablePose) -> Vec<String> {
+        let mut lines = Vec::new();
+        let other = match unreachable.side {
+            Side::Left => Side::Right,
+            Side::Right => Side::Left,
+        };
+        let mode = CollisionMode::AllowHand;
+        if can_reach(&self.world, other, &unreachable.tool, mode) {
+            lines.push(format!("the {other} hand at the same pose"));
+        }
+        let Some((name, wanted)) = self.meant(unreachable) else {
+            return lines;
+        };
+        for (arm, grasp) in self.grasps_from_here(image, &wanted, None) {
+            lines.push(format!(
+                "picking {name} up with (arm {arm}) (grasp {})",
+                grasp.to_lowercase()
+            ));
+        }
+        if let Some((base, arm, grasp)) = self.place_to_grasp(image, &wanted) {
+            let t = base.translation;
+            let place = place_form(&[t.x, t.y, pose::yaw(&base)]);
+            lines.push(format!(
+                "picking {name} up with (arm {arm}) (grasp {}), standing at {place}",
+                grasp.to_lowercase()
+            ));
+        }
+        lines
+    }
+
+    /// The free object that the hand was meant for.
+    fn meant(&self, unreachable: &UnreachablePose) -> Option<(String, Wanted)> {
+        let tool = self.base() * unreachable.tool;
+        let distance = |at: &Pose| (at.translation.vector - tool.translation.vector).norm();
+        let free = self.world.objects().filter(|o| o.attachment().is_none());
+        let near = free
+            .filter_map(|object| Some((object, self.world.object_pose(object.name()).ok()?)))
+            .filter(|(_, at)| distance(at) < AT_THE_OBJECT)
+            .min_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)));
+        near.map(|(object, in_map)| {
+            let wanted = Wanted {
+                kind: object.type_name().to_owned(),
+                in_map,
+                arm: Some(unreachable.side),
+                grasp: None,
+            };
+            (object.name().to_owned(), wanted)
+        })
+    }
+}
+
+fn section(text: &mut String, title: &str, lines: impl IntoIterator<Item = impl AsRef<str>>) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{title}:");
+    for line in lines {
+        let _ = writeln!(text, "  {}", line.as_ref());
+    }
+}
+
+fn point(p: &Vector3<f64>) -> String {
+    format!("({:.3} {:.3} {:.3})", p.x, p.y, p.z)
+}
+
+/// A place of the base as a pose that can be typed.
+fn place_form(&[x, y, yaw]: &BasePlace) -> String {
+    let q = pose::from_xy_yaw(x, y, yaw).rotation;
+    format!(
+        "(make-pose \"map\" '(({x:.3} {y:.3} 0) (0 0 {:.5} {:.5})))",
+        q.k, q.w
+    )
+}

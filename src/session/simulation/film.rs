@@ -1,0 +1,77 @@
+//! Keeping what is seen every now and then, for moving pictures.
+
+use super::Simulation;
+use crate::viewer::animation::Shot;
+use crate::viewer::{View, ViewError};
+
+/// Shots of a session as time passes.
+pub(super) struct Film {
+    wanted: Filming,
+    /// When (simulated s) the next shot is due.
+    next: f64,
+    shots: Vec<Shot>,
+}
+
+/// What is to be filmed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Filming {
+    /// From where.
+    pub view: View,
+    /// Pixels per row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Simulated time from one shot to the next (s).
+    pub every: f64,
+}
+
+impl Simulation {
+    /// Keeps a shot every now and then from here on.
+    pub fn start_film(&mut self, wanted: Filming) -> Result<(), ViewError> {
+        // A view that there is not is told at once.
+        wanted
+            .view
+            .camera(&self.world, wanted.width, wanted.height)?;
+        self.film = Some(Film {
+            wanted,
+            next: self.now,
+            shots: Vec::new(),
+        });
+        Ok(())
+    }
+
+    /// The shots since the film was started, the last of them as everything is now.
+    pub fn end_film(&mut self) -> Vec<Shot> {
+        self.shoot();
+        self.film.take().map_or_else(Vec::new, |film| film.shots)
+    }
+
+    /// Keeps a shot if one is due.
+    pub(super) fn film(&mut self) {
+        let now = self.now;
+        let Some(film) = &mut self.film else { return };
+        if now + 1e-9 < film.next {
+            return;
+        }
+        film.next = now.max(film.next + film.wanted.every);
+        self.shoot();
+    }
+
+    fn shoot(&mut self) {
+        let Some(film) = &self.film else { return };
+        let Filming {
+            view,
+            width,
+            height,
+            ..
+        } = film.wanted;
+        // The view was there when the film was started, and furniture stays.
+        let Ok(camera) = view.camera(&self.world, width, height) else {
+            return;
+        };
+        let scene = self.scene();
+        if let Some(film) = &mut self.film {
+            film.shots.push(Shot { scene, camera });
+        }
+    }
+}

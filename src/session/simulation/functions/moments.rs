@@ -1,0 +1,93 @@
+//! Going back in the world: `rewind`, `snapshot`, `restore`.
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::print;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::plan::Reply;
+use crate::session::on_one_line;
+use crate::session::simulation::Simulation;
+use crate::session::simulation::call::{done, host};
+use crate::session::simulation::names::name_text;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `PLANWRIGHT`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "REWIND",
+        "&optional count",
+        "Takes the world back to before the last COUNT forms at the prompt that changed it; one unless told. Objects, robot and what it holds go back; Lisp variables and simulated time do not.",
+        &[],
+        host!(rewind),
+    ),
+    control(
+        "SNAPSHOT",
+        "name",
+        "Keeps the world as it is now under a name, for RESTORE. Returns the name.",
+        &["(pw:snapshot 'before-lunch) => BEFORE-LUNCH"],
+        host!(snapshot),
+    ),
+    control(
+        "RESTORE",
+        "name",
+        "Takes the world back to how it was when SNAPSHOT kept it under the name. Lisp variables and simulated time stay.",
+        &["(progn (pw:snapshot 'now) (pw:restore 'now)) => NOW"],
+        host!(restore),
+    ),
+    control(
+        "WORLD-HASH",
+        "",
+        "A hash of the whole state of the world, sixteen hexadecimal digits: equal worlds have equal ones.",
+        &["(equal (pw:world-hash) (pw:world-hash)) => T"],
+        host!(world_hash),
+    ),
+];
+
+fn say(image: &mut Image, text: &str) {
+    image.output.fresh_line();
+    image.output.write(text);
+    image.output.write("\n");
+}
+
+fn rewind(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let count = match args.first() {
+        None => 1,
+        Some(Value::Int(n)) if *n > 0 => usize::try_from(*n).unwrap_or(usize::MAX),
+        Some(other) => return Err(Raise::type_error(other, known::INTEGER)),
+    };
+    let form = simulation.rewind(count)?;
+    let shown = print::to_string(image, &form, true);
+    let shown = on_one_line(&shown);
+    say(
+        image,
+        &format!("; The world is as before {shown}; Lisp variables keep their values."),
+    );
+    done(Value::T)
+}
+
+fn name(image: &Image, value: &Value) -> Result<String> {
+    name_text(image, value).ok_or_else(|| Raise::type_error(value, known::SYMBOL))
+}
+
+fn snapshot(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = name(image, &args[0])?;
+    simulation.keep(&name);
+    done(args[0].clone())
+}
+
+fn restore(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = name(image, &args[0])?;
+    simulation.restore_kept(&name)?;
+    say(
+        image,
+        &format!("; The world is as in {name}; Lisp variables keep their values."),
+    );
+    done(args[0].clone())
+}
+
+fn world_hash(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    done(Value::string(format!("{:016x}", simulation.world.hash())))
+}

@@ -1,0 +1,171 @@
+//! Pictures at the prompt: of the world from anywhere, of what the robot's camera sees, and of
+//! the floor as the base knows it.
+
+use std::fs;
+use std::sync::Arc;
+
+use super::picture_request::PictureRequest;
+use crate::designator::value::current;
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::plan::Reply;
+use crate::session::simulation::Simulation;
+use crate::session::simulation::call::{done, host};
+use crate::session::simulation::properties::property;
+use crate::viewer::map_picture::add_legend;
+use crate::viewer::{self, CameraPicture, FloorMap, View, camera_picture, map_scene, render};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Where pictures go for which no file is named. Each replaces the one before it.
+const PICTURE: &str = "planwright-picture.png";
+const CAMERA_PICTURE: &str = "planwright-camera.png";
+const MAP_PICTURE: &str = "planwright-map.png";
+
+/// Pixels of a picture where nothing else is asked for.
+const WIDTH: usize = 640;
+const HEIGHT: usize = 480;
+
+/// Builtins of package `PLANWRIGHT`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "PICTURE",
+        "&rest arguments",
+        "Draws the world into a PNG file and returns the file's name: `(picture [\"file.png\"] [view] :from place :at place :width n :height n)`. Views are :kitchen, :top, :map, :robot, :table, :island and :follow; a place is a point (x y z), a pose, or the name of an object or frame. Terminals that can show it show it.",
+        &[],
+        host!(picture),
+    ),
+    control(
+        "CAMERA-PICTURE",
+        "&rest arguments",
+        "Draws what the robot's camera sees into a PNG file: colours, distances and segments; the object that was looked for last is outlined even where it is hidden: `(camera-picture [\"file.png\"] :object name :width n)`. Tells how much of the object is in sight, and returns the file's name.",
+        &[],
+        host!(camera_picture),
+    ),
+    control(
+        "MAP-PICTURE",
+        "&rest arguments",
+        "Draws the kitchen from above into a PNG file: the floor is green where the base may stand as the robot is now, red where something is in the way: `(map-picture [\"file.png\"] :width n :height n)`. Returns the file's name.",
+        &[],
+        host!(map_picture),
+    ),
+];
+
+impl Simulation {
+    /// Everything there is to be seen now.
+    pub fn scene(&self) -> viewer::Scene {
+        let mut scene = self.looks().scene(&self.world);
+        if let Some(axes) = self.axes() {
+            scene.add_axes(&axes.pose, axes.size);
+        }
+        scene
+    }
+
+    /// The picture that a view has now.
+    pub fn picture(
+        &self,
+        view: View,
+        width: usize,
+        height: usize,
+    ) -> std::result::Result<viewer::Image, viewer::ViewError> {
+        let camera = view.camera(&self.world, width, height)?;
+        Ok(render(&self.scene(), &camera))
+    }
+
+    /// Writes the picture and has it shown to whoever can see it; the reply is the file's name.
+    fn publish(
+        &mut self,
+        picture: viewer::Image,
+        file: Option<&str>,
+        usual: &str,
+    ) -> Result<Reply> {
+        let file = file.unwrap_or(usual);
+        let written = picture.to_png().and_then(|png| fs::write(file, png));
+        written.map_err(|error| {
+            let reason = match error.kind() {
+                std::io::ErrorKind::NotFound => "there is no such directory".to_owned(),
+                std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+                std::io::ErrorKind::IsADirectory => "it is a directory".to_owned(),
+                _ => error.to_string(),
+            };
+            Raise::new(
+                known::FILE_ERROR,
+                format!("The picture cannot be written to \"{file}\": {reason}."),
+            )
+            .with(known::K_PATHNAME, Value::string(file))
+        })?;
+        self.pictures.push(Arc::new(picture));
+        done(Value::string(file))
+    }
+
+    /// The pictures that were made since this was asked last.
+    pub(in crate::session) fn take_pictures(&mut self) -> Vec<Arc<viewer::Image>> {
+        std::mem::take(&mut self.pictures)
+    }
+
+    /// The objects that the robot looked for last; all of them, if it has not looked for any.
+    fn sought(&self) -> Vec<String> {
+        let library = &self.models.objects;
+        let is_sought = |object: &&crate::world::Object| match &self.sought {
+            None => true,
+            Some(query) => match &query.name {
+                Some(name) => name == object.name(),
+                None => {
+                    let of_type = |kind: &String| library.is_kind_of(object.type_name(), kind);
+                    query.types.is_empty() || query.types.iter().any(of_type)
+                }
+            },
+        };
+        let sought = self.world.objects().filter(is_sought);
+        sought.map(|object| object.name().to_owned()).collect()
+    }
+}
+
+fn picture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let keys = ["VIEW", "FROM", "AT", "WIDTH", "HEIGHT"];
+    let request = PictureRequest::of(image, args, &keys)?;
+    let view = request.view(simulation, image)?;
+    let width = request.size(image, "WIDTH", WIDTH)?;
+    let height = request.size(image, "HEIGHT", HEIGHT)?;
+    let picture = simulation.picture(view, width, height);
+    let picture = picture.map_err(|error| Raise::simple(format!("{error}.")))?;
+    simulation.publish(picture, request.file.as_deref(), PICTURE)
+}
+
+fn camera_picture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let request = PictureRequest::of(image, args, &["OBJECT", "WIDTH"])?;
+    let width = request.size(image, "WIDTH", camera_picture::WIDTH)?;
+    let sought = match request.get("OBJECT") {
+        Some(object) => {
+            let name = property(image, &current(object), "NAME");
+            vec![simulation.object_named(image, name.as_ref().unwrap_or(object))?]
+        }
+        None => simulation.sought(),
+    };
+    let shown = CameraPicture::take(&simulation.world, simulation.looks(), &sought, width);
+    image.output.fresh_line();
+    for visibility in &shown.sought {
+        image.output.write(&format!("{visibility}.\n"));
+    }
+    simulation.publish(shown.image, request.file.as_deref(), CAMERA_PICTURE)
+}
+
+fn map_picture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let request = PictureRequest::of(image, args, &["WIDTH", "HEIGHT"])?;
+    let width = request.size(image, "WIDTH", WIDTH)?;
+    let height = request.size(image, "HEIGHT", HEIGHT)?;
+    let [from, to] = View::map_area(width, height);
+    let map = FloorMap::of(&simulation.world, from, to);
+    let mut scene = map_scene(&simulation.world, simulation.looks(), &map);
+    if let Some(axes) = simulation.axes() {
+        scene.add_axes(&axes.pose, axes.size);
+    }
+    let camera = View::Map.camera(&simulation.world, width, height);
+    let camera = camera.map_err(|error| Raise::simple(format!("{error}.")))?;
+    let mut picture = render(&scene, &camera);
+    add_legend(&mut picture);
+    simulation.publish(picture, request.file.as_deref(), MAP_PICTURE)
+}

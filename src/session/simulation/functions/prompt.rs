@@ -1,0 +1,249 @@
+//! What helps a person at the prompt: help, the list of actions, a first session, tasks,
+//! time, and taking values apart.
+
+use std::time::Instant;
+
+use crate::designator::schema;
+use crate::designator::value::Class;
+use crate::lisp::builtin::{Builtin, Operator, control};
+use crate::lisp::builtins::help;
+use crate::lisp::image::Image;
+use crate::lisp::known;
+use crate::lisp::package::PackageTable;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::lisp::vm::step::{Resume, Step};
+use crate::plan::{Plan, Reply, overview_step};
+use crate::session::simulation::call::{done, host};
+use crate::session::simulation::names::{name_text, type_text};
+use crate::session::simulation::parts::View;
+use crate::session::simulation::{Simulation, tour};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `PLANWRIGHT`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "HELP",
+        "",
+        "Tells what there is and how to find out more.",
+        &[],
+        host!(tell_help),
+    ),
+    control(
+        "DESCRIBE-TOPIC",
+        "name",
+        "Tells what is known about a name: as a function, a variable, an action, a type of objects, an object in the world. The function behind DOC.",
+        &[],
+        host!(describe_topic),
+    ),
+    control(
+        "LIST-ACTIONS",
+        "",
+        "Tells the types of actions that a plan can perform, with the keys that each takes.",
+        &[],
+        host!(list_actions),
+    ),
+    control(
+        "TOUR",
+        "&optional step",
+        "The next step of a first session, or the step of that number, for somebody who knows nothing yet.",
+        &[],
+        host!(tour_step),
+    ),
+    control(
+        "TASKS",
+        "",
+        "Tells the tasks that are alive, and those of the last plan that have ended, as a tree with their status.",
+        &[],
+        |_, _| Ok(overview_step()),
+    ),
+    control(
+        "INSPECT",
+        "object",
+        "Takes a value apart: tells its parts, numbered. In a terminal a number then goes into a part, b goes back, q ends. 'NAME is an object in the world, :ROBOT the robot.",
+        &[],
+        host!(inspect),
+    ),
+];
+
+/// What `time` calls, in package `SYSTEM`.
+pub static SYSTEM_TABLE: &[Builtin] = &[control(
+    "CALL-WITH-TIMING",
+    "function",
+    "Calls a function and tells how long that took, in real and in simulated time.",
+    &[],
+    |machine, args| {
+        let now = Plan::of(machine.image).now();
+        Ok(Step::CallForValues {
+            function: args[0].clone(),
+            args: Vec::new(),
+            then: Box::new(Timing {
+                begin: Instant::now(),
+                now,
+            }),
+        })
+    },
+)];
+
+/// Macros of package `PLANWRIGHT`.
+pub static OPERATORS: &[Operator] = &[Operator {
+    name: "DOC",
+    lambda_list: "name",
+    doc: "Tells what is known about a name, which need not be quoted. At the prompt, ?name is short for it.",
+    examples: &[],
+    expand: Some(expand_doc),
+}];
+
+/// The rest of `time`.
+struct Timing {
+    begin: Instant,
+    now: f64,
+}
+
+impl Resume for Timing {
+    fn resume(
+        self: Box<Self>,
+        machine: &mut crate::lisp::vm::machine::Machine<'_>,
+        value: Value,
+    ) -> Result<Step> {
+        let simulated = Plan::of(machine.image).now() - self.now;
+        let real = self.begin.elapsed().as_secs_f64();
+        say(
+            machine.image,
+            &format!("; {simulated:.3} s simulated, {real:.3} s real"),
+        );
+        Ok(Step::Return(value))
+    }
+
+    fn name(&self) -> &'static str {
+        "TIME"
+    }
+}
+
+fn expand_doc(image: &mut Image, form: &Value) -> Result<Value> {
+    let name = form.cdr_or_nil().car_or_nil();
+    let quoted = match &name {
+        Value::Cons(cons) if cons.car().as_symbol() == Some(known::QUOTE) => name.clone(),
+        _ => Value::list([known::QUOTE.into(), name]),
+    };
+    let package = image.packages.find("PLANWRIGHT");
+    let topic = image.intern(package.unwrap_or(PackageTable::USER), "DESCRIBE-TOPIC");
+    Ok(Value::list([topic.into(), quoted]))
+}
+
+fn say(image: &mut Image, text: &str) {
+    image.output.fresh_line();
+    image.output.write(text);
+    if !text.ends_with('\n') {
+        image.output.write("\n");
+    }
+}
+
+fn nothing() -> Result<Reply> {
+    done(Value::values(Vec::new()))
+}
+
+fn tell_help(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+    say(image, include_str!("help.txt"));
+    nothing()
+}
+
+fn list_actions(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+    let rows = schema::TYPES
+        .iter()
+        .filter(|row| row.class == Class::Action);
+    let text: String = rows.map(row_text).collect();
+    say(image, &text);
+    nothing()
+}
+
+/// An action or motion with its keys; those that need not be there are in brackets.
+fn row_text(row: &schema::TypeRow) -> String {
+    let class = match row.class {
+        Class::Motion => "a motion",
+        _ => "an action",
+    };
+    let keys: Vec<String> = row
+        .keys
+        .iter()
+        .map(|key| {
+            let name = key.name.to_lowercase();
+            if key.is_required {
+                format!("({name} …)")
+            } else {
+                format!("[({name} …)]")
+            }
+        })
+        .collect();
+    let type_name = row.name.to_lowercase();
+    format!(
+        "({class} (type {type_name}) {})\n    {}\n",
+        keys.join(" "),
+        row.doc
+    )
+}
+
+fn describe_topic(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let Some(name) = name_text(image, &args[0]) else {
+        return Err(Raise::type_error(&args[0], known::SYMBOL));
+    };
+    let mut text = String::new();
+    if let Value::Symbol(sym) = &args[0] {
+        let told = help::of_symbol(image, *sym);
+        // A symbol that means nothing as such is told as what follows, if it is that.
+        if told.lines().count() > 1 {
+            text.push_str(&told);
+        }
+    }
+    for row in schema::TYPES.iter().filter(|row| row.is_named(&name)) {
+        text.push_str(&row_text(row));
+        for key in row.keys {
+            let mark = if key.is_required { ", needed" } else { "" };
+            text.push_str(&format!(
+                "      {}: {}{mark}\n",
+                key.name.to_lowercase(),
+                key.doc
+            ));
+        }
+    }
+    if let Some(kind) = type_text(image, &args[0])
+        && let Some(object) = simulation.models.objects.get(&kind)
+    {
+        let grasps = simulation.grasps.grasps(&kind).join(", ").to_lowercase();
+        text.push_str(&format!(
+            "A type of objects: {} kg, grasps: {}\n",
+            object.mass,
+            if grasps.is_empty() { "none" } else { &grasps }
+        ));
+    }
+    if simulation.world.object(&name).is_ok() {
+        let view = View::of(simulation, image, &args[0]);
+        text.push_str(&format!("An object in the world:\n{}", view.text(image)));
+    }
+    if text.is_empty() {
+        text = format!(
+            "Nothing is known about {name}; (apropos \"{}\") looks for names.\n",
+            name.to_lowercase()
+        );
+    }
+    say(image, &text);
+    nothing()
+}
+
+fn tour_step(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    if let Some(Value::Int(n)) = args.first() {
+        simulation.tour_step = usize::try_from(*n - 1).unwrap_or(0);
+    }
+    let text = tour::step_text(simulation.tour_step);
+    simulation.tour_step += 1;
+    say(image, &text);
+    nothing()
+}
+
+fn inspect(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let text = View::of(simulation, image, &args[0]).text(image);
+    say(image, &text);
+    simulation.inspected = Some(args[0].clone());
+    nothing()
+}

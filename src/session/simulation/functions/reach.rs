@@ -1,0 +1,205 @@
+//! Which grasps of an object the robot could reach, from where it stands and from elsewhere.
+
+use std::f64::consts::TAU;
+
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::motion::drive_plan::plan_drive;
+use crate::robot::Side;
+use crate::session::simulation::Simulation;
+use crate::session::simulation::motions::{side, side_keyword};
+use crate::session::simulation::names::{type_keyword, type_text};
+use crate::session::simulation::properties::property;
+use crate::spatial::{Pose, pose, trig};
+use crate::transform::value::pose_stamped;
+
+/// Distances (m) of the base's axis from the object, the most comfortable ones first.
+const DISTANCES: [f64; 5] = [0.65, 0.7, 0.6, 0.75, 0.55];
+/// Directions from the object that are looked at.
+const DIRECTIONS: u32 = 24;
+/// Places to which a way is looked for.
+const MOST_WAYS: usize = 3;
+/// Grasps that are told.
+const MOST_GRASPS: usize = 4;
+
+/// An object that is to be grasped, and the arm and grasp that are asked for.
+pub(in crate::session::simulation) struct Wanted {
+    /// Name of the object's type.
+    pub kind: String,
+    /// Pose of the object in the map frame.
+    pub in_map: Pose,
+    /// The arm, if one is asked for.
+    pub arm: Option<Side>,
+    /// The grasp, if one is asked for.
+    pub grasp: Option<String>,
+}
+
+impl Simulation {
+    fn wanted(&self, image: &mut Image, action: &Value) -> Option<Wanted> {
+        let object = property(image, action, "OBJECT")?;
+        let object = self.perceived(image, &object).ok()?;
+        let arm = property(image, action, "ARM");
+        let arm = match arm {
+            Some(arm) if matches!(arm, Value::Cons(_)) => side(image, &arm.car_or_nil()).ok(),
+            Some(arm) => side(image, &arm).ok(),
+            None => None,
+        };
+        let grasp = property(image, action, "GRASP");
+        Some(Wanted {
+            in_map: self.base() * object.in_base,
+            kind: object.kind,
+            arm,
+            grasp: grasp.and_then(|grasp| type_text(image, &grasp)),
+        })
+    }
+
+    /// Can the object be grasped so, with the base at that pose?
+    fn can_grasp_from(
+        &self,
+        image: &mut Image,
+        wanted: &Wanted,
+        (arm, grasp): (Side, &str),
+        base: &Pose,
+    ) -> bool {
+        let name = type_keyword(image, grasp);
+        let Ok(definition) = self.grasp(image, &wanted.kind, arm, &name) else {
+            return false;
+        };
+        let axes = &self.models.description.arm(arm).tool_axes;
+        let in_base = base.inverse() * wanted.in_map;
+        definition.tool_poses(&in_base, axes).is_ok_and(|poses| {
+            self.is_reachable(arm, &[poses.pregrasp, poses.second_pregrasp, poses.grasp])
+        })
+    }
+
+    /// Arms and grasps by which the object of an action of picking up can be reached from
+    /// here, the action's own ones left out.
+    pub(in crate::session) fn reachable_grasps(
+        &self,
+        image: &mut Image,
+        action: &Value,
+    ) -> Vec<(Value, Value)> {
+        let Some(wanted) = self.wanted(image, action) else {
+            return Vec::new();
+        };
+        let arm = wanted.arm.unwrap_or(Side::Right);
+        let first = || self.defined_grasps(&wanted.kind, arm).first().cloned();
+        let own = wanted.grasp.clone().or_else(first);
+        let grasps = self.grasps_from_here(image, &wanted, own.as_deref());
+        grasps
+            .into_iter()
+            .map(|(arm, grasp)| (side_keyword(image, arm), type_keyword(image, &grasp)))
+            .collect()
+    }
+
+    /// Arms and grasps by which an object can be reached from here, those of the wanted arm
+    /// first; `tried` is one of that arm's grasps that is left out.
+    pub(in crate::session::simulation) fn grasps_from_here(
+        &self,
+        image: &mut Image,
+        wanted: &Wanted,
+        tried: Option<&str>,
+    ) -> Vec<(Side, String)> {
+        let base = self.base();
+        let own_arm = wanted.arm.unwrap_or(Side::Right);
+        let other_arm = match own_arm {
+            Side::Left => Side::Right,
+            Side::Right => Side::Left,
+        };
+        let mut found = Vec::new();
+        for arm in [own_arm, other_arm] {
+            if !self.held_by(arm).is_empty() {
+                continue;
+            }
+            for grasp in self.defined_grasps(&wanted.kind, arm) {
+                if (arm == own_arm && tried == Some(&*grasp)) || found.len() == MOST_GRASPS {
+                    continue;
+                }
+                if self.can_grasp_from(image, wanted, (arm, &grasp), &base) {
+                    found.push((arm, grasp));
+                }
+            }
+        }
+        found
+    }
+
+    /// A pose of the base, arm and grasp for picking up the object of an action: near, free,
+    /// and with a way to it. The action's own arm and grasp are preferred.
+    pub(in crate::session) fn place_to_grasp_from(
+        &self,
+        image: &mut Image,
+        action: &Value,
+    ) -> Option<(Value, Value, Value)> {
+        let wanted = self.wanted(image, action)?;
+        let (base, arm, grasp) = self.place_to_grasp(image, &wanted)?;
+        let place = pose_stamped("map", &base);
+        Some((place, side_keyword(image, arm), type_keyword(image, &grasp)))
+    }
+
+    /// A pose of the base in the map frame, arm and grasp for an object: near, free, and with
+    /// a way to it. The arm and grasp that are asked for are preferred.
+    pub(in crate::session::simulation) fn place_to_grasp(
+        &self,
+        image: &mut Image,
+        wanted: &Wanted,
+    ) -> Option<(Pose, Side, String)> {
+        let arm = wanted.arm.unwrap_or(Side::Right);
+        let grasps = self.defined_grasps(&wanted.kind, arm);
+        let own = wanted.grasp.clone().or_else(|| grasps.first().cloned())?;
+        let others = grasps.iter().filter(|grasp| **grasp != own);
+        let mut ways = 0;
+        for grasp in std::iter::once(&own).chain(others) {
+            for base in self.places_around(&wanted.in_map) {
+                if !self.can_grasp_from(image, wanted, (arm, grasp), &base) {
+                    continue;
+                }
+                let t = base.translation.vector;
+                let goal = [t.x, t.y, pose::yaw(&base)];
+                ways += 1;
+                let ends_there = |path: Vec<[f64; 3]>| {
+                    path.last().is_some_and(|end| {
+                        (end[0] - goal[0]).abs() < 1e-6 && (end[1] - goal[1]).abs() < 1e-6
+                    })
+                };
+                if plan_drive(&self.world, goal).is_ok_and(ends_there) {
+                    return Some((base, arm, grasp.clone()));
+                }
+                if ways == MOST_WAYS {
+                    return None;
+                }
+            }
+        }
+        None
+    }
+
+    /// Places of the base around a thing, facing it, where the robot would touch nothing,
+    /// the nearest to where it stands first.
+    fn places_around(&self, thing: &Pose) -> Vec<Pose> {
+        let here = self.base();
+        let centre = thing.translation.vector;
+        let mut checker = self.world.collision_checker();
+        let robot = self.world.robot_configuration();
+        let mut places: Vec<(f64, Pose)> = Vec::new();
+        for distance in DISTANCES {
+            for k in 0..DIRECTIONS {
+                let angle = TAU * f64::from(k) / f64::from(DIRECTIONS);
+                let (s, c) = trig::sin_cos(angle);
+                let (x, y) = (centre.x - distance * c, centre.y - distance * s);
+                let mut base = pose::from_xy_yaw(x, y, angle);
+                base.translation.z = here.translation.z;
+                let way = (base.translation.vector - here.translation.vector).norm();
+                places.push((way, base));
+            }
+        }
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        places
+            .into_iter()
+            .map(|(_, base)| base)
+            .filter(|base| {
+                let mut there = robot.clone();
+                there.base = *base;
+                checker.is_free(&there, &crate::world::AllowedPairs::none(), 0.01)
+            })
+            .collect()
+    }
+}

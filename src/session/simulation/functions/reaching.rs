@@ -1,0 +1,106 @@
+//! Asking what the robot could do from some place, without moving it.
+
+use crate::designator::value::{as_designator, current};
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtins::keywords;
+use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
+use crate::lisp::value::Value;
+use crate::motion::{CollisionMode, can_reach, can_stand};
+use crate::plan::Reply;
+use crate::session::simulation::Simulation;
+use crate::session::simulation::call::{done, host};
+use crate::session::simulation::imagined::Imagined;
+use crate::session::simulation::motions::side;
+use crate::session::simulation::properties::property;
+use crate::spatial::pose;
+use crate::world::WorldError;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `CRAM-PICK-PLACE-TUTORIAL`.
+pub static TABLE: &[Builtin] = &[
+    control(
+        "BASE-POSE-FREE-P",
+        "base-pose",
+        "Could the robot, with its arms as they are, stand at a pose of its base without touching anything? Whether there is a way is not looked at.",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:base-pose-free-p '((0 1 0) (0 0 0 1)))) => T",
+            "(pp-tut:base-pose-free-p '((-1 1.5 0) (0 0 0 1))) => NIL",
+        ],
+        host!(base_pose_free),
+    ),
+    control(
+        "GRASP-REACHABLE-P",
+        "object arm grasp &key object-pose base-pose",
+        "Could an arm pick an object up, or put it down, with a grasp: can the hand come to the grasp, and leave it, without touching anything else? From where the robot stands and for where the object is, unless other poses are given.",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-tut:grasp-reachable-p 'bottle-1 :right :left-side)) => NIL",
+            "(pp-tut:grasp-reachable-p 'bottle-1 :right :left-side :base-pose '((-1.447 -0.15 0) (0 0 -0.7071 0.7071))) => T",
+        ],
+        host!(grasp_reachable),
+    ),
+];
+
+fn base_pose_free(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let base = simulation.pose_as_given(image, &args[0])?;
+    let t = base.translation;
+    let place = [t.x, t.y, pose::yaw(&base)];
+    done(can_stand(&simulation.world, &place))
+}
+
+fn grasp_reachable(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let name = match as_designator(&args[0]) {
+        Some(_) => property(image, &current(&args[0]), "NAME").unwrap_or(Value::NIL),
+        None => args[0].clone(),
+    };
+    let name = simulation.object_named(image, &name)?;
+    let side = side(image, &args[1])?;
+    let keys = [image.keyword("OBJECT-POSE"), image.keyword("BASE-POSE")];
+    let [object_pose, base_pose] = keywords::parse(image, &args[3..], keys)?;
+    let object_pose = object_pose.filter(Value::is_true);
+    let object_pose = object_pose.map(|pose| simulation.pose_in_map(image, &pose));
+    let base_pose = base_pose.filter(Value::is_true);
+    let base_pose = base_pose.map(|pose| simulation.pose_as_given(image, &pose));
+    let raise = |error: WorldError| Raise::simple(format!("{error}."));
+    let kind = simulation.world.object(&name).map_err(raise)?;
+    let imagined = Imagined {
+        object: &name,
+        object_pose: object_pose.transpose()?,
+        base_pose: base_pose.transpose()?,
+        side,
+        opening: simulation.grasps.grip(kind.type_name()).opening,
+    };
+    let world = imagined.world(&simulation.world).map_err(raise)?;
+    let kind = world.object(&name).map_err(raise)?.type_name().to_owned();
+    let base = world.robot_configuration().base;
+    let object = base.inverse() * world.object_pose(&name).map_err(raise)?;
+    let definition = match simulation.grasp(image, &kind, side, &args[2]) {
+        Ok(definition) => definition,
+        // With the other arm only.
+        Err(_) if simulation.grasp(image, &kind, side.other(), &args[2]).is_ok() => {
+            return done(Value::NIL);
+        }
+        Err(unknown) => return Err(unknown),
+    };
+    let axes = &simulation.models.description.arm(side).tool_axes;
+    let poses = definition
+        .tool_poses(&object, axes)
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    // As the plans of picking up and placing: the hand comes free of everything, and may
+    // touch the object from then on.
+    let way = [
+        (poses.second_pregrasp, CollisionMode::AvoidAll),
+        (poses.grasp, CollisionMode::AllowHand),
+        (poses.lift, CollisionMode::AllowHand),
+        (poses.pregrasp, CollisionMode::AvoidAll),
+    ];
+    done(
+        way.iter()
+            .all(|(tool, mode)| can_reach(&world, side, tool, *mode)),
+    )
+}

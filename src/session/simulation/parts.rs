@@ -1,0 +1,289 @@
+//! Taking values apart for a person to look at: every kind of value has named parts.
+
+use super::Simulation;
+use super::names::name_text;
+use super::properties::property;
+use crate::designator::value::as_designator;
+use crate::lisp::function::Body;
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::symbol::{FunctionCell, Sym};
+use crate::lisp::types::type_of::type_of;
+use crate::lisp::value::Value;
+use crate::plan::TaskRef;
+use crate::robot::Side;
+use crate::transform::value::{as_placement, frame_of, pose_stamped};
+
+/// Parts that are told.
+const MOST_PARTS: usize = 60;
+/// Characters of a part.
+const LONGEST_PART: usize = 100;
+
+/// Elements of a list that is taken apart as a list.
+const LONGEST_LIST: usize = 100_000;
+
+/// A value with its parts.
+pub(in crate::session) struct View {
+    title: String,
+    /// Names and values.
+    pub parts: Vec<(String, Value)>,
+}
+
+impl View {
+    /// Takes a value apart. A symbol that names an object in the world, and `:robot`, stand
+    /// for these.
+    pub(in crate::session) fn of(
+        simulation: &Simulation,
+        image: &mut Image,
+        value: &Value,
+    ) -> View {
+        if let Some(view) = in_world(simulation, image, value) {
+            return view;
+        }
+        let kind = type_of(image, value);
+        let title = format!(
+            "{}, of type {}",
+            shown(image, value),
+            print::to_string(image, &kind, true)
+        );
+        let parts = parts(image, value);
+        View { title, parts }
+    }
+
+    /// The parts with numbers.
+    pub(in crate::session) fn text(&self, image: &Image) -> String {
+        let mut text = format!("{}\n", self.title);
+        let width = self
+            .parts
+            .iter()
+            .map(|(name, _)| name.chars().count())
+            .max();
+        let width = width.unwrap_or(0).min(24);
+        for (number, (name, value)) in self.parts.iter().enumerate().take(MOST_PARTS) {
+            text.push_str(&format!(
+                "{number:>3}: {name:<width$}  {}\n",
+                shown(image, value)
+            ));
+        }
+        if self.parts.len() > MOST_PARTS {
+            text.push_str(&format!("     … {} more\n", self.parts.len() - MOST_PARTS));
+        }
+        text
+    }
+}
+
+fn shown(image: &Image, value: &Value) -> String {
+    if value.is_unbound() {
+        return "(no value)".to_owned();
+    }
+    let text = print::to_string(image, value, true);
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(LONGEST_PART) {
+        Some((end, _)) => format!("{} …", line.get(..end).unwrap_or(&line)),
+        None => line,
+    }
+}
+
+fn part(name: impl Into<String>, value: impl Into<Value>) -> (String, Value) {
+    (name.into(), value.into())
+}
+
+/// An object in the world, or the robot.
+fn in_world(simulation: &Simulation, image: &mut Image, value: &Value) -> Option<View> {
+    let Value::Symbol(sym) = value else {
+        return None;
+    };
+    let name = name_text(image, value)?;
+    if image.is_keyword(*sym) && name == "ROBOT" {
+        return Some(robot(simulation));
+    }
+    let object = simulation.world().object(&name).ok()?;
+    let kind = object.type_name().to_owned();
+    let mut parts = vec![part("type", super::names::type_keyword(image, &kind))];
+    if let Ok(pose) = simulation.world().object_pose(&name) {
+        parts.push(part("pose", pose_stamped("map", &pose)));
+    }
+    if let Some(known) = simulation.object_types().get(&kind) {
+        parts.push(part("mass (kg)", known.mass));
+    }
+    let grasps: Vec<Value> = simulation
+        .grasp_library()
+        .grasps(&kind)
+        .iter()
+        .map(|grasp| super::names::type_keyword(image, grasp))
+        .collect();
+    parts.push(part("grasps", Value::list(grasps)));
+    if let Some(side) = simulation.hand_of(&name) {
+        parts.push(part("held by", super::motions::side_keyword(image, side)));
+    }
+    Some(View {
+        title: format!("{name}, an object in the world"),
+        parts,
+    })
+}
+
+fn robot(simulation: &Simulation) -> View {
+    let mut parts = vec![part("base", pose_stamped("map", &simulation.base()))];
+    for (side, name) in [(Side::Left, "left hand"), (Side::Right, "right hand")] {
+        let held = simulation.held_by(side);
+        let symbols: Vec<Value> = held.iter().map(|n| simulation.symbol_of(n)).collect();
+        parts.push(part(format!("{name} holds"), Value::list(symbols)));
+        let wrist = simulation.models.description.arm(side).wrist;
+        let pose = simulation.world().link_pose(wrist);
+        parts.push(part(format!("{name} at"), pose_stamped("map", &pose)));
+    }
+    let robot = &simulation.models.robot;
+    let positions = &simulation.world().robot_configuration().joints;
+    let joints: Vec<Value> = robot
+        .joints()
+        .map(|(id, joint)| {
+            let position = Value::Double(robot.position(positions, id));
+            Value::list([Value::string(&*joint.name), position])
+        })
+        .collect();
+    parts.push(part("joints", Value::list(joints)));
+    let kept: Vec<Value> = simulation.kept_names().map(Value::string).collect();
+    if !kept.is_empty() {
+        parts.push(part("snapshots", Value::list(kept)));
+    }
+    View {
+        title: "The robot".to_owned(),
+        parts,
+    }
+}
+
+fn parts(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
+    match value {
+        Value::Cons(_) if is_proper(value) => {
+            let items = value.iter_list().enumerate();
+            items.map(|(at, item)| part(at.to_string(), item)).collect()
+        }
+        Value::Cons(cons) => vec![part("car", cons.car()), part("cdr", cons.cdr())],
+        Value::Vector(vector) => {
+            let items = vector.to_vec().into_iter().enumerate();
+            items.map(|(at, item)| part(at.to_string(), item)).collect()
+        }
+        Value::Hash(table) => {
+            let pairs = table.pairs().into_iter();
+            pairs
+                .map(|(key, item)| part(shown(image, &key), item))
+                .collect()
+        }
+        Value::Instance(instance) => {
+            let class = instance.class();
+            let names: Vec<Sym> = class.slots.borrow().iter().map(|s| s.name).collect();
+            let mut parts = vec![part("class", Value::Class(class))];
+            parts.extend(names.into_iter().map(|name| {
+                let slot = instance.slot(name).unwrap_or(Value::Unbound);
+                part(image.name(name).to_lowercase(), slot)
+            }));
+            parts
+        }
+        Value::Symbol(sym) => of_symbol(image, *sym),
+        Value::Function(function) => match &function.body {
+            Body::Closure { code, .. } => {
+                let doc = code.doc.as_deref().map_or(Value::NIL, Value::string);
+                vec![
+                    part("name", code.name.clone()),
+                    part("lambda list", code.lambda_list.clone()),
+                    part("documentation", doc),
+                ]
+            }
+            Body::Native(native) => vec![part("name", native.name)],
+            Body::Generic(_) => Vec::new(),
+        },
+        Value::Foreign(_) => of_foreign(image, value),
+        _ => Vec::new(),
+    }
+}
+
+/// Is it a list that ends, and with `NIL`?
+fn is_proper(value: &Value) -> bool {
+    let mut rest = value.clone();
+    for _ in 0..LONGEST_LIST {
+        match &rest {
+            Value::Cons(cons) => {
+                let next = cons.cdr();
+                rest = next;
+            }
+            end => return !end.is_true(),
+        }
+    }
+    false
+}
+
+fn of_symbol(image: &Image, sym: Sym) -> Vec<(String, Value)> {
+    let data = image.symbol(sym);
+    let mut parts = vec![part("name", Value::string(&*data.name))];
+    if let Some(package) = data.package {
+        parts.push(part("package", Value::Package(package)));
+    }
+    if !data.value.is_unbound() {
+        parts.push(part("value", data.value.clone()));
+    }
+    if let FunctionCell::Function(function) = &data.function {
+        parts.push(part("function", Value::Function(function.clone())));
+    }
+    if data.plist.is_true() {
+        parts.push(part("property list", data.plist.clone()));
+    }
+    parts
+}
+
+fn of_foreign(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
+    if let Some(task) = TaskRef::from_value(value) {
+        let task = task.get();
+        return vec![
+            part("name", Value::string(task.name.to_string())),
+            part(
+                "status",
+                Value::string(format!("{:?}", task.status()).to_lowercase()),
+            ),
+            part("path", task.node.path.clone()),
+            part("result", task.result()),
+        ];
+    }
+    if let Some(designator) = as_designator(value) {
+        let mut parts: Vec<(String, Value)> = designator
+            .properties()
+            .into_iter()
+            .map(|(key, values)| {
+                let name = key.as_symbol().map(|sym| image.name(sym).to_lowercase());
+                let single = !values.cdr_or_nil().is_true();
+                let shown = if single { values.car_or_nil() } else { values };
+                (name.unwrap_or_else(|| shown_key(image, &key)), shown)
+            })
+            .collect();
+        if let Some(data) = designator.data.borrow().clone() {
+            parts.push(part("refers to", data));
+        }
+        if let Some(successor) = designator.successor.borrow().clone() {
+            parts.push(part("equated to", successor));
+        }
+        if let Some(name) = property(image, value, "NAME") {
+            parts.push(part("object in the world", name));
+        }
+        return parts;
+    }
+    if let Some(placement) = as_placement(value) {
+        let pose = placement.to_pose();
+        let mut parts = Vec::new();
+        if let Some(frame) = frame_of(value) {
+            parts.push(part("frame", Value::string(&*frame)));
+        }
+        let t = pose.translation.vector;
+        let q = pose.rotation.coords;
+        for (name, number) in [("x (m)", t.x), ("y (m)", t.y), ("z (m)", t.z)] {
+            parts.push(part(name, number));
+        }
+        let quaternion = [q.x, q.y, q.z, q.w].map(Value::Double);
+        parts.push(part("quaternion x y z w", Value::list(quaternion)));
+        parts.push(part("heading (rad)", crate::spatial::pose::yaw(&pose)));
+        return parts;
+    }
+    Vec::new()
+}
+
+fn shown_key(image: &Image, key: &Value) -> String {
+    print::to_string(image, key, true).to_lowercase()
+}

@@ -1,0 +1,214 @@
+//! The program in a pseudo-terminal, as a person has it before them: keys go in, a screen is
+//! read.
+
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::Child;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use pty_process::Size;
+use pty_process::blocking::{Command, Pty, open};
+
+/// Lines and columns of the screen.
+const ROWS: u16 = 50;
+const COLUMNS: u16 = 110;
+/// Lines that have left the screen and can still be read.
+const SCROLLBACK: usize = 5000;
+/// How long anything may take on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+const POLL: Duration = Duration::from_millis(2);
+
+pub const UP: &str = "\x1b[A";
+pub const DOWN: &str = "\x1b[B";
+pub const LEFT: &str = "\x1b[D";
+pub const TAB: &str = "\t";
+pub const ENTER: &str = "\r";
+pub const CTRL_C: &str = "\x03";
+pub const CTRL_D: &str = "\x04";
+pub const CTRL_J: &str = "\n";
+pub const CTRL_R: &str = "\x12";
+
+/// A directory for what a test's sessions keep; removed with the value.
+pub struct State(PathBuf);
+
+impl State {
+    pub fn new(name: &str) -> State {
+        let path = std::env::temp_dir().join(format!("planwright-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a directory");
+        State(path)
+    }
+
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+}
+
+impl Drop for State {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The program and its screen.
+pub struct Terminal {
+    keys: Arc<Pty>,
+    screen: Arc<Mutex<vt100::Parser>>,
+    child: Child,
+}
+
+impl Terminal {
+    /// Starts the program and waits for its prompt.
+    pub fn start(state: &State, arguments: &[&str]) -> Terminal {
+        let terminal = Terminal::spawn(state, arguments);
+        terminal.wait_for("CL-USER> ");
+        terminal
+    }
+
+    /// Starts the program where the last session ended.
+    pub fn start_resumed(state: &State) -> Terminal {
+        Terminal::spawn(state, &["--resume"])
+    }
+
+    fn spawn(state: &State, arguments: &[&str]) -> Terminal {
+        let (pty, pts) = open().expect("a pseudo-terminal");
+        pty.resize(Size::new(ROWS, COLUMNS)).expect("it has a size");
+        let child = Command::new(env!("CARGO_BIN_EXE_planwright"))
+            .args(arguments)
+            .env("XDG_STATE_HOME", state.path())
+            .env("TERM", "xterm-256color")
+            .env_remove("NO_COLOR")
+            .spawn(pts)
+            .expect("the program starts");
+        let keys = Arc::new(pty);
+        let screen = Arc::new(Mutex::new(vt100::Parser::new(ROWS, COLUMNS, SCROLLBACK)));
+        let (from, to) = (Arc::clone(&keys), Arc::clone(&screen));
+        thread::spawn(move || {
+            let mut bytes = [0; 4096];
+            // Reading fails when the program has ended.
+            while let Ok(count) = (&*from).read(&mut bytes) {
+                if count == 0 {
+                    break;
+                }
+                let mut screen = to.lock().unwrap_or_else(PoisonError::into_inner);
+                screen.process(bytes.get(..count).unwrap_or_default());
+            }
+        });
+        Terminal {
+            keys,
+            screen,
+            child,
+        }
+    }
+
+    /// Types a text, or presses keys.
+    pub fn keys(&self, text: &str) {
+        (&*self.keys)
+            .write_all(text.as_bytes())
+            .expect("the program listens");
+    }
+
+    /// Types a line and presses Enter.
+    pub fn line(&self, text: &str) {
+        self.keys(text);
+        self.keys(ENTER);
+    }
+
+    /// Types a line and waits until a prompt is there again.
+    pub fn evaluate(&self, text: &str) -> String {
+        let before = self.prompts();
+        self.line(text);
+        self.wait_until("another prompt", |all| {
+            prompts_in(all) > before && ends_in_prompt(all)
+        });
+        self.text()
+    }
+
+    /// Pastes a text as terminals do.
+    pub fn paste(&self, text: &str) {
+        self.keys(&format!("\x1b[200~{text}\x1b[201~"));
+    }
+
+    /// All that is on the screen.
+    pub fn text(&self) -> String {
+        let screen = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
+        let contents = screen.screen().contents();
+        contents.trim_end().to_owned()
+    }
+
+    /// The screen with its colours.
+    pub fn formatted(&self) -> String {
+        let screen = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
+        String::from_utf8_lossy(&screen.screen().contents_formatted()).into_owned()
+    }
+
+    fn prompts(&self) -> usize {
+        prompts_in(&self.text())
+    }
+
+    /// Waits until the screen shows the text; tells how long that took.
+    pub fn wait_for(&self, wanted: &str) -> Duration {
+        self.wait_until(wanted, |all| all.contains(wanted.trim_end()))
+    }
+
+    /// Waits until the last line of the screen is that.
+    pub fn wait_for_last_line(&self, wanted: &str) -> Duration {
+        self.wait_until(wanted, |all| {
+            all.lines().last().map(str::trim_end) == Some(wanted)
+        })
+    }
+
+    pub fn wait_until(&self, what: &str, is_there: impl Fn(&str) -> bool) -> Duration {
+        let begin = Instant::now();
+        while !is_there(&self.text()) {
+            assert!(
+                begin.elapsed() < PATIENCE,
+                "waited for {what}; the screen shows\n{}",
+                self.text()
+            );
+            thread::sleep(POLL);
+        }
+        begin.elapsed()
+    }
+
+    /// Ends the program as `kill -9` does.
+    pub fn kill(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+
+    /// Waits for the program's end; its exit status.
+    pub fn exit_status(&mut self) -> Option<i32> {
+        let begin = Instant::now();
+        loop {
+            match self.child.try_wait() {
+                Ok(Some(status)) => return status.code(),
+                Ok(None) => {}
+                Err(_) => return None,
+            }
+            assert!(begin.elapsed() < PATIENCE, "the program goes on");
+            thread::sleep(POLL);
+        }
+    }
+}
+
+impl Drop for Terminal {
+    fn drop(&mut self) {
+        self.kill();
+    }
+}
+
+fn is_prompt(line: &str) -> bool {
+    line.starts_with("CL-USER") || line.starts_with("PP-TUT")
+}
+
+fn prompts_in(text: &str) -> usize {
+    text.lines().filter(|line| is_prompt(line)).count()
+}
+
+fn ends_in_prompt(text: &str) -> bool {
+    text.lines()
+        .last()
+        .is_some_and(|line| is_prompt(line) && line.trim_end().ends_with('>'))
+}
