@@ -8,7 +8,8 @@
 //!   is evaluated, no file is read, what is malformed is dropped.
 //! - Only requests with the random word, to the server's own address and from its own page
 //!   are answered.
-//! - Memory is bounded: the past is thinned out, old lines are forgotten.
+//! - Memory is bounded: the past is thinned out, old lines are forgotten. Only names of objects
+//!   stay, however long ago they were.
 
 mod browser;
 mod chronicle;

@@ -1,7 +1,7 @@
 //! The page, put together from its parts.
 
 /// Parts of the page's program, in the order in which they are defined.
-const SCRIPTS: [&str; 9] = [
+const SCRIPTS: [&str; 15] = [
     include_str!("page/algebra.js"),
     include_str!("page/program.js"),
     include_str!("page/orbit.js"),
@@ -10,7 +10,13 @@ const SCRIPTS: [&str; 9] = [
     include_str!("page/tasks.js"),
     include_str!("page/log.js"),
     include_str!("page/past.js"),
-    include_str!("page/main.js"),
+    include_str!("page/state.js"),
+    include_str!("page/session.js"),
+    include_str!("page/views.js"),
+    include_str!("page/pointer.js"),
+    include_str!("page/card.js"),
+    include_str!("page/time.js"),
+    include_str!("page/draw.js"),
 ];
 
 const STYLE: &str = include_str!("page/style.css");

@@ -236,7 +236,7 @@ impl Reader<'_> {
             kind: Kind::Robot,
             type_name: String::new(),
             still: None,
-            mesh: crate::viewer::watch::VisualMesh::default(),
+            mesh: Arc::default(),
         });
         self.frames.insert(frame.to_owned(), id);
         id

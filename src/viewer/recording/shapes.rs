@@ -94,7 +94,7 @@ pub(super) fn node(entity: &SceneEntity, id: u32, still: Option<Placed>) -> Opti
         kind,
         type_name: entity.metadata("type").unwrap_or_default().to_owned(),
         still,
-        mesh,
+        mesh: mesh.into(),
     })
 }
 

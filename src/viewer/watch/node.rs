@@ -1,5 +1,7 @@
 //! Things that have a place: links of the robot, pieces of furniture, objects.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 
 use super::moment::Placed;
@@ -43,8 +45,8 @@ pub struct Node {
     pub type_name: String,
     /// Where it always is, if it cannot move.
     pub still: Option<Placed>,
-    /// How it looks, in its own frame; empty for a mere frame.
-    pub mesh: VisualMesh,
+    /// How it looks, in its own frame; empty for a mere frame. Nodes that look the same share it.
+    pub mesh: Arc<VisualMesh>,
 }
 
 /// A corner of what is seen.

@@ -31,6 +31,8 @@ pub struct Witness {
     moving_furniture: Vec<(LinkId, u32)>,
     robot_links: Vec<(LinkId, u32)>,
     objects: IndexMap<ObjectKey, u32>,
+    /// How objects look, by type and colour.
+    meshes: IndexMap<(String, [u32; 4]), Arc<VisualMesh>>,
     joints: Vec<JointId>,
     base: u32,
     ways: Vec<KnownWay>,
@@ -48,6 +50,7 @@ impl Witness {
             moving_furniture: Vec::new(),
             robot_links: Vec::new(),
             objects: IndexMap::new(),
+            meshes: IndexMap::new(),
             joints: Vec::new(),
             base: 0,
             ways: Vec::new(),
@@ -215,13 +218,17 @@ impl Witness {
         if let Some(known) = self.objects.get(&key) {
             return *known;
         }
+        let look = (key.1.clone(), key.2);
+        let mesh = self.meshes.entry(look);
+        let mesh = mesh.or_insert_with(|| VisualMesh::of(&Scene::of_object(object)).into());
+        let mesh = Arc::clone(mesh);
         let node = self.add(Node {
             id: 0,
             name: key.0.clone(),
             kind: Kind::Object,
             type_name: key.1.clone(),
             still: None,
-            mesh: VisualMesh::of(&Scene::of_object(object)),
+            mesh,
         });
         self.objects.insert(key, node);
         node
@@ -241,7 +248,7 @@ impl Witness {
             kind,
             type_name: String::new(),
             still,
-            mesh: VisualMesh::of(scene),
+            mesh: VisualMesh::of(scene).into(),
         })
     }
 

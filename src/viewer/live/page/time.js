@@ -1,0 +1,82 @@
+// Time: pause, speed, and the slider over the past.
+
+const SPEEDS = [['¼', 0.25], ['½', 0.5], ['1×', 1], ['2×', 2], ['4×', 4], ['max', null]];
+for (const [text, speed] of SPEEDS) {
+  const button = document.createElement('button');
+  button.type = 'button';
+  button.textContent = text;
+  button.title = speed ? `${speed} simulated seconds in a real one` : 'As fast as possible';
+  button.addEventListener('click', () => {
+    if (page.time === null) ask(`speed ${speed ?? 'max'}`);
+    else page.pastSpeed = speed ?? 16;
+    showTransport();
+  });
+  $('speeds').append(button);
+}
+
+// Asks the session for another pace; it can be asked for nothing else.
+async function ask(what) {
+  try {
+    await fetch('pace', { method: 'POST', body: what });
+  } catch {
+    linked('lost', 'disconnected');
+  }
+}
+
+function play() {
+  if (page.time === null) {
+    if (page.pace) ask(page.pace.paused ? 'go' : 'pause');
+  } else {
+    page.isPlaying = !page.isPlaying;
+    if (page.isPlaying && page.time >= past.span[1] - 1e-3) page.time = past.span[0];
+  }
+  showTransport();
+}
+
+function goTo(time) {
+  page.time = Math.max(past.span[0], Math.min(past.span[1], time));
+  page.isDirty = true;
+  showTransport();
+}
+
+function goLive() {
+  page.isPlaying = false;
+  page.time = page.isRecording ? past.span[1] : null;
+  page.isDirty = true;
+  showTransport();
+}
+
+function showTransport() {
+  const isNow = page.time === null;
+  const isGoing = isNow ? !(page.pace?.paused) && !page.isOver : page.isPlaying;
+  $('play').classList.toggle('go', !isGoing);
+  $('play').title = `${isGoing ? 'Pause' : 'Go on'} (space)`;
+  $('play').disabled = isNow && (!page.pace || page.isOver);
+  $('live').setAttribute('aria-pressed', String(isNow && !page.isOver));
+  $('live').hidden = page.isRecording;
+  const speed = isNow ? page.pace?.speed ?? null : (page.pastSpeed === 16 ? null : page.pastSpeed);
+  [...$('speeds').children].forEach((button, i) => {
+    button.setAttribute('aria-pressed', String(SPEEDS[i][1] === speed && (!isNow || !!page.pace)));
+    button.disabled = isNow && (!page.pace || page.isOver);
+  });
+}
+
+$('play').addEventListener('click', play);
+$('live').addEventListener('click', goLive);
+$('slider').addEventListener('input', () => {
+  page.isPlaying = false;
+  goTo(Number($('slider').value));
+});
+
+window.addEventListener('keydown', (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.id === 'slider') return;
+  const step = event.shiftKey ? 1 : 0.1;
+  const now = page.time ?? past.span[1];
+  const keys = {
+    ' ': play, End: goLive, Home: () => goTo(past.span[0]), Escape: () => select(null),
+    ArrowLeft: () => goTo(now - step), ArrowRight: () => goTo(now + step),
+  };
+  if (!keys[event.key] || (event.key === ' ' && event.target.tagName === 'BUTTON')) return;
+  event.preventDefault();
+  keys[event.key]();
+});

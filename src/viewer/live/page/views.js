@@ -1,0 +1,83 @@
+// The named views, and what is shown.
+
+function makeViews() {
+  const names = [...page.views.fixed.map((view) => view.name), 'robot', 'follow'];
+  $('views').replaceChildren(...names.map((name) => {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.textContent = name;
+    button.dataset.view = name;
+    button.title = { robot: 'Through the robot’s camera', follow: 'Goes with the robot' }[name] ?? `Look at: ${name}`;
+    button.addEventListener('click', () => look(name));
+    return button;
+  }));
+}
+
+function look(name, isAtOnce = false) {
+  const fixed = page.views.fixed.find((view) => view.name === name);
+  page.bound = fixed ? null : name;
+  page.named = name;
+  if (fixed) orbit.go(Orbit.of(fixed.from, fixed.at, fixed.fov), isAtOnce ? -1e9 : performance.now());
+  if (name === 'follow') {
+    const base = page.shown.places.get(page.views.base);
+    if (base) orbit.go(Orbit.of(placed(base, [-1.9, 1.7, 2.2]), placed(base, [0.45, 0, 0.72]), FOV), performance.now());
+    page.base = base;
+  }
+  showViews();
+}
+
+function showViews() {
+  for (const button of $('views').children) {
+    button.setAttribute('aria-pressed', String(button.dataset.view === page.named));
+  }
+  page.isDirty = true;
+}
+
+// The person turns or moves the eye: it is at no named place any more, but still goes with
+// the robot if it did.
+function leaveView() {
+  if (page.bound === 'robot') page.bound = null;
+  if (page.bound !== 'follow') page.named = null;
+  showViews();
+}
+
+function bodyView(state) {
+  if (page.bound === 'follow') {
+    const base = state.places.get(page.views.base);
+    if (base && page.base) {
+      const moved = minus(base, page.base);
+      orbit.at = add(orbit.at, moved);
+      if (orbit.way) {
+        orbit.way.from.at = add(orbit.way.from.at, moved);
+        orbit.way.goal.at = add(orbit.way.goal.at, moved);
+      }
+    }
+    page.base = base;
+  }
+  if (page.bound === 'robot') {
+    const camera = state.places.get(page.views.camera.node);
+    if (camera) {
+      const eye = camera.slice(0, 3);
+      return { eye, matrix: lookingFrom(eye, placed(camera, [0, 0, 1]), turned(camera, [0, -1, 0])), fov: page.views.camera.fov };
+    }
+  }
+  return { eye: orbit.eye(), matrix: orbit.matrix(), fov: orbit.fov };
+}
+
+for (const name of ['paths', 'camera', 'contacts', 'shadows']) {
+  const button = document.createElement('button');
+  button.type = 'button';
+  button.textContent = name;
+  button.title = {
+    paths: 'Planned ways of base and hands', camera: 'What the robot’s camera can see',
+    contacts: 'What the hands touch, and what stopped a motion', shadows: 'Shadows',
+  }[name];
+  button.setAttribute('aria-pressed', 'true');
+  button.addEventListener('click', () => {
+    if (!stage) return;
+    stage.layers[name] = !stage.layers[name];
+    button.setAttribute('aria-pressed', String(stage.layers[name]));
+    page.isDirty = true;
+  });
+  $('layers').append(button);
+}
