@@ -184,7 +184,7 @@ fn recoveries(trials: usize) -> BTreeMap<String, usize> {
                 let world = exercise.session.simulation().world();
                 let up = world.object_pose("BOTTLE-1").unwrap() * Vector3::z();
                 assert!(up.z > 0.99, "pushed over at {x} {y}: {report}");
-                println!("{x:.3} {y:.3}: {report}");
+                eprintln!("{x:.3} {y:.3}: {report}");
                 report
             }
         };
@@ -207,6 +207,6 @@ fn the_recovery_plan_succeeds_or_says_why_not() {
 #[ignore = "takes minutes; prints how often the recovery plan succeeds"]
 fn the_recovery_plan_with_two_hundred_bottles() {
     for (outcome, count) in recoveries(200) {
-        println!("{count:4}  {outcome}");
+        eprintln!("{count:4}  {outcome}");
     }
 }

@@ -53,7 +53,7 @@ pub struct Image {
     /// Runs of macro functions inside each other.
     pub nesting: usize,
     /// The calls in which the conditions signalled last were signalled, newest last.
-    condition_calls: VecDeque<(Value, Vec<Call>)>,
+    condition_calls: VecDeque<(Vec<Value>, Vec<Call>)>,
     identities: i64,
     /// Builtins by the symbol that names them: help and the manual read them.
     pub builtins: IndexMap<Sym, &'static Builtin>,
@@ -207,7 +207,7 @@ impl Image {
         self.condition_calls
             .iter()
             .rev()
-            .find(|(other, _)| other.is_eq(condition))
+            .find(|(known, _)| known.iter().any(|other| other.is_eq(condition)))
             .map(|(_, calls)| calls.as_slice())
     }
 
@@ -216,16 +216,27 @@ impl Image {
         if self.condition_calls.len() == REMEMBERED_CONDITIONS {
             self.condition_calls.pop_front();
         }
-        self.condition_calls.push_back((condition.clone(), calls));
+        self.condition_calls
+            .push_back((vec![condition.clone()], calls));
     }
 
     /// Adds the calls of the code that a condition has come to from a task of its own.
     pub fn add_condition_calls(&mut self, condition: &Value, calls: Vec<Call>) {
         let known = self.condition_calls.iter_mut().rev();
-        let mut known = known.filter(|(other, _)| other.is_eq(condition));
+        let mut known = known.filter(|(of, _)| of.iter().any(|other| other.is_eq(condition)));
         if let Some((_, inner)) = known.next() {
             inner.extend(calls);
             inner.truncate(MOST_CALLS);
+        }
+    }
+
+    /// A condition goes on in another one, its envelope: what is known of its calls, and what
+    /// becomes known later, holds for both.
+    pub fn share_condition_calls(&mut self, condition: &Value, envelope: &Value) {
+        let known = self.condition_calls.iter_mut().rev();
+        let mut known = known.filter(|(of, _)| of.iter().any(|other| other.is_eq(condition)));
+        if let Some((of, _)) = known.next() {
+            of.push(envelope.clone());
         }
     }
 

@@ -118,7 +118,7 @@ pub(crate) fn composite(
 }
 
 /// A condition as it crosses the border of a task: a Lisp error is put in an envelope.
-pub(super) fn wrapped(plan: &Plan, image: &Image, condition: Value) -> Value {
+pub(super) fn wrapped(plan: &Plan, image: &mut Image, condition: Value) -> Value {
     let Value::Instance(instance) = &condition else {
         return condition;
     };
@@ -126,7 +126,13 @@ pub(super) fn wrapped(plan: &Plan, image: &Image, condition: Value) -> Value {
         return condition;
     }
     let initargs = [plan.names.error.into(), condition.clone()];
-    condition::make_condition(image, plan.names.envelope, &initargs).unwrap_or(condition)
+    match condition::make_condition(image, plan.names.envelope, &initargs) {
+        Ok(envelope) => {
+            image.share_condition_calls(&condition, &envelope);
+            envelope
+        }
+        Err(_) => condition,
+    }
 }
 
 /// A condition as it leaves the plan: without its envelopes.
