@@ -74,32 +74,6 @@ fn endless_loops_can_be_interrupted() {
     }
 }
 
-/// Kilobytes of memory that this process holds.
-#[cfg(target_os = "linux")]
-fn resident() -> u64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap();
-    let line = status.lines().find(|line| line.starts_with("VmRSS:"));
-    let number = line.and_then(|line| line.split_whitespace().nth(1));
-    number.unwrap().parse().unwrap()
-}
-
-#[cfg(target_os = "linux")]
-#[test]
-fn memory_stays_flat_over_a_million_tasks() {
-    let mut session = session();
-    let text = "(defun many (n)
-                  (dotimes (i n) (cpl:top-level (cpl:par-loop (x '(1 2 3 4 5 6 7 8 9)) (* x x)))))
-                (many 10000)";
-    assert_eq!(told(&mut session, text).0, Outcome::Finished);
-    let before = resident();
-    assert_eq!(told(&mut session, "(many 90000)").0, Outcome::Finished);
-    let after = resident();
-    assert!(
-        after < before + 4096,
-        "{before} kB after 100,000 tasks, {after} kB after a million"
-    );
-}
-
 /// Forms without parts; `N` stands for a small number.
 const LEAVES: &[&str] = &[
     "N",

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use nalgebra::{Point3, Vector3};
 
 use super::Simulation;
-use super::functions::reach::Wanted;
+use super::grasp_search::Wanted;
 use crate::lisp::image::Image;
 use crate::motion::base_path::BasePlace;
 use crate::motion::{
@@ -17,7 +17,6 @@ use crate::motion::{
     pan_and_tilt, touching_at,
 };
 use crate::perception::{Sight, Visibility};
-use crate::robot::Side;
 use crate::spatial::{Pose, pose};
 use crate::world::World;
 
@@ -218,10 +217,7 @@ impl Simulation {
 
     fn other_reach(&self, image: &mut Image, unreachable: &UnreachablePose) -> Vec<String> {
         let mut lines = Vec::new();
-        let other = match unreachable.side {
-            Side::Left => Side::Right,
-            Side::Right => Side::Left,
-        };
+        let other = unreachable.side.other();
         let mode = CollisionMode::AllowHand;
         if can_reach(&self.world, other, &unreachable.tool, mode) {
             lines.push(format!("the {other} hand at the same pose"));
@@ -257,6 +253,7 @@ impl Simulation {
             .min_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)));
         near.map(|(object, in_map)| {
             let wanted = Wanted {
+                name: object.name().to_owned(),
                 kind: object.type_name().to_owned(),
                 in_map,
                 arm: Some(unreachable.side),

@@ -9,6 +9,7 @@ mod film;
 mod following;
 mod frames;
 mod functions;
+mod grasp_search;
 mod held;
 mod imagined;
 mod moments;

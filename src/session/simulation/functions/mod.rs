@@ -9,7 +9,6 @@ mod picture_request;
 pub mod pictures;
 pub mod plans;
 pub mod prompt;
-pub(in crate::session::simulation) mod reach;
 pub mod reaching;
 pub mod robot_macros;
 pub mod ros;

@@ -122,16 +122,22 @@ const HEADINGS: [f64; 24] = [
 ];
 
 /// An object as perception has described it.
-pub(super) struct Perceived {
-    pub(super) name: String,
-    pub(super) kind: String,
+pub(in crate::session::simulation) struct Perceived {
+    /// Its name in the world.
+    pub name: String,
+    /// Name of its type.
+    pub kind: String,
     /// Its pose in the frame of the robot's base as it stands now.
-    pub(super) in_base: Pose,
+    pub in_base: Pose,
 }
 
 impl Simulation {
     /// Reads the designator of a perceived object.
-    pub(super) fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
+    pub(in crate::session::simulation) fn perceived(
+        &self,
+        image: &mut Image,
+        object: &Value,
+    ) -> Result<Perceived> {
         let current = current(object);
         let name = property(image, &current, "NAME");
         let kind = property(image, &current, "TYPE");
@@ -172,7 +178,7 @@ impl Simulation {
     }
 
     /// The definition of a grasp, or an error that lists those there are.
-    pub(super) fn grasp(
+    pub(in crate::session::simulation) fn grasp(
         &self,
         image: &Image,
         kind: &str,
@@ -208,7 +214,11 @@ impl Simulation {
 
     /// Names of the grasps of a type that are defined for an arm, in the order in which
     /// they are tried.
-    pub(super) fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
+    pub(in crate::session::simulation) fn defined_grasps(
+        &self,
+        kind: &str,
+        arm: Side,
+    ) -> Vec<String> {
         let kinds = self.models.objects.lineage(kind);
         for kind in kinds {
             let names: Vec<String> = self
@@ -225,12 +235,12 @@ impl Simulation {
         Vec::new()
     }
 
-    fn grip(&self, kind: &str) -> Grip {
+    pub(in crate::session::simulation) fn grip(&self, kind: &str) -> Grip {
         self.grasps.grip(kind)
     }
 
     /// Can the hand be brought to all poses, given in the frame of the base?
-    pub(super) fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
+    pub(in crate::session::simulation) fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
         let description = &self.models.description;
         let joints = &self.world.robot_configuration().joints;
         let search = description.torso_search(&self.models.robot, joints, arm);

@@ -15,6 +15,7 @@ use crate::session::simulation::motions::side;
 use crate::session::simulation::properties::property;
 use crate::spatial::pose;
 use crate::world::WorldError;
+use crate::world::grasp_library::GraspDefinition;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -75,12 +76,7 @@ fn grasp_reachable(
         side,
         opening: simulation.grasps.grip(kind.type_name()).opening,
     };
-    let Some(world) = imagined.world(&simulation.world).map_err(raise)? else {
-        return done(Value::NIL);
-    };
-    let kind = world.object(&name).map_err(raise)?.type_name().to_owned();
-    let base = world.robot_configuration().base;
-    let object = base.inverse() * world.object_pose(&name).map_err(raise)?;
+    let kind = kind.type_name().to_owned();
     let definition = match simulation.grasp(image, &kind, side, &args[2]) {
         Ok(definition) => definition,
         // With the other arm only.
@@ -93,20 +89,38 @@ fn grasp_reachable(
         }
         Err(unknown) => return Err(unknown),
     };
-    let axes = &simulation.models.description.arm(side).tool_axes;
-    let poses = definition
-        .tool_poses(&object, axes)
-        .map_err(|error| Raise::simple(format!("{error}.")))?;
-    // As the plans of picking up and placing: the hand comes free of everything, and may
-    // touch the object from then on.
-    let way = [
-        (poses.second_pregrasp, CollisionMode::AvoidAll),
-        (poses.grasp, CollisionMode::AllowHand),
-        (poses.lift, CollisionMode::AllowHand),
-        (poses.pregrasp, CollisionMode::AvoidAll),
-    ];
-    done(
-        way.iter()
-            .all(|(tool, mode)| can_reach(&world, side, tool, *mode)),
-    )
+    done(simulation.lets_grasp(&imagined, &definition)?)
+}
+
+impl Simulation {
+    /// With the world as imagined: can the hand come to a grasp of the object, and leave it,
+    /// without touching anything else?
+    pub(in crate::session::simulation) fn lets_grasp(
+        &self,
+        imagined: &Imagined<'_>,
+        grasp: &GraspDefinition,
+    ) -> Result<bool> {
+        let raise = |error: WorldError| Raise::simple(format!("{error}."));
+        let Some(world) = imagined.world(&self.world).map_err(raise)? else {
+            return Ok(false);
+        };
+        let base = world.robot_configuration().base;
+        let object = base.inverse() * world.object_pose(imagined.object).map_err(raise)?;
+        let side = imagined.side;
+        let axes = &self.models.description.arm(side).tool_axes;
+        let poses = grasp
+            .tool_poses(&object, axes)
+            .map_err(|error| Raise::simple(format!("{error}.")))?;
+        // As the plans of picking up and placing: the hand comes free of everything, and may
+        // touch the object from then on.
+        let way = [
+            (poses.second_pregrasp, CollisionMode::AvoidAll),
+            (poses.grasp, CollisionMode::AllowHand),
+            (poses.lift, CollisionMode::AllowHand),
+            (poses.pregrasp, CollisionMode::AvoidAll),
+        ];
+        Ok(way
+            .iter()
+            .all(|(tool, mode)| can_reach(&world, side, tool, *mode)))
+    }
 }

@@ -8,6 +8,7 @@ use crate::motion::drive_plan::plan_drive;
 use crate::motion::interruption::interruptible;
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
+use crate::session::simulation::imagined::Imagined;
 use crate::session::simulation::motions::{side, side_keyword};
 use crate::session::simulation::names::{type_keyword, type_text};
 use crate::session::simulation::properties::property;
@@ -24,8 +25,10 @@ const MOST_WAYS: usize = 2;
 const MOST_GRASPS: usize = 4;
 
 /// An object that is to be grasped, and the arm and grasp that are asked for.
-pub(in crate::session::simulation) struct Wanted {
-    /// Name of the object's type.
+pub(super) struct Wanted {
+    /// Name of the object.
+    pub name: String,
+    /// Name of its type.
     pub kind: String,
     /// Pose of the object in the map frame.
     pub in_map: Pose,
@@ -48,6 +51,7 @@ impl Simulation {
         let grasp = property(image, action, "GRASP");
         Some(Wanted {
             in_map: self.base() * object.in_base,
+            name: object.name,
             kind: object.kind,
             arm,
             grasp: grasp.and_then(|grasp| type_text(image, &grasp)),
@@ -68,9 +72,21 @@ impl Simulation {
         };
         let axes = &self.models.description.arm(arm).tool_axes;
         let in_base = base.inverse() * wanted.in_map;
-        definition.tool_poses(&in_base, axes).is_ok_and(|poses| {
-            self.is_reachable(arm, &[poses.pregrasp, poses.second_pregrasp, poses.grasp])
-        })
+        let Ok(poses) = definition.tool_poses(&in_base, axes) else {
+            return false;
+        };
+        // What the arm is too short for is ruled out without a look at the surroundings.
+        if !self.is_reachable(arm, &[poses.pregrasp, poses.second_pregrasp, poses.grasp]) {
+            return false;
+        }
+        let imagined = Imagined {
+            object: &wanted.name,
+            object_pose: None,
+            base_pose: Some(*base),
+            side: arm,
+            opening: self.grasps.grip(&wanted.kind).opening,
+        };
+        self.lets_grasp(&imagined, &definition).unwrap_or(false)
     }
 
     /// Arms and grasps by which the object of an action of picking up can be reached from
@@ -95,7 +111,7 @@ impl Simulation {
 
     /// Arms and grasps by which an object can be reached from here, those of the wanted arm
     /// first; `tried` is one of that arm's grasps that is left out.
-    pub(in crate::session::simulation) fn grasps_from_here(
+    pub(super) fn grasps_from_here(
         &self,
         image: &mut Image,
         wanted: &Wanted,
@@ -103,10 +119,7 @@ impl Simulation {
     ) -> Vec<(Side, String)> {
         let base = self.base();
         let own_arm = wanted.arm.unwrap_or(Side::Right);
-        let other_arm = match own_arm {
-            Side::Left => Side::Right,
-            Side::Right => Side::Left,
-        };
+        let other_arm = own_arm.other();
         let mut found = Vec::new();
         for arm in [own_arm, other_arm] {
             if !self.held_by(arm).is_empty() {
@@ -139,7 +152,7 @@ impl Simulation {
 
     /// A pose of the base in the map frame, arm and grasp for an object: near, free, and with
     /// a way to it. The arm and grasp that are asked for are preferred.
-    pub(in crate::session::simulation) fn place_to_grasp(
+    pub(super) fn place_to_grasp(
         &self,
         image: &mut Image,
         wanted: &Wanted,
