@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 
 use crate::lisp::image::Image;
+use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
 use crate::motion::drive_plan::plan_drive;
 use crate::motion::interruption::interruptible;
+use crate::motion::{CollisionMode, can_reach};
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::imagined::Imagined;
@@ -14,6 +16,8 @@ use crate::session::simulation::names::{type_keyword, type_text};
 use crate::session::simulation::properties::property;
 use crate::spatial::{Pose, pose, trig};
 use crate::transform::value::pose_stamped;
+use crate::world::WorldError;
+use crate::world::grasp_library::GraspDefinition;
 
 /// Distances (m) of the base's axis from the object, the most comfortable ones first.
 const DISTANCES: [f64; 5] = [0.65, 0.7, 0.6, 0.75, 0.55];
@@ -87,6 +91,37 @@ impl Simulation {
             opening: self.grasps.grip(&wanted.kind).opening,
         };
         self.lets_grasp(&imagined, &definition).unwrap_or(false)
+    }
+
+    /// With the world as imagined: can the hand come to a grasp of the object, and leave it,
+    /// without touching anything else?
+    pub(in crate::session::simulation) fn lets_grasp(
+        &self,
+        imagined: &Imagined<'_>,
+        grasp: &GraspDefinition,
+    ) -> Result<bool, Box<Raise>> {
+        let raise = |error: WorldError| Raise::simple(format!("{error}."));
+        let Some(world) = imagined.world(&self.world).map_err(raise)? else {
+            return Ok(false);
+        };
+        let base = world.robot_configuration().base;
+        let object = base.inverse() * world.object_pose(imagined.object).map_err(raise)?;
+        let side = imagined.side;
+        let axes = &self.models.description.arm(side).tool_axes;
+        let poses = grasp
+            .tool_poses(&object, axes)
+            .map_err(|error| Raise::simple(format!("{error}.")))?;
+        // As the plans of picking up and placing: the hand comes free of everything, and may
+        // touch the object from then on.
+        let way = [
+            (poses.second_pregrasp, CollisionMode::AvoidAll),
+            (poses.grasp, CollisionMode::AllowHand),
+            (poses.lift, CollisionMode::AllowHand),
+            (poses.pregrasp, CollisionMode::AvoidAll),
+        ];
+        Ok(way
+            .iter()
+            .all(|(tool, mode)| can_reach(&world, side, tool, *mode)))
     }
 
     /// Arms and grasps by which the object of an action of picking up can be reached from
