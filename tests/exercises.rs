@@ -1,16 +1,15 @@
 //! The solutions of the exercises with objects in places that nobody has chosen: the object
 //! ends where it should, or the failure is told; and nothing goes through anything.
 
-use std::cell::RefCell;
+mod overlaps;
+
 use std::collections::BTreeMap;
-use std::rc::Rc;
 
 use nalgebra::Vector3;
+use overlaps::Overlaps;
 use planwright::dialogue::{Evaluate, Event, Outcome};
-use planwright::robot::Side;
 use planwright::session::{Session, SessionOptions};
 use planwright::spatial::{Pose, trig};
-use planwright::world::{AllowedPairs, BodyName, World};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
@@ -20,8 +19,7 @@ struct Exercise {
     /// Name of the object that it moves.
     object: &'static str,
     random: Pcg64,
-    /// The first time that something overlapped by more than 2 mm.
-    overlap: Rc<RefCell<Option<String>>>,
+    overlaps: Overlaps,
 }
 
 /// How a trial ended.
@@ -35,23 +33,14 @@ enum Ended {
 
 impl Exercise {
     fn load(file: &str, object: &'static str) -> Self {
+        let mut session = Session::new(&SessionOptions::default()).unwrap();
+        let overlaps = Overlaps::watch(&mut session);
         let mut exercise = Self {
-            session: Session::new(&SessionOptions::default()).unwrap(),
+            session,
             object,
             random: Pcg64::seed_from_u64(20),
-            overlap: Rc::default(),
+            overlaps,
         };
-        let seen = exercise.overlap.clone();
-        exercise
-            .session
-            .simulation_mut()
-            .set_observer(Box::new(move |world| {
-                let allowed = hands_and_objects(world);
-                if let Some(hit) = world.deepest_penetration(&allowed, 0.002) {
-                    let text = format!("{:.2} s: {hit:?}", world.time());
-                    seen.borrow_mut().get_or_insert(text);
-                }
-            }));
         exercise.run(&format!("(load \"plans/exercises/{file}\")"));
         exercise.run("(in-package :pp-tut)");
         exercise
@@ -78,7 +67,7 @@ impl Exercise {
     fn trial(&mut self, form: &str, target: &Pose) -> Ended {
         self.run("(init-projection)");
         let report = self.run(form);
-        assert_eq!(*self.overlap.borrow(), None, "{form}");
+        assert_eq!(self.overlaps.first(), None, "{form}");
         let world = self.session.simulation().world();
         let stands = world.object_pose(self.object).unwrap();
         if let Some(report) = report {
@@ -101,19 +90,6 @@ impl Exercise {
         let form = format!("(move-bottle '(({x:.4} {y:.4} {z}) (0 0 0 1)))");
         self.trial(&form, &Pose::translation(-0.8, 2.0, 0.961))
     }
-}
-
-/// The pairs that may always overlap: hands and objects, which grasping presses together.
-fn hands_and_objects(world: &World) -> AllowedPairs {
-    let models = world.models();
-    let hands: Vec<BodyName> = [Side::Left, Side::Right]
-        .iter()
-        .flat_map(|side| models.description.arm(*side).gripper.links())
-        .map(|link| models.robot_body(link))
-        .collect();
-    world.objects().fold(AllowedPairs::none(), |pairs, object| {
-        pairs.and_all(hands.clone(), &BodyName::Object(object.name().to_owned()))
-    })
 }
 
 fn is_upright(pose: &Pose) -> bool {

@@ -1,14 +1,13 @@
 //! The first whole plan, as a person runs it: what comes of it, that it is the same every
 //! time, and that nothing goes through anything on the way.
 
-use std::cell::RefCell;
-use std::rc::Rc;
+mod overlaps;
 
 use nalgebra::Vector3;
+use overlaps::Overlaps;
 use planwright::dialogue::{Evaluate, Event, Outcome};
 use planwright::robot::Side;
 use planwright::session::{Session, SessionOptions};
-use planwright::world::{AllowedPairs, BodyName, World};
 
 const PLAN: &str = include_str!("../plans/tutorial/move-bottle.plan");
 
@@ -31,39 +30,14 @@ fn run(session: &mut Session, text: &str) -> (String, Outcome) {
     (printed, outcome)
 }
 
-/// The pairs that may always overlap: hands and objects, which grasping presses together.
-fn hands_and_objects(world: &World) -> AllowedPairs {
-    let models = world.models();
-    let hands: Vec<BodyName> = [Side::Left, Side::Right]
-        .iter()
-        .flat_map(|side| models.description.arm(*side).gripper.links())
-        .map(|link| models.robot_body(link))
-        .collect();
-    world.objects().fold(AllowedPairs::none(), |pairs, object| {
-        pairs.and_all(hands.clone(), &BodyName::Object(object.name().to_owned()))
-    })
-}
-
 #[test]
 fn the_bottle_stands_on_the_island_and_nothing_went_through_anything() {
     let mut session = session();
-    let worst: Rc<RefCell<Option<String>>> = Rc::default();
-    let steps = Rc::new(RefCell::new(0u32));
-    let (seen, counted) = (worst.clone(), steps.clone());
-    session
-        .simulation_mut()
-        .set_observer(Box::new(move |world| {
-            *counted.borrow_mut() += 1;
-            let allowed = hands_and_objects(world);
-            if let Some(hit) = world.deepest_penetration(&allowed, 0.002) {
-                seen.borrow_mut()
-                    .get_or_insert_with(|| format!("{:.2} s: {hit:?}", world.time()));
-            }
-        }));
+    let overlaps = Overlaps::watch(&mut session);
     let (printed, outcome) = run(&mut session, PLAN);
     assert_eq!(outcome, Outcome::Finished, "{printed}");
-    assert_eq!(*worst.borrow(), None);
-    assert!(*steps.borrow() > 1000);
+    assert_eq!(overlaps.first(), None);
+    assert!(overlaps.steps() > 1000);
 
     let world = session.simulation().world();
     let pose = world.object_pose("BOTTLE-1").unwrap();

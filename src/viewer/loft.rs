@@ -189,17 +189,6 @@ pub(super) fn tube(path: &[([f64; 3], f64)], aside: [f64; 3]) -> Surface {
 mod tests {
     use super::*;
 
-    /// Volume (m³) that the surface encloses; positive only if the triangles face outwards.
-    fn volume(surface: &Surface) -> f64 {
-        let corner = |i: u32| surface.corners[i as usize].point.coords;
-        let six: f64 = surface
-            .triangles
-            .iter()
-            .map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c))))
-            .sum();
-        six / 6.0
-    }
-
     #[test]
     fn a_body_through_equal_sections_is_a_box() {
         for axis in [Along::X, Along::Y, Along::Z] {
@@ -207,23 +196,23 @@ mod tests {
                 section(-1.0, [1.0, 2.0], 0.0),
                 section(2.0, [1.0, 2.0], 0.0),
             ];
-            assert!((volume(&lofted(axis, &sections, [0.0; 2])) - 24.0).abs() < 1e-9);
+            assert!((lofted(axis, &sections, [0.0; 2]).volume() - 24.0).abs() < 1e-9);
         }
     }
 
     #[test]
     fn round_corners_and_ends_take_a_little_away() {
         let sections = [section(0.0, [0.5, 0.5], 0.5), section(1.0, [0.5, 0.5], 0.5)];
-        let cylinder = volume(&lofted(Along::X, &sections, [0.0; 2]));
+        let cylinder = lofted(Along::X, &sections, [0.0; 2]).volume();
         assert!((cylinder / (std::f64::consts::PI / 4.0) - 1.0).abs() < 0.05);
-        let pill = volume(&lofted(Along::X, &sections, [0.2; 2]));
+        let pill = lofted(Along::X, &sections, [0.2; 2]).volume();
         assert!(pill < cylinder && pill > 0.8 * cylinder);
     }
 
     #[test]
     fn a_straight_tube_encloses_its_volume() {
         let path = [([0.0, 0.0, 0.0], 0.1), ([0.0, 0.0, 1.0], 0.1)];
-        let straight = volume(&tube(&path, [0.0, 1.0, 0.0]));
+        let straight = tube(&path, [0.0, 1.0, 0.0]).volume();
         assert!((straight / (std::f64::consts::PI * 0.01) - 1.0).abs() < 0.1);
     }
 }

@@ -238,36 +238,39 @@ impl Profile {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
+impl Surface {
     /// Volume (m³) that the surface encloses; positive only if the triangles face outwards.
-    fn volume(surface: &Surface) -> f64 {
-        let corner = |i: u32| surface.corners[i as usize].point.coords;
-        let six: f64 = surface
+    pub(super) fn volume(&self) -> f64 {
+        let corner = |i: u32| self.corners[i as usize].point.coords;
+        let six: f64 = self
             .triangles
             .iter()
             .map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c))))
             .sum();
         six / 6.0
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
 
     #[test]
     fn surfaces_face_outwards_and_enclose_the_volume() {
         let cuboid = Shape::Box {
             size: [1.0, 2.0, 3.0],
         };
-        assert!((volume(&Surface::of(&cuboid, 0.0)) - 6.0).abs() < 1e-12);
+        assert!((Surface::of(&cuboid, 0.0).volume() - 6.0).abs() < 1e-12);
         // Twelve edges of together 24 m lose a prism each, eight corners a bit more.
-        let bevelled = volume(&Surface::of(&cuboid, 0.01));
+        let bevelled = Surface::of(&cuboid, 0.01).volume();
         assert!((bevelled - (6.0 - 24.0 * 0.01 * 0.01 / 2.0)).abs() < 1e-5);
         let cylinder = Shape::Cylinder {
             radius: 1.0,
             length: 2.0,
         };
-        let share = volume(&Surface::of(&cylinder, 0.0)) / TAU;
+        let share = Surface::of(&cylinder, 0.0).volume() / TAU;
         assert!((share - 1.0).abs() < 0.01);
-        let ball = volume(&Surface::of(&Shape::Sphere { radius: 1.0 }, 0.0));
+        let ball = Surface::of(&Shape::Sphere { radius: 1.0 }, 0.0).volume();
         assert!((ball / (TAU * 2.0 / 3.0) - 1.0).abs() < 0.02);
         // A cup with walls and a bottom of 0.1 m.
         let cup = [
@@ -278,10 +281,10 @@ mod tests {
             [0.9, 0.1],
             [0.0, 0.1],
         ];
-        let share = volume(&Surface::lathed(&cup)) / (TAU / 2.0 * (1.0 - 0.81 * 0.9));
+        let share = Surface::lathed(&cup).volume() / (TAU / 2.0 * (1.0 - 0.81 * 0.9));
         assert!((share - 1.0).abs() < 0.01);
         let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let hull = volume(&Surface::of(&Shape::Hull { points }, 0.0));
+        let hull = Surface::of(&Shape::Hull { points }, 0.0).volume();
         assert!((hull - 1.0 / 6.0).abs() < 1e-12);
     }
 
