@@ -2,11 +2,11 @@
 //! help, completion, the reference manual and the tests of the examples read the same
 //! tables.
 
-use super::function::{ControlFn, Function, NativeCall, PureFn};
 use super::image::Image;
-use super::raise::Raise;
-use super::symbol::Sym;
 use super::value::Value;
+use super::value::function::{ControlFn, Function, NativeCall, PureFn};
+use super::value::raise::Raise;
+use super::value::symbol::Sym;
 
 /// One builtin function.
 pub struct Builtin {

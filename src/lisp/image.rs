@@ -10,18 +10,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use indexmap::IndexMap;
 
 use super::builtin::{Builtin, Operator};
-use super::class::Class;
 use super::compile::notes::{Note, NoteKind};
 use super::compile::setf::SetfExpander;
-use super::function::Function;
-use super::known;
 use super::object;
-use super::package::{Access, PackageId, PackageTable};
-use super::raise::Raise;
-use super::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
+use super::source::{Place, Sources};
 use super::value::Value;
+use super::value::class::Class;
+use super::value::function::Function;
+use super::value::known;
+use super::value::package::{Access, PackageId, PackageTable};
+use super::value::raise::Raise;
+use super::value::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
 use super::vm::call::Call;
-use crate::reader::source::{Place, Sources};
 
 /// An image.
 pub struct Image {

@@ -2,11 +2,11 @@
 
 use super::builtins::{number_theory, numbers, reading, registry};
 use super::image::Image;
-use super::known;
-use super::package::PackageTable;
 use super::stream;
-use super::symbol::Sym;
 use super::value::Value;
+use super::value::known;
+use super::value::package::PackageTable;
+use super::value::symbol::Sym;
 
 impl Image {
     /// An image as sessions start with, in `COMMON-LISP-USER`.

@@ -10,11 +10,11 @@ use std::io::{BufWriter, Write as _};
 use std::rc::Rc;
 
 use super::image::Image;
-use super::known;
-use super::raise::Raise;
-use super::string::LispString;
-use super::symbol::Sym;
 use super::value::Value;
+use super::value::known;
+use super::value::raise::Raise;
+use super::value::string::LispString;
+use super::value::symbol::Sym;
 
 /// How deep streams may be made of other streams.
 pub const MAX_NESTING: u32 = 100;
@@ -565,7 +565,7 @@ fn not_usable(stream: &Rc<Stream>, predicate: &str, image: &Image) -> Box<Raise>
     let stream = Value::Stream(stream.clone());
     let predicate = image
         .packages
-        .find_symbol(super::package::PackageTable::CL, predicate);
+        .find_symbol(crate::lisp::value::package::PackageTable::CL, predicate);
     match predicate {
         Some((sym, _)) => {
             Raise::type_error(&stream, Value::list([known::SATISFIES.into(), sym.into()]))

@@ -1,13 +1,13 @@
 //! The failures of the plan language and of a robot's actions: one table.
 
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::defclass;
-use crate::lisp::package::PackageId;
 use crate::lisp::stream;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageId;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -5,8 +5,8 @@ use std::any::Any;
 
 use super::task::TaskId;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 
 /// A request of a task that the host is working on.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]

@@ -4,16 +4,16 @@ use super::names::{Names, Packages};
 use super::package::reexport;
 use super::state::Plan;
 use super::{builtins, failure_table, macros};
-use crate::lisp::class::ClassKind;
-use crate::lisp::function::{Function, NativeCall};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::define::ClassDefinition;
-use crate::lisp::package::PackageTable;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
+use crate::lisp::reader;
 use crate::lisp::value::Value;
-use crate::reader;
+use crate::lisp::value::class::ClassKind;
+use crate::lisp::value::function::{Function, NativeCall};
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use std::rc::Rc;
 
 /// Lisp text that is evaluated in every image.

@@ -6,6 +6,7 @@
 //! scheduler hands to its [`Host`].
 
 pub mod builtins;
+pub mod designator;
 mod failure_table;
 mod fluent;
 pub mod host;
@@ -15,6 +16,9 @@ mod macros;
 mod names;
 mod overview;
 pub mod package;
+pub mod packages;
+pub mod pose;
+pub mod prolog;
 mod request;
 mod scheduler;
 mod state;

@@ -2,8 +2,8 @@
 
 use super::package::{PackageDefinition, define};
 use crate::lisp::image::Image;
-use crate::lisp::package::PackageId;
-use crate::lisp::symbol::Sym;
+use crate::lisp::value::package::PackageId;
+use crate::lisp::value::symbol::Sym;
 
 /// The packages of the plan language.
 #[derive(Clone, Copy)]
@@ -29,7 +29,7 @@ impl Packages {
             implementation,
             system: define(image, &SYSTEM),
             failures: define(image, &FAILURES),
-            keyword: crate::lisp::package::PackageTable::KEYWORD,
+            keyword: crate::lisp::value::package::PackageTable::KEYWORD,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Making packages from tables.
 
 use crate::lisp::image::Image;
-use crate::lisp::package::PackageId;
+use crate::lisp::value::package::PackageId;
 
 /// A package as a layer defines it.
 pub struct PackageDefinition {
@@ -25,7 +25,7 @@ pub fn define(image: &mut Image, definition: &PackageDefinition) -> PackageId {
     let existing = image.packages.find(definition.name);
     let made = existing.or_else(|| image.packages.make(definition.name, &[]));
     // Only 65536 packages would leave none to make; the user's package then stands in.
-    let id = made.unwrap_or(crate::lisp::package::PackageTable::USER);
+    let id = made.unwrap_or(crate::lisp::value::package::PackageTable::USER);
     for nickname in definition.nicknames {
         image.packages.add_nickname(id, nickname);
     }

@@ -2,8 +2,8 @@
 
 use super::fluent::FluentRef;
 use super::task::TaskRef;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::symbol::Sym;
 
 /// A function and its arguments.
 pub(crate) type Call = (Value, Vec<Value>);

@@ -11,8 +11,8 @@ use super::journal::{Journal, TaskChange};
 use super::names::Names;
 use super::tree::TreeNode;
 use crate::lisp::image::Image;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::symbol::Sym;
 
 /// The plan language's part of an image.
 pub struct Plan {

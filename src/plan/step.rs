@@ -2,8 +2,8 @@
 
 use std::any::Any;
 
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 

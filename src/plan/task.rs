@@ -12,11 +12,11 @@ use super::fluent::FluentRef;
 use super::names::Names;
 use super::state::Plan;
 use super::tree::TreeNode;
-use crate::lisp::foreign::{Foreign, ForeignBox};
 use crate::lisp::image::Image;
 use crate::lisp::print;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::foreign::{Foreign, ForeignBox};
+use crate::lisp::value::symbol::Sym;
 
 /// Tells tasks apart and orders them by creation.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]

@@ -7,12 +7,12 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use crate::lisp::foreign::{Foreign, ForeignBox};
-use crate::lisp::hash_table::{HashTable, HashTest};
 use crate::lisp::image::Image;
 use crate::lisp::print;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::foreign::{Foreign, ForeignBox};
+use crate::lisp::value::hash_table::{HashTable, HashTest};
+use crate::lisp::value::symbol::Sym;
 
 /// A node of a task tree.
 pub struct TreeNode {
@@ -170,7 +170,7 @@ impl Foreign for NodeObject {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lisp::known;
+    use crate::lisp::value::known;
 
     #[test]
     fn the_second_call_of_a_part_is_numbered() {

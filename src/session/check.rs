@@ -15,16 +15,16 @@ mod tests;
 pub(super) use known::KnownNames;
 
 use super::Session;
-use crate::dialogue::{Finding, Severity};
+use super::dialogue::{Finding, Severity};
 use crate::lisp::compile;
 use crate::lisp::compile::notes::{Note, NoteKind};
-use crate::lisp::known as names;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::VariableKind;
+use crate::lisp::reader::Reader;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::known as names;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::VariableKind;
 use crate::lisp::vm::machine;
-use crate::reader::Reader;
-use crate::reader::source::Place;
 
 impl Session {
     /// The mistakes in a text, in its order.

@@ -1,7 +1,7 @@
 //! The session as the prompt talks to it.
 
 use super::Session;
-use crate::dialogue::{Completions, Converse};
+use super::dialogue::{Completions, Converse};
 
 impl Converse for Session {
     fn set_interactive(&mut self, is_interactive: bool) {

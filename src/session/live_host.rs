@@ -3,11 +3,11 @@
 use std::any::Any;
 use std::time::{Duration, Instant};
 
+use super::dialogue::Event;
 use super::simulation::Simulation;
-use crate::dialogue::Event;
 use crate::lisp::image::Image;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
-use crate::viewer::watch::Happening;
+use crate::watch::Happening;
 
 /// A simulation, and whom to tell what is printed meanwhile.
 pub(super) struct LiveHost<'a> {

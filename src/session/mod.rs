@@ -6,6 +6,7 @@ mod assist;
 mod check;
 mod console;
 mod converse;
+pub mod dialogue;
 mod live_host;
 mod options;
 mod plans;
@@ -18,14 +19,14 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
+use crate::front::manual;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::package::PackageTable;
 use crate::lisp::value::Value;
-use crate::manual;
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
 use crate::plan::{Evaluation, Scheduler};
-use crate::viewer::watch::{Cause, Happening};
+use crate::session::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
+use crate::watch::{Cause, Happening};
 use live_host::LiveHost;
 use simulation::Simulation;
 
@@ -59,8 +60,8 @@ impl Session {
         let mut image = Image::new();
         image.seed(options.seed);
         crate::plan::install(&mut image);
-        crate::transform::install(&mut image);
-        crate::designator::install(&mut image);
+        crate::plan::pose::install(&mut image);
+        crate::plan::designator::install(&mut image);
         simulation::install(&mut image);
         let simulation = Simulation::new(Arc::new(options.models()?), options)?;
         let mut session = Session {
@@ -223,7 +224,7 @@ impl Session {
 fn interrupted() -> Abort {
     Abort {
         report: "Interrupted.".to_owned(),
-        condition: crate::dialogue::screen::INTERRUPT.to_owned(),
+        condition: dialogue::screen::INTERRUPT.to_owned(),
         ..Abort::default()
     }
 }

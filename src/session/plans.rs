@@ -1,10 +1,10 @@
 //! The plans that come with the program: `plans/lib`.
 
 use super::{Ended, Session, SessionError};
-use crate::lisp::known;
-use crate::lisp::package::PackageTable;
+use crate::lisp::reader::Reader;
 use crate::lisp::value::Value;
-use crate::reader::Reader;
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
 
 /// Name and text of each file, in the order in which they are loaded.
 const LIBRARY: &[(&str, &str)] = &[

@@ -1,16 +1,16 @@
 //! Values and conditions as text.
 
 use super::Session;
-use crate::dialogue::{Abort, ActionStep};
+use super::dialogue::{Abort, ActionStep};
 use crate::lisp::condition;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
+use crate::lisp::source::Location;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::call::Call;
 use crate::lisp::vm::machine;
-use crate::reader::source::Location;
 
 /// Actions that are told around a condition.
 const MOST_ACTIONS: usize = 8;

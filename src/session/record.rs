@@ -2,12 +2,12 @@
 
 use std::cell::RefCell;
 
-use crate::dialogue::{Event, Screen};
+use super::dialogue::{Event, Screen};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// The inputs of a session with their outputs.
 #[derive(Default)]

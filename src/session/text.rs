@@ -1,13 +1,14 @@
 //! Evaluating a text: reading a form, evaluating it, and so on to the end.
 
 use super::console::Suspended;
+use super::dialogue::{Abort, Event, Outcome};
 use super::{Ended, Session};
-use crate::dialogue::{Abort, Event, Outcome};
-use crate::lisp::raise::Raise;
+use crate::lisp::reader;
+use crate::lisp::reader::Reader;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine;
-use crate::reader::source::Place;
-use crate::reader::{self, Reader};
 
 impl Session {
     /// Evaluates all forms of a text. Each is read after those before it have been
@@ -113,7 +114,7 @@ impl Session {
     }
 
     fn evaluate_now(&mut self, form: &Value) -> Result<Value, Box<Raise>> {
-        let eval = crate::lisp::known::EVAL.into();
+        let eval = crate::lisp::value::known::EVAL.into();
         machine::call_nested(&mut self.image, eval, vec![form.clone()])
     }
 }

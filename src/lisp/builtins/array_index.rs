@@ -1,9 +1,9 @@
 //! Errors about indices of arrays.
 
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// "Invalid index 5 for (SIMPLE-VECTOR 2), should be a non-negative integer below 2."
 pub fn invalid(array: &Value, index: &Value, bound: usize) -> Box<Raise> {

@@ -9,14 +9,14 @@ use super::sequence::Kind;
 use super::sequence::{Sequence, checked_element, index, list_items, text_of};
 use super::sequence_access::default_element;
 use super::sequence_types::{upgraded, vector_kind};
-use crate::lisp::array::{Array, Vector};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::string::LispString;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::array::{Array, Vector};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::string::LispString;
+use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -5,12 +5,12 @@ use std::rc::Rc;
 
 use super::array_make;
 use super::arrays::{bit_array_type, dimensions, element_type};
-use crate::lisp::array::Array;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::array::Array;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -11,11 +11,11 @@ use std::pin::Pin;
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
-use crate::lisp::function::{Body, Function, NativeCall};
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, known};
 use crate::lisp::value::Value;
+use crate::lisp::value::function::{Body, Function, NativeCall};
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, known};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 

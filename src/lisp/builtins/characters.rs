@@ -3,10 +3,10 @@
 use super::sequence::{character, index};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
+use crate::lisp::reader::char_name::{char_name as special_name, char_named};
 use crate::lisp::value::Value;
-use crate::reader::char_name::{char_name as special_name, char_named};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

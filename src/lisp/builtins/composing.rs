@@ -6,11 +6,11 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print::{Call, Calls};
-use crate::lisp::raise::Raise;
 use crate::lisp::stream::Stream;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};

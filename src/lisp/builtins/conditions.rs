@@ -1,13 +1,13 @@
 //! Builtins that make conditions and read their slots.
 
 use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::class::ClassKind;
-use crate::lisp::known;
 use crate::lisp::object::access::unbound_slot;
 use crate::lisp::object::instance;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::ClassKind;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

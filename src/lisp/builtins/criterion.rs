@@ -2,11 +2,11 @@
 //! `:test-not`, `:key`, or a predicate.
 
 use super::calls::{Calls, builtin_name, callable};
-use crate::lisp::equality;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::equality;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// A function that is applied to elements before they are looked at; none is the identity.
 #[derive(Clone)]

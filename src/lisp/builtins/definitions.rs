@@ -5,10 +5,10 @@ use std::rc::Rc;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::compile::setf::{self, SetfExpander};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -101,7 +101,7 @@ fn symbol(value: &Value) -> Result<Sym> {
         .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
 }
 
-fn function(value: &Value) -> Result<Rc<crate::lisp::function::Function>> {
+fn function(value: &Value) -> Result<Rc<crate::lisp::value::function::Function>> {
     match value {
         Value::Function(f) => Ok(f.clone()),
         other => Err(Raise::type_error(other, known::FUNCTION)),

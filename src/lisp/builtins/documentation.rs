@@ -3,13 +3,13 @@
 use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::function::{Body, Function};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::method::{MethodObject, named_function};
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::value::Value;
+use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// The builtins.
 pub static TABLE: &[Builtin] = &[pure(

@@ -4,12 +4,12 @@ use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::compile;
-use crate::lisp::function::{Body, Function};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::FunctionCell;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::FunctionCell;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 
@@ -85,14 +85,14 @@ pub static TABLE: &[Builtin] = &[
         "a b",
         "Have they the same structure and contents?",
         &["(equal '(1 \"a\") '(1 \"a\")) => T"],
-        |_, args| Ok(crate::lisp::equality::equal(&args[0], &args[1]).into()),
+        |_, args| Ok(crate::lisp::value::equality::equal(&args[0], &args[1]).into()),
     ),
     pure(
         "EQUALP",
         "a b",
         "Like EQUAL; numbers by value, letters without case, arrays by element.",
         &["(equalp \"A\" \"a\") => T"],
-        |_, args| Ok(crate::lisp::equality::equalp(&args[0], &args[1]).into()),
+        |_, args| Ok(crate::lisp::value::equality::equalp(&args[0], &args[1]).into()),
     ),
     pure(
         "CONSTANTLY",

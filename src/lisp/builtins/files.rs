@@ -10,10 +10,10 @@ use super::shown::shown;
 use super::strings::string;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::stream::{Stream, StreamKind};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

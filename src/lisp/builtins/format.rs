@@ -3,11 +3,11 @@
 use super::composing::compose;
 use crate::lisp::builtin::{Builtin, Operator, control};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print::format::Control;
-use crate::lisp::raise::Raise;
 use crate::lisp::stream;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 

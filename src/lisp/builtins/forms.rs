@@ -1,9 +1,9 @@
 //! Building forms in the expansions of macros.
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::package::PackageTable;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
 
 /// The symbol of a name in `COMMON-LISP`.
 pub fn cl(image: &mut Image, name: &str) -> Value {

@@ -3,10 +3,7 @@
 use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, Operator, control, pure};
-use crate::lisp::function::Function;
-use crate::lisp::generic::{GenericFunction, Method};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::combination::{define_combination, expand_define_method_combination};
 use crate::lisp::object::combine::no_next_method;
 use crate::lisp::object::dispatch::no_applicable_method_error;
@@ -15,9 +12,12 @@ use crate::lisp::object::method::{
     MethodObject, add_method, method_value, remove_method, specializer,
 };
 use crate::lisp::object::{defmethod, text};
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::generic::{GenericFunction, Method};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// The builtins.
 pub static TABLE: &[Builtin] = &[

@@ -7,12 +7,12 @@ use super::keywords;
 use super::lists::size;
 use super::shown::shown;
 use crate::lisp::builtin::{Builtin, Operator, control, pure};
-use crate::lisp::hash_table::{HashTable, HashTest};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::hash_table::{HashTable, HashTest};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -6,16 +6,16 @@
 use super::packages;
 use super::strings::designated;
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::class::{Class, ClassKind, Instance};
-use crate::lisp::function::{Body, Function};
 use crate::lisp::image::Image;
-use crate::lisp::package::{Access, PackageTable};
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::stream;
-use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
 use crate::lisp::types::type_of::type_of;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{Class, ClassKind, Instance};
+use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::package::{Access, PackageTable};
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -1,10 +1,10 @@
 //! Keyword arguments of builtins.
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// The values of the keyword arguments `names` in `args`, which holds nothing but keyword
 /// arguments; the first of several counts.

@@ -11,11 +11,11 @@ use super::criterion::{Key, Test};
 use super::keywords;
 use super::sequence::list_items;
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::hash_table::{HashKey, HashTest};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::hash_table::{HashKey, HashTest};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

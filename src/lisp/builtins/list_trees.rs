@@ -7,10 +7,10 @@ use super::criterion::{Criterion, Key, Test};
 use super::keywords;
 use super::sequence::ListWalk;
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::cons::Cons;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::cons::Cons;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

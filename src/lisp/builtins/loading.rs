@@ -3,13 +3,13 @@
 use std::path::{Component, Path, PathBuf};
 
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
+use crate::lisp::reader::{Outcome, ReadError, Reader};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
-use crate::reader::{Outcome, ReadError, Reader};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

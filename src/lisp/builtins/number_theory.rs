@@ -3,12 +3,13 @@
 use super::keywords;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number::{self, ByteSpecifier};
-use crate::lisp::package::PackageTable;
-use crate::lisp::raise::Raise;
+use crate::lisp::reader::numeric::parse_integer as read_integer;
 use crate::lisp::value::Value;
-use crate::reader::numeric::parse_integer as read_integer;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::number::ByteSpecifier;
+use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -2,10 +2,11 @@
 
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number::{self, Rounding};
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::number::Rounding;
+use crate::lisp::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -400,7 +401,7 @@ fn divide_to_float(args: &[Value], rounding: Rounding) -> Outcome {
 
 /// Constants of numbers, and the variable `*random-state*`.
 pub fn define_constants(image: &mut Image) {
-    use crate::lisp::package::PackageTable;
+    use crate::lisp::value::package::PackageTable;
     let constants: &[(&str, Value)] = &[
         (
             "MOST-POSITIVE-FIXNUM",

@@ -2,12 +2,12 @@
 
 use crate::lisp::builtin::{Builtin, Operator, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::form::form;
 use crate::lisp::print::{self, Calls, Settings, identity};
-use crate::lisp::raise::Raise;
 use crate::lisp::stream;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// The builtins.
 pub static TABLE: &[Builtin] = &[pure(

@@ -3,14 +3,14 @@
 use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, Operator, control, pure};
-use crate::lisp::class::Instance;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::define::no_class;
 use crate::lisp::object::form::{form, quote};
 use crate::lisp::object::{access, class_of, defclass, instance, update};
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::Instance;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

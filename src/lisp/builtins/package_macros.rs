@@ -10,11 +10,11 @@ use super::shown::shown;
 use super::strings;
 use crate::lisp::builtin::{Builtin, Operator, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::package::{Access, PackageId};
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::package::{Access, PackageId};
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -9,11 +9,11 @@ use super::sequence::list_items;
 use super::shown::shown;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::package::{Access, PackageId, PackageTable};
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::package::{Access, PackageId, PackageTable};
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -2,8 +2,8 @@
 
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::value::{Rounds, Value};
 
 use super::sequence;
@@ -102,7 +102,7 @@ fn cons(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::cons(args[0].clone(), args[1].clone()))
 }
 
-fn pair(value: &Value) -> Result<&std::rc::Rc<crate::lisp::cons::Cons>, Box<Raise>> {
+fn pair(value: &Value) -> Result<&std::rc::Rc<crate::lisp::value::cons::Cons>, Box<Raise>> {
     value
         .as_cons()
         .ok_or_else(|| Raise::type_error(value, known::CONS))

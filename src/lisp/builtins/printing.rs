@@ -6,12 +6,12 @@ use super::keywords;
 use super::sequence::{Bounds, Sequence};
 use crate::lisp::builtin::{Builtin, Operator, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print::{self, Case, Settings};
-use crate::lisp::raise::Raise;
 use crate::lisp::stream;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 

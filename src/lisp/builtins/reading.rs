@@ -6,15 +6,15 @@ use super::keywords;
 use super::sequence::{Bounds, Sequence};
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
+use crate::lisp::reader::readtable::Readtable;
+use crate::lisp::reader::{ReadError, Reader};
 use crate::lisp::stream::{self, Stream};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
-use crate::reader::readtable::Readtable;
-use crate::reader::{ReadError, Reader};
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -197,9 +197,9 @@ impl Reading {
     fn take(
         mut self: Box<Self>,
         machine: &mut Machine<'_>,
-        outcome: Result<crate::reader::Outcome, ReadError>,
+        outcome: Result<crate::lisp::reader::Outcome, ReadError>,
     ) -> Result<Step, Box<Raise>> {
-        use crate::reader::Outcome;
+        use crate::lisp::reader::Outcome;
         let form = match outcome {
             Ok(Outcome::Evaluate(form)) => {
                 return Ok(Step::Call {

@@ -5,7 +5,7 @@ use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::compile;
 use crate::lisp::image::Image;
 use crate::lisp::loop_macro;
-use crate::lisp::package::PackageTable;
+use crate::lisp::value::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
 pub static FUNCTIONS: &[&[Builtin]] = &[

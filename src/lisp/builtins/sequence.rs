@@ -2,12 +2,12 @@
 
 use std::rc::Rc;
 
-use crate::lisp::array::Vector;
-use crate::lisp::cons::Cons;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::string::LispString;
-use crate::lisp::symbol::Sym;
+use crate::lisp::value::array::Vector;
+use crate::lisp::value::cons::Cons;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::string::LispString;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::value::{Rounds, Value};
 
 /// A sequence.

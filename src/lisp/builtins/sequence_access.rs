@@ -7,12 +7,12 @@ use super::keywords;
 use super::lists::{nreverse_onto, size};
 use super::sequence::{self, Bounds, Kind, Sequence, index};
 use super::sequence_types::SequenceType;
-use crate::lisp::array::Vector;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::array::Vector;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -8,10 +8,10 @@ use super::keywords;
 use super::sequence::{Bounds, Sequence};
 use super::sequence_change::removed;
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::hash_table::{HashKey, HashTest};
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::hash_table::{HashKey, HashTest};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -5,9 +5,9 @@ use super::criterion::{Key, Test};
 use super::keywords;
 use super::sequence::{Bounds, Sequence};
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

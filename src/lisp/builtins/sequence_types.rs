@@ -4,10 +4,10 @@
 use super::sequence::Kind;
 use super::shown::shown;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// A kind of sequence, and the length if the type says one.
 #[derive(Clone)]

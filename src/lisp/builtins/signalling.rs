@@ -2,12 +2,12 @@
 
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::stream;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::restart::Restart;
 use crate::lisp::vm::signal::Declined;
@@ -295,7 +295,7 @@ impl Resume for WarnNext {
         if !matches!(&condition, Value::Instance(i) if i.is_a(known::WARNING)) {
             return Err(Raise::type_error(&condition, known::WARNING));
         }
-        let function = crate::lisp::function::Function::made_control(
+        let function = crate::lisp::value::function::Function::made_control(
             known::WARN,
             (1, Some(1)),
             |machine, args| {
@@ -303,7 +303,7 @@ impl Resume for WarnNext {
                 let then = Box::new(PrintWarning {
                     condition: condition.clone(),
                 });
-                let signalling = crate::lisp::function::Function::made_control(
+                let signalling = crate::lisp::value::function::Function::made_control(
                     known::SIGNAL,
                     (1, Some(1)),
                     |machine, args| machine.signal(args[0].clone(), Declined::Return),

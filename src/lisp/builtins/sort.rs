@@ -6,9 +6,9 @@ use super::keywords;
 use super::sequence::{Sequence, conses, relink};
 use super::sequence_types::SequenceType;
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -4,7 +4,7 @@
 //! use them as symbols read alike everywhere.
 
 use crate::lisp::image::Image;
-use crate::lisp::package::PackageTable;
+use crate::lisp::value::package::PackageTable;
 
 const NAMES: &str = "\
 &ALLOW-OTHER-KEYS &AUX &BODY &ENVIRONMENT &KEY &OPTIONAL &REST &WHOLE * ** ***

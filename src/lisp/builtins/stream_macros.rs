@@ -4,9 +4,9 @@
 use super::forms::{binding, cl, let_form, progn, split_declarations, system};
 use crate::lisp::builtin::Operator;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -7,10 +7,10 @@ use super::sequence::{Bounds, Sequence, character, index, text_of};
 use super::strings::string;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::stream::{self, Stream, StreamKind};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -9,10 +9,10 @@ use super::sequence::{Bounds, Sequence};
 use super::strings::designated;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::string::LispString;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::string::LispString;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -5,13 +5,13 @@ use super::property_lists::symbol;
 use super::sequence::index;
 use super::strings::string;
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::package::PackageTable;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -1,7 +1,7 @@
 //! Powers, roots, logarithms, trigonometric and hyperbolic functions.
 
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::number;
+use crate::lisp::value::number;
 
 /// Builtins of package `COMMON-LISP`.
 pub static TABLE: &[Builtin] = &[

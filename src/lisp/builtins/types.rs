@@ -2,8 +2,6 @@
 
 use crate::lisp::builtin::{Builtin, Operator, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::types::asking;
 use crate::lisp::types::coerce::coerce;
 use crate::lisp::types::parse::{parse, upgraded};
@@ -12,6 +10,8 @@ use crate::lisp::types::subtype::{Verdict, is_subset};
 use crate::lisp::types::test::typep_with;
 use crate::lisp::types::type_of;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// The builtins.
 pub static TABLE: &[Builtin] = &[

@@ -12,15 +12,15 @@ use super::scope::{
 };
 use super::special_forms;
 use crate::closest_name::closest_name;
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::lisp::vm::code::{Code, Parameters};
 use crate::lisp::vm::machine;
-use crate::reader::source::Place;
 
 /// Result of compiling.
 pub(super) type Compiled<T> = Result<T, Box<Raise>>;

@@ -6,9 +6,9 @@ use super::analyze::{Compiled, Compiler};
 use super::lambda_list::{LambdaList, Optional};
 use super::node::{Default, LambdaNode, Node, Prologue};
 use super::scope::{Block, Entry, Scope, Var, VariableMeaning};
-use crate::lisp::known;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::code::Parameters;
 
 /// A body without its declarations and documentation.

@@ -2,11 +2,11 @@
 
 use super::form::form;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 type Expansion = Result<Value, Box<Raise>>;
 

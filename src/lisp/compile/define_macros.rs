@@ -4,11 +4,11 @@ use super::body::split_declarations;
 use super::form::form;
 use super::lambda_list::LambdaList;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 type Expansion = Result<Value, Box<Raise>>;
 

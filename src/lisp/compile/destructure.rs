@@ -2,10 +2,10 @@
 
 use super::lambda_list::LambdaList;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// Bindings for `let*` that take a list apart.
 struct Bindings<'a> {

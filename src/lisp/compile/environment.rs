@@ -1,12 +1,12 @@
 //! Environments: what a macro function learns of the scope of its call.
 
 use super::scope::{FunctionMeaning, Scope, VariableMeaning};
-use crate::lisp::foreign::Foreign;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine;
 
 /// The scope of a macro call, as a value.

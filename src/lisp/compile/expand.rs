@@ -3,9 +3,9 @@
 use super::analyze::keep_place;
 use super::environment;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::FunctionCell;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::FunctionCell;
 use crate::lisp::vm::machine;
 
 /// Expands a form once with global macros; `None` if it is no macro call.

@@ -24,10 +24,10 @@ mod special_forms;
 
 use std::rc::Rc;
 
-use super::function::Function;
 use super::image::Image;
-use super::raise::Raise;
 use super::value::Value;
+use super::value::function::Function;
+use super::value::raise::Raise;
 use super::vm::code::Code;
 
 pub use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};

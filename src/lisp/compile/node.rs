@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use super::scope::{Block, Tagbody, Var};
-use crate::lisp::symbol::Sym;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::code::Parameters;
-use crate::reader::source::Place;
 
 /// What a call calls.
 pub enum Target {

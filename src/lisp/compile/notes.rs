@@ -4,9 +4,9 @@
 //!
 //! [`Image::notes`]: crate::lisp::image::Image::notes
 
-use crate::lisp::symbol::Sym;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::reader::source::Place;
+use crate::lisp::value::symbol::Sym;
 
 /// Something that was noticed.
 #[derive(Clone)]

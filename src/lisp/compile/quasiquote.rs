@@ -1,9 +1,9 @@
 //! Backquote: templates to forms that build them.
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// The form that builds the template of `(quasiquote template)`.
 pub fn expand_quasiquote(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {

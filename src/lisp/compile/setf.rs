@@ -1,11 +1,11 @@
 //! Generalised places: `setf` and the macros that modify a place.
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
 use crate::lisp::vm::machine;
 
 /// How `setf` of a form with a certain operator is carried out, where no function

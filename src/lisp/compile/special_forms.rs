@@ -7,10 +7,10 @@ use super::body::parse_body;
 use super::node::{Binding, Node};
 use super::notes::NoteKind;
 use super::scope::{DynamicKind, Entry, FunctionMeaning, Scope, Tagbody, VariableMeaning};
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::symbol::{Sym, VariableKind};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::{Sym, VariableKind};
 use crate::lisp::vm::machine;
 
 /// Analyses the rest of a form after its operator.
@@ -546,7 +546,7 @@ fn eval_when(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node
 
 fn load_time_value(c: &mut Compiler<'_>, rest: &Value, _: &Scope) -> Compiled<Node> {
     let code = super::compile_form(c.image, &rest.car_or_nil())?;
-    let function = crate::lisp::function::Function::closure(code, Vec::new());
+    let function = crate::lisp::value::function::Function::closure(code, Vec::new());
     let value = machine::call_nested(c.image, Value::Function(Rc::new(function)), Vec::new())?;
     Ok(Node::Const(value))
 }

@@ -1,11 +1,11 @@
 //! The standard condition classes.
 
-use crate::lisp::class::{ClassKind, Initform, SlotDefinition};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::define::ClassDefinition;
-use crate::lisp::package::PackageTable;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{ClassKind, Initform, SlotDefinition};
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
 
 /// One condition class.
 struct Entry {

@@ -2,14 +2,14 @@
 
 use std::rc::Rc;
 
-use crate::lisp::class::{Class, ClassKind, Initform, Instance};
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::define::no_class;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{Class, ClassKind, Initform, Instance};
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// A condition object some of whose slots still wait for their initial values.
 pub struct Draft {

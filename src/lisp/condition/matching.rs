@@ -1,10 +1,10 @@
 //! Does a condition fit a handler's type?
 
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::types::specifier::{Answers, Stop};
 use crate::lisp::types::typep_with;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine;
 
 /// Is the condition of the type?

@@ -4,9 +4,9 @@ use super::assign;
 use super::parser::Parser;
 use super::plan::{Accumulator, Building, Plan};
 use super::support;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// How a clause adds to a result.
 #[derive(Clone, Copy)]

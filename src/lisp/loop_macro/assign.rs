@@ -2,9 +2,9 @@
 
 use super::parser::Parser;
 use super::plan::{Assignment, Plan};
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// Trees of variables may be this large.
 const MAX_VARIABLES: usize = 10_000;

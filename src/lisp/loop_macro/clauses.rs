@@ -6,9 +6,9 @@ use super::iteration;
 use super::parser::Parser;
 use super::plan::{Plan, Step};
 use super::support;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// Words that begin a clause, for messages.
 const CLAUSES: &[&str] = &[

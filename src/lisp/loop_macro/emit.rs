@@ -3,8 +3,8 @@
 use super::assign;
 use super::plan::{Accumulator, Assignment, Building, Plan, Step};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
 
 fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Value {
     let args: Vec<Value> = args.into_iter().collect();

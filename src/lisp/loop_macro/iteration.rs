@@ -4,9 +4,9 @@ use super::assign;
 use super::parser::Parser;
 use super::plan::{Assignment, Plan, Step};
 use super::support;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// Words that may follow the variable of a `for` clause.
 const AFTER_VARIABLE: &[&str] = &[

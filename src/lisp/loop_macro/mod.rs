@@ -14,10 +14,10 @@ mod plan;
 mod support;
 
 use self::parser::Parser;
+use super::value::known;
+use super::value::raise::Raise;
 use crate::lisp::builtin::Operator;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
 
 pub use support::SYSTEM_TABLE;

@@ -2,9 +2,9 @@
 
 use crate::lisp::image::Image;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
+use crate::lisp::reader::nearest;
 use crate::lisp::value::Value;
-use crate::reader::nearest;
+use crate::lisp::value::raise::Raise;
 
 /// The forms of a loop and how far they are read.
 pub struct Parser<'a> {

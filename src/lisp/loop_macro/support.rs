@@ -2,17 +2,17 @@
 
 use std::rc::Rc;
 
-use crate::lisp::array::Vector;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::builtins::lists::last_pair;
 use crate::lisp::builtins::sequence::Sequence;
-use crate::lisp::cons::Cons;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
-use crate::lisp::package::PackageTable;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::array::Vector;
+use crate::lisp::value::cons::Cons;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::raise::Raise;
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -2,12 +2,12 @@
 
 use super::method::extended_function;
 use super::update;
-use crate::lisp::class::Instance;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::Instance;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
@@ -133,7 +133,7 @@ fn unbound(image: &Image, object: &Value, slot: Sym) -> Result<Step, Box<Raise>>
 /// The error that a slot has no value.
 pub fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
     Box::new(Raise::Make {
-        place: crate::reader::source::Place::NONE,
+        place: crate::lisp::source::Place::NONE,
         class: known::UNBOUND_SLOT,
         report: None,
         initargs: vec![

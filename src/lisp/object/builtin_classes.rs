@@ -1,8 +1,8 @@
 //! The classes of values that are no instances, and the roots of all others.
 
-use crate::lisp::class::ClassKind;
 use crate::lisp::image::Image;
-use crate::lisp::package::PackageTable;
+use crate::lisp::value::class::ClassKind;
+use crate::lisp::value::package::PackageTable;
 
 use super::define::ClassDefinition;
 
@@ -113,7 +113,7 @@ mod tests {
             let sym = image.class_symbol(name);
             let class = image.class(sym).cloned();
             let last = class.and_then(|c| c.precedence.borrow().last().map(|c| c.name));
-            assert_eq!(last, Some(crate::lisp::known::T), "{name}");
+            assert_eq!(last, Some(crate::lisp::value::known::T), "{name}");
         }
     }
 }

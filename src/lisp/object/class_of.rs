@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
-use crate::lisp::class::{Class, ClassKind};
-use crate::lisp::function::Body;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::stream::StreamKind;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{Class, ClassKind};
+use crate::lisp::value::function::Body;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 
 /// Integers of at most this many bits are fixnums, as in SBCL on 64-bit machines.
 const FIXNUM_BITS: u32 = 62;

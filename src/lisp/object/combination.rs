@@ -1,12 +1,12 @@
 //! Method combinations: the builtin ones and the short form of `define-method-combination`.
 
 use super::form::{form, quote};
-use crate::lisp::generic::Combination;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::generic::Combination;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// Operators that combinations are named after, and whether the value of a single method is
 /// the value of the call.

@@ -3,13 +3,13 @@
 use std::rc::Rc;
 
 use super::effective::{Effective, Shape};
-use crate::lisp::function::Function;
-use crate::lisp::generic::{Combination, Method};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::generic::{Combination, Method};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 

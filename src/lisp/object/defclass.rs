@@ -5,14 +5,14 @@ use super::form::{doc_form, form, quote};
 use super::method::{MethodDefinition, define_method, named_function, remove_method};
 use super::parameters::Parameters;
 use super::slot_options::{DefinedSlot, evaluated_init, evaluated_slot, init_form, slot_form};
-use crate::lisp::class::{Class, ClassKind};
-use crate::lisp::function::Function;
-use crate::lisp::generic::{Accessor, Specializer};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{Class, ClassKind};
+use crate::lisp::value::function::Function;
+use crate::lisp::value::generic::{Accessor, Specializer};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use std::rc::Rc;
 
 /// `(defclass name superclasses slots options…)`.

@@ -3,11 +3,11 @@
 use std::rc::Rc;
 
 use super::precedence::precedence_list;
-use crate::lisp::class::{Class, ClassKind, Initform, SlotDefinition};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
+use crate::lisp::value::class::{Class, ClassKind, Initform, SlotDefinition};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// What a definition says about a class.
 pub struct ClassDefinition {

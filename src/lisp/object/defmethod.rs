@@ -9,10 +9,10 @@ use super::method::{
 };
 use super::parameters::Parameters;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// `(defmethod name qualifiers… lambda-list body…)`.
 pub fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {

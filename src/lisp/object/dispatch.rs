@@ -11,13 +11,13 @@ use super::class_of::{builtin_class_name, class_of};
 use super::combine;
 use super::effective::{Effective, Shape, SlotPlace};
 use super::update;
-use crate::lisp::class::Class;
-use crate::lisp::function::Function;
-use crate::lisp::generic::{GenericFunction, Method, Specializer};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::Class;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::generic::{GenericFunction, Method, Specializer};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -4,14 +4,14 @@ use std::cmp::Ordering;
 use std::rc::Rc;
 
 use super::class_of::class_of;
-use crate::lisp::class::Class;
-use crate::lisp::generic::{Accessor, Combination, GenericFunction, Method, Specializer};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::slot::Slot;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::Class;
+use crate::lisp::value::generic::{Accessor, Combination, GenericFunction, Method, Specializer};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::slot::Slot;
+use crate::lisp::value::symbol::Sym;
 
 /// The methods of a call in the order in which they run.
 pub struct Effective {

@@ -2,11 +2,11 @@
 
 use std::rc::Rc;
 
-use crate::lisp::class::{Initform, Instance};
-use crate::lisp::function::Function;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{Initform, Instance};
+use crate::lisp::value::function::Function;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 
@@ -22,7 +22,7 @@ impl Which {
     /// From the slot names argument of `shared-initialize`: `T` or a list.
     pub fn from_value(value: &Value) -> Which {
         match value {
-            Value::Symbol(crate::lisp::known::T) => Which::All,
+            Value::Symbol(crate::lisp::value::known::T) => Which::All,
             list => Which::Only(list.iter_list().filter_map(|n| n.as_symbol()).collect()),
         }
     }
@@ -93,7 +93,7 @@ pub fn fill(instance: &Rc<Instance>, which: &Which, initargs: &[Value], finish: 
 fn store(
     instance: &Instance,
     index: usize,
-    shared: Option<&crate::lisp::slot::Slot>,
+    shared: Option<&crate::lisp::value::slot::Slot>,
     value: Value,
 ) {
     match shared {
@@ -106,7 +106,11 @@ fn store(
     }
 }
 
-fn is_unbound(instance: &Instance, index: usize, shared: Option<&crate::lisp::slot::Slot>) -> bool {
+fn is_unbound(
+    instance: &Instance,
+    index: usize,
+    shared: Option<&crate::lisp::value::slot::Slot>,
+) -> bool {
     match shared {
         Some(shared) => shared.with(Value::is_unbound),
         None => instance

@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use crate::lisp::known;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
 
 pub(crate) use crate::lisp::compile::form::form;
 

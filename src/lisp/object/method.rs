@@ -7,15 +7,15 @@ use super::dispatch::Dispatch;
 use super::effective;
 use super::parameters::Parameters;
 use super::qualified;
-use crate::lisp::class::Class;
-use crate::lisp::foreign::{Foreign, ForeignBox};
-use crate::lisp::function::{Body, Function};
-use crate::lisp::generic::{Accessor, GenericFunction, Method, Specializer};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::value::Value;
+use crate::lisp::value::class::Class;
+use crate::lisp::value::foreign::{Foreign, ForeignBox};
+use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::generic::{Accessor, GenericFunction, Method, Specializer};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// Functions of the standard that a program may add methods to. They are plain functions
 /// until it does: then the plain function becomes the method for everything.

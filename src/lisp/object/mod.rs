@@ -38,7 +38,7 @@ pub(crate) fn qualified(image: &Image, name: &Value) -> String {
         Value::Symbol(sym) => match image.symbol(*sym).package {
             Some(package) => {
                 let colons = match image.home_access(*sym) {
-                    Some(super::package::Access::External) => ":",
+                    Some(crate::lisp::value::package::Access::External) => ":",
                     _ => "::",
                 };
                 let home = &image.packages.get(package).name;
@@ -50,7 +50,7 @@ pub(crate) fn qualified(image: &Image, name: &Value) -> String {
             let parts: Vec<String> = list
                 .iter_list()
                 .map(|part| match part {
-                    Value::Symbol(super::known::SETF) => "SETF".to_owned(),
+                    Value::Symbol(crate::lisp::value::known::SETF) => "SETF".to_owned(),
                     other => qualified(image, &other),
                 })
                 .collect();

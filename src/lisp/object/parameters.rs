@@ -1,10 +1,10 @@
 //! What a lambda list says about the arguments of a call.
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// Numbers of parameters and keywords of a lambda list.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]

@@ -3,13 +3,13 @@
 use std::rc::Rc;
 
 use super::form::{constant_value, form, quote};
-use crate::lisp::class::{Initform, SlotDefinition};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::slot::Slot;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{Initform, SlotDefinition};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::slot::Slot;
+use crate::lisp::value::symbol::Sym;
 
 /// A slot description taken apart.
 struct Description {

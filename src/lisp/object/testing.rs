@@ -1,9 +1,9 @@
 //! A small image for the tests of this layer.
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine;
 
 /// An image as sessions start with.
@@ -13,7 +13,7 @@ pub fn image() -> Image {
 
 /// Evaluates all forms of a text; the values of the last, or the class of the condition.
 pub fn eval_values(image: &mut Image, text: &str) -> Result<Vec<Value>, String> {
-    let mut reader = crate::reader::Reader::of_text(text.to_owned());
+    let mut reader = crate::lisp::reader::Reader::of_text(text.to_owned());
     let mut last = Vec::new();
     while let Some((form, _)) = reader.next_form(image).map_err(|e| e.to_string())? {
         let eval = Value::Symbol(known::EVAL);
@@ -42,7 +42,7 @@ pub fn assert_value(image: &mut Image, text: &str, expected: &str) {
         && values
             .iter()
             .zip(&wanted)
-            .all(|(a, b)| crate::lisp::equality::equalp(a, b));
+            .all(|(a, b)| crate::lisp::value::equality::equalp(a, b));
     let shown: Vec<String> = values
         .iter()
         .map(|v| crate::lisp::print::to_string(image, v, true))

@@ -6,13 +6,13 @@ use super::float;
 use super::identity::identity;
 use super::settings::Settings;
 use super::symbol;
-use crate::lisp::class::{Class, ClassKind};
-use crate::lisp::function::{Body, Function};
-use crate::lisp::hash_table::HashTest;
 use crate::lisp::image::Image;
+use crate::lisp::reader::char_name::char_name;
 use crate::lisp::stream::StreamKind;
 use crate::lisp::value::Value;
-use crate::reader::char_name::char_name;
+use crate::lisp::value::class::{Class, ClassKind};
+use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::hash_table::HashTest;
 
 /// A value that is no list, vector, array, structure or condition report.
 pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String {

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use crate::lisp::class::ClassKind;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::ClassKind;
 
 /// A value with fewer parts than this is first walked without bookkeeping: if the walk
 /// ends, nothing in it is circular.

@@ -4,7 +4,7 @@ use num_bigint::BigInt;
 use num_traits::Signed;
 
 use super::settings::Settings;
-use crate::lisp::known;
+use crate::lisp::value::known;
 
 /// The shortest digits of a positive finite float and the place of the decimal point:
 /// `0.DIGITS` times ten to the power of the place.

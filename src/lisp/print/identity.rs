@@ -6,14 +6,14 @@
 use std::collections::HashMap;
 use std::rc::{Rc, Weak};
 
-use crate::lisp::array::{Array, Vector};
-use crate::lisp::class::Instance;
-use crate::lisp::foreign::ForeignBox;
-use crate::lisp::function::Function;
-use crate::lisp::hash_table::HashTable;
 use crate::lisp::image::Image;
 use crate::lisp::stream::Stream;
 use crate::lisp::value::Value;
+use crate::lisp::value::array::{Array, Vector};
+use crate::lisp::value::class::Instance;
+use crate::lisp::value::foreign::ForeignBox;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::hash_table::HashTable;
 
 /// The first number.
 const FIRST: u64 = 0x10_0100_0000;

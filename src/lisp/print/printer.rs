@@ -12,13 +12,13 @@ use super::report;
 use super::settings::Settings;
 use super::shape::{self, Form, Layout, Shape, Style};
 use super::symbol;
-use crate::lisp::array::{Array, Vector};
-use crate::lisp::class::{ClassKind, Instance};
-use crate::lisp::generic::Specializer;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::symbol::FunctionCell;
 use crate::lisp::value::Value;
+use crate::lisp::value::array::{Array, Vector};
+use crate::lisp::value::class::{ClassKind, Instance};
+use crate::lisp::value::generic::Specializer;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::FunctionCell;
 
 /// Prints one value.
 pub(super) struct Printer<'a> {

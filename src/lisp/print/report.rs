@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use super::to_string;
-use crate::lisp::class::{Class, Instance};
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{Class, Instance};
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 
 /// The `:report` function of a condition's class, inherited ones included.
 pub fn function(instance: &Instance) -> Option<Rc<Function>> {

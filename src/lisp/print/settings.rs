@@ -1,9 +1,9 @@
 //! The printer variables, read once per call.
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 
 /// `*print-case*`
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

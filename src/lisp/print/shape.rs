@@ -2,9 +2,9 @@
 
 use super::document::Newline;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// A layout instruction before an element of a list.
 #[derive(Clone, Copy)]
@@ -334,7 +334,7 @@ pub(super) fn form(image: &Image, list: &Value) -> Form {
 /// How many arguments a macro takes before its `&body`, if it has one.
 fn arguments_before_body(image: &Image, operator: Sym) -> Option<usize> {
     if let FunctionCell::Macro(function) = &image.symbol(operator).function {
-        let crate::lisp::function::Body::Closure { code, .. } = &function.body else {
+        let crate::lisp::value::function::Body::Closure { code, .. } = &function.body else {
             return None;
         };
         let mut count = 0;

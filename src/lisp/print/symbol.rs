@@ -2,8 +2,8 @@
 
 use super::settings::{Case, Settings};
 use crate::lisp::image::Image;
-use crate::lisp::package::Access;
-use crate::lisp::symbol::Sym;
+use crate::lisp::value::package::Access;
+use crate::lisp::value::symbol::Sym;
 
 /// A symbol under the settings.
 pub(super) fn symbol(image: &Image, sym: Sym, settings: &Settings) -> String {
@@ -80,9 +80,9 @@ fn is_special(c: char) -> bool {
     matches!(
         c,
         '(' | ')' | '"' | '\'' | '`' | ',' | ';' | ':' | '|' | '\\'
-    ) || crate::reader::lexer::is_blank(c)
+    ) || crate::lisp::reader::lexer::is_blank(c)
         || c.is_control()
-        || crate::reader::upcase(c) != c
+        || crate::lisp::reader::upcase(c) != c
 }
 
 /// Is the name a "potential number" (digits, signs, points, slashes, `^`, `_` and single

@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use super::define::{check_slot_type, copy_structure};
-use crate::lisp::class::{Class, Instance, StructureSlot};
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{Class, Instance, StructureSlot};
+use crate::lisp::value::function::Function;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// The instance that a value is, if it is one of the class or of one that includes it.
 fn instance_of<'a>(value: &'a Value, class: &Rc<Class>) -> Option<&'a Rc<Instance>> {

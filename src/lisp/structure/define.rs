@@ -3,17 +3,17 @@
 use std::rc::Rc;
 
 use super::accessors;
-use crate::lisp::class::{
-    Class, ClassKind, Initform, Instance, SlotDefinition, StructureLayout, StructureSlot,
-};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::define::{ClassDefinition, no_class};
 use crate::lisp::object::form::constant_value;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::types::{TypeCheck, typep};
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{
+    Class, ClassKind, Initform, Instance, SlotDefinition, StructureLayout, StructureSlot,
+};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// Defines a structure: `(name parent ((slot accessor initform type read-only)…)
 /// constructor copier predicate documentation conc-name)`.

@@ -3,15 +3,15 @@
 use super::constructors::constructor_form;
 use super::options::{Representation, StructureDefinition};
 use super::typed;
-use crate::lisp::class::{ClassKind, StructureSlot};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::define::no_class;
 use crate::lisp::object::form::{doc_form, form, quote};
 use crate::lisp::object::text;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::{ClassKind, StructureSlot};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// `(defstruct name-and-options [documentation] slots…)`.
 pub fn expand_defstruct(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {

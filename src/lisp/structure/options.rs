@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
-use crate::lisp::class::StructureSlot;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::text;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::StructureSlot;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// One constructor.
 pub struct Constructor {

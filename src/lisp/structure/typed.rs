@@ -6,15 +6,15 @@ use super::constructors::constructor_form;
 use super::expand::override_slots;
 use super::options::{Representation, StructureDefinition};
 use crate::lisp::builtins::sequence::Sequence;
-use crate::lisp::class::StructureSlot;
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::define::no_class;
 use crate::lisp::object::form::{form, quote};
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::StructureSlot;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// One element of such a structure.
 #[derive(Clone)]

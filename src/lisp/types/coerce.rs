@@ -5,12 +5,12 @@ use super::test::typep_with;
 use crate::lisp::builtins::sequence::Sequence;
 use crate::lisp::builtins::sequence_types::SequenceType;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
 use crate::lisp::object::text;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// Converts a value to a type.
 pub fn coerce(

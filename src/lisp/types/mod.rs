@@ -26,5 +26,5 @@ use super::value::Value;
 
 /// Compares two real numbers; none if one is no real number, or not a number at all.
 pub(crate) fn compare(a: &Value, b: &Value) -> Option<Ordering> {
-    super::number::compare(a, b).ok().flatten()
+    crate::lisp::value::number::compare(a, b).ok().flatten()
 }

@@ -2,12 +2,12 @@
 
 use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
 use crate::lisp::builtins::sequence_types;
-use crate::lisp::class::ClassKind;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::ClassKind;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// How deeply specifiers may be nested, expansions of `deftype` included.
 const MAX_DEPTH: usize = 200;
@@ -276,7 +276,7 @@ fn real_range(image: &Image, kinds: &[RealKind], args: &[Value]) -> Result<Type,
 }
 
 fn bound(image: &Image, arg: Option<&Value>) -> Result<Bound, Stop> {
-    let is_real = crate::lisp::number::is_real;
+    let is_real = crate::lisp::value::number::is_real;
     match arg {
         None => Ok(Bound::None),
         Some(star) if is_star(star) => Ok(Bound::None),

@@ -2,10 +2,10 @@
 
 use std::rc::Rc;
 
-use crate::lisp::class::Class;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::Class;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// A set of values.
 #[derive(Clone)]

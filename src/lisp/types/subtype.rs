@@ -6,7 +6,7 @@ use super::compare;
 use super::specifier::{Answers, Bound, CharacterKind, RealKind, Type};
 use super::test::contains;
 use crate::lisp::image::Image;
-use crate::lisp::known;
+use crate::lisp::value::known;
 
 /// An answer that may be out of reach.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -3,13 +3,13 @@
 use super::compare;
 use super::parse::{is_plain_class, parse};
 use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
-use crate::lisp::function::Body;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::class_of;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Body;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// Whether a value is of a type, as far as it can be told without calling a function.
 pub enum TypeCheck {

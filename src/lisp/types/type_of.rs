@@ -1,13 +1,13 @@
 //! `type-of`.
 
 use super::test::is_standard_char;
-use crate::lisp::array::Vector;
-use crate::lisp::function::Body;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::class_of::builtin_class_name;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::array::Vector;
+use crate::lisp::value::function::Body;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 
 /// The largest fixnum.
 const LARGEST_FIXNUM: i64 = 0x3fff_ffff_ffff_ffff;

@@ -8,13 +8,13 @@ use std::rc::Rc;
 use super::fiber::Dynamic;
 use super::machine::Machine;
 use super::step::{Resume, Step};
-use crate::lisp::foreign::Foreign;
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// How an evaluation on top of a stopped fiber stands.
 #[derive(Clone, Default)]

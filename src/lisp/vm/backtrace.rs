@@ -2,10 +2,10 @@
 //! what, and the variables that were in force.
 
 use super::fiber::{Fiber, Frame, FrameKind};
-use crate::lisp::function::Body;
-use crate::lisp::symbol::Sym;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::reader::source::Place;
+use crate::lisp::value::function::Body;
+use crate::lisp::value::symbol::Sym;
 
 /// A frame as people see it.
 pub struct FrameView {

@@ -2,9 +2,9 @@
 
 use super::fiber::FrameKind;
 use super::machine::Machine;
-use crate::lisp::function::Body;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::reader::source::Place;
+use crate::lisp::value::function::Body;
 
 /// A call that has not returned.
 #[derive(Clone)]

@@ -6,9 +6,9 @@
 
 use std::rc::Rc;
 
-use crate::lisp::symbol::Sym;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::reader::source::Place;
+use crate::lisp::value::symbol::Sym;
 
 /// One operation. "Push" and "pop" speak of the value stack.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use super::step::Resume;
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::symbol::Sym;
 
 /// A call that has not returned.
 pub struct Frame {

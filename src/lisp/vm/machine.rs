@@ -11,16 +11,16 @@ use std::sync::atomic::Ordering;
 use super::code::{Capture, Code, Op};
 use super::fiber::{Dynamic, Fiber, Frame, FrameKind, Handler};
 use super::step::{Resume, Step};
-use crate::lisp::function::{Body, Function, NativeCall};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
 use crate::lisp::object;
-use crate::lisp::raise::Raise;
-use crate::lisp::slot::Slot;
-use crate::lisp::symbol::{FunctionCell, Sym};
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::reader::source::Place;
+use crate::lisp::value::function::{Body, Function, NativeCall};
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::slot::Slot;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// A fiber that runs on an image.
 pub struct Machine<'a> {

@@ -2,13 +2,13 @@
 
 use super::fiber::{Dynamic, Frame, FrameKind};
 use super::machine::Machine;
-use crate::lisp::foreign::Foreign;
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// A restart.
 pub struct Restart {

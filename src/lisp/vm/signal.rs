@@ -7,9 +7,9 @@ use super::fiber::{Dynamic, Handler};
 use super::machine::{Machine, Next};
 use super::step::{Resume, Step};
 use crate::lisp::condition;
-use crate::lisp::raise::Raise;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::reader::source::Place;
+use crate::lisp::value::raise::Raise;
 
 /// What happens when every handler has declined.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

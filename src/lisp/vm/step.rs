@@ -4,8 +4,8 @@ use std::any::Any;
 
 use super::fiber::Target;
 use super::machine::Machine;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 
 /// The next step of a control builtin.
 pub enum Step {

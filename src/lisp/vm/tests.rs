@@ -2,11 +2,11 @@
 
 use crate::lisp::image::Image;
 use crate::lisp::print;
-use crate::lisp::symbol::known;
+use crate::lisp::reader;
 use crate::lisp::value::Value;
+use crate::lisp::value::symbol::known;
 use crate::lisp::vm::fiber::Fiber;
 use crate::lisp::vm::machine::{Event, Machine};
-use crate::reader;
 
 fn evaluate(text: &str) -> String {
     let mut image = Image::new();

@@ -4,10 +4,10 @@
 use super::fiber::{Dynamic, FrameKind, Pending, Target};
 use super::machine::{Event, Machine, Next};
 use super::step::Step;
-use crate::lisp::function::Body;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Body;
+use crate::lisp::value::raise::Raise;
 
 impl Machine<'_> {
     pub(super) fn return_from(&mut self, id: &Value, value: Value) -> Next {

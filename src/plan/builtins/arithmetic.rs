@@ -2,12 +2,12 @@
 //! the result is a network.
 
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::function::PureFn;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::PureFn;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 use crate::plan::builtins::networks::operate;

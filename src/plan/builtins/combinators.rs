@@ -1,8 +1,8 @@
 //! What the parallel forms expand into.
 
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::signal::Declined;
 use crate::lisp::vm::step::Step;
@@ -122,7 +122,7 @@ fn start(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
 fn par_loop(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     check_plan(machine, "PAR-LOOP")?;
     let Some(items) = args[1].list_to_vec() else {
-        return Err(Raise::type_error(&args[1], crate::lisp::known::LIST));
+        return Err(Raise::type_error(&args[1], crate::lisp::value::known::LIST));
     };
     if items.is_empty() {
         return Ok(Step::Return(Value::NIL));

@@ -2,13 +2,13 @@
 
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::builtins::signalling;
-use crate::lisp::class::ClassKind;
 use crate::lisp::condition;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::class::ClassKind;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::signal::Declined;
 use crate::lisp::vm::step::Step;

@@ -5,11 +5,11 @@ use super::networks::fluent_argument;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::builtins::calls::builtin_name;
 use crate::lisp::builtins::keywords;
-use crate::lisp::equality;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::equality;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 use crate::plan::fluent::{self, FluentRef};
@@ -197,7 +197,7 @@ fn wait_for(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
 }
 
 fn is_negative(value: &Value) -> bool {
-    crate::lisp::number::to_f64(value).is_some_and(|x| x < 0.0)
+    crate::lisp::value::number::to_f64(value).is_some_and(|x| x < 0.0)
 }
 
 /// Waits until the fluent's value is not `NIL`, at most until a time.

@@ -1,13 +1,13 @@
 //! Goals: plans that are chosen by matching the arguments of a call against patterns.
 
 use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::equality;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::equality;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 use crate::plan::state::{Goal, Plan};

@@ -14,9 +14,9 @@ mod tree;
 pub(super) use goals::is_variable;
 
 use crate::lisp::builtin::Builtin;
-use crate::lisp::function::Function;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::step::Step;
 
 use super::request::{Call, Request};

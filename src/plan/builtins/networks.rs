@@ -3,10 +3,10 @@
 use super::arithmetic::{add, divide, eq, eql, equal, greater, less, multiply, not, subtract};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
-use crate::lisp::function::PureFn;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::PureFn;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 use crate::plan::fluent::{self, FluentRef, Missed, Operation};

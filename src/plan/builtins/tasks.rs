@@ -3,10 +3,10 @@
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::builtins::keywords;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 use crate::plan::fluent::{FluentRef, Operation};

@@ -2,10 +2,10 @@
 
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::step::Step;
 use crate::plan::request::Request;
 use crate::plan::state::Plan;

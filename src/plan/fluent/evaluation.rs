@@ -5,8 +5,8 @@
 
 use super::{FluentRef, Kind, Missed, Operation};
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 
@@ -165,7 +165,7 @@ impl Reading {
 enum NetStep {
     Value(Value),
     Read(FluentRef),
-    Pure(crate::lisp::function::PureFn, Vec<Value>),
+    Pure(crate::lisp::value::function::PureFn, Vec<Value>),
     Call(Value, Vec<Value>),
 }
 
@@ -221,7 +221,7 @@ fn change_step(
     source: &FluentRef,
     test: &Value,
     key: &Value,
-    old: &crate::lisp::slot::Slot,
+    old: &crate::lisp::value::slot::Slot,
 ) -> ChangeStep {
     let Some(value) = frame.values.first().cloned() else {
         return ChangeStep::Read(source.clone());

@@ -15,13 +15,13 @@ mod reference;
 use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
 
-use crate::lisp::foreign::{Foreign, ForeignBox};
-use crate::lisp::function::PureFn;
 use crate::lisp::image::Image;
 use crate::lisp::print;
-use crate::lisp::slot::Slot;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::foreign::{Foreign, ForeignBox};
+use crate::lisp::value::function::PureFn;
+use crate::lisp::value::slot::Slot;
+use crate::lisp::value::symbol::Sym;
 
 pub(crate) use evaluation::{read, then_read};
 pub(crate) use propagation::{Propagation, pulse, settle, store};

@@ -4,10 +4,10 @@ use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
 
 use super::{Fluent, FluentName, Kind, Missed, Operation};
-use crate::lisp::foreign::ForeignBox;
-use crate::lisp::slot::Slot;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::foreign::ForeignBox;
+use crate::lisp::value::slot::Slot;
+use crate::lisp::value::symbol::Sym;
 use crate::plan::state::Plan;
 
 /// A counted reference to a fluent.

@@ -5,11 +5,11 @@ use super::{
 };
 use crate::lisp::builtin::Operator;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::form::form;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// The macros.
 pub static OPERATORS: &[Operator] = &[
@@ -132,7 +132,7 @@ fn attempt(image: &mut Image, form: Value, failures: &Value) -> Value {
 /// The failure when everything has failed, of failures that were noted last first.
 fn all_failed(image: &mut Image, failures: &Value) -> Value {
     let names = plan(image).names;
-    let reverse = image.intern(crate::lisp::package::PackageTable::CL, "REVERSE");
+    let reverse = image.intern(crate::lisp::value::package::PackageTable::CL, "REVERSE");
     form![names.sys_all_failed, form![reverse, failures.clone()]]
 }
 
@@ -201,7 +201,7 @@ fn partial_order(image: &mut Image, form: &Value) -> Expansion {
 }
 
 fn mapcar_clean(image: &mut Image, form: &Value) -> Expansion {
-    let remove = image.intern(crate::lisp::package::PackageTable::CL, "REMOVE");
+    let remove = image.intern(crate::lisp::value::package::PackageTable::CL, "REMOVE");
     let call = form![known::MAPCAR; form.cdr_or_nil()];
     Ok(form![remove, Value::NIL, call])
 }

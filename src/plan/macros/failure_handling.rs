@@ -6,11 +6,11 @@
 use super::{Expansion, first_rest, gensym, macro_, plan, quoted};
 use crate::lisp::builtin::Operator;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::form::form;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::plan::state::Plan;
 
 /// The macros.

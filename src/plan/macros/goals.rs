@@ -4,10 +4,10 @@ use super::tags::with_tags;
 use super::{Expansion, first_rest, gensym, macro_, plan, quoted, thunk_of};
 use crate::lisp::builtin::Operator;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::form::{doc_form, form, split_body};
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 use crate::plan::builtins::is_variable;
 
 /// The macros.
@@ -66,7 +66,7 @@ fn def_goal(image: &mut Image, form: &Value) -> Expansion {
     let split = split_body(&body);
     let block = gensym(image, "GOAL");
     let results = gensym(image, "RESULTS");
-    let values_list = image.intern(crate::lisp::package::PackageTable::CL, "VALUES-LIST");
+    let values_list = image.intern(crate::lisp::value::package::PackageTable::CL, "VALUES-LIST");
     let leave = form![
         known::RETURN_FROM,
         block.clone(),

@@ -13,10 +13,10 @@ use std::rc::Rc;
 
 use crate::lisp::builtin::{Expander, Operator};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::form::{form, quote};
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 use super::state::Plan;
 
@@ -89,7 +89,7 @@ fn check_plan(plan: &Plan, name: &str) -> Value {
 }
 
 /// The options of a list `(:name value …)`.
-fn option(options: &Value, name: crate::lisp::symbol::Sym) -> Option<Value> {
+fn option(options: &Value, name: crate::lisp::value::symbol::Sym) -> Option<Value> {
     let mut rest = options.clone();
     while let Value::Cons(cons) = rest {
         let value = cons.cdr();

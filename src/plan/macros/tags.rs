@@ -8,10 +8,10 @@ use super::{check_plan, first_rest, macro_, plan, progn, quoted};
 use crate::lisp::builtin::Operator;
 use crate::lisp::compile;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::form::form;
-use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// The macros.
 pub static OPERATORS: &[Operator] = &[macro_(

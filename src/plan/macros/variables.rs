@@ -3,9 +3,9 @@
 use super::{Expansion, macro_, option, plan, quoted};
 use crate::lisp::builtin::Operator;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::object::form::form;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
 
 /// The macros.
 pub static OPERATORS: &[Operator] = &[

@@ -3,12 +3,12 @@
 use super::group::unwrapped;
 use super::live::{Answer, Ending, Live, Slot, Told, Wait};
 use super::{Scheduler, TaskInfo};
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::package::PackageTable;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::fiber::{Dynamic, Fiber};
 use crate::plan::builtins;
 use crate::plan::fluent;

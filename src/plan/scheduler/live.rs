@@ -2,8 +2,8 @@
 
 use super::Scheduler;
 use super::group::Group;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::fiber::Fiber;
 use crate::plan::fluent::FluentRef;
 use crate::plan::host::Ticket;

@@ -5,9 +5,9 @@ use super::advance::Passed;
 use super::live::{Answer, Ending, Live, Slot, Wait};
 use super::run::Stopped;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::plan::host::Host;
 use crate::plan::state::Plan;
 

@@ -3,8 +3,8 @@
 use super::context::Context;
 use super::designators::{self, Spot};
 use super::files;
-use crate::dialogue::{Candidate, Completions};
 use crate::session::Session;
+use crate::session::dialogue::{Candidate, Completions};
 
 impl Session {
     /// What could stand at byte `at` of an input.

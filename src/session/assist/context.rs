@@ -1,6 +1,6 @@
 //! Where in the structure of a text the cursor stands.
 
-use crate::reader::{Lexer, Token, TokenKind};
+use crate::lisp::reader::{Lexer, Token, TokenKind};
 
 /// A list that is open at the cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

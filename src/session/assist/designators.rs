@@ -2,10 +2,11 @@
 
 use super::context::{Context, Open, bare};
 use super::{first_sentence, lower};
-use crate::designator::schema::{self, Key, Kind, TypeRow};
-use crate::designator::value::Class;
-use crate::dialogue::Candidate;
+use crate::plan::designator::schema;
+use crate::plan::designator::schema::{Key, Kind, TypeRow};
+use crate::plan::designator::value::Class;
 use crate::session::Session;
+use crate::session::dialogue::Candidate;
 
 /// A designator form around the cursor.
 pub(super) struct Described<'c, 't> {

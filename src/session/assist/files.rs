@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::dialogue::{Candidate, Completions};
+use crate::session::dialogue::{Candidate, Completions};
 
 /// Files that are offered.
 const MOST_FILES: usize = 100;

@@ -9,8 +9,8 @@ mod hint;
 mod symbols;
 
 use super::Session;
-use crate::designator::schema;
-use crate::designator::value::Class;
+use crate::plan::designator::schema;
+use crate::plan::designator::value::Class;
 
 /// A name for people: as they type it.
 fn lower(name: &str) -> String {

@@ -2,12 +2,12 @@
 
 use super::context::Context;
 use super::{first_sentence, lower};
-use crate::dialogue::Candidate;
 use crate::lisp::builtins::help;
-use crate::lisp::package::{PackageId, PackageTable};
 use crate::lisp::print;
-use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
+use crate::lisp::value::package::{PackageId, PackageTable};
+use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::session::Session;
+use crate::session::dialogue::Candidate;
 
 /// Names that are offered.
 const MOST_NAMES: usize = 500;

@@ -4,12 +4,12 @@
 use super::known::KnownNames;
 use crate::closest_name::closest_name;
 use crate::lisp::compile::notes::NoteKind;
-use crate::lisp::function::{Body, Function};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::package::{Access, PackageTable};
 use crate::lisp::print;
-use crate::lisp::symbol::{FunctionCell, Sym, VariableKind};
+use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::known;
+use crate::lisp::value::package::{Access, PackageTable};
+use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// A mistake: what is wrong, and the name that it is about, in upper case, unless the
 /// whole form is wrong.
@@ -155,7 +155,7 @@ fn asking(text: String, image: &Image, name: Sym, is_kind: impl Fn(Sym) -> bool)
 }
 
 /// The shortest name of a package.
-fn short_name(image: &Image, package: crate::lisp::package::PackageId) -> String {
+fn short_name(image: &Image, package: crate::lisp::value::package::PackageId) -> String {
     let package = image.packages.get(package);
     std::iter::once(&package.name)
         .chain(&package.nicknames)

@@ -4,9 +4,9 @@
 use std::collections::BTreeSet;
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 
 /// Names that checks must not call unknown.
 #[derive(Default)]

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::dialogue::Evaluate;
+use crate::session::dialogue::Evaluate;
 use crate::session::{Session, SessionOptions};
 
 fn found(name: &str, text: &str) -> Vec<String> {

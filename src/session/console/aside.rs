@@ -1,16 +1,16 @@
 //! Evaluating forms in a frame of a suspended evaluation.
 
 use super::{Cause, Session};
-use crate::dialogue::{Event, Outcome};
 use crate::lisp::compile;
-use crate::lisp::function::Function;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::{Sym, VariableKind};
+use crate::lisp::reader::Reader;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{Sym, VariableKind};
 use crate::lisp::vm::aside::Aside;
 use crate::lisp::vm::backtrace::VariablePlace;
-use crate::reader::Reader;
+use crate::session::dialogue::{Event, Outcome};
 
 /// A function with the variables of a frame as its parameters, and their values.
 struct InFrame {
@@ -49,7 +49,7 @@ impl Session {
         &mut self,
         source_name: &str,
         text: &str,
-    ) -> Result<Vec<Value>, Box<crate::dialogue::Abort>> {
+    ) -> Result<Vec<Value>, Box<crate::session::dialogue::Abort>> {
         let source = self.image.sources.add(source_name, text);
         let mut reader = Reader::new(&self.image, source);
         let mut forms = Vec::new();

@@ -1,18 +1,18 @@
 //! The ways in which an evaluation that stands still can go on.
 
 use super::{Asking, Outcome, Session};
-use crate::dialogue::Event;
-use crate::lisp::function::Body;
-use crate::lisp::function::Function;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::package::PackageTable;
 use crate::lisp::print;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Body;
+use crate::lisp::value::function::Function;
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
 use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine;
 use crate::lisp::vm::restart::Restart;
 use crate::lisp::vm::step::Step;
+use crate::session::dialogue::Event;
 
 /// A way to go on.
 #[derive(Clone)]

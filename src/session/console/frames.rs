@@ -2,11 +2,11 @@
 //! it, innermost first.
 
 use super::Session;
-use crate::dialogue::{ActionStep, Event, Outcome};
 use crate::lisp::print;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::vm::backtrace::FrameView;
-use crate::reader::source::Place;
+use crate::session::dialogue::{ActionStep, Event, Outcome};
 use crate::session::on_one_line;
 
 /// Frames that are told unless more are asked for.

@@ -1,10 +1,10 @@
 //! Going into the parts of a value, and back.
 
 use super::{Asking, Session};
-use crate::dialogue::{Event, Outcome};
-use crate::lisp::known;
-use crate::lisp::symbol::FunctionCell;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::FunctionCell;
+use crate::session::dialogue::{Event, Outcome};
 use crate::session::simulation::parts::View;
 
 /// What can be typed, for people.

@@ -13,12 +13,12 @@ mod inspector;
 mod robot_choices;
 mod settle;
 
-use crate::dialogue::{Abort, Event, Outcome};
+use super::dialogue::{Abort, Event, Outcome};
+use crate::lisp::reader::Reader;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::vm::aside::Aside;
 use crate::plan::TaskId;
-use crate::reader::Reader;
-use crate::reader::source::Place;
 
 use super::Session;
 use choices::Choice;

@@ -3,12 +3,12 @@
 
 use super::choices::Choice;
 use super::frames::Told;
-use crate::designator::packages;
-use crate::designator::value::{Class, as_class};
 use crate::lisp::compile;
-use crate::lisp::known;
 use crate::lisp::print;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::plan::designator::value::{Class, as_class};
+use crate::plan::packages;
 use crate::session::{Session, on_one_line};
 
 /// Actions for which it is offered to begin them again.
@@ -117,7 +117,7 @@ impl Session {
             properties.push(Value::list([key, value.clone()]));
         }
         let description = Value::list(properties);
-        let copy = crate::designator::value::Designator::new(
+        let copy = crate::plan::designator::value::Designator::new(
             &mut self.image,
             class,
             quantifier,

@@ -2,8 +2,8 @@
 
 use super::Simulation;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 
 /// A function on the world.

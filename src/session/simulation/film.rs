@@ -1,8 +1,8 @@
 //! Keeping what is seen every now and then, for moving pictures.
 
 use super::Simulation;
-use crate::viewer::animation::Shot;
-use crate::viewer::{View, ViewError};
+use crate::picture::animation::Shot;
+use crate::picture::{View, ViewError};
 
 /// Shots of a session as time passes.
 pub(super) struct Film {

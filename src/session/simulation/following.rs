@@ -4,7 +4,7 @@ use super::{Job, Simulation};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::plan::{Plan, Status};
-use crate::viewer::watch::{Cause, Follower, Happening, Seen, TaskId, TaskNews, TaskState};
+use crate::watch::{Cause, Follower, Happening, Seen, TaskId, TaskNews, TaskState};
 use crate::world::CollisionHit;
 
 /// Who follows.

@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::names::suggestion;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
+use crate::lisp::value::raise::Raise;
 use crate::spatial::Pose;
 
 /// The frame that everything refers to.

@@ -3,11 +3,12 @@
 use std::f64::consts::TAU;
 
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::motion::drive_plan::plan_drive;
 use crate::motion::interruption::interruptible;
 use crate::motion::{CollisionMode, can_reach};
+use crate::plan::pose::value::pose_stamped;
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::imagined::Imagined;
@@ -15,7 +16,6 @@ use crate::session::simulation::motions::{side, side_keyword};
 use crate::session::simulation::names::{type_keyword, type_text};
 use crate::session::simulation::properties::property;
 use crate::spatial::{Pose, pose, trig};
-use crate::transform::value::pose_stamped;
 use crate::world::WorldError;
 use crate::world::grasp_library::GraspDefinition;
 

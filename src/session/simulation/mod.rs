@@ -33,10 +33,11 @@ use indexmap::IndexMap;
 use super::{SessionError, SessionOptions};
 use crate::lisp::value::Value;
 use crate::motion::{DetectQuery, Motion, ProcessModule};
+use crate::picture;
+use crate::picture::Looks;
 use crate::plan::{TaskId, Ticket};
 use crate::spatial::Pose;
-use crate::viewer::live::{PaceControl, Speed};
-use crate::viewer::{self, Looks};
+use crate::watch::live::{PaceControl, Speed};
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
@@ -101,7 +102,7 @@ pub struct Simulation {
     /// What was looked for last.
     sought: Option<DetectQuery>,
     /// Pictures that were made and not yet told of.
-    pictures: Vec<Arc<viewer::Image>>,
+    pictures: Vec<Arc<picture::Image>>,
     looks: OnceCell<Looks>,
     film: Option<film::Film>,
     followers: following::Followers,

@@ -11,8 +11,8 @@ use indexmap::IndexMap;
 use super::Simulation;
 use super::held::Held;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::world::Snapshot;
 
 /// Forms at top level that can be taken back.

@@ -3,25 +3,25 @@
 use super::Simulation;
 use super::frames::BASE;
 use super::names::{name_text, type_text};
-use crate::designator::MotionRequest;
-use crate::designator::failure::no_process_module;
-use crate::designator::object;
-use crate::designator::value::as_designator;
-use crate::designator::value::current;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
 use crate::motion::{
     CollisionMode, Detect, DetectQuery, DetectedObject, Drive, GripperCommand, Look, LookDirection,
     LookTarget, Motion, MotionOutcome, MotionStatus, MoveGripper, MoveJoints, MoveTcp, MoveTorso,
     ProcessModule, Progress, Put, TcpGoal, TcpPath,
 };
+use crate::plan::designator::MotionRequest;
+use crate::plan::designator::failure::no_process_module;
+use crate::plan::designator::object;
+use crate::plan::designator::value::as_designator;
+use crate::plan::designator::value::current;
+use crate::plan::pose::value::frame_of;
 use crate::robot::Side;
 use crate::session::simulation::properties::property;
-use crate::transform::value::frame_of;
 use crate::world::World;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;

@@ -3,10 +3,10 @@
 use super::Simulation;
 use crate::closest_name::closest_name;
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// The text of a name: that of a symbol or string, in upper case, `_` read as `-`.
 pub(super) fn name_text(image: &Image, name: &Value) -> Option<String> {

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::viewer::live::{PaceControl, Speed};
+use crate::watch::live::{PaceControl, Speed};
 
 /// Longest lag (s) behind the real time that is made up for; after a pause, as at the
 /// prompt, time goes on from then.

@@ -3,16 +3,16 @@
 use super::Simulation;
 use super::names::name_text;
 use super::properties::property;
-use crate::designator::value::as_designator;
-use crate::lisp::function::Body;
 use crate::lisp::image::Image;
 use crate::lisp::print;
-use crate::lisp::symbol::{FunctionCell, Sym};
 use crate::lisp::types::type_of::type_of;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Body;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
 use crate::plan::TaskRef;
+use crate::plan::designator::value::as_designator;
+use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
 use crate::robot::Side;
-use crate::transform::value::{as_placement, frame_of, pose_stamped};
 
 /// Parts that are told.
 const MOST_PARTS: usize = 60;

@@ -2,12 +2,12 @@
 
 use super::Simulation;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
+use crate::plan::pose::argument;
+use crate::plan::pose::value::{as_placement, frame_of};
 use crate::session::simulation::properties::property;
 use crate::spatial::Pose;
-use crate::transform::argument;
-use crate::transform::value::{as_placement, frame_of};
 
 impl Simulation {
     /// The pose, in the map frame, of a pose argument. The frame of a stamped pose counts;

@@ -1,8 +1,8 @@
 //! Reading properties of designators.
 
-use crate::designator::value::as_designator;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::plan::designator::value::as_designator;
 
 /// The first value of a designator's property, unless that is `NIL`. The key is in upper
 /// case.

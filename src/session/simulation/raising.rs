@@ -2,9 +2,9 @@
 
 use super::Simulation;
 use crate::lisp::image::Image;
-use crate::lisp::package::PackageTable;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::raise::Raise;
 use crate::motion::MotionFailure;
 
 impl Simulation {

@@ -4,14 +4,14 @@ use std::any::Any;
 
 use super::call::HostCall;
 use super::{Job, Simulation};
-use crate::designator::MotionRequest;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::motion::interruption::interruptible;
 use crate::motion::{Motion, MotionOutcome, MotionStatus};
+use crate::plan::designator::MotionRequest;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
-use crate::viewer::watch::{Cause, TaskState};
+use crate::watch::{Cause, TaskState};
 use crate::world::physics::STEP_SECONDS;
 
 /// A step of the world to come: what motions have done for it so far.

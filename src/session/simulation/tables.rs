@@ -3,7 +3,7 @@
 use super::functions;
 use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::image::Image;
-use crate::lisp::package::PackageTable;
+use crate::lisp::value::package::PackageTable;
 
 /// Builtins by package.
 static FUNCTIONS: &[(&str, &[Builtin])] = &[
@@ -76,8 +76,8 @@ pub fn install(image: &mut Image) {
 /// package has one of that name, which then means the same.
 fn alias(
     image: &mut Image,
-    from: crate::lisp::package::PackageId,
-    to: crate::lisp::package::PackageId,
+    from: crate::lisp::value::package::PackageId,
+    to: crate::lisp::value::package::PackageId,
     name: &str,
 ) {
     let original = image.export_symbol(from, name);

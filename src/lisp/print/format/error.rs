@@ -2,8 +2,8 @@
 
 use thiserror::Error;
 
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// A wrong control string, or too few arguments for one.
 #[derive(Clone, PartialEq, Debug, Error)]

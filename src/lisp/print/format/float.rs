@@ -1,9 +1,9 @@
 //! `~F`, `~E`, `~G` and `~$`.
 
 use super::fixed::{Digits, rounded, shortest, significant};
-use crate::lisp::known;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
 
 /// The parameters of a float directive.
 #[derive(Clone, Default)]

@@ -20,12 +20,12 @@ use super::integer::{IntegerStyle, integer};
 use super::justify::Justification;
 use super::output::Output;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
+use crate::lisp::reader::char_name::char_name;
 use crate::lisp::value::Value;
-use crate::reader::char_name::char_name;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

@@ -22,8 +22,8 @@ use std::rc::Rc;
 
 use super::calls::Calls;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 
 /// A parsed control string.
 #[derive(Clone)]

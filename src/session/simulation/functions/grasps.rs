@@ -3,17 +3,17 @@
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
+use crate::plan::pose::argument;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::motions::sides;
 use crate::session::simulation::names::type_text;
 use crate::session::simulation::{LogLevel, Simulation};
-use crate::transform::argument;
 use crate::world::grasp_library::{GraspDefinition, Lift};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;

@@ -2,9 +2,9 @@
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
-use crate::lisp::number;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 use crate::session::simulation::call::host;
 use crate::session::simulation::{Simulation, call};

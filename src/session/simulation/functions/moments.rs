@@ -2,10 +2,10 @@
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
-use crate::lisp::known;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 use crate::session::on_one_line;
 use crate::session::simulation::Simulation;

@@ -3,17 +3,17 @@
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
+use crate::plan::pose::value::pose_stamped;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::names::{name_text, suggestion, type_text};
 use crate::spatial::Pose;
-use crate::transform::value::pose_stamped;
 use crate::world::WorldError;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;

@@ -3,17 +3,17 @@
 use nalgebra::Point3;
 
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::picture::View;
+use crate::picture::view::FIELD_OF_VIEW;
+use crate::plan::pose::argument;
+use crate::plan::pose::value::{as_placement, as_vector};
 use crate::session::simulation::Simulation;
 use crate::session::simulation::names::{name_text, suggestion};
-use crate::transform::argument;
-use crate::transform::value::{as_placement, as_vector};
-use crate::viewer::View;
-use crate::viewer::view::FIELD_OF_VIEW;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

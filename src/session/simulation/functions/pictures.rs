@@ -5,18 +5,19 @@ use std::fs;
 use std::sync::Arc;
 
 use super::picture_request::PictureRequest;
-use crate::designator::value::current;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::picture;
+use crate::picture::map_picture::add_legend;
+use crate::picture::{CameraPicture, FloorMap, View, camera_picture, map_scene, render};
 use crate::plan::Reply;
+use crate::plan::designator::value::current;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::properties::property;
-use crate::viewer::map_picture::add_legend;
-use crate::viewer::{self, CameraPicture, FloorMap, View, camera_picture, map_scene, render};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -56,7 +57,7 @@ pub static TABLE: &[Builtin] = &[
 
 impl Simulation {
     /// Everything there is to be seen now.
-    pub fn scene(&self) -> viewer::Scene {
+    pub fn scene(&self) -> picture::Scene {
         let mut scene = self.looks().scene(&self.world);
         if let Some(axes) = self.axes() {
             scene.add_axes(&axes.pose, axes.size);
@@ -70,7 +71,7 @@ impl Simulation {
         view: View,
         width: usize,
         height: usize,
-    ) -> std::result::Result<viewer::Image, viewer::ViewError> {
+    ) -> std::result::Result<picture::Image, picture::ViewError> {
         let camera = view.camera(&self.world, width, height)?;
         Ok(render(&self.scene(), &camera))
     }
@@ -78,7 +79,7 @@ impl Simulation {
     /// Writes the picture and has it shown to whoever can see it; the reply is the file's name.
     fn publish(
         &mut self,
-        picture: viewer::Image,
+        picture: picture::Image,
         file: Option<&str>,
         usual: &str,
     ) -> Result<Reply> {
@@ -102,7 +103,7 @@ impl Simulation {
     }
 
     /// The pictures that were made since this was asked last.
-    pub(in crate::session) fn take_pictures(&mut self) -> Vec<Arc<viewer::Image>> {
+    pub(in crate::session) fn take_pictures(&mut self) -> Vec<Arc<picture::Image>> {
         std::mem::take(&mut self.pictures)
     }
 

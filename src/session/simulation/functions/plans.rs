@@ -1,17 +1,18 @@
 //! What the plans of picking up and placing ask of the world and of the grasp library.
 
-use crate::designator::value::current;
+use crate::plan::designator::value::current;
 use crate::session::simulation::properties::property;
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
-use crate::lisp::number;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
 use crate::motion::{CollisionMode, LetGo, can_reach, take_hold};
 use crate::plan::Reply;
+use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::call::{done, host};
@@ -20,7 +21,6 @@ use crate::session::simulation::imagined::Imagined;
 use crate::session::simulation::motions::{side, side_keyword};
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use crate::spatial::{Pose, Shape, trig};
-use crate::transform::value::{as_placement, frame_of, pose_stamped};
 use crate::world::grasp_library::{GraspDefinition, Grip, Lift};
 use crate::world::object_library::ObjectType;
 

@@ -3,16 +3,16 @@
 
 use std::time::Instant;
 
-use crate::designator::schema;
-use crate::designator::value::Class;
 use crate::lisp::builtin::{Builtin, Operator, control};
 use crate::lisp::builtins::help;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::package::PackageTable;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::step::{Resume, Step};
+use crate::plan::designator::schema;
+use crate::plan::designator::value::Class;
 use crate::plan::{Plan, Reply, overview_step};
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::names::{name_text, type_text};

@@ -1,13 +1,13 @@
 //! Asking what the robot could do from some place, without moving it.
 
-use crate::designator::value::{as_designator, current};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
 use crate::lisp::image::Image;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::motion::can_stand;
 use crate::plan::Reply;
+use crate::plan::designator::value::{as_designator, current};
 use crate::session::simulation::Simulation;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::imagined::Imagined;

@@ -2,9 +2,9 @@
 
 use crate::lisp::builtin::Operator;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 
 /// Macros of package `CRAM-PR2-PROJECTION`.
 pub static OPERATORS: &[Operator] = &[

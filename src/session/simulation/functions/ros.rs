@@ -3,8 +3,8 @@
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::{LogLevel, Simulation};

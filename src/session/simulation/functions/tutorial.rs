@@ -1,24 +1,24 @@
 //! The functions of the tutorial's package that look at the world or change it.
 
 use super::objects::Spawning;
-use crate::designator::value::current;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords::{self, optional};
-use crate::lisp::foreign::Foreign;
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::number;
 use crate::lisp::print;
-use crate::lisp::raise::Raise;
-use crate::lisp::symbol::Sym;
 use crate::lisp::value::Value;
+use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::plan::Reply;
+use crate::plan::designator::value::current;
+use crate::plan::pose::value::{as_placement, frame_of, pose_stamped, transform_stamped};
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::motions::side;
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use crate::session::simulation::properties::property;
 use crate::session::simulation::{Axes, LogLevel, Simulation};
-use crate::transform::value::{as_placement, frame_of, pose_stamped, transform_stamped};
 
 /// Length of coordinate axes (m) unless told.
 const AXES_SIZE: f64 = 0.3;
@@ -369,7 +369,7 @@ fn look_up_transformation(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dialogue::Evaluate;
+    use crate::session::dialogue::Evaluate;
     use crate::session::{Session, SessionOptions};
     use crate::spatial::Pose;
 

@@ -7,19 +7,19 @@ use thiserror::Error;
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
-use crate::lisp::known;
-use crate::lisp::raise::Raise;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::following::FollowerId;
 use crate::session::simulation::pace::Pace;
-use crate::viewer::live::{
+use crate::watch::live::{
     Chronicle, LiveFollower, Origin, PaceControl, Server, Speed, Views, open_in_browser,
 };
-use crate::viewer::recording::{Recorder, RecordingError, RecordingResult};
-use crate::viewer::watch::{Cause, Witness};
+use crate::watch::recording::{Recorder, RecordingError, RecordingResult};
+use crate::watch::{Cause, Witness};
 
 /// Builtins of package `PLANWRIGHT`.
 pub static TABLE: &[Builtin] = &[

@@ -1,0 +1,223 @@
+//! The arguments of the command line; the help is generated from here.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+use super::picture::PictureArguments;
+
+/// Program a simulated kitchen robot in a Common-Lisp-like plan language.
+///
+/// Without a command: the prompt. With input that is not a terminal: evaluates it and
+/// prints what the prompt would print.
+#[derive(Parser, Debug)]
+#[command(
+    name = "planwright",
+    version,
+    after_help = "Exit status: 0 all is well; 1 a condition was not handled, a transcript \
+                  differs, a check found something; 2 wrong usage, or a file cannot be read."
+)]
+pub(crate) struct Arguments {
+    #[command(flatten)]
+    pub(crate) options: Options,
+    #[command(flatten)]
+    pub(crate) prompt: PromptOptions,
+    /// Show the robot in the browser while it moves; simulated time then passes as fast as
+    /// the real one unless --realtime says otherwise
+    #[arg(long)]
+    pub(crate) view: bool,
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+/// Options of the prompt.
+#[derive(Args, Debug, Default)]
+pub(crate) struct PromptOptions {
+    /// Go on with the last session, or with the one of the journal FILE: everything that was
+    /// typed is evaluated again, to the same state
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    pub(crate) resume: Option<Option<PathBuf>>,
+    /// Where to note what is typed [default: a file in the state directory]
+    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
+    pub(crate) journal: Option<PathBuf>,
+}
+
+/// Options of all commands.
+#[derive(Args, Debug)]
+pub(crate) struct Options {
+    /// Seed of everything random
+    #[arg(long, global = true, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Kitchen to load (a URDF file) instead of the built-in one
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(crate) world: Option<PathBuf>,
+    /// Robot to load (a URDF file) instead of the built-in PR2
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(crate) robot: Option<PathBuf>,
+    /// Least severe log lines to show
+    #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
+    pub(crate) log_level: LogLevel,
+    /// Colours: auto is where output goes to a terminal and NO_COLOR is not set
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    pub(crate) color: ColorWhen,
+    /// Let simulated time pass at FACTOR times the real one, instead of as fast as
+    /// possible
+    #[arg(
+        long,
+        global = true,
+        value_name = "FACTOR",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "1",
+        value_parser = positive_factor
+    )]
+    pub(crate) realtime: Option<f64>,
+}
+
+/// How a run is watched.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct WatchArguments {
+    /// Show the robot in the browser while it moves; simulated time then passes as fast as
+    /// the real one unless --realtime says otherwise
+    #[arg(long)]
+    pub(crate) view: bool,
+    /// MCAP file to record into what happens
+    #[arg(long, value_name = "MCAP")]
+    pub(crate) record: Option<PathBuf>,
+}
+
+/// What to do.
+#[derive(Subcommand, Debug)]
+pub(crate) enum Command {
+    /// Load plan files, then evaluate forms; stop at a condition that nobody handles
+    Run {
+        /// Files to load, in order; their values are not shown
+        #[arg(value_name = "FILE", required_unless_present = "eval")]
+        files: Vec<PathBuf>,
+        /// Form to evaluate after the files; its values are shown
+        #[arg(long, value_name = "FORM")]
+        eval: Vec<String>,
+        #[command(flatten)]
+        watch: WatchArguments,
+    },
+    /// Show a recording in the browser, until Ctrl-C
+    View {
+        /// MCAP file that `run --record` or (record "…") has written
+        #[arg(value_name = "MCAP")]
+        file: PathBuf,
+    },
+    /// Run transcripts, each in a fresh world, and compare what they print
+    Replay {
+        /// Transcripts, or Markdown files with blocks marked `session`
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+        /// Rewrite the expected output where it differs, keeping wildcards that match
+        #[arg(long)]
+        bless: bool,
+        /// Stop after the N-th entry of the one file, and open the prompt there
+        #[arg(long, value_name = "N", conflicts_with_all = ["bless", "jobs"])]
+        stop_at: Option<usize>,
+        /// Files to run at the same time [default: the number of processors]
+        #[arg(long, value_name = "N")]
+        jobs: Option<NonZeroUsize>,
+    },
+    /// Load plan files, then draw the world as it is then; without files: as it is at the start
+    ///
+    /// The picture is drawn even when a condition was not handled, which exits with 1.
+    Picture(Box<PictureArguments>),
+    /// Look for mistakes that can be found without running anything
+    Check {
+        /// Plan files
+        #[arg(value_name = "FILE", required = true)]
+        files: Vec<PathBuf>,
+    },
+    /// Print the reference manual in Markdown
+    Reference,
+    /// Print a completion script for a shell
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+}
+
+/// Severity of log lines.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, ValueEnum)]
+pub(crate) enum LogLevel {
+    /// Everything
+    Debug,
+    /// Progress of plans
+    Info,
+    /// What may be wrong
+    Warn,
+    /// What is wrong
+    Error,
+    /// Nothing
+    None,
+}
+
+/// When to use colours.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum ColorWhen {
+    /// On a terminal
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}
+
+fn positive_factor(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
+        _ => Err("a number greater than zero is needed".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::front::command::arguments::*;
+    use clap::CommandFactory;
+
+    fn parsed(arguments: &[&str]) -> Result<Arguments, clap::Error> {
+        Arguments::try_parse_from([&["planwright"], arguments].concat())
+    }
+
+    #[test]
+    fn the_description_is_sound() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn the_factor_of_realtime_may_be_left_out() {
+        let factor = |arguments: &[&str]| parsed(arguments).map(|a| a.options.realtime).ok();
+        assert_eq!(factor(&["run", "a.plan"]), Some(None));
+        assert_eq!(factor(&["--realtime", "run", "a.plan"]), Some(Some(1.0)));
+        assert_eq!(
+            factor(&["run", "--realtime=2.5", "a.plan"]),
+            Some(Some(2.5))
+        );
+        assert_eq!(factor(&["--realtime=0"]), None);
+        assert_eq!(factor(&["--realtime=nan"]), None);
+    }
+
+    #[test]
+    fn the_view_may_be_asked_for_with_and_without_a_run() {
+        assert!(parsed(&["--view"]).is_ok_and(|a| a.view));
+        assert!(parsed(&["--view", "run", "a.plan"]).is_ok_and(|a| a.view));
+        let run = parsed(&["run", "a.plan", "--view", "--record", "a.mcap"]);
+        let Some(Command::Run { watch, .. }) = run.ok().and_then(|a| a.command) else {
+            panic!("no run");
+        };
+        assert!(watch.view && watch.record.is_some());
+        assert!(parsed(&["view", "a.mcap"]).is_ok() && parsed(&["view"]).is_err());
+    }
+
+    #[test]
+    fn run_needs_a_file_or_a_form() {
+        assert!(parsed(&["run"]).is_err());
+        assert!(parsed(&["run", "--eval", "1"]).is_ok());
+        assert!(parsed(&["run", "a.plan", "--eval", "1", "--eval", "2"]).is_ok());
+    }
+}

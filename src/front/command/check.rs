@@ -1,0 +1,46 @@
+//! Looks for mistakes in plan files without running them.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use super::arguments::Options;
+use super::failure::{CommandError, Status, read};
+use super::open::open;
+use super::paint::Paint;
+use crate::session::dialogue::{Evaluate, Finding};
+
+/// Checks the files in order, as they would be loaded, and prints what is wrong.
+pub(crate) fn check(options: &Options, files: &[PathBuf]) -> Result<Status, CommandError> {
+    let paint = Paint::new(options.color, &io::stdout());
+    let mut session = open(options)?;
+    let mut to = io::BufWriter::new(io::stdout());
+    let mut found = 0;
+    for path in files {
+        let name = path.display().to_string();
+        for finding in session.check(&name, &read(path)?) {
+            found += 1;
+            to.write_all(described(&name, &finding, paint).as_bytes())?;
+        }
+    }
+    let files = counted(files.len(), "file");
+    writeln!(to, "{files} checked, {} found", counted(found, "mistake"))?;
+    to.flush()?;
+    Ok(if found == 0 {
+        Status::Good
+    } else {
+        Status::Bad
+    })
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+/// A finding with its place and the form underlined.
+pub(crate) fn described(name: &str, finding: &Finding, paint: Paint) -> String {
+    let message = paint.bad(&finding.message);
+    match &finding.place {
+        Some(place) => format!("{place}: {message}\n{}\n", place.underlined()),
+        None => format!("{name}: {message}\n"),
+    }
+}

@@ -1,0 +1,92 @@
+//! How a command ends.
+
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use crate::front::prompt::{JournalError, ReplError};
+use crate::picture::ViewError;
+use crate::session::WatchError;
+use crate::watch::recording::RecordingError;
+
+/// The end of a command that could do its work.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Status {
+    /// All is well.
+    Good,
+    /// A condition was not handled, a transcript differs, a check found something.
+    Bad,
+    /// The work could not be done.
+    Unusable,
+    /// The program left with a status of its own.
+    Left(u8),
+}
+
+impl Status {
+    pub(crate) fn code(self) -> u8 {
+        match self {
+            Status::Good => 0,
+            Status::Bad => 1,
+            Status::Unusable => 2,
+            Status::Left(code) => code,
+        }
+    }
+}
+
+/// Why a command could not do its work.
+#[derive(Debug, Error)]
+pub(crate) enum CommandError {
+    /// Standard output takes no more.
+    #[error("cannot write: {0}")]
+    Write(#[from] io::Error),
+    /// A file that the command line names.
+    #[error("cannot read {}: {error}", path.display())]
+    Read { path: PathBuf, error: io::Error },
+    /// A blessed transcript, or a picture.
+    #[error("cannot write {}: {error}", path.display())]
+    Rewrite { path: PathBuf, error: io::Error },
+    /// A picture from nowhere.
+    #[error("{0}")]
+    View(#[from] ViewError),
+    /// A recording.
+    #[error("cannot show {}: {error}", path.display())]
+    Recording {
+        path: PathBuf,
+        error: RecordingError,
+    },
+    /// There is no port for the page.
+    #[error("the page cannot be served: {0}")]
+    Serve(io::Error),
+    /// The session cannot be watched.
+    #[error("{0}")]
+    Watch(#[from] WatchError),
+    /// The robot and its world cannot be set up.
+    #[error("{0}")]
+    Open(String),
+    /// An earlier session cannot be gone on with.
+    #[error("{0}")]
+    Resume(#[from] JournalError),
+    /// The prompt does not work.
+    #[error("{0}")]
+    Prompt(#[from] ReplError),
+}
+
+impl CommandError {
+    /// Who reads our output wants no more of it.
+    pub(crate) fn is_broken_pipe(&self) -> bool {
+        matches!(
+            self,
+            CommandError::Write(error) | CommandError::Prompt(ReplError::Write(error))
+                if error.kind() == io::ErrorKind::BrokenPipe
+        )
+    }
+}
+
+/// Reads a file that the command line names.
+pub(crate) fn read(path: &PathBuf) -> Result<String, CommandError> {
+    std::fs::read_to_string(path).map_err(|error| CommandError::Read {
+        path: path.clone(),
+        error,
+    })
+}

@@ -1,0 +1,51 @@
+//! Sets up what evaluates: the one place that knows how.
+
+use std::fs;
+use std::path::Path;
+
+use clap::Parser;
+
+use super::arguments::{Arguments, LogLevel, Options};
+use super::failure::CommandError;
+use crate::session::dialogue::Evaluate;
+use crate::session::{self, Session, SessionOptions};
+
+/// Bytes of stack that forms may be nested on; the threads of all commands have more.
+const COMPILER_STACK: usize = 48 << 20;
+
+/// A fresh evaluator with a world of its own. For threads with a large stack.
+pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {
+    Ok(Box::new(open_session(options)?))
+}
+
+/// As [`open`], for those who want to see the world.
+pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
+    let read = |path: &Path| -> Result<(String, String), CommandError> {
+        let text = fs::read_to_string(path)
+            .map_err(|error| CommandError::Open(format!("{}: {error}", path.display())))?;
+        Ok((path.display().to_string(), text))
+    };
+    let options = SessionOptions {
+        seed: options.seed,
+        robot: options.robot.as_deref().map(read).transpose()?,
+        world: options.world.as_deref().map(read).transpose()?,
+        log_level: match options.log_level {
+            LogLevel::Debug => session::LogLevel::Debug,
+            LogLevel::Info => session::LogLevel::Info,
+            LogLevel::Warn => session::LogLevel::Warn,
+            LogLevel::Error => session::LogLevel::Error,
+            LogLevel::None => session::LogLevel::None,
+        },
+        realtime: options.realtime,
+    };
+    let mut session =
+        Session::new(&options).map_err(|error| CommandError::Open(error.to_string()))?;
+    session.set_stack_budget(COMPILER_STACK);
+    Ok(session)
+}
+
+/// A fresh evaluator as a command line without options has it.
+pub fn open_default() -> Result<Box<dyn Evaluate>, String> {
+    let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;
+    open(&arguments.options).map_err(|error| error.to_string())
+}

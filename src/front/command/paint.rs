@@ -1,0 +1,52 @@
+//! Colours on a terminal.
+
+use std::io::IsTerminal;
+
+use super::arguments::ColorWhen;
+
+/// Colours text, or leaves it as it is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Paint {
+    on: bool,
+}
+
+impl Paint {
+    /// For a stream, as the option and `NO_COLOR` say.
+    pub(crate) fn new(when: ColorWhen, stream: &impl IsTerminal) -> Self {
+        let on = match when {
+            ColorWhen::Always => true,
+            ColorWhen::Never => false,
+            ColorWhen::Auto => {
+                stream.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
+            }
+        };
+        Paint { on }
+    }
+
+    pub(crate) fn is_on(self) -> bool {
+        self.on
+    }
+
+    /// What went wrong.
+    pub(crate) fn bad(self, text: &str) -> String {
+        self.paint("1;31", text)
+    }
+
+    /// A line of a diff, by its mark.
+    pub(crate) fn diff_line(self, line: &str) -> String {
+        match line.as_bytes().first() {
+            Some(b'-') => self.paint("31", line),
+            Some(b'+') => self.paint("32", line),
+            Some(b'@') => self.paint("36", line),
+            _ => line.to_owned(),
+        }
+    }
+
+    fn paint(self, code: &str, text: &str) -> String {
+        if self.on {
+            format!("\x1b[{code}m{text}\x1b[0m")
+        } else {
+            text.to_owned()
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Draws the world as plan files leave it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use nalgebra::Point3;
+
+use super::arguments::Options;
+use super::failure::{CommandError, Status};
+use super::open::open_session;
+use super::run::run_in;
+use crate::picture::View;
+use crate::picture::animation::{Shot, write_gif};
+use crate::picture::view::FIELD_OF_VIEW;
+use crate::session::Filming;
+
+/// What to draw, from where, and into which file.
+#[derive(Args, Debug)]
+pub(crate) struct PictureArguments {
+    /// Files to load, in order
+    #[arg(value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Form to evaluate after the files; its values are shown
+    #[arg(long, value_name = "FORM")]
+    eval: Vec<String>,
+    /// PNG file to write: the world as it is in the end
+    #[arg(short, long, value_name = "PNG", required_unless_present_any = ["gif", "frames"])]
+    output: Option<PathBuf>,
+    /// GIF file to write: the whole run
+    #[arg(long, value_name = "GIF")]
+    gif: Option<PathBuf>,
+    /// Folder for the whole run as PNG files
+    #[arg(long, value_name = "FOLDER")]
+    frames: Option<PathBuf>,
+    /// Simulated time from one frame to the next
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.2, value_parser = interval)]
+    every: f64,
+    /// How many simulated seconds the GIF shows in a real one
+    #[arg(long, value_name = "FACTOR", default_value_t = 3.0, value_parser = interval)]
+    speed: f64,
+    /// What to look at
+    #[arg(
+        long,
+        value_name = "NAME",
+        default_value = "kitchen",
+        conflicts_with_all = ["from", "at"],
+        value_parser = PossibleValuesParser::new(View::NAMED.map(|view| view.name()))
+            .try_map(|name| named(&name))
+    )]
+    view: View,
+    /// Where the eye is (m, in the map)
+    #[arg(long, value_name = "X,Y,Z", requires = "at", allow_hyphen_values = true, value_parser = point)]
+    from: Option<Point3<f64>>,
+    /// What is in the middle of the picture (m, in the map)
+    #[arg(long, value_name = "X,Y,Z", requires = "from", allow_hyphen_values = true, value_parser = point)]
+    at: Option<Point3<f64>>,
+    /// Angle between the upper and the lower border, with --from
+    #[arg(long, value_name = "DEGREES", requires = "from", value_parser = angle)]
+    fov: Option<f64>,
+    /// Pixels per row
+    #[arg(long, value_name = "N", default_value_t = 640, value_parser = size())]
+    width: u16,
+    /// Rows
+    #[arg(long, value_name = "N", default_value_t = 480, value_parser = size())]
+    height: u16,
+}
+
+impl PictureArguments {
+    fn view(&self) -> View {
+        match (self.from, self.at) {
+            (Some(from), Some(at)) => View::Free {
+                from,
+                at,
+                vertical_fov: self.fov.map_or(FIELD_OF_VIEW, f64::to_radians),
+            },
+            _ => self.view,
+        }
+    }
+}
+
+/// Runs the files as `run` does and writes the pictures.
+pub(crate) fn picture(
+    options: &Options,
+    wanted: &PictureArguments,
+) -> Result<Status, CommandError> {
+    let (width, height) = (wanted.width.into(), wanted.height.into());
+    let view = wanted.view();
+    let is_film = wanted.gif.is_some() || wanted.frames.is_some();
+    let open = || {
+        let mut session = open_session(options)?;
+        if is_film {
+            session.simulation_mut().start_film(Filming {
+                view,
+                width,
+                height,
+                every: wanted.every,
+            })?;
+        }
+        Ok(session)
+    };
+    let (status, mut session) = run_in(options, &wanted.files, &wanted.eval, open)?;
+    let simulation = session.simulation_mut();
+    let shots = simulation.end_film();
+    if let Some(folder) = &wanted.frames {
+        write_frames(folder, &shots)?;
+    }
+    if let Some(path) = &wanted.gif {
+        let delay = (100.0 * wanted.every / wanted.speed)
+            .round()
+            .clamp(2.0, 1000.0);
+        let mut gif = Vec::new();
+        // The delay is a small number.
+        write_gif(&shots, delay as u16, &mut gif)?;
+        write(path, &gif)?;
+    }
+    if let Some(path) = &wanted.output {
+        let png = simulation.picture(view, width, height)?.to_png()?;
+        write(path, &png)?;
+    }
+    Ok(status)
+}
+
+fn write_frames(folder: &Path, shots: &[Shot]) -> Result<(), CommandError> {
+    fs::create_dir_all(folder).map_err(|error| CommandError::Rewrite {
+        path: folder.to_owned(),
+        error,
+    })?;
+    for (place, shot) in shots.iter().enumerate() {
+        let path = folder.join(format!("frame-{:04}.png", place + 1));
+        write(&path, &shot.image().to_png()?)?;
+    }
+    Ok(())
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
+    fs::write(path, bytes).map_err(|error| CommandError::Rewrite {
+        path: path.to_owned(),
+        error,
+    })
+}
+
+fn interval(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.01..=1000.0).contains(&value) => Ok(value),
+        _ => Err("a number from 0.01 to 1000 is needed".to_owned()),
+    }
+}
+
+fn size() -> clap::builder::RangedI64ValueParser<u16> {
+    clap::value_parser!(u16).range(16..=8192)
+}
+
+fn named(name: &str) -> Result<View, String> {
+    let view = View::NAMED.into_iter().find(|view| view.name() == name);
+    view.ok_or_else(|| format!("there is no view named {name}"))
+}
+
+fn point(text: &str) -> Result<Point3<f64>, String> {
+    let wrong = || "three numbers with commas between them are needed (m)".to_owned();
+    let mut parts = text.split(',').map(|part| part.trim().parse::<f64>());
+    match (parts.next(), parts.next(), parts.next(), parts.next()) {
+        (Some(Ok(x)), Some(Ok(y)), Some(Ok(z)), None) if (x + y + z).is_finite() => {
+            Ok(Point3::new(x, y, z))
+        }
+        _ => Err(wrong()),
+    }
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(degrees) if (1.0..=150.0).contains(&degrees) => Ok(degrees),
+        _ => Err("an angle from 1 to 150 degrees is needed".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::front::command::picture::*;
+
+    #[test]
+    fn a_point_is_three_numbers() {
+        assert_eq!(point("-1,2.5, 3"), Ok(Point3::new(-1.0, 2.5, 3.0)));
+        for text in ["", "1,2", "1,2,3,4", "1,2,x", "1,2,nan", "1,2,inf"] {
+            assert!(point(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_angle_is_one_that_a_picture_can_have() {
+        assert_eq!(angle("50"), Ok(50.0));
+        assert!(angle("0").is_err() && angle("180").is_err() && angle("nan").is_err());
+    }
+}

@@ -1,0 +1,202 @@
+//! Loads plan files and evaluates forms.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use super::arguments::{Options, WatchArguments};
+use super::check::described;
+use super::failure::{CommandError, Status, read};
+use super::open::{open, open_session};
+use super::paint::Paint;
+use super::watching;
+use crate::session::dialogue::{
+    Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort,
+};
+
+/// Loads the files, then evaluates the forms, up to the first condition that nobody
+/// handles. Output goes to standard output, that condition to standard error.
+pub(crate) fn run(
+    options: &Options,
+    files: &[PathBuf],
+    forms: &[String],
+    watch: &WatchArguments,
+) -> Result<Status, CommandError> {
+    let mut has_browser = false;
+    let open = || {
+        let mut session = open_session(options)?;
+        has_browser = watching::begin(&mut session, watch)?;
+        Ok(session)
+    };
+    let (status, mut session) = run_in(options, files, forms, open)?;
+    session.end_recording()?;
+    watching::linger(&session, has_browser);
+    Ok(status)
+}
+
+/// As [`run`], in what `open` opens, which is handed back.
+pub(crate) fn run_in<E: Evaluate>(
+    options: &Options,
+    files: &[PathBuf],
+    forms: &[String],
+    open: impl FnOnce() -> Result<E, CommandError>,
+) -> Result<(Status, E), CommandError> {
+    // A file that cannot be read is told before the robot moves.
+    let files: Vec<Text> = files.iter().map(Text::of_file).collect::<Result<_, _>>()?;
+    let forms = forms
+        .iter()
+        .enumerate()
+        .map(|(at, form)| Text::of_form(at, form));
+    let paint = Paint::new(options.color, &io::stderr());
+    warn(options, &files, paint)?;
+    let mut session = open()?;
+    let mut screen = Screen::new(io::BufWriter::new(io::stdout()));
+    for text in files.into_iter().chain(forms) {
+        match text.evaluate(&mut session, &mut screen)? {
+            Ended::Finished => {}
+            Ended::Quit(code) => return Ok((Status::Left(code), session)),
+            Ended::Aborted(abort) => {
+                screen.fresh_line()?;
+                screen.flush()?;
+                // Without standard error, the exit status has to do.
+                let _ = io::stderr().write_all(text.describe(abort.as_ref(), paint).as_bytes());
+                return Ok((Status::Bad, session));
+            }
+        }
+    }
+    Ok((Status::Good, session))
+}
+
+/// Tells on standard error what looks wrong in the files before anything of them is
+/// evaluated. What cannot be read or compiled is told when it is its turn.
+///
+/// The files are checked in a world of their own, because their definitions take effect.
+fn warn(options: &Options, files: &[Text], paint: Paint) -> Result<(), CommandError> {
+    if files.is_empty() {
+        return Ok(());
+    }
+    let mut session = open(options)?;
+    for file in files {
+        for finding in session.check(&file.name, &file.text) {
+            if finding.severity == Severity::Warning {
+                let text = format!("warning: {}", described(&file.name, &finding, paint));
+                // Without standard error nobody can be warned.
+                let _ = io::stderr().write_all(text.as_bytes());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A text to evaluate.
+struct Text {
+    name: String,
+    text: String,
+    /// Values of forms are shown.
+    echo: bool,
+}
+
+enum Ended {
+    Finished,
+    Quit(u8),
+    Aborted(Option<Abort>),
+}
+
+impl Text {
+    fn of_file(path: &PathBuf) -> Result<Self, CommandError> {
+        Ok(Text {
+            name: path.display().to_string(),
+            text: read(path)?,
+            echo: false,
+        })
+    }
+
+    fn of_form(at: usize, form: &str) -> Self {
+        Text {
+            name: format!("--eval[{}]", at + 1),
+            text: form.to_owned(),
+            echo: true,
+        }
+    }
+
+    fn evaluate(
+        &self,
+        session: &mut impl Evaluate,
+        screen: &mut Screen<impl Write>,
+    ) -> Result<Ended, CommandError> {
+        screen.set_echo(self.echo);
+        let (outcome, abort) = evaluate_keeping_abort(screen, session, &self.name, &self.text)?;
+        Ok(match outcome {
+            Outcome::Finished => Ended::Finished,
+            Outcome::Quit(code) => Ended::Quit(code),
+            Outcome::Aborted | Outcome::Stopped => Ended::Aborted(abort),
+        })
+    }
+
+    /// The condition with its place, and the form underlined.
+    fn describe(&self, abort: Option<&Abort>, paint: Paint) -> String {
+        let Some(abort) = abort else {
+            return format!("{}: {}\n", self.name, paint.bad("aborted"));
+        };
+        let place = abort.place.as_ref();
+        let at = place.map_or_else(|| self.name.clone(), ToString::to_string);
+        let mut text = format!("{at}: {}\n", paint.bad(abort.report.trim_end()));
+        if let Some(place) = place {
+            text.push_str(&place.underlined());
+            text.push('\n');
+        }
+        for line in abort.context() {
+            text.push_str(&line);
+            text.push('\n');
+        }
+        text.push_str(&format!("; Evaluation aborted on {}.\n", abort.condition));
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::front::command::arguments::ColorWhen;
+    use crate::front::command::run::*;
+    use crate::lisp::source::Location;
+
+    fn abort(place: Option<Location>) -> Abort {
+        Abort {
+            report: "The variable B is unbound.".to_owned(),
+            condition: "#<UNBOUND-VARIABLE B>".to_owned(),
+            place,
+            ..Abort::default()
+        }
+    }
+
+    fn described(place: Option<Location>) -> String {
+        let paint = Paint::new(ColorWhen::Never, &io::stderr());
+        Text::of_form(0, "(print b)").describe(Some(&abort(place)), paint)
+    }
+
+    #[test]
+    fn a_condition_is_told_with_its_place_and_form() {
+        let place = Location {
+            name: "a.plan".into(),
+            line: 3,
+            column: 8,
+            line_text: "(print b)".to_owned(),
+            width: 1,
+        };
+        assert_eq!(
+            described(Some(place)),
+            "a.plan:3:8: The variable B is unbound.\n\
+             (print b)\n\
+             \x20      ^\n\
+             ; Evaluation aborted on #<UNBOUND-VARIABLE B>.\n"
+        );
+    }
+
+    #[test]
+    fn without_a_place_the_text_is_named() {
+        assert_eq!(
+            described(None),
+            "--eval[1]: The variable B is unbound.\n\
+             ; Evaluation aborted on #<UNBOUND-VARIABLE B>.\n"
+        );
+    }
+}

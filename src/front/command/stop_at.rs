@@ -1,0 +1,57 @@
+//! Replays the beginning of a transcript, then opens the prompt in the state that this has led
+//! to.
+
+use std::io;
+use std::path::PathBuf;
+
+use super::arguments::Options;
+use super::failure::{CommandError, Status, read};
+use super::open::open_session;
+use super::paint::Paint;
+use crate::front::prompt;
+use crate::front::prompt::ReplOptions;
+use crate::front::transcript::{Transcript, replay_first};
+
+/// Replays the file up to and with the `entry`th input, from one, and opens the prompt.
+pub(crate) fn stop_at(
+    options: &Options,
+    files: &[PathBuf],
+    entry: usize,
+) -> Result<Status, CommandError> {
+    let [path] = files else {
+        return Err(CommandError::Open(
+            "--stop-at takes one transcript".to_owned(),
+        ));
+    };
+    let transcript = Transcript::parse(&path.display().to_string(), &read(path)?);
+    let count = transcript.entries.len();
+    if entry == 0 || entry > count {
+        return Err(CommandError::Open(format!(
+            "{} has no entry {entry}: they are 1 to {count}",
+            path.display()
+        )));
+    }
+    let mut session = open_session(options)?;
+    let verdicts = replay_first(&transcript, entry, &mut session);
+    let differing = verdicts.iter().filter(|verdict| !verdict.passed()).count();
+    let mut remark = format!(
+        "; The state after entry {entry} of {count} of {}",
+        path.display()
+    );
+    if differing > 0 {
+        remark.push_str(&format!(
+            "; {differing} of them differ from what is expected"
+        ));
+    }
+    let paint = Paint::new(options.color, &io::stdout());
+    let status = prompt::run(
+        session,
+        ReplOptions {
+            is_colored: paint.is_on(),
+            remark: Some(remark),
+            inputs_before: entry,
+            ..ReplOptions::default()
+        },
+    )?;
+    Ok(Status::Left(status))
+}

@@ -1,0 +1,146 @@
+//! The chapters on packages: functions, macros and special operators with their examples.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use super::{code, line};
+use crate::lisp::builtin::{Builtin, Operator};
+use crate::lisp::image::Image;
+use crate::lisp::value::package::PackageId;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
+
+/// A function or an operator.
+struct Entry {
+    kind: &'static str,
+    lambda_list: &'static str,
+    doc: &'static str,
+    examples: &'static [&'static str],
+}
+
+impl Entry {
+    fn of_builtin(builtin: &Builtin) -> Entry {
+        Entry {
+            kind: "function",
+            lambda_list: builtin.lambda_list,
+            doc: builtin.doc,
+            examples: builtin.examples,
+        }
+    }
+
+    fn of_operator(operator: &Operator) -> Entry {
+        Entry {
+            kind: match operator.expand {
+                Some(_) => "macro",
+                None => "special operator",
+            },
+            lambda_list: operator.lambda_list,
+            doc: operator.doc,
+            examples: operator.examples,
+        }
+    }
+}
+
+/// What the manual says about one package.
+pub(crate) struct PackageChapter {
+    pub(crate) name: Rc<str>,
+    nicknames: Vec<Rc<str>>,
+    doc: Option<Rc<str>>,
+    /// By name.
+    pub(crate) entries: Vec<NamedEntry>,
+}
+
+/// An entry and its name.
+pub(crate) struct NamedEntry {
+    name: Rc<str>,
+    entry: Entry,
+}
+
+/// Packages for what macros expand into: nobody writes these names.
+const LEFT_OUT: &[&str] = &["SYSTEM", "PLAN-SYSTEM"];
+
+/// Packages that people know by another one, which exports their symbols.
+const SHOWN_AS: &[(&str, &str)] = &[("CRAM-LANGUAGE-IMPLEMENTATION", "CRAM-LANGUAGE")];
+
+/// The packages with functions or operators of their own, `COMMON-LISP` first.
+pub(crate) fn packages(image: &Image) -> Vec<PackageChapter> {
+    let mut by_package: BTreeMap<PackageId, BTreeMap<Rc<str>, Entry>> = BTreeMap::new();
+    let shown_as = |home: PackageId| {
+        let home_name = &image.packages.get(home).name;
+        SHOWN_AS
+            .iter()
+            .find(|(name, _)| *name == home_name.as_ref())
+            .and_then(|(_, shown)| image.packages.find(shown))
+            .unwrap_or(home)
+    };
+    let mut add = |sym: Sym, entry: Entry| {
+        let data = image.symbol(sym);
+        if let Some(package) = data.package.map(shown_as) {
+            by_package
+                .entry(package)
+                .or_default()
+                .insert(data.name.clone(), entry);
+        }
+    };
+    for (sym, builtin) in &image.builtins {
+        add(*sym, Entry::of_builtin(builtin));
+    }
+    for (sym, operator) in &image.operators {
+        if matches!(image.symbol(*sym).function, FunctionCell::Builtin) {
+            add(*sym, Entry::of_operator(operator));
+        }
+    }
+    by_package
+        .into_iter()
+        .filter(|(id, _)| !LEFT_OUT.contains(&image.packages.get(*id).name.as_ref()))
+        .map(|(id, entries)| {
+            let package = image.packages.get(id);
+            PackageChapter {
+                name: package.name.clone(),
+                nicknames: package.nicknames.clone(),
+                doc: package.doc.clone(),
+                entries: entries
+                    .into_iter()
+                    .map(|(name, entry)| NamedEntry { name, entry })
+                    .collect(),
+            }
+        })
+        .collect()
+}
+
+impl PackageChapter {
+    pub(crate) fn write(&self, to: &mut String) {
+        line(to, &format!("\n## Package {}\n", self.name));
+        if let Some(doc) = &self.doc {
+            line(to, &format!("{doc}\n"));
+        }
+        if !self.nicknames.is_empty() {
+            let names = crate::front::manual::codes(self.nicknames.iter().map(AsRef::as_ref));
+            line(to, &format!("Also called {names}.\n"));
+        }
+        for entry in &self.entries {
+            entry.write(to);
+        }
+    }
+}
+
+impl NamedEntry {
+    fn write(&self, to: &mut String) {
+        let entry = &self.entry;
+        line(to, &format!("### {}\n", code(&self.name)));
+        let form = if entry.lambda_list.is_empty() {
+            format!("({})", self.name.to_lowercase())
+        } else {
+            format!("({} {})", self.name.to_lowercase(), entry.lambda_list)
+        };
+        line(to, &format!("`{form}` — {}\n", entry.kind));
+        line(to, &format!("{}\n", entry.doc));
+        if entry.examples.is_empty() {
+            return;
+        }
+        line(to, "```lisp");
+        for example in entry.examples {
+            line(to, example);
+        }
+        line(to, "```\n");
+    }
+}

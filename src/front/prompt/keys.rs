@@ -1,0 +1,119 @@
+//! What keys do beside what the line editor does by itself.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use rustyline::{Cmd, ConditionalEventHandler, Event, EventContext, RepeatCount};
+
+use super::indent::indentation;
+use super::pasted::Inputs;
+
+/// A line break with the indentation of what follows.
+fn line_break(context: &EventContext<'_>, prompt_width: &AtomicUsize) -> Option<Cmd> {
+    let before = context.line().get(..context.pos())?;
+    let width = prompt_width.load(Ordering::Relaxed);
+    let indent = " ".repeat(indentation(before, width));
+    Some(Cmd::Insert(1, format!("\n{indent}")))
+}
+
+/// What Enter does: indents the next line of an input that is not whole.
+pub(crate) struct Enter {
+    /// Columns that the prompt takes.
+    pub(crate) prompt_width: Arc<AtomicUsize>,
+}
+
+impl ConditionalEventHandler for Enter {
+    fn handle(
+        &self,
+        _: &Event,
+        _: RepeatCount,
+        _: bool,
+        context: &EventContext<'_>,
+    ) -> Option<Cmd> {
+        if Inputs::of(context.line()).are_whole() {
+            return None;
+        }
+        line_break(context, &self.prompt_width)
+    }
+}
+
+/// What Ctrl-J does: begins a new line, even where the input is whole.
+///
+/// While something is evaluated, the terminal turns Enter into the same character: what
+/// comes as soon as the prompt is there was typed ahead, and means Enter.
+pub(crate) struct NewLine {
+    /// Columns that the prompt takes.
+    pub(crate) prompt_width: Arc<AtomicUsize>,
+    /// When the prompt was shown.
+    pub(crate) shown: Arc<Mutex<Instant>>,
+}
+
+/// Nobody types this soon after the prompt has come.
+const TYPED_AHEAD: Duration = Duration::from_millis(120);
+
+impl ConditionalEventHandler for NewLine {
+    fn handle(
+        &self,
+        _: &Event,
+        _: RepeatCount,
+        _: bool,
+        context: &EventContext<'_>,
+    ) -> Option<Cmd> {
+        let shown = *self.shown.lock().unwrap_or_else(PoisonError::into_inner);
+        if shown.elapsed() < TYPED_AHEAD && Inputs::of(context.line()).are_whole() {
+            return Some(Cmd::AcceptLine);
+        }
+        line_break(context, &self.prompt_width)
+    }
+}
+
+/// The inputs of this and earlier sessions, as the handlers see them.
+pub(crate) type SharedHistory = Arc<Mutex<Vec<String>>>;
+
+/// What Up and Down do: within an input of several lines they go from line to line; else
+/// they go through the inputs of before: those that begin with the text before the cursor,
+/// or all of them.
+pub(crate) struct UpOrDown {
+    /// Up, or down.
+    pub(crate) is_up: bool,
+    /// All inputs.
+    pub(crate) history: SharedHistory,
+}
+
+impl UpOrDown {
+    fn is_old_input(&self, text: &str) -> bool {
+        let history = self.history.lock().unwrap_or_else(PoisonError::into_inner);
+        history.iter().any(|entry| entry == text)
+    }
+}
+
+impl ConditionalEventHandler for UpOrDown {
+    fn handle(
+        &self,
+        _: &Event,
+        count: RepeatCount,
+        _: bool,
+        context: &EventContext<'_>,
+    ) -> Option<Cmd> {
+        let (line, at) = (context.line(), context.pos());
+        let (before, after) = (line.get(..at)?, line.get(at..)?);
+        let on_edge = if self.is_up {
+            !before.contains('\n')
+        } else {
+            !after.contains('\n')
+        };
+        // An old input that was fetched as a whole is no prefix to look for.
+        let is_whole_entry = after.is_empty() && self.is_old_input(line);
+        Some(
+            match (on_edge && !before.is_empty() && !is_whole_entry, self.is_up) {
+                (true, true) => Cmd::HistorySearchBackward,
+                (true, false) => Cmd::HistorySearchForward,
+                (false, true) if is_whole_entry => Cmd::PreviousHistory,
+                (false, false) if is_whole_entry => Cmd::NextHistory,
+                (false, true) => Cmd::LineUpOrPreviousHistory(count),
+                (false, false) => Cmd::LineDownOrNextHistory(count),
+            },
+        )
+    }
+}

@@ -1,0 +1,274 @@
+//! The prompt: reads inputs with a line editor, evaluates them, shows what happens.
+//!
+//! An input may span lines: Enter evaluates it when it is whole and begins a further line
+//! when it is not. Ctrl-C clears the input, or interrupts an evaluation, and never ends
+//! the session; Ctrl-D ends it.
+
+mod assist;
+mod editor;
+mod highlight;
+mod history;
+mod indent;
+mod journal;
+mod keys;
+mod pasted;
+
+use std::cell::RefCell;
+use std::io::{self, IsTerminal, Write};
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use rustyline::error::ReadlineError;
+use thiserror::Error;
+
+use crate::picture::InlinePictures;
+use crate::session::dialogue::screen::input_name;
+use crate::session::dialogue::{Converse, Outcome, Screen, evaluate_on};
+use assist::Shared;
+use editor::LineEditor;
+use pasted::Inputs;
+
+pub use journal::{Beginning, Earlier, Journal, JournalError, Recorded};
+
+/// Why the prompt cannot be used.
+#[derive(Debug, Error)]
+pub enum ReplError {
+    /// Standard output takes no more.
+    #[error("cannot write: {0}")]
+    Write(#[from] io::Error),
+    /// The terminal does not do as the line editor needs.
+    #[error("the terminal cannot be used: {0}")]
+    Terminal(#[from] ReadlineError),
+    /// Ctrl-C cannot be caught.
+    #[error("cannot listen to Ctrl-C: {0}")]
+    Interrupt(#[from] ctrlc::Error),
+}
+
+const BANNER: &str = concat!(
+    "planwright ",
+    env!("CARGO_PKG_VERSION"),
+    ": a simulated PR2 in its kitchen, programmed in plans.\n",
+    "Enter evaluates a whole form; Tab completes; Ctrl-C interrupts, Ctrl-D leaves.\n",
+    "(help) tells what there is, (tour) is a first session.\n",
+);
+
+/// When an interrupt takes longer than this to be heard, the person is told why.
+const SOON: Duration = Duration::from_millis(90);
+
+/// How the prompt begins.
+#[derive(Debug, Default)]
+pub struct ReplOptions {
+    /// Are there colours?
+    pub is_colored: bool,
+    /// Where inputs are noted before they are evaluated.
+    pub journal: Option<Journal>,
+    /// Inputs of an earlier session that are evaluated again first.
+    pub resume: Vec<Recorded>,
+    /// What is told before the first prompt.
+    pub remark: Option<String>,
+    /// Inputs that were evaluated before the prompt.
+    pub inputs_before: usize,
+}
+
+/// Reads and evaluates inputs until the user or the program leaves; returns the exit
+/// status.
+pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u8, ReplError> {
+    let interrupt = evaluator.interrupt_handle();
+    let handle = Arc::clone(&interrupt);
+    let is_evaluating = Arc::new(AtomicBool::new(false));
+    let evaluating = Arc::clone(&is_evaluating);
+    ctrlc::set_handler(move || {
+        handle.store(true, Ordering::Relaxed);
+        thread::sleep(SOON);
+        if handle.load(Ordering::Relaxed) && evaluating.load(Ordering::Relaxed) {
+            // Without standard error there is nobody to tell.
+            let _ = write!(io::stderr(), "\r\n; Stopping …");
+        }
+    })?;
+
+    let evaluator: Shared = Rc::new(RefCell::new(evaluator));
+    evaluator.borrow_mut().set_interactive(true);
+    let mut editor = LineEditor::new(Rc::clone(&evaluator), options.is_colored)?;
+    let mut screen = Screen::new(io::stdout());
+    screen.set_detailed(true);
+    let is_terminal = io::stdout().is_terminal();
+    screen.set_terminal(is_terminal);
+    if is_terminal {
+        let pictures = InlinePictures::detect(|name| std::env::var(name).ok());
+        screen.set_pictures(pictures);
+    }
+    io::stdout().write_all(BANNER.as_bytes())?;
+    if let Some(remark) = &options.remark {
+        writeln!(io::stdout(), "{remark}")?;
+    }
+    let mut repl = Repl {
+        evaluator,
+        interrupt,
+        is_evaluating,
+        screen,
+        journal: options.journal,
+        number: options.inputs_before,
+    };
+    if let Some(code) = repl.resume(&options.resume)? {
+        return Ok(code);
+    }
+    loop {
+        let (prompt, draft, level, answer) = {
+            let mut evaluator = repl.evaluator.borrow_mut();
+            let draft = evaluator.take_draft();
+            let answer = evaluator.answer_to_interrupt();
+            (evaluator.prompt(), draft, evaluator.level(), answer)
+        };
+        // A second Ctrl-C may come before the line editor listens.
+        let is_hurried = repl.interrupt.swap(false, Ordering::Relaxed);
+        let read = match answer {
+            Some(_) if is_hurried => Err(ReadlineError::Interrupted),
+            _ => editor.read(&prompt, draft.as_deref()),
+        };
+        let text = match read {
+            Ok(text) => text,
+            Err(ReadlineError::Interrupted) => match answer {
+                Some(answer) => answer.to_owned(),
+                None => continue,
+            },
+            Err(ReadlineError::Eof) if level == 0 => return Ok(0),
+            Err(ReadlineError::Eof) => {
+                if editor.confirm("An evaluation stands still. Leave all the same?") {
+                    return Ok(0);
+                }
+                continue;
+            }
+            Err(error) => return Err(error.into()),
+        };
+        if let Some(code) = repl.take(&text)? {
+            return Ok(code);
+        }
+    }
+}
+
+/// What the prompt works with beside the line editor.
+struct Repl {
+    evaluator: Shared,
+    interrupt: Arc<AtomicBool>,
+    is_evaluating: Arc<AtomicBool>,
+    screen: Screen<io::Stdout>,
+    journal: Option<Journal>,
+    /// Number of the last input.
+    number: usize,
+}
+
+impl Repl {
+    /// Evaluates what was typed or pasted; the exit status if that leaves.
+    fn take(&mut self, text: &str) -> Result<Option<u8>, ReplError> {
+        let inputs = Inputs::of(text);
+        match inputs.output_lines {
+            0 => {}
+            1 => writeln!(io::stdout(), "; 1 line of pasted output is left out")?,
+            n => writeln!(io::stdout(), "; {n} lines of pasted output are left out")?,
+        }
+        // An interrupt ends the rest of what was pasted, too.
+        self.interrupt.store(false, Ordering::Relaxed);
+        let count = inputs.inputs.len();
+        for (at, input) in inputs.inputs.iter().enumerate() {
+            let input = input.trim_end();
+            if count > 1 {
+                // What is typed stands behind a prompt already; the others get theirs.
+                let prompt = self.evaluator.borrow().prompt();
+                writeln!(io::stdout(), "{prompt}> {input}")?;
+            }
+            // A pasted session goes on after a condition, as it did when it was recorded.
+            let stops = at + 1 == count;
+            match self.evaluate(input, stops)? {
+                Outcome::Quit(code) => return Ok(Some(code)),
+                Outcome::Finished | Outcome::Aborted | Outcome::Stopped => {}
+            }
+            if self.interrupt.load(Ordering::Relaxed) || self.was_interrupted() {
+                break;
+            }
+        }
+        Ok(None)
+    }
+
+    fn was_interrupted(&self) -> bool {
+        self.evaluator.borrow().interrupted_at().is_some()
+    }
+
+    fn evaluate(&mut self, input: &str, stops: bool) -> Result<Outcome, ReplError> {
+        self.note(|journal| journal.input(input, stops));
+        self.number += 1;
+        let name = input_name(self.number);
+        let outcome = {
+            let mut evaluator = self.evaluator.borrow_mut();
+            evaluator.set_interactive(stops);
+            self.is_evaluating.store(true, Ordering::Relaxed);
+            let outcome = evaluate_on(&mut self.screen, &mut *evaluator, &name, input);
+            self.is_evaluating.store(false, Ordering::Relaxed);
+            evaluator.set_interactive(true);
+            outcome?
+        };
+        let interrupted_at = self.evaluator.borrow().interrupted_at();
+        if let Some(at) = interrupted_at {
+            self.note(|journal| journal.interrupted(at));
+        }
+        Ok(outcome)
+    }
+
+    /// Writes to the journal; when that cannot be done any more, says so once.
+    fn note(&mut self, write: impl FnOnce(&mut Journal) -> io::Result<()>) {
+        let Some(journal) = &mut self.journal else {
+            return;
+        };
+        if let Err(error) = write(journal) {
+            self.journal = None;
+            // Without standard error there is nobody to tell.
+            let _ = writeln!(io::stderr(), "; The journal cannot be written: {error}");
+        }
+    }
+
+    /// Evaluates the inputs of an earlier session again, without showing what they show.
+    fn resume(&mut self, inputs: &[Recorded]) -> Result<Option<u8>, ReplError> {
+        let mut out = io::stdout();
+        for (at, input) in inputs.iter().enumerate() {
+            write!(out, "\r\x1b[2K; Input {} of {} …", at + 1, inputs.len())?;
+            out.flush()?;
+            self.number += 1;
+            let name = input_name(self.number);
+            let mut evaluator = self.evaluator.borrow_mut();
+            evaluator.set_interactive(input.stops);
+            if let Some(at) = input.interrupted_at {
+                evaluator.interrupt_next_at(at);
+            }
+            evaluator.evaluate(&name, &input.text, &mut |_| {});
+            evaluator.set_interactive(true);
+            let interrupted = evaluator.interrupted_at();
+            drop(evaluator);
+            if interrupted != input.interrupted_at {
+                writeln!(out, "\r\x1b[2K; Interrupted at input {}.", at + 1)?;
+                self.journal = None;
+                return Ok(None);
+            }
+        }
+        if !inputs.is_empty() {
+            let hash = self.evaluator.borrow().world_hash();
+            writeln!(
+                out,
+                "\r\x1b[2K; Resumed {} inputs; the world's hash is {hash:016x}.",
+                inputs.len()
+            )?;
+        }
+        let mut evaluator = self.evaluator.borrow_mut();
+        if evaluator.level() > 0 {
+            // An empty input tells again where the evaluation stands.
+            evaluate_on(
+                &mut self.screen,
+                &mut *evaluator,
+                &input_name(self.number),
+                "",
+            )?;
+        }
+        Ok(None)
+    }
+}

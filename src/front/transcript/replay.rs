@@ -1,0 +1,113 @@
+//! Runs transcripts.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+
+use super::parse::Transcript;
+use super::verdict::Verdict;
+use crate::session::dialogue::screen::input_name;
+use crate::session::dialogue::{Evaluate, Outcome, Screen};
+
+/// Runs the inputs of a transcript one after the other.
+///
+/// When an input leaves the evaluator, the ones after it put out nothing.
+pub fn replay(transcript: &Transcript, evaluator: &mut impl Evaluate) -> Vec<Verdict> {
+    replay_first(transcript, transcript.entries.len(), evaluator)
+}
+
+/// As [`replay`], but only the first `count` inputs.
+pub fn replay_first(
+    transcript: &Transcript,
+    count: usize,
+    evaluator: &mut impl Evaluate,
+) -> Vec<Verdict> {
+    let mut left = false;
+    transcript
+        .entries
+        .iter()
+        .take(count)
+        .enumerate()
+        .map(|(number, entry)| {
+            let mut output = String::new();
+            if !left {
+                let name = input_name(number + 1);
+                let outcome;
+                (output, outcome) = evaluate(evaluator, &name, &entry.input);
+                left = matches!(outcome, Outcome::Quit(_));
+            }
+            Verdict::of(entry, &output)
+        })
+        .collect()
+}
+
+/// What the screen shows for an input.
+fn evaluate(evaluator: &mut impl Evaluate, name: &str, input: &str) -> (String, Outcome) {
+    let mut screen = Screen::new(Vec::new());
+    screen.begin_input(name, input);
+    let outcome = evaluator.evaluate(name, input, &mut |event| {
+        // Writing into memory does not fail.
+        let _ = screen.show(&event);
+    });
+    let output = String::from_utf8_lossy(&screen.into_inner()).into_owned();
+    (output, outcome)
+}
+
+/// Bytes of stack of a thread that runs transcripts.
+const STACK_BYTES: usize = 64 << 20;
+
+/// Runs transcripts on up to `jobs` threads, each in an evaluator of its own, and tells
+/// their verdicts in the order of the transcripts, each as soon as it can be told.
+///
+/// `tell` gets the transcript and the verdicts of its entries in order, or why there is no
+/// evaluator; no further transcript is begun once it returns false.
+pub fn replay_all<V, E>(
+    transcripts: &[Transcript],
+    jobs: NonZeroUsize,
+    open: impl Fn() -> Result<V, E> + Sync,
+    mut tell: impl FnMut(&Transcript, Result<Vec<Verdict>, E>) -> bool,
+) where
+    V: Evaluate,
+    E: Send,
+{
+    let next = AtomicUsize::new(0);
+    let (sender, receiver) = mpsc::channel();
+    thread::scope(|scope| {
+        for _ in 0..jobs.get().min(transcripts.len()) {
+            let (sender, next, open) = (sender.clone(), &next, &open);
+            let run = move || {
+                loop {
+                    let number = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(transcript) = transcripts.get(number) else {
+                        break;
+                    };
+                    let actual = open().map(|mut evaluator| replay(transcript, &mut evaluator));
+                    if sender.send((number, actual)).is_err() {
+                        break;
+                    }
+                }
+            };
+            // Forms may be nested deeply. Where no thread can be had, others do the work.
+            let _ = thread::Builder::new()
+                .stack_size(STACK_BYTES)
+                .spawn_scoped(scope, run);
+        }
+        drop(sender);
+        let mut waiting = BTreeMap::new();
+        let mut told = 0;
+        for (number, actual) in receiver {
+            waiting.insert(number, actual);
+            while let Some(actual) = waiting.remove(&told) {
+                let goes_on = transcripts
+                    .get(told)
+                    .is_some_and(|transcript| tell(transcript, actual));
+                if !goes_on {
+                    next.store(transcripts.len(), Ordering::Relaxed);
+                }
+                told += 1;
+            }
+        }
+    });
+}

@@ -1,0 +1,38 @@
+//! Feature expressions of `#+` and `#-`.
+
+use super::error::ReadErrorKind;
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+
+/// Nesting beyond this is no feature expression that anybody means.
+const MAX_DEPTH: usize = 64;
+
+/// Does the feature expression hold with the current `*features*`?
+pub(crate) fn holds(image: &Image, expression: &Value) -> Result<bool, ReadErrorKind> {
+    holds_at(image, expression, 0)
+}
+
+fn holds_at(image: &Image, expression: &Value, depth: usize) -> Result<bool, ReadErrorKind> {
+    if depth > MAX_DEPTH {
+        return Err(ReadErrorKind::BadFeature);
+    }
+    if let Value::Symbol(_) = expression {
+        let features = image.special(known::V_FEATURES);
+        return Ok(features.iter_list().any(|f| f.is_eq(expression)));
+    }
+    let parts = expression.list_to_vec().ok_or(ReadErrorKind::BadFeature)?;
+    let Some((Value::Symbol(operator), arguments)) = parts.split_first() else {
+        return Err(ReadErrorKind::BadFeature);
+    };
+    let truth = arguments
+        .iter()
+        .map(|argument| holds_at(image, argument, depth + 1))
+        .collect::<Result<Vec<bool>, _>>()?;
+    match (image.name(*operator), truth.as_slice()) {
+        ("AND", all) => Ok(all.iter().all(|t| *t)),
+        ("OR", any) => Ok(any.iter().any(|t| *t)),
+        ("NOT", [one]) => Ok(!one),
+        _ => Err(ReadErrorKind::BadFeature),
+    }
+}

@@ -1,0 +1,51 @@
+//! Characters that a program gives a meaning to: `set-macro-character`.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
+
+/// What a program has changed of the standard syntax.
+#[derive(Default, Clone)]
+pub struct Readtable {
+    /// Functions of stream and character, with whether the character may stand inside a
+    /// token.
+    pub macros: RefCell<BTreeMap<char, (Value, bool)>>,
+    /// Functions of stream, sub-character and number, by dispatching character and
+    /// sub-character (in upper case).
+    pub dispatch: RefCell<BTreeMap<(char, char), Value>>,
+}
+
+impl Readtable {
+    /// Characters that end a token.
+    pub(crate) fn terminators(&self) -> Vec<char> {
+        self.macros
+            .borrow()
+            .iter()
+            .filter(|(_, (_, inside))| !inside)
+            .map(|(c, _)| *c)
+            .collect()
+    }
+
+    pub(crate) fn macro_of(&self, c: char) -> Option<Value> {
+        self.macros.borrow().get(&c).map(|(f, _)| f.clone())
+    }
+
+    pub(crate) fn dispatch_of(&self, letter: char) -> Option<Value> {
+        self.dispatch.borrow().get(&('#', letter)).cloned()
+    }
+}
+
+impl Foreign for Readtable {
+    fn type_symbol(&self) -> Sym {
+        known::READTABLE
+    }
+
+    fn print(&self, _: &Image, _: bool) -> String {
+        "#<READTABLE>".to_owned()
+    }
+}

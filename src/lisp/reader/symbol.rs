@@ -1,0 +1,129 @@
+//! From the text of a token to a symbol of a package.
+
+use super::error::ReadErrorKind;
+use super::suggest::nearest;
+use crate::lisp::image::Image;
+use crate::lisp::value::package::{Access, PackageId, PackageTable};
+use crate::lisp::value::symbol::Sym;
+
+/// A token split at its package marker, escapes resolved and letters upcased.
+pub(crate) struct Name {
+    /// What stands before the marker; none without a marker.
+    pub package: Option<String>,
+    /// What stands behind the marker.
+    pub name: String,
+    /// Is the marker `::`?
+    pub is_internal: bool,
+    /// Was any character escaped? Then the token is no number.
+    pub is_escaped: bool,
+}
+
+/// Upcases as the reader does: only letters that have exactly one upper-case form.
+pub(crate) fn upcase(c: char) -> char {
+    if c.is_ascii() {
+        return c.to_ascii_uppercase();
+    }
+    let mut upper = c.to_uppercase();
+    match (upper.next(), upper.next()) {
+        (Some(one), None) => one,
+        _ => c,
+    }
+}
+
+/// Splits a token.
+pub(crate) fn split(token: &str) -> Result<Name, ReadErrorKind> {
+    let mut result = Name {
+        package: None,
+        name: String::with_capacity(token.len()),
+        is_internal: false,
+        is_escaped: false,
+    };
+    let mut in_bars = false;
+    let mut chars = token.chars().peekable();
+    while let Some(c) = chars.next() {
+        match c {
+            '\\' => {
+                result.is_escaped = true;
+                result.name.extend(chars.next());
+            }
+            '|' => {
+                result.is_escaped = true;
+                in_bars = !in_bars;
+            }
+            c if in_bars => result.name.push(c),
+            ':' => {
+                if result.package.is_some() {
+                    return Err(ReadErrorKind::TooManyColons {
+                        token: token.to_owned(),
+                    });
+                }
+                result.package = Some(std::mem::take(&mut result.name));
+                if chars.peek() == Some(&':') {
+                    chars.next();
+                    result.is_internal = true;
+                }
+            }
+            '“' | '”' | '„' => {
+                return Err(ReadErrorKind::SmartQuote {
+                    mark: c,
+                    instead: "\" around strings",
+                });
+            }
+            '‘' | '’' => {
+                return Err(ReadErrorKind::SmartQuote {
+                    mark: c,
+                    instead: "' before a quoted form",
+                });
+            }
+            c => result.name.push(upcase(c)),
+        }
+    }
+    if result.package.is_some() && result.name.is_empty() && !result.is_escaped {
+        return Err(ReadErrorKind::NoNameAfterColon {
+            token: token.to_owned(),
+        });
+    }
+    Ok(result)
+}
+
+/// The symbol that a split token means.
+pub(crate) fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKind> {
+    let Some(package_name) = &name.package else {
+        return Ok(image.intern(image.current_package(), &name.name));
+    };
+    if package_name.is_empty() {
+        return Ok(image.keyword(&name.name));
+    }
+    let Some(package) = image.packages.find(package_name) else {
+        let known_names = image.packages.names().map(|(known, _)| known);
+        return Err(ReadErrorKind::NoPackage {
+            name: package_name.clone(),
+            nearest: nearest(package_name, known_names).map(str::to_owned),
+        });
+    };
+    if name.is_internal || package == PackageTable::KEYWORD {
+        return Ok(image.intern(package, &name.name));
+    }
+    match image.packages.find_symbol(package, &name.name) {
+        Some((sym, Access::External)) => Ok(sym),
+        Some(_) => Err(ReadErrorKind::NotExternal {
+            name: name.name.clone(),
+            package: image.packages.get(package).name.to_string(),
+        }),
+        None => Err(no_symbol(image, package, &name.name)),
+    }
+}
+
+fn no_symbol(image: &Image, package: PackageId, name: &str) -> ReadErrorKind {
+    let package = image.packages.get(package);
+    let external = package
+        .symbols
+        .iter()
+        .filter(|(_, (_, is_external))| *is_external)
+        .map(|(name, _)| name.as_ref());
+    ReadErrorKind::NoSymbol {
+        name: name.to_owned(),
+        package: package.name.to_string(),
+        nearest: nearest(name, external).map(|near| format!("{}:{near}", package.name)),
+    }
+}

@@ -1,0 +1,103 @@
+//! Pairs.
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use super::Value;
+use super::slot::Slot;
+use crate::lisp::source::Place;
+
+/// A pair of two values, and where the reader found it.
+pub struct Cons {
+    car: Slot,
+    cdr: Slot,
+    place: Cell<Place>,
+}
+
+impl Cons {
+    /// A pair that no source text stands behind.
+    #[inline]
+    pub fn new(car: Value, cdr: Value) -> Cons {
+        Cons {
+            car: Slot::new(car),
+            cdr: Slot::new(cdr),
+            place: Cell::new(Place::NONE),
+        }
+    }
+
+    /// The first half.
+    #[inline]
+    pub fn car(&self) -> Value {
+        self.car.get()
+    }
+
+    /// The second half.
+    #[inline]
+    pub fn cdr(&self) -> Value {
+        self.cdr.get()
+    }
+
+    /// Replaces the first half.
+    #[inline]
+    pub fn set_car(&self, value: Value) {
+        self.car.set(value);
+    }
+
+    /// Replaces the second half.
+    #[inline]
+    pub fn set_cdr(&self, value: Value) {
+        self.cdr.set(value);
+    }
+
+    /// Where the list that starts with this pair stands in the source.
+    pub fn place(&self) -> Place {
+        self.place.get()
+    }
+
+    /// Records where the list that starts with this pair stands in the source.
+    pub fn set_place(&self, place: Place) {
+        self.place.set(place);
+    }
+}
+
+impl Drop for Cons {
+    /// Frees long lists and deep trees with a loop: one level of the Rust stack whatever
+    /// the structure's depth.
+    fn drop(&mut self) {
+        let mut pending = Vec::new();
+        collect_unshared(self, &mut pending);
+        while let Some(cons) = pending.pop() {
+            if let Ok(inner) = Rc::try_unwrap(cons) {
+                collect_unshared(&inner, &mut pending);
+            }
+        }
+    }
+}
+
+fn collect_unshared(cons: &Cons, pending: &mut Vec<Rc<Cons>>) {
+    for slot in [&cons.car, &cons.cdr] {
+        if slot.with(|v| matches!(v, Value::Cons(_)))
+            && let Value::Cons(inner) = slot.take()
+            && Rc::strong_count(&inner) == 1
+        {
+            pending.push(inner);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lisp::value::cons::*;
+
+    #[test]
+    fn a_million_deep_list_is_freed_without_recursion() {
+        let mut right = Value::NIL;
+        let mut left = Value::NIL;
+        for i in 0..1_000_000 {
+            right = Value::cons(Value::Int(i), right);
+            left = Value::cons(left, Value::Int(i));
+        }
+        drop(right);
+        drop(left);
+    }
+}

@@ -1,0 +1,194 @@
+//! `equal`, `equalp` and hashing under the four equalities; loops, no recursion.
+
+use std::hash::{Hash, Hasher};
+use std::rc::Rc;
+
+use super::Value;
+use super::array::Vector;
+use super::hash_table::HashTest;
+
+/// `equal`: same structure of pairs and strings, `eql` leaves.
+pub fn equal(a: &Value, b: &Value) -> bool {
+    same(a, b, false)
+}
+
+/// `equalp`: like `equal`, but numbers by value, letters without case, arrays, structures
+/// and hash tables by their elements.
+pub fn equalp(a: &Value, b: &Value) -> bool {
+    same(a, b, true)
+}
+
+fn same(a: &Value, b: &Value, loosely: bool) -> bool {
+    let mut pending = vec![(a.clone(), b.clone())];
+    while let Some((a, b)) = pending.pop() {
+        if a.is_eql(&b) {
+            continue;
+        }
+        match (&a, &b) {
+            (Value::Cons(x), Value::Cons(y)) => {
+                pending.push((x.cdr(), y.cdr()));
+                pending.push((x.car(), y.car()));
+            }
+            (Value::Str(x), Value::Str(y)) => {
+                let (x, y) = (x.borrow(), y.borrow());
+                let equal = *x == *y
+                    || loosely
+                        && x.chars()
+                            .flat_map(char::to_lowercase)
+                            .eq(y.chars().flat_map(char::to_lowercase));
+                if !equal {
+                    return false;
+                }
+            }
+            (Value::Foreign(x), Value::Foreign(_)) => {
+                if !x.object().is_equal(&b) {
+                    return false;
+                }
+            }
+            _ if !loosely => return false,
+            (Value::Char(x), Value::Char(y)) => {
+                if !x.to_lowercase().eq(y.to_lowercase()) {
+                    return false;
+                }
+            }
+            (Value::Vector(x), Value::Vector(y)) => {
+                let (x, y) = (x.to_vec(), y.to_vec());
+                if x.len() != y.len() {
+                    return false;
+                }
+                pending.extend(x.into_iter().zip(y));
+            }
+            (Value::Str(s), Value::Vector(v)) | (Value::Vector(v), Value::Str(s)) => {
+                let characters: Vec<Value> = s.borrow().chars().map(Value::Char).collect();
+                let items = v.to_vec();
+                if characters.len() != items.len() {
+                    return false;
+                }
+                pending.extend(characters.into_iter().zip(items));
+            }
+            (Value::Array(x), Value::Array(y)) => {
+                if x.dimensions != y.dimensions {
+                    return false;
+                }
+                let (x, y) = (x.items.borrow().clone(), y.items.borrow().clone());
+                pending.extend(x.into_iter().zip(y));
+            }
+            (Value::Instance(x), Value::Instance(y)) => {
+                if x.class().kind != crate::lisp::value::class::ClassKind::Structure
+                    || !Rc::ptr_eq(&x.class(), &y.class())
+                {
+                    return false;
+                }
+                let (x, y) = (x.slots.borrow().clone(), y.slots.borrow().clone());
+                pending.extend(x.into_iter().zip(y));
+            }
+            (Value::Hash(x), Value::Hash(y)) => {
+                if x.test != y.test || x.len() != y.len() {
+                    return false;
+                }
+                for (key, value) in x.pairs() {
+                    match y.get(&key) {
+                        Some(other) => pending.push((value, other)),
+                        None => return false,
+                    }
+                }
+            }
+            _ => {
+                if !crate::lisp::value::number::equal_by_value(&a, &b) {
+                    return false;
+                }
+            }
+        }
+    }
+    true
+}
+
+/// Feeds a key into a hasher so that keys that are equal under `test` hash alike.
+pub fn hash<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
+    // Keys of deep structure are told apart by their first few leaves only.
+    let mut budget = 64;
+    let mut pending = vec![value.clone()];
+    while let Some(value) = pending.pop() {
+        budget -= 1;
+        if budget == 0 {
+            return;
+        }
+        hash_one(&value, test, state, &mut pending);
+    }
+}
+
+fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H, pending: &mut Vec<Value>) {
+    let structural = matches!(test, HashTest::Equal | HashTest::Equalp);
+    let loosely = test == HashTest::Equalp;
+    match value {
+        Value::Symbol(s) => s.hash(state),
+        Value::Int(_) | Value::Single(_) | Value::Double(_) | Value::Big(_) | Value::Ratio(_)
+            if loosely =>
+        {
+            crate::lisp::value::number::to_f64(value)
+                .unwrap_or(0.0)
+                .to_bits()
+                .hash(state);
+        }
+        Value::Int(n) => n.hash(state),
+        Value::Single(x) => x.to_bits().hash(state),
+        Value::Double(x) => x.to_bits().hash(state),
+        Value::Big(n) if test != HashTest::Eq => n.hash(state),
+        Value::Ratio(r) if test != HashTest::Eq => {
+            r.numerator.hash(state);
+            r.denominator.hash(state);
+        }
+        Value::Char(c) if loosely => c.to_lowercase().for_each(|c| c.hash(state)),
+        Value::Char(c) => c.hash(state),
+        Value::Str(s) if loosely => s
+            .borrow()
+            .chars()
+            .flat_map(char::to_lowercase)
+            .for_each(|c| c.hash(state)),
+        Value::Str(s) if structural => s.borrow().hash(state),
+        Value::Cons(c) if structural => {
+            1u8.hash(state);
+            pending.push(c.cdr());
+            pending.push(c.car());
+        }
+        Value::Vector(v) if loosely => hash_vector(v, state),
+        Value::Array(a) if loosely => a.dimensions.hash(state),
+        Value::Instance(_) | Value::Hash(_) | Value::Foreign(_) if structural => {}
+        Value::Package(p) => p.hash(state),
+        other => address(other).hash(state),
+    }
+}
+
+/// A vector of characters hashes like the string that it equals.
+fn hash_vector<H: Hasher>(vector: &Vector, state: &mut H) {
+    let items = vector.to_vec();
+    if !items.iter().all(|item| matches!(item, Value::Char(_))) {
+        items.len().hash(state);
+        return;
+    }
+    for item in items {
+        if let Value::Char(c) = item {
+            c.to_lowercase().for_each(|c| c.hash(state));
+        }
+    }
+}
+
+/// The address of a value's object. It only spreads hash buckets; tables iterate in order
+/// of insertion, so it never shows.
+fn address(value: &Value) -> usize {
+    match value {
+        Value::Big(r) => Rc::as_ptr(r) as usize,
+        Value::Ratio(r) => Rc::as_ptr(r) as usize,
+        Value::Cons(r) => Rc::as_ptr(r) as usize,
+        Value::Str(r) => Rc::as_ptr(r) as usize,
+        Value::Vector(r) => Rc::as_ptr(r) as usize,
+        Value::Array(r) => Rc::as_ptr(r) as usize,
+        Value::Function(r) => Rc::as_ptr(r) as usize,
+        Value::Hash(r) => Rc::as_ptr(r) as usize,
+        Value::Instance(r) => Rc::as_ptr(r) as usize,
+        Value::Class(r) => Rc::as_ptr(r) as usize,
+        Value::Stream(r) => Rc::as_ptr(r) as usize,
+        Value::Foreign(r) => Rc::as_ptr(r) as usize,
+        _ => 0,
+    }
+}

@@ -1,0 +1,384 @@
+//! What a Lisp expression can evaluate to.
+//!
+//! A value is sixteen bytes: immediate or a counted reference. Identity (`eq`) is the
+//! identity of the reference; nothing shows an address to the user.
+
+pub mod array;
+pub mod class;
+pub mod cons;
+pub mod equality;
+pub mod foreign;
+pub mod function;
+pub mod generic;
+pub mod hash_table;
+pub mod known;
+pub mod number;
+pub mod package;
+pub mod raise;
+pub mod slot;
+pub mod string;
+pub mod symbol;
+
+use std::rc::Rc;
+
+use num_bigint::BigInt;
+
+use self::array::{Array, Vector};
+use self::class::{Class, Instance};
+use self::cons::Cons;
+use self::foreign::ForeignBox;
+use self::function::Function;
+use self::hash_table::HashTable;
+use self::number::Ratio;
+use self::package::PackageId;
+use self::slot::Slot;
+use self::string::LispString;
+use self::symbol::Sym;
+use super::stream::Stream;
+
+/// A Lisp value.
+#[derive(Clone, Default)]
+pub enum Value {
+    /// A symbol; `NIL` and `T` are symbols too.
+    Symbol(Sym),
+    /// An integer that fits 64 bits.
+    Int(i64),
+    /// An integer that does not fit 64 bits.
+    Big(Rc<BigInt>),
+    /// A ratio in lowest terms with a denominator greater than one.
+    Ratio(Rc<Ratio>),
+    /// A single float.
+    Single(f32),
+    /// A double float.
+    Double(f64),
+    /// A character.
+    Char(char),
+    /// A pair.
+    Cons(Rc<Cons>),
+    /// A string.
+    Str(Rc<LispString>),
+    /// A one-dimensional array of anything.
+    Vector(Rc<Vector>),
+    /// An array of rank other than one.
+    Array(Rc<Array>),
+    /// A function: closure, builtin or generic function.
+    Function(Rc<Function>),
+    /// A hash table.
+    Hash(Rc<HashTable>),
+    /// An instance of a class, a structure or a condition.
+    Instance(Rc<Instance>),
+    /// A class.
+    Class(Rc<Class>),
+    /// A package.
+    Package(PackageId),
+    /// A stream.
+    Stream(Rc<Stream>),
+    /// A value of a layer above the language (task, fluent, designator, pose, …).
+    Foreign(Rc<ForeignBox>),
+    /// Internal: the box of a variable that a closure shares. Never reaches user code.
+    Cell(Rc<Slot>),
+    /// Internal: zero, or more than one, values returned by a call. Never stored in a variable.
+    Multiple(Rc<Vec<Value>>),
+    /// Internal: no value (unbound variable or slot, argument not supplied).
+    #[default]
+    Unbound,
+}
+
+impl Value {
+    /// The empty list and falsehood.
+    pub const NIL: Value = Value::Symbol(known::NIL);
+    /// Truth.
+    pub const T: Value = Value::Symbol(known::T);
+
+    /// `T` or `NIL`.
+    #[inline]
+    pub fn bool(b: bool) -> Value {
+        if b { Value::T } else { Value::NIL }
+    }
+
+    /// Is this `NIL`?
+    #[inline]
+    pub fn is_nil(&self) -> bool {
+        matches!(self, Value::Symbol(known::NIL))
+    }
+
+    /// Is this anything but `NIL`?
+    #[inline]
+    pub fn is_true(&self) -> bool {
+        !self.is_nil()
+    }
+
+    /// Is this the internal marker for "no value"?
+    #[inline]
+    pub fn is_unbound(&self) -> bool {
+        matches!(self, Value::Unbound)
+    }
+
+    /// A fresh string.
+    pub fn string(text: impl Into<String>) -> Value {
+        Value::Str(Rc::new(LispString::new(text.into())))
+    }
+
+    /// A fresh pair.
+    #[inline]
+    pub fn cons(car: Value, cdr: Value) -> Value {
+        Value::Cons(Rc::new(Cons::new(car, cdr)))
+    }
+
+    /// A fresh list of the items.
+    pub fn list<I>(items: I) -> Value
+    where
+        I: IntoIterator<Item = Value>,
+        I::IntoIter: DoubleEndedIterator,
+    {
+        Value::list_with_tail(items, Value::NIL)
+    }
+
+    /// A fresh list of the items that ends in `tail`.
+    pub fn list_with_tail<I>(items: I, tail: Value) -> Value
+    where
+        I: IntoIterator<Item = Value>,
+        I::IntoIter: DoubleEndedIterator,
+    {
+        items
+            .into_iter()
+            .rev()
+            .fold(tail, |rest, item| Value::cons(item, rest))
+    }
+
+    /// A fresh simple vector.
+    pub fn vector(items: Vec<Value>) -> Value {
+        Value::Vector(Rc::new(Vector::simple(items)))
+    }
+
+    /// A value of a higher layer.
+    pub fn foreign(object: impl crate::lisp::value::foreign::Foreign) -> Value {
+        Value::Foreign(Rc::new(ForeignBox::new(object)))
+    }
+
+    /// The multiple values; exactly one value is itself.
+    pub fn values(mut items: Vec<Value>) -> Value {
+        match items.len() {
+            1 => items.pop().unwrap_or(Value::NIL),
+            _ => Value::Multiple(Rc::new(items)),
+        }
+    }
+
+    /// The first of possibly several values (`NIL` when there is none).
+    #[inline]
+    pub fn primary(self) -> Value {
+        match self {
+            Value::Multiple(values) => values.first().cloned().unwrap_or(Value::NIL),
+            single => single,
+        }
+    }
+
+    /// All values of a call's result.
+    pub fn into_values(self) -> Vec<Value> {
+        match self {
+            Value::Multiple(values) => values.as_ref().clone(),
+            single => vec![single],
+        }
+    }
+
+    /// The symbol, if this is one.
+    #[inline]
+    pub fn as_symbol(&self) -> Option<Sym> {
+        match self {
+            Value::Symbol(s) => Some(*s),
+            _ => None,
+        }
+    }
+
+    /// The pair, if this is one.
+    #[inline]
+    pub fn as_cons(&self) -> Option<&Rc<Cons>> {
+        match self {
+            Value::Cons(c) => Some(c),
+            _ => None,
+        }
+    }
+
+    /// The text of a string, if this is one.
+    pub fn as_text(&self) -> Option<String> {
+        match self {
+            Value::Str(s) => Some(s.text()),
+            _ => None,
+        }
+    }
+
+    /// The object of a higher layer, if this is one of type `T`.
+    pub fn as_foreign<T: 'static>(&self) -> Option<&T> {
+        match self {
+            Value::Foreign(f) => f.downcast_ref::<T>(),
+            _ => None,
+        }
+    }
+
+    /// Is this a list: a pair or `NIL`?
+    pub fn is_list(&self) -> bool {
+        self.is_nil() || matches!(self, Value::Cons(_))
+    }
+
+    /// Identity: the same object. Numbers and characters are identical when `eql`, except
+    /// that bignums, ratios and floats are compared by `eql` alone.
+    pub fn is_eq(&self, other: &Value) -> bool {
+        match (self, other) {
+            (Value::Symbol(a), Value::Symbol(b)) => a == b,
+            (Value::Int(a), Value::Int(b)) => a == b,
+            (Value::Single(a), Value::Single(b)) => a.to_bits() == b.to_bits(),
+            (Value::Double(a), Value::Double(b)) => a.to_bits() == b.to_bits(),
+            (Value::Char(a), Value::Char(b)) => a == b,
+            (Value::Package(a), Value::Package(b)) => a == b,
+            (Value::Big(a), Value::Big(b)) => Rc::ptr_eq(a, b),
+            (Value::Ratio(a), Value::Ratio(b)) => Rc::ptr_eq(a, b),
+            (Value::Cons(a), Value::Cons(b)) => Rc::ptr_eq(a, b),
+            (Value::Str(a), Value::Str(b)) => Rc::ptr_eq(a, b),
+            (Value::Vector(a), Value::Vector(b)) => Rc::ptr_eq(a, b),
+            (Value::Array(a), Value::Array(b)) => Rc::ptr_eq(a, b),
+            (Value::Function(a), Value::Function(b)) => Rc::ptr_eq(a, b),
+            (Value::Hash(a), Value::Hash(b)) => Rc::ptr_eq(a, b),
+            (Value::Instance(a), Value::Instance(b)) => Rc::ptr_eq(a, b),
+            (Value::Class(a), Value::Class(b)) => Rc::ptr_eq(a, b),
+            (Value::Stream(a), Value::Stream(b)) => Rc::ptr_eq(a, b),
+            (Value::Foreign(a), Value::Foreign(b)) => Rc::ptr_eq(a, b),
+            (Value::Cell(a), Value::Cell(b)) => Rc::ptr_eq(a, b),
+            (Value::Unbound, Value::Unbound) => true,
+            _ => false,
+        }
+    }
+
+    /// `eql`: identical, or numbers of one type and value.
+    pub fn is_eql(&self, other: &Value) -> bool {
+        match (self, other) {
+            (Value::Big(a), Value::Big(b)) => a == b,
+            (Value::Ratio(a), Value::Ratio(b)) => a == b,
+            (Value::Foreign(a), Value::Foreign(_))
+                if crate::lisp::value::number::is_complex(self) =>
+            {
+                a.object().is_equal(other)
+            }
+            _ => self.is_eq(other),
+        }
+    }
+
+    /// Iterates over the elements of a list; stops at the first tail that is not a pair, and
+    /// after a few rounds of a circular list.
+    pub fn iter_list(&self) -> ListIter {
+        ListIter {
+            rest: self.clone(),
+            rounds: Rounds::default(),
+        }
+    }
+
+    /// The elements of a proper list, or `None` if the list is dotted or no list.
+    pub fn list_to_vec(&self) -> Option<Vec<Value>> {
+        let mut iter = self.iter_list();
+        let items: Vec<Value> = iter.by_ref().collect();
+        iter.rest.is_nil().then_some(items)
+    }
+
+    /// Car of a pair; `NIL` of anything else.
+    pub fn car_or_nil(&self) -> Value {
+        self.as_cons().map_or(Value::NIL, |c| c.car())
+    }
+
+    /// Cdr of a pair; `NIL` of anything else.
+    pub fn cdr_or_nil(&self) -> Value {
+        self.as_cons().map_or(Value::NIL, |c| c.cdr())
+    }
+}
+
+/// Notices that a walk along a list goes round in a circle, after a few rounds (Brent's
+/// algorithm).
+pub struct Rounds {
+    /// A pair visited before: the list is circular when it comes again.
+    mark: Option<Value>,
+    steps: usize,
+    next_mark: usize,
+}
+
+impl Default for Rounds {
+    fn default() -> Rounds {
+        Rounds {
+            mark: None,
+            steps: 0,
+            next_mark: 1024,
+        }
+    }
+}
+
+impl Rounds {
+    /// To be asked for each pair of the list in turn.
+    pub fn is_closed_by(&mut self, pair: &Value) -> bool {
+        if self.mark.as_ref().is_some_and(|mark| mark.is_eq(pair)) {
+            return true;
+        }
+        self.steps += 1;
+        if self.steps == self.next_mark {
+            self.mark = Some(pair.clone());
+            self.next_mark *= 2;
+        }
+        false
+    }
+}
+
+/// Iterator over the elements of a list.
+pub struct ListIter {
+    /// What has not been visited yet; at the end, the list's tail: a pair if the list is
+    /// circular.
+    pub rest: Value,
+    rounds: Rounds,
+}
+
+impl Iterator for ListIter {
+    type Item = Value;
+
+    fn next(&mut self) -> Option<Value> {
+        let (car, cdr) = match &self.rest {
+            Value::Cons(c) => (c.car(), c.cdr()),
+            _ => return None,
+        };
+        if self.rounds.is_closed_by(&self.rest) {
+            return None;
+        }
+        self.rest = cdr;
+        Some(car)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(b: bool) -> Value {
+        Value::bool(b)
+    }
+}
+
+impl From<i64> for Value {
+    fn from(n: i64) -> Value {
+        Value::Int(n)
+    }
+}
+
+impl From<usize> for Value {
+    fn from(n: usize) -> Value {
+        i64::try_from(n).map_or_else(|_| Value::Big(Rc::new(n.into())), Value::Int)
+    }
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Value {
+        Value::Double(x)
+    }
+}
+
+impl From<Sym> for Value {
+    fn from(s: Sym) -> Value {
+        Value::Symbol(s)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(s: &str) -> Value {
+        Value::string(s)
+    }
+}

@@ -1,0 +1,76 @@
+//! Conditions of arithmetic.
+
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
+
+/// The result of an operation on numbers.
+pub type NumberResult = Result<Value, Box<Raise>>;
+
+/// `datum` is no number.
+#[cold]
+pub fn not_a_number(datum: &Value) -> Box<Raise> {
+    Raise::type_error(datum, known::NUMBER)
+}
+
+/// `datum` is no real number.
+#[cold]
+pub fn not_real(datum: &Value) -> Box<Raise> {
+    Raise::type_error(datum, known::REAL)
+}
+
+/// `datum` is no integer.
+#[cold]
+pub fn not_an_integer(datum: &Value) -> Box<Raise> {
+    Raise::type_error(datum, known::INTEGER)
+}
+
+/// `datum` is no float.
+#[cold]
+pub fn not_a_float(datum: &Value) -> Box<Raise> {
+    Raise::type_error(datum, known::FLOAT)
+}
+
+fn arithmetic(class: Sym, operation: Sym, operands: &[&Value]) -> Box<Raise> {
+    Box::new(Raise::Make {
+        place: crate::lisp::source::Place::NONE,
+        class,
+        report: None,
+        initargs: vec![
+            (known::K_OPERATION, operation.into()),
+            (
+                known::K_OPERANDS,
+                Value::list(operands.iter().map(|v| (*v).clone())),
+            ),
+        ],
+    })
+}
+
+/// A division by zero.
+#[cold]
+pub fn division_by_zero(operation: Sym, operands: &[&Value]) -> Box<Raise> {
+    arithmetic(known::DIVISION_BY_ZERO, operation, operands)
+}
+
+/// A result too large for its float format.
+#[cold]
+pub fn overflow(operation: Sym, operands: &[&Value]) -> Box<Raise> {
+    arithmetic(known::FLOATING_POINT_OVERFLOW, operation, operands)
+}
+
+/// A float operation without a meaningful result.
+#[cold]
+pub fn invalid(operation: Sym, operands: &[&Value]) -> Box<Raise> {
+    arithmetic(known::FLOATING_POINT_INVALID_OPERATION, operation, operands)
+}
+
+/// A function outside the real numbers for which it is defined here.
+#[cold]
+pub fn complex_result(operation: Sym, operand: &Value) -> Box<Raise> {
+    arithmetic(
+        known::FLOATING_POINT_INVALID_OPERATION,
+        operation,
+        &[operand],
+    )
+}

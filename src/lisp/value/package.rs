@@ -1,0 +1,245 @@
+//! Packages: name spaces of symbols.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use super::symbol::{Sym, SymbolTable};
+
+/// A package of an image.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct PackageId(pub(crate) u16);
+
+/// How a name is accessible in a package.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Access {
+    /// Present and exported.
+    External,
+    /// Present, not exported.
+    Internal,
+    /// Exported by a used package.
+    Inherited,
+}
+
+/// One package.
+#[derive(Default)]
+pub struct Package {
+    /// The name.
+    pub name: Rc<str>,
+    /// Other names.
+    pub nicknames: Vec<Rc<str>>,
+    /// Symbols present in the package, by name; the flag tells whether it is exported.
+    pub symbols: BTreeMap<Rc<str>, (Sym, bool)>,
+    /// Packages whose external symbols are inherited, in order.
+    pub uses: Vec<PackageId>,
+    /// Names that the package shadows.
+    pub shadowing: Vec<Rc<str>>,
+    /// A sentence about the package.
+    pub doc: Option<Rc<str>>,
+}
+
+/// All packages of an image.
+#[derive(Default)]
+pub struct PackageTable {
+    packages: Vec<Package>,
+    by_name: BTreeMap<Rc<str>, PackageId>,
+}
+
+impl PackageTable {
+    /// `COMMON-LISP`.
+    pub const CL: PackageId = PackageId(0);
+    /// `KEYWORD`.
+    pub const KEYWORD: PackageId = PackageId(1);
+    /// `SYSTEM`: what the implementation itself needs names for.
+    pub const SYSTEM: PackageId = PackageId(3);
+    /// `COMMON-LISP-USER`.
+    pub const USER: PackageId = PackageId(2);
+
+    /// Makes a package; `None` if a name is taken.
+    pub fn make(&mut self, name: &str, nicknames: &[&str]) -> Option<PackageId> {
+        if self.find(name).is_some() || nicknames.iter().any(|n| self.find(n).is_some()) {
+            return None;
+        }
+        let id = PackageId(u16::try_from(self.packages.len()).ok()?);
+        let name: Rc<str> = name.into();
+        self.by_name.insert(name.clone(), id);
+        self.packages.push(Package {
+            name,
+            ..Package::default()
+        });
+        for nickname in nicknames {
+            self.add_nickname(id, nickname);
+        }
+        Some(id)
+    }
+
+    /// Gives a package another name, unless that name is taken.
+    pub fn add_nickname(&mut self, id: PackageId, nickname: &str) {
+        let nickname: Rc<str> = nickname.into();
+        if !self.by_name.contains_key(&nickname) {
+            self.by_name.insert(nickname.clone(), id);
+            self.get_mut(id).nicknames.push(nickname);
+        }
+    }
+
+    /// The package of that name or nickname.
+    pub fn find(&self, name: &str) -> Option<PackageId> {
+        self.by_name.get(name).copied()
+    }
+
+    /// Forgets a package's names, so that it can no longer be found.
+    pub fn delete(&mut self, id: PackageId) {
+        self.by_name.retain(|_, found| *found != id);
+    }
+
+    /// The package.
+    pub fn get(&self, id: PackageId) -> &Package {
+        &self.packages[usize::from(id.0)]
+    }
+
+    /// The package, to be changed.
+    pub fn get_mut(&mut self, id: PackageId) -> &mut Package {
+        &mut self.packages[usize::from(id.0)]
+    }
+
+    /// All names and nicknames with their packages, by name.
+    pub fn names(&self) -> impl Iterator<Item = (&str, PackageId)> {
+        self.by_name.iter().map(|(name, id)| (name.as_ref(), *id))
+    }
+
+    /// All packages, in order of creation.
+    pub fn ids(&self) -> impl Iterator<Item = PackageId> + use<> {
+        (0..self.packages.len()).filter_map(|i| u16::try_from(i).ok().map(PackageId))
+    }
+
+    /// The symbol accessible under a name in a package.
+    pub fn find_symbol(&self, package: PackageId, name: &str) -> Option<(Sym, Access)> {
+        let this = self.get(package);
+        if let Some((sym, external)) = this.symbols.get(name) {
+            let access = if *external {
+                Access::External
+            } else {
+                Access::Internal
+            };
+            return Some((*sym, access));
+        }
+        this.uses.iter().find_map(|used| {
+            let (sym, external) = self.get(*used).symbols.get(name)?;
+            external.then_some((*sym, Access::Inherited))
+        })
+    }
+
+    /// The symbol accessible under a name, made and made present if there is none.
+    /// A new symbol in `KEYWORD` is exported and is its own value.
+    pub fn intern(&mut self, symbols: &mut SymbolTable, package: PackageId, name: &str) -> Sym {
+        if let Some((sym, _)) = self.find_symbol(package, name) {
+            return sym;
+        }
+        let name: Rc<str> = name.into();
+        let sym = symbols.make(name.clone());
+        let is_keyword = package == Self::KEYWORD;
+        let data = symbols.get_mut(sym);
+        data.package = Some(package);
+        if is_keyword {
+            data.value = sym.into();
+            data.kind = crate::lisp::value::symbol::VariableKind::Constant;
+        }
+        self.get_mut(package)
+            .symbols
+            .insert(name, (sym, is_keyword));
+        sym
+    }
+
+    /// Makes a symbol present in a package (`import`), keeping its home.
+    pub fn import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+        let name = symbols.get(sym).name.clone();
+        let data = symbols.get_mut(sym);
+        if data.package.is_none() {
+            data.package = Some(package);
+        }
+        self.get_mut(package)
+            .symbols
+            .entry(name)
+            .or_insert((sym, false));
+    }
+
+    /// Exports a symbol from a package, making it present first.
+    pub fn export(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+        self.import(symbols, package, sym);
+        let name = symbols.get(sym).name.clone();
+        if let Some(entry) = self.get_mut(package).symbols.get_mut(&name) {
+            entry.1 = true;
+        }
+    }
+
+    /// Lets a package inherit the external symbols of another.
+    pub fn use_package(&mut self, package: PackageId, used: PackageId) {
+        let uses = &mut self.get_mut(package).uses;
+        if package != used && !uses.contains(&used) {
+            uses.push(used);
+        }
+    }
+
+    /// Takes a package out of those that another uses.
+    pub fn unuse_package(&mut self, package: PackageId, used: PackageId) {
+        self.get_mut(package).uses.retain(|id| *id != used);
+    }
+
+    /// Makes an exported symbol internal again.
+    pub fn unexport(&mut self, symbols: &SymbolTable, package: PackageId, sym: Sym) {
+        let name = symbols.get(sym).name.clone();
+        if let Some(entry) = self.get_mut(package).symbols.get_mut(&name)
+            && entry.0 == sym
+        {
+            entry.1 = false;
+        }
+    }
+
+    /// Takes a symbol out of a package; was it present?
+    pub fn unintern(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) -> bool {
+        let name = symbols.get(sym).name.clone();
+        let this = self.get_mut(package);
+        if this.symbols.get(&name).is_none_or(|(s, _)| *s != sym) {
+            return false;
+        }
+        this.symbols.remove(&name);
+        this.shadowing.retain(|n| *n != name);
+        let data = symbols.get_mut(sym);
+        if data.package == Some(package) {
+            data.package = None;
+        }
+        true
+    }
+
+    /// Makes a symbol present in place of any other of its name, and shadowing.
+    pub fn shadowing_import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+        let name = symbols.get(sym).name.clone();
+        self.get_mut(package).symbols.remove(&name);
+        self.import(symbols, package, sym);
+        let shadowing = &mut self.get_mut(package).shadowing;
+        if !shadowing.contains(&name) {
+            shadowing.push(name);
+        }
+    }
+
+    /// Gives a package a new name and nicknames; false if one is taken.
+    pub fn rename(&mut self, id: PackageId, name: &str, nicknames: &[Rc<str>]) -> bool {
+        let taken = |n: &str| self.find(n).is_some_and(|found| found != id);
+        if taken(name) || nicknames.iter().any(|n| taken(n)) {
+            return false;
+        }
+        self.by_name.retain(|_, found| *found != id);
+        self.by_name.insert(name.into(), id);
+        let this = self.get_mut(id);
+        this.name = name.into();
+        this.nicknames.clear();
+        for nickname in nicknames {
+            self.add_nickname(id, nickname);
+        }
+        true
+    }
+
+    /// Has the package been deleted?
+    pub fn is_deleted(&self, id: PackageId) -> bool {
+        self.find(&self.get(id).name) != Some(id)
+    }
+}

@@ -1,0 +1,110 @@
+//! Errors as builtins return them: the class of the condition, its report and its slots.
+//! The machine turns them into condition objects and signals those.
+
+use super::Value;
+use super::symbol::{Sym, known};
+use crate::lisp::source::Place;
+
+/// A condition that is to be signalled as by `error`.
+#[derive(Clone)]
+pub enum Raise {
+    /// A condition object that exists already.
+    Condition(Value),
+    /// A condition still to be made.
+    Make {
+        /// Its class.
+        class: Sym,
+        /// The report; none if the class's own report says it.
+        report: Option<String>,
+        /// Values of its slots, by slot initarg keyword.
+        initargs: Vec<(Sym, Value)>,
+        /// Where the error is in the source, if a form and not a call is wrong.
+        place: Place,
+    },
+}
+
+impl Raise {
+    /// A condition of a class with a report.
+    pub fn new(class: Sym, report: impl Into<String>) -> Box<Raise> {
+        Box::new(Raise::Make {
+            class,
+            report: Some(report.into()),
+            initargs: Vec::new(),
+            place: Place::NONE,
+        })
+    }
+
+    /// Adds the value of an initarg (a keyword) to a condition still to be made.
+    pub fn with(mut self: Box<Self>, initarg: Sym, value: Value) -> Box<Raise> {
+        if let Raise::Make { initargs, .. } = self.as_mut() {
+            initargs.push((initarg, value));
+        }
+        self
+    }
+
+    /// The error with the place of the form it is about, unless it has one.
+    pub fn at(mut self: Box<Self>, here: Place) -> Box<Raise> {
+        if let Raise::Make { place, .. } = self.as_mut()
+            && !place.is_some()
+        {
+            *place = here;
+        }
+        self
+    }
+
+    /// The place of the form that the error is about, if it is about a form.
+    pub fn place(&self) -> Place {
+        match self {
+            Raise::Make { place, .. } => *place,
+            Raise::Condition(_) => Place::NONE,
+        }
+    }
+
+    /// A `SIMPLE-ERROR` with a text.
+    pub fn simple(report: impl Into<String>) -> Box<Raise> {
+        Raise::new(known::SIMPLE_ERROR, report)
+    }
+
+    /// A `SIMPLE-PROGRAM-ERROR` with a text: a wrong form or a wrong call.
+    pub fn program(report: impl Into<String>) -> Box<Raise> {
+        Raise::new(known::SIMPLE_PROGRAM_ERROR, report)
+    }
+
+    /// A `TYPE-ERROR`: `datum` is not of type `expected` (a type specifier).
+    pub fn type_error(datum: &Value, expected: impl Into<Value>) -> Box<Raise> {
+        Box::new(Raise::Make {
+            class: known::TYPE_ERROR,
+            report: None,
+            initargs: vec![
+                (known::K_DATUM, datum.clone()),
+                (known::K_EXPECTED_TYPE, expected.into()),
+            ],
+            place: Place::NONE,
+        })
+    }
+
+    /// An `UNBOUND-VARIABLE` error.
+    pub fn unbound_variable(name: Sym) -> Box<Raise> {
+        Box::new(Raise::Make {
+            class: known::UNBOUND_VARIABLE,
+            report: None,
+            initargs: vec![(known::K_NAME, name.into())],
+            place: Place::NONE,
+        })
+    }
+
+    /// An `UNDEFINED-FUNCTION` error; the name is a symbol or `(setf symbol)`.
+    pub fn undefined_function(name: Value) -> Box<Raise> {
+        Box::new(Raise::Make {
+            class: known::UNDEFINED_FUNCTION,
+            report: None,
+            initargs: vec![(known::K_NAME, name)],
+            place: Place::NONE,
+        })
+    }
+
+    /// A `CONTROL-ERROR` with a text.
+    pub fn control(report: impl Into<String>) -> Box<Raise> {
+        Raise::new(known::SIMPLE_CONTROL_ERROR, report)
+    }
+}

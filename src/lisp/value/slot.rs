@@ -1,0 +1,47 @@
+//! A place that holds one value and can be assigned through a shared reference.
+
+use std::cell::Cell;
+
+use super::Value;
+
+/// A mutable place for one value.
+#[derive(Default)]
+pub struct Slot(Cell<Value>);
+
+impl Slot {
+    /// A place that holds `value`.
+    #[inline]
+    pub fn new(value: Value) -> Slot {
+        Slot(Cell::new(value))
+    }
+
+    /// The value.
+    #[inline]
+    pub fn get(&self) -> Value {
+        let value = self.0.take();
+        let copy = value.clone();
+        self.0.set(value);
+        copy
+    }
+
+    /// Looks at the value without counting a reference. `look` must not touch this slot.
+    #[inline]
+    pub fn with<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
+        let value = self.0.take();
+        let result = look(&value);
+        self.0.set(value);
+        result
+    }
+
+    /// Stores a value.
+    #[inline]
+    pub fn set(&self, value: Value) {
+        self.0.set(value);
+    }
+
+    /// Takes the value out and leaves "no value".
+    #[inline]
+    pub fn take(&self) -> Value {
+        self.0.take()
+    }
+}

@@ -1,0 +1,129 @@
+//! Symbols: names with a value, a function and a property list.
+//!
+//! A symbol is an index into the image's symbol table. The symbols that Rust code names
+//! have fixed indices, listed in [`known`].
+
+use std::rc::Rc;
+
+use super::Value;
+use super::function::Function;
+use super::package::PackageId;
+
+pub use super::known;
+
+/// A symbol of an image.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Sym(pub(crate) u32);
+
+/// What a symbol means in function position.
+#[derive(Clone, Default)]
+pub enum FunctionCell {
+    /// Nothing.
+    #[default]
+    Unbound,
+    /// A function.
+    Function(Rc<Function>),
+    /// A macro: the function maps a whole form to its expansion.
+    Macro(Rc<Function>),
+    /// A macro or special operator that the compiler knows.
+    Builtin,
+}
+
+/// How a symbol behaves as a variable.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub enum VariableKind {
+    /// Bindings are lexical.
+    #[default]
+    Lexical,
+    /// Bindings are dynamic.
+    Special,
+    /// The value never changes.
+    Constant,
+}
+
+/// What an image knows about a symbol.
+#[derive(Default)]
+pub struct SymbolData {
+    /// The name.
+    pub name: Rc<str>,
+    /// The home package; none if uninterned.
+    pub package: Option<PackageId>,
+    /// The global value.
+    pub value: Value,
+    /// How the symbol is bound as a variable.
+    pub kind: VariableKind,
+    /// How many dynamic bindings are alive in all fibers.
+    pub bindings: u32,
+    /// The global function.
+    pub function: FunctionCell,
+    /// The function of `(setf (name …) …)`.
+    pub setf_function: Option<Rc<Function>>,
+    /// The property list.
+    pub plist: Value,
+    /// Expansion of a global symbol macro.
+    pub symbol_macro: Option<Value>,
+    /// Documentation as a variable, if any.
+    pub variable_doc: Option<Rc<str>>,
+}
+
+/// All symbols of an image.
+pub struct SymbolTable {
+    entries: Vec<SymbolData>,
+}
+
+impl SymbolTable {
+    /// An empty table.
+    pub fn new() -> SymbolTable {
+        SymbolTable {
+            entries: Vec::with_capacity(4096),
+        }
+    }
+
+    /// Adds a symbol that belongs to no package yet.
+    pub fn make(&mut self, name: Rc<str>) -> Sym {
+        // More than four billion symbols do not fit in memory.
+        let index = u32::try_from(self.entries.len()).unwrap_or(u32::MAX);
+        self.entries.push(SymbolData {
+            name,
+            plist: Value::NIL,
+            ..SymbolData::default()
+        });
+        Sym(index)
+    }
+
+    /// The symbol's data.
+    #[inline]
+    pub fn get(&self, sym: Sym) -> &SymbolData {
+        &self.entries[sym.0 as usize]
+    }
+
+    /// The symbol's data, to be changed.
+    #[inline]
+    pub fn get_mut(&mut self, sym: Sym) -> &mut SymbolData {
+        &mut self.entries[sym.0 as usize]
+    }
+
+    /// Number of symbols.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Is there no symbol?
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// All symbols, in order of creation.
+    pub fn iter(&self) -> impl Iterator<Item = (Sym, &SymbolData)> {
+        self.entries
+            .iter()
+            .enumerate()
+            .map(|(i, data)| (Sym(u32::try_from(i).unwrap_or(u32::MAX)), data))
+    }
+}
+
+impl Default for SymbolTable {
+    fn default() -> SymbolTable {
+        SymbolTable::new()
+    }
+}

@@ -1,0 +1,154 @@
+//! How things look: the surfaces by which people recognise what the world knows as a few
+//! boxes and cylinders. Nothing here touches anything: neither physics nor the robot's camera
+//! know of looks.
+
+mod kitchen;
+mod look;
+mod objects;
+mod pr2;
+mod vessel;
+
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+
+use super::scene::{Body, Finish, Kind, Owner, Scene};
+use super::surface::Surface;
+use crate::robot::{KinematicTree, Link, LinkId};
+use crate::spatial::Pose;
+use crate::world::{Models, Object, World};
+use look::{Look, PLAIN};
+
+/// Half the edge length (m) of the floor that is drawn.
+const FLOOR_HALF: f64 = 30.0;
+
+/// Greatest width (m) of broken edges.
+const FURNITURE_BEVEL: f64 = 0.003;
+const ROBOT_BEVEL: f64 = 0.022;
+
+/// The looks of everything that a world may hold; made once, they serve any number of scenes.
+pub struct Looks {
+    floor: Arc<Surface>,
+    furniture: Vec<Dressed>,
+    robot: Vec<Dressed>,
+    /// By type.
+    objects: IndexMap<String, Vec<Look>>,
+}
+
+/// A link with its looks.
+struct Dressed {
+    link: LinkId,
+    owner: Owner,
+    looks: Vec<Look>,
+}
+
+impl Looks {
+    /// The looks of robot, kitchen and objects.
+    pub fn of(models: &Models) -> Self {
+        let kinds = models.objects.types();
+        Self {
+            floor: Arc::new(Surface::ground(FLOOR_HALF)),
+            furniture: dressed(&models.kitchen, Kind::Furniture),
+            robot: dressed(&models.robot, Kind::Robot),
+            objects: kinds
+                .map(|kind| {
+                    (
+                        kind.name.clone(),
+                        objects::looks_of(&kind.name, &kind.shapes),
+                    )
+                })
+                .collect(),
+        }
+    }
+
+    /// The world as it is now.
+    pub fn scene(&self, world: &World) -> Scene {
+        let mut bodies = vec![Body {
+            owner: Owner::new(Kind::Floor, "floor"),
+            surface: self.floor.clone(),
+            pose: Pose::identity(),
+            color: PLAIN,
+            finish: Finish::Boards,
+        }];
+        for dressed in &self.furniture {
+            dressed.add(&world.furniture_pose(dressed.link), &mut bodies);
+        }
+        for dressed in &self.robot {
+            dressed.add(&world.link_pose(dressed.link), &mut bodies);
+        }
+        for object in world.objects() {
+            // The object comes from the world itself.
+            if let Ok(pose) = world.object_pose(object.name()) {
+                match self.objects.get(object.type_name()) {
+                    Some(looks) => add_object(object, looks, &pose, &mut bodies),
+                    // Of a type that these looks were not made for.
+                    None => bodies.extend(object_scene(object).bodies),
+                }
+            }
+        }
+        Scene { bodies }
+    }
+}
+
+/// What is seen of a link, in the link's frame.
+pub(crate) fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scene {
+    let mut scene = Scene::default();
+    let dressed = Dressed::new(tree, link, tree.link(link), kind);
+    dressed.add(&Pose::identity(), &mut scene.bodies);
+    scene
+}
+
+/// What is seen of an object, in its own frame.
+pub(crate) fn object_scene(object: &Object) -> Scene {
+    let mut scene = Scene::default();
+    let looks = objects::looks_of(object.type_name(), object.shapes());
+    add_object(object, &looks, &Pose::identity(), &mut scene.bodies);
+    scene
+}
+
+fn add_object(object: &Object, looks: &[Look], pose: &Pose, bodies: &mut Vec<Body>) {
+    let owner = Owner::new(Kind::Object, object.name());
+    let color = object.color();
+    bodies.extend(looks.iter().map(|look| look.body(&owner, pose, color)));
+}
+
+impl Dressed {
+    fn new(tree: &KinematicTree, id: LinkId, link: &Link, kind: Kind) -> Self {
+        let own = if kind == Kind::Robot && tree.name() == pr2::NAME {
+            pr2::looks_of(&link.name)
+        } else {
+            None
+        };
+        Self {
+            link: id,
+            owner: Owner::new(kind, &link.name),
+            looks: own.unwrap_or_else(|| as_modelled(link, kind)),
+        }
+    }
+
+    fn add(&self, pose: &Pose, bodies: &mut Vec<Body>) {
+        let looks = self.looks.iter();
+        bodies.extend(looks.map(|look| look.body(&self.owner, pose, PLAIN)));
+    }
+}
+
+fn dressed(tree: &KinematicTree, kind: Kind) -> Vec<Dressed> {
+    tree.links()
+        .map(|(id, link)| Dressed::new(tree, id, link, kind))
+        .filter(|dressed| !dressed.looks.is_empty())
+        .collect()
+}
+
+/// The shapes that the model gives.
+fn as_modelled(link: &Link, kind: Kind) -> Vec<Look> {
+    let (bevel, finish) = match kind {
+        Kind::Robot => (ROBOT_BEVEL, Finish::Gloss),
+        _ => (FURNITURE_BEVEL, Finish::Satin),
+    };
+    let shapes = link.visuals.iter();
+    let mut looks: Vec<_> = shapes.map(|s| Look::of_shape(s, bevel, finish)).collect();
+    if kind == Kind::Furniture {
+        looks.extend(kitchen::extras_of(&link.name));
+    }
+    looks
+}

@@ -1,0 +1,90 @@
+//! Checks of designators as they are written: types that do not exist, keys that a type
+//! does not take. Mistakes become notes of the compiler; nothing is refused here, because
+//! a program may define types of its own.
+
+use super::schema;
+use super::schema::TypeRow;
+use super::value::Class;
+use crate::closest_name::closest_name;
+use crate::lisp::compile::notes::NoteKind;
+use crate::lisp::image::Image;
+use crate::lisp::source::Place;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::{Sym, VariableKind};
+
+/// Notes the mistakes in the properties of a designator of a class.
+pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value], place: Place) {
+    let written: Vec<(String, Value)> = properties
+        .iter()
+        .filter_map(|property| named(image, property))
+        .collect();
+    let mistakes = match class {
+        Class::Action | Class::Motion => of_type(image, class, &written),
+        Class::Object | Class::Location | Class::Human => Vec::new(),
+    };
+    for (name, text) in mistakes {
+        image.note(place, || NoteKind::Mistake { name, text });
+    }
+}
+
+/// Key and value of a property, `(when condition (key value))` looked into.
+fn named(image: &Image, property: &Value) -> Option<(String, Value)> {
+    let head = property.car_or_nil();
+    if head.as_symbol() == Some(known::WHEN) {
+        let inner = property.cdr_or_nil().cdr_or_nil().car_or_nil();
+        let key = inner.car_or_nil().as_symbol()?;
+        return Some((name(image, key), inner.cdr_or_nil().car_or_nil()));
+    }
+    let key = head.as_symbol()?;
+    Some((name(image, key), property.cdr_or_nil().car_or_nil()))
+}
+
+fn name(image: &Image, sym: Sym) -> String {
+    image.name(sym).to_uppercase()
+}
+
+fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(String, String)> {
+    let kind = class.name().to_lowercase();
+    let given = written.iter().find(|(key, _)| key == "TYPE");
+    let Some(given) = given.and_then(|(_, value)| literal_name(image, value)) else {
+        return Vec::new();
+    };
+    let rows: Vec<&'static TypeRow> = schema::rows(class, &given).collect();
+    if rows.is_empty() {
+        let near = schema::nearest_type(class, &given);
+        let text = asking(format!("There is no {kind} of type {given}"), near);
+        return vec![(given, text)];
+    }
+    let is_known = |key: &str| {
+        schema::COMMON_KEYS.contains(&key) || rows.iter().any(|row| row.key(key).is_some())
+    };
+    written
+        .iter()
+        .filter(|(key, _)| !is_known(key))
+        .map(|(key, _)| {
+            let near = closest_name(key, rows.iter().flat_map(|row| schema::key_names(row)));
+            let text = format!("The {kind} {given} has no key {key}");
+            (key.clone(), asking(text, near))
+        })
+        .collect()
+}
+
+/// The name that a value stands for if it is a plain symbol: no `?variable`, no global.
+fn literal_name(image: &Image, value: &Value) -> Option<String> {
+    let sym = value.as_symbol()?;
+    if image.is_keyword(sym) {
+        return Some(image.name(sym).to_owned());
+    }
+    let data = image.symbol(sym);
+    let is_global = !data.value.is_unbound() || data.kind != VariableKind::Lexical;
+    (!is_global && !data.name.starts_with('?')).then(|| name(image, sym))
+}
+
+/// A finding, with the name that was probably meant.
+fn asking(text: String, near: Option<&str>) -> String {
+    match near {
+        Some(near) => format!("{text}; did you mean {near}?"),
+        None => format!("{text}."),
+    }
+}

@@ -1,0 +1,120 @@
+//! Designators: actions, motions, objects and locations described by properties.
+//!
+//! This folder knows their syntax, their types and keys, and how they are resolved; it
+//! moves nothing. A motion becomes a request to whoever runs the plan.
+
+pub mod access;
+pub mod check;
+mod continuation;
+pub mod failure;
+pub mod ground;
+pub mod lint;
+pub mod lists;
+mod literal;
+pub mod location;
+pub mod names;
+pub mod object;
+pub mod perform;
+pub mod reference;
+pub mod request;
+pub mod schema;
+pub mod syntax;
+pub mod value;
+
+pub use failure::no_process_module;
+pub use request::MotionRequest;
+pub use value::current;
+
+use super::{packages, prolog as prolog_rules};
+use crate::lisp::image::Image;
+use crate::lisp::object::define::ClassDefinition;
+use crate::lisp::reader::Reader;
+use crate::lisp::value::Value;
+use crate::lisp::value::class::ClassKind;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::machine;
+
+/// Process modules in Lisp.
+const PROCESS_MODULES: &str = include_str!("process_modules.lisp");
+
+/// Makes the packages, classes, variables, functions and macros; after the plan language.
+pub fn install(image: &mut Image) {
+    packages::install(image);
+    let desig = packages::ensure(image, "CRAM-DESIGNATORS", &["DESIG"]);
+    let root = image.export_symbol(desig, "DESIGNATOR");
+    define_class(image, root, known::T);
+    for class in value::Class::ALL {
+        let name = image.export_symbol(desig, class.class_name());
+        define_class(image, name, root);
+    }
+    let pprint = image.export_symbol(desig, "*DESIGNATOR-PPRINT-DESCRIPTION*");
+    image.define_special(pprint, Value::T);
+    image.install_operators(desig, syntax::OPERATORS);
+    image.install_operators(desig, access::OPERATORS);
+    image.install(desig, access::TABLE);
+    image.install(desig, object::TABLE);
+    let data = image.export_symbol(desig, "OBJECT-DESIGNATOR-DATA");
+    define_class(image, data, known::T);
+    failure::define(image);
+    let executive = packages::ensure(image, "CRAM-EXECUTIVE", &["EXE"]);
+    image.install(executive, perform::TABLE);
+    image.install(executive, reference::EXECUTIVE_TABLE);
+    image.install(desig, reference::TABLE);
+    image.install(desig, location::TABLE);
+    location::define(image);
+    let lists = packages::ensure(image, "CRAM-UTILITIES", &["CUT"]);
+    image.install(lists, lists::TABLE);
+    image.install_operators(lists, lists::OPERATORS);
+    let prolog = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
+    image.install(prolog, prolog_rules::builtins::TABLE);
+    image.install(prolog, prolog_rules::facts::TABLE);
+    image.install_operators(prolog, prolog_rules::facts::OPERATORS);
+    let names = packages::ensure(image, "ROSLISP-UTILITIES", &[]);
+    image.install(names, names::TABLE);
+    if image.packages.find("CRAM-LANGUAGE").is_some() {
+        evaluate(image, "CRAM-PROCESS-MODULES", PROCESS_MODULES);
+    }
+}
+
+/// Evaluates a text of the program's own in a package. It is tested: it neither fails nor
+/// waits.
+fn evaluate(image: &mut Image, package: &str, text: &str) {
+    let outer = image.special(known::V_PACKAGE).clone();
+    let package = packages::ensure(image, package, &[]);
+    image.set_special(known::V_PACKAGE, Value::Package(package));
+    let mut reader = Reader::of_text(text);
+    while let Ok(Some((form, _))) = reader.next_form(image) {
+        let evaluated = machine::call_nested(image, known::EVAL.into(), vec![form]);
+        debug_assert!(evaluated.is_ok(), "the text of a package fails");
+    }
+    image.set_special(known::V_PACKAGE, outer);
+}
+
+/// The first value of a property, by the key's name in upper case; `None` if it is absent,
+/// `NIL`, or the value is no designator.
+pub fn property(image: &Image, designator: &Value, key: &str) -> Option<Value> {
+    value::as_designator(designator)?
+        .property_named(image, key)
+        .filter(Value::is_true)
+}
+
+/// Does a designator ask for all things that fit?
+pub fn asks_for_all(_: &Image, designator: &Value) -> bool {
+    value::as_designator(designator).is_some_and(value::Designator::is_all)
+}
+
+fn define_class(image: &mut Image, name: Sym, superclass: Sym) {
+    // The superclass is defined already.
+    let _ = image.define_unchecked(ClassDefinition {
+        name,
+        kind: ClassKind::Builtin,
+        superclasses: vec![superclass],
+        slots: Vec::new(),
+        default_initargs: Vec::new(),
+        doc: None,
+    });
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

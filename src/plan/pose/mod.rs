@@ -1,0 +1,104 @@
+//! Poses, transforms, vectors and quaternions as values of plans.
+//!
+//! What needs the robot or the world (looking up a transform, the robot's pose) is not
+//! here. Lengths are metres, angles radians, quaternions x y z w. A quaternion is kept as
+//! it was given for printing and is normalised wherever it is computed with.
+
+pub mod algebra;
+pub mod argument;
+pub mod construct;
+pub mod pose_functions;
+pub mod rotation;
+pub mod stamped;
+pub mod tutorial;
+pub mod value;
+
+use super::packages::{ensure, rehome};
+use crate::lisp::image::Image;
+use crate::lisp::object::define::ClassDefinition;
+use crate::lisp::value::Value;
+use crate::lisp::value::class::ClassKind;
+use crate::lisp::value::known;
+use crate::lisp::value::package::Access;
+use crate::lisp::value::symbol::Sym;
+
+/// Classes: name, superclass, and whether it belongs to the stamped ones.
+const CLASSES: &[(Sym, Sym, bool)] = &[
+    (known::VECTOR_3D, known::T, false),
+    (known::QUATERNION, known::T, false),
+    (known::POSE, known::T, false),
+    (known::TRANSFORM, known::T, false),
+    (known::POSE_STAMPED, known::POSE, true),
+    (known::TRANSFORM_STAMPED, known::TRANSFORM, true),
+];
+
+/// Frames that plans name by variables.
+const FRAMES: &[(&str, &str)] = &[
+    ("*FIXED-FRAME*", "map"),
+    ("*ODOM-FRAME*", "odom_combined"),
+    ("*ROBOT-BASE-FRAME*", "base_footprint"),
+    ("*ROBOT-TORSO-FRAME*", "torso_lift_link"),
+    ("*ROBOT-LEFT-TOOL-FRAME*", "l_gripper_tool_frame"),
+    ("*ROBOT-RIGHT-TOOL-FRAME*", "r_gripper_tool_frame"),
+];
+
+/// Makes the packages, classes, variables and functions.
+pub fn install(image: &mut Image) {
+    let plain = ensure(image, "CL-TRANSFORMS", &[]);
+    let stamped = ensure(image, "CL-TRANSFORMS-STAMPED", &["CL-TF", "CL-TF2"]);
+    let cram = ensure(image, "CRAM-TF", &[]);
+    let tutorial = ensure(image, "CRAM-PICK-PLACE-TUTORIAL", &["PP-TUT"]);
+    for (name, superclass, is_stamped) in CLASSES {
+        rehome(image, if *is_stamped { stamped } else { plain }, *name);
+        // The table is consistent: superclasses stand before their subclasses.
+        let _ = image.define_unchecked(ClassDefinition {
+            name: *name,
+            kind: ClassKind::Builtin,
+            superclasses: vec![*superclass],
+            slots: Vec::new(),
+            default_initargs: Vec::new(),
+            doc: None,
+        });
+    }
+    for table in [
+        construct::TABLE,
+        algebra::TABLE,
+        rotation::TABLE,
+        pose_functions::TABLE,
+    ] {
+        image.install(plain, table);
+    }
+    for package in [stamped, cram] {
+        image.packages.use_package(package, plain);
+    }
+    image.install(stamped, stamped::TABLE);
+    image.packages.use_package(cram, stamped);
+    image.install(cram, stamped::CRAM_TABLE);
+    image.install(tutorial, tutorial::TABLE);
+    // People write `cl-tf:make-3d-vector` as well as `cl-transforms:make-3d-vector`.
+    let names: Vec<Sym> = image
+        .packages
+        .get(plain)
+        .symbols
+        .values()
+        .filter(|(_, external)| *external)
+        .map(|(sym, _)| *sym)
+        .collect();
+    for sym in names {
+        let name = image.name(sym).to_owned();
+        let taken = matches!(
+            image.packages.find_symbol(stamped, &name),
+            Some((_, Access::External | Access::Internal))
+        );
+        if !taken {
+            image.packages.export(&mut image.symbols, stamped, sym);
+        }
+    }
+    for (name, frame) in FRAMES {
+        let sym = image.export_symbol(cram, name);
+        image.define_special(sym, Value::string(*frame));
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,578 @@
+//! The prover: goals to prove, and choices to come back to.
+
+use std::rc::Rc;
+
+use super::facts;
+use super::facts::{Clause, Facts};
+use super::functors;
+use super::term::{Bindings, Mark, Naming, Variable};
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
+
+pub(crate) type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Steps between two looks at the interrupt flag.
+const INTERRUPT_INTERVAL: u32 = 1024;
+/// Choices that may be open at once.
+const MOST_CHOICES: usize = 200_000;
+
+/// One thing to do.
+#[derive(Clone)]
+pub(crate) enum Goal {
+    /// Prove a term.
+    Prove(Value),
+    /// Forget all choices made since there were so many.
+    Cut(usize),
+    /// Forget the one choice of this number, keeping later ones.
+    Forget(u64),
+    /// Keep a term in a collection, then fail.
+    Collect(usize, Value),
+    /// Fail.
+    Fail,
+}
+
+/// Goals to prove, in order.
+pub(crate) type Goals = Option<Rc<GoalNode>>;
+
+/// A goal with those after it.
+pub(crate) struct GoalNode {
+    goal: Goal,
+    /// How many choices there were when the clause of this goal was entered: `!` goes back
+    /// to that many.
+    clause: usize,
+    next: Goals,
+}
+
+/// What to do when a choice is come back to.
+enum Alternative {
+    /// Try the next clauses of a goal.
+    Clauses {
+        goal: Value,
+        clauses: Rc<[Clause]>,
+        next: usize,
+    },
+    /// Unify a term with the next items of a list.
+    Items { term: Value, rest: Vec<Value> },
+    /// Go on with other goals.
+    Goals,
+    /// The collection is complete: unify it with a term.
+    Collected {
+        collection: usize,
+        result: Value,
+        kind: Collection,
+    },
+    /// Nothing any more.
+    Forgotten,
+}
+
+struct Choice {
+    number: u64,
+    mark: Mark,
+    goals: Goals,
+    alternative: Alternative,
+}
+
+/// What to do with the value of a call.
+enum Awaited {
+    /// Unify it with a term.
+    Result(Value),
+    /// Go on if it is not `NIL`.
+    Truth,
+    /// Unify one of the items of the list with a term.
+    OneOf(Value),
+    /// Unify the variables with what one of several lists of pairs says of their names.
+    OneOfBindings(Vec<Value>),
+    /// Go on.
+    Nothing,
+}
+
+/// How far the prover got.
+pub enum Progress {
+    /// A proof was found.
+    Proved,
+    /// There is no further proof.
+    Failed,
+    /// A function must be called; hand its value to [`Engine::deliver`].
+    Call {
+        /// The function.
+        function: Value,
+        /// The arguments.
+        args: Vec<Value>,
+    },
+}
+
+/// What a functor of the language asks for.
+pub(crate) enum Action {
+    /// The goal holds.
+    Succeed,
+    /// It does not.
+    Fail,
+    /// Go on with these goals.
+    Then(Vec<Goal>),
+    /// A choice between goals and others; both go on with what follows.
+    Either(Vec<Goal>, Vec<Goal>),
+    /// Unify a term with each item in turn.
+    Items(Value, Vec<Value>),
+    /// Collect the solutions of a goal, then unify the list with a term.
+    Collect {
+        template: Value,
+        goal: Value,
+        result: Value,
+        kind: Collection,
+    },
+    /// Call a function and unify its value with a term.
+    CallFor {
+        function: Value,
+        args: Vec<Value>,
+        result: Value,
+    },
+    /// Call a function and hold if its value is not `NIL`.
+    CallTest { function: Value, args: Vec<Value> },
+    /// Call a function, and unify a term with each item of its value in turn.
+    CallItems {
+        function: Value,
+        args: Vec<Value>,
+        term: Value,
+    },
+    /// Call a function that returns lists of bindings for these variables.
+    CallBindings {
+        function: Value,
+        args: Vec<Value>,
+        variables: Vec<Value>,
+    },
+    /// Call a function and go on.
+    CallOnly { function: Value, args: Vec<Value> },
+}
+
+/// What becomes of collected solutions.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Collection {
+    /// All of them, even if there is none.
+    All,
+    /// All of them; the goal fails if there is none.
+    Some,
+    /// Each once; the goal fails if there is none.
+    Distinct,
+}
+
+/// A prover at work on one query.
+pub struct Engine {
+    /// The bindings so far.
+    pub(crate) bindings: Bindings,
+    goals: Goals,
+    choices: Vec<Choice>,
+    collections: Vec<Vec<Value>>,
+    awaited: Option<Awaited>,
+    facts: Rc<Facts>,
+    query: Naming,
+    is_started: bool,
+    numbers: u64,
+}
+
+impl Engine {
+    /// A prover for a query whose variables are `?symbols`.
+    pub fn new(image: &mut Image, query: &Value) -> Result<Engine> {
+        let mut bindings = Bindings::default();
+        let mut naming = Naming::default();
+        let goal = bindings.rename(image, query, &mut naming)?;
+        let goals = Some(Rc::new(GoalNode {
+            goal: Goal::Prove(goal),
+            clause: 0,
+            next: None,
+        }));
+        Ok(Engine {
+            bindings,
+            goals,
+            choices: Vec::new(),
+            collections: Vec::new(),
+            awaited: None,
+            facts: facts::of(image),
+            query: naming,
+            is_started: false,
+            numbers: 0,
+        })
+    }
+
+    /// What a variable of the query is bound to.
+    pub fn value(&self, variable: Sym) -> Result<Option<Value>> {
+        let found = self.query.variables.iter().find(|(s, _)| *s == variable);
+        match found {
+            Some((_, variable)) => self.shown(variable).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// The bindings of the query's variables: a list of pairs, the last variable first.
+    pub fn solution(&self) -> Result<Value> {
+        let mut pairs = Vec::new();
+        for (name, variable) in self.query.variables.iter().rev() {
+            let value = self.bindings.resolve(variable)?;
+            if value.as_foreign::<Variable>().is_none() {
+                pairs.push(Value::cons((*name).into(), self.shown(variable)?));
+            }
+        }
+        Ok(Value::list(pairs))
+    }
+
+    /// A term with unbound variables as the symbols that they were written as.
+    pub(crate) fn shown(&self, term: &Value) -> Result<Value> {
+        fn named(term: &Value) -> Value {
+            match term {
+                Value::Foreign(_) => match term.as_foreign::<Variable>() {
+                    Some(variable) => variable.name.into(),
+                    None => term.clone(),
+                },
+                // `resolve` limits how deep this goes.
+                Value::Cons(_) => {
+                    let mut rest = term.iter_list();
+                    let items: Vec<Value> = rest.by_ref().map(|t| named(&t)).collect();
+                    Value::list_with_tail(items, named(&rest.rest))
+                }
+                other => other.clone(),
+            }
+        }
+        Ok(named(&self.bindings.resolve(term)?))
+    }
+
+    /// Searches for the next proof.
+    pub fn run(&mut self, image: &mut Image) -> Result<Progress> {
+        if self.is_started && self.awaited.is_none() && !self.backtrack(image)? {
+            return Ok(Progress::Failed);
+        }
+        self.is_started = true;
+        self.search(image)
+    }
+
+    /// Goes on with the value of the call that was asked for.
+    pub fn deliver(&mut self, image: &mut Image, value: Value) -> Result<Progress> {
+        let holds = match self.awaited.take() {
+            None | Some(Awaited::Nothing) => true,
+            Some(Awaited::Truth) => value.is_true(),
+            Some(Awaited::Result(term)) => self.bindings.unify(&term, &value),
+            Some(Awaited::OneOf(term)) => {
+                let items = value.list_to_vec().unwrap_or_default();
+                self.choose_item(term, items)
+            }
+            Some(Awaited::OneOfBindings(variables)) => {
+                let items = value
+                    .iter_list()
+                    .map(|pairs| {
+                        Value::list(
+                            variables
+                                .iter()
+                                .map(|v| bound_by(v, &pairs))
+                                .collect::<Vec<_>>(),
+                        )
+                    })
+                    .collect();
+                self.choose_item(Value::list(variables.clone()), items)
+            }
+        };
+        if !holds && !self.backtrack(image)? {
+            return Ok(Progress::Failed);
+        }
+        self.search(image)
+    }
+
+    fn search(&mut self, image: &mut Image) -> Result<Progress> {
+        let mut budget = INTERRUPT_INTERVAL;
+        loop {
+            budget -= 1;
+            if budget == 0 {
+                budget = INTERRUPT_INTERVAL;
+                if image.take_interrupt() {
+                    return Err(Raise::new(known::INTERACTIVE_INTERRUPT, "Interrupted."));
+                }
+            }
+            let Some(node) = self.goals.clone() else {
+                return Ok(Progress::Proved);
+            };
+            self.goals = node.next.clone();
+            let holds = match &node.goal {
+                Goal::Cut(count) => {
+                    self.choices.truncate(*count);
+                    true
+                }
+                Goal::Forget(number) => {
+                    if let Some(choice) = self.choices.iter_mut().find(|c| c.number == *number) {
+                        choice.alternative = Alternative::Forgotten;
+                    }
+                    true
+                }
+                Goal::Collect(collection, template) => {
+                    let item = self.bindings.resolve(template)?;
+                    if let Some(items) = self.collections.get_mut(*collection) {
+                        items.push(item);
+                    }
+                    false
+                }
+                Goal::Fail => false,
+                Goal::Prove(term) => {
+                    let term = self.bindings.walk(term);
+                    match self.prove(image, &term, node.clause)? {
+                        Ok(holds) => holds,
+                        Err(call) => return Ok(call),
+                    }
+                }
+            };
+            if !holds && !self.backtrack(image)? {
+                return Ok(Progress::Failed);
+            }
+            if self.choices.len() > MOST_CHOICES {
+                return Err(Raise::simple(
+                    "A Prolog goal has too many open choices: does a rule prove itself?",
+                ));
+            }
+        }
+    }
+
+    /// Starts to prove a term: does it hold so far, or must a function be called?
+    fn prove(
+        &mut self,
+        image: &mut Image,
+        term: &Value,
+        clause: usize,
+    ) -> Result<std::result::Result<bool, Progress>> {
+        let (functor, args) = match term {
+            Value::Cons(cons) => (self.bindings.walk(&cons.car()), cons.cdr()),
+            other => (other.clone(), Value::NIL),
+        };
+        let Some(functor) = functor.as_symbol().filter(|_| functor.is_true()) else {
+            return Err(Raise::simple(format!(
+                "{} is not a Prolog goal: (functor argument…) was expected.",
+                print::to_string(image, &self.shown(term)?, true)
+            )));
+        };
+        if self.facts.knows(functor) {
+            let clauses: Rc<[Clause]> = self.facts.clauses(functor).into();
+            return Ok(Ok(self.try_clauses(image, term.clone(), clauses, 0)?));
+        }
+        let Some(action) = functors::apply(self, image, functor, &args, clause)? else {
+            let shown = print::to_string(image, &self.shown(term)?, true);
+            image.output.fresh_line();
+            image.output.write(&format!(
+                "WARNING: Trying to prove goal {shown} with undefined functor {}.\n",
+                image.name(functor).to_owned()
+            ));
+            return Ok(Ok(false));
+        };
+        Ok(self.take(action, clause))
+    }
+
+    fn take(&mut self, action: Action, clause: usize) -> std::result::Result<bool, Progress> {
+        let (awaited, function, args) = match action {
+            Action::Succeed => return Ok(true),
+            Action::Fail => return Ok(false),
+            Action::Then(goals) => {
+                self.push_goals(goals, clause);
+                return Ok(true);
+            }
+            Action::Either(first, second) => {
+                let rest = self.goals.clone();
+                self.push_goals(second, clause);
+                let alternative = std::mem::replace(&mut self.goals, rest);
+                self.push_choice(alternative, Alternative::Goals);
+                self.push_goals(first, clause);
+                return Ok(true);
+            }
+            Action::Items(term, items) => return Ok(self.choose_item(term, items)),
+            Action::Collect {
+                template,
+                goal,
+                result,
+                kind,
+            } => {
+                let collection = self.collections.len();
+                self.collections.push(Vec::new());
+                let rest = self.goals.clone();
+                let alternative = Alternative::Collected {
+                    collection,
+                    result,
+                    kind,
+                };
+                self.push_choice(rest, alternative);
+                let barrier = self.choices.len();
+                self.goals = None;
+                self.push_goals(
+                    vec![Goal::Prove(goal), Goal::Collect(collection, template)],
+                    barrier,
+                );
+                return Ok(true);
+            }
+            Action::CallFor {
+                function,
+                args,
+                result,
+            } => (Awaited::Result(result), function, args),
+            Action::CallTest { function, args } => (Awaited::Truth, function, args),
+            Action::CallItems {
+                function,
+                args,
+                term,
+            } => (Awaited::OneOf(term), function, args),
+            Action::CallBindings {
+                function,
+                args,
+                variables,
+            } => (Awaited::OneOfBindings(variables), function, args),
+            Action::CallOnly { function, args } => (Awaited::Nothing, function, args),
+        };
+        self.awaited = Some(awaited);
+        Err(Progress::Call { function, args })
+    }
+
+    /// How many choices are open.
+    pub(crate) fn choice_count(&self) -> usize {
+        self.choices.len()
+    }
+
+    fn push_goals(&mut self, goals: Vec<Goal>, clause: usize) {
+        for goal in goals.into_iter().rev() {
+            let next = self.goals.take();
+            self.goals = Some(Rc::new(GoalNode { goal, clause, next }));
+        }
+    }
+
+    /// The number that the next choice will have.
+    pub(crate) fn next_number(&self) -> u64 {
+        self.numbers
+    }
+
+    fn push_choice(&mut self, goals: Goals, alternative: Alternative) {
+        let mark = self.bindings.mark();
+        self.push_choice_at(mark, goals, alternative);
+    }
+
+    fn push_choice_at(&mut self, mark: Mark, goals: Goals, alternative: Alternative) {
+        self.choices.push(Choice {
+            number: self.numbers,
+            mark,
+            goals,
+            alternative,
+        });
+        self.numbers += 1;
+    }
+
+    /// Enters the first clause from `next` on whose head fits; leaves a choice for others.
+    fn try_clauses(
+        &mut self,
+        image: &Image,
+        goal: Value,
+        clauses: Rc<[Clause]>,
+        next: usize,
+    ) -> Result<bool> {
+        let mark = self.bindings.mark();
+        for (index, clause) in clauses.iter().enumerate().skip(next) {
+            let barrier = self.choices.len();
+            let mut naming = Naming::default();
+            let head = self.bindings.rename(image, &clause.head, &mut naming)?;
+            if !self.bindings.unify(&goal, &head) {
+                self.bindings.undo(mark);
+                continue;
+            }
+            let body = self.bindings.rename(image, &clause.body, &mut naming)?;
+            if index + 1 < clauses.len() {
+                let alternative = Alternative::Clauses {
+                    goal,
+                    clauses: clauses.clone(),
+                    next: index + 1,
+                };
+                let goals = self.goals.clone();
+                self.push_choice_at(mark, goals, alternative);
+            }
+            let goals = body.iter_list().map(Goal::Prove).collect();
+            self.push_goals(goals, barrier);
+            return Ok(true);
+        }
+        Ok(false)
+    }
+
+    /// Unifies a term with the first item that fits; leaves a choice for the others.
+    fn choose_item(&mut self, term: Value, items: Vec<Value>) -> bool {
+        let mark = self.bindings.mark();
+        let mut items = items.into_iter();
+        while let Some(item) = items.next() {
+            if self.bindings.unify(&term, &item) {
+                let rest: Vec<Value> = items.collect();
+                if !rest.is_empty() {
+                    let goals = self.goals.clone();
+                    self.push_choice_at(mark, goals, Alternative::Items { term, rest });
+                }
+                return true;
+            }
+            self.bindings.undo(mark);
+        }
+        false
+    }
+
+    /// Goes back to the last choice that leads on; false if there is none.
+    fn backtrack(&mut self, image: &Image) -> Result<bool> {
+        while let Some(choice) = self.choices.pop() {
+            self.bindings.undo(choice.mark);
+            self.goals = choice.goals;
+            match choice.alternative {
+                Alternative::Forgotten => {}
+                Alternative::Goals => return Ok(true),
+                Alternative::Items { term, rest } => {
+                    if self.choose_item(term, rest) {
+                        return Ok(true);
+                    }
+                }
+                Alternative::Collected {
+                    collection,
+                    result,
+                    kind,
+                } => {
+                    let items = self.collections.get_mut(collection);
+                    let mut items = items.map(std::mem::take).unwrap_or_default();
+                    if kind == Collection::Distinct {
+                        items = distinct(items);
+                    }
+                    let is_enough = kind == Collection::All || !items.is_empty();
+                    if is_enough && self.bindings.unify(&result, &Value::list(items)) {
+                        return Ok(true);
+                    }
+                }
+                Alternative::Clauses {
+                    goal,
+                    clauses,
+                    next,
+                } => {
+                    if self.try_clauses(image, goal, clauses, next)? {
+                        return Ok(true);
+                    }
+                }
+            }
+        }
+        Ok(false)
+    }
+}
+
+/// The items without those that are equal to an earlier one.
+fn distinct(items: Vec<Value>) -> Vec<Value> {
+    let mut kept: Vec<Value> = Vec::new();
+    for item in items {
+        if !kept
+            .iter()
+            .any(|k| crate::lisp::value::equality::equal(k, &item))
+        {
+            kept.push(item);
+        }
+    }
+    kept
+}
+
+/// What a list of pairs says of a variable's name, or the variable itself.
+fn bound_by(variable: &Value, pairs: &Value) -> Value {
+    let Some(name) = variable.as_foreign::<Variable>().map(|v| v.name) else {
+        return variable.clone();
+    };
+    pairs
+        .iter_list()
+        .find(|pair| pair.car_or_nil().as_symbol() == Some(name))
+        .map_or_else(|| variable.clone(), |pair| pair.cdr_or_nil())
+}

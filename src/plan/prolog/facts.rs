@@ -1,0 +1,220 @@
+//! Fact groups: rules by the symbol that their heads begin with.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use indexmap::IndexMap;
+
+use crate::lisp::builtin::{Builtin, Operator, pure};
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
+use crate::plan::packages;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// `(<- head goal…)`: the head holds if the goals do.
+#[derive(Clone)]
+pub struct Clause {
+    /// The head: a list, or a symbol alone.
+    pub head: Value,
+    /// The list of goals.
+    pub body: Value,
+}
+
+/// All fact groups of an image; the value of `prolog::*facts*`.
+#[derive(Default)]
+pub struct Facts {
+    groups: RefCell<IndexMap<Sym, Vec<(Sym, Clause)>>>,
+    handlers: RefCell<IndexMap<Sym, Value>>,
+}
+
+impl Facts {
+    /// The clauses of a functor, in order of definition.
+    pub fn clauses(&self, functor: Sym) -> Vec<Clause> {
+        self.groups
+            .borrow()
+            .values()
+            .flatten()
+            .filter(|(name, _)| *name == functor)
+            .map(|(_, clause)| clause.clone())
+            .collect()
+    }
+
+    /// The function of `def-prolog-handler` for a functor.
+    pub fn handler(&self, functor: Sym) -> Option<Value> {
+        self.handlers.borrow().get(&functor).cloned()
+    }
+
+    /// Does any group say something about the functor?
+    pub fn knows(&self, functor: Sym) -> bool {
+        let groups = self.groups.borrow();
+        groups.values().flatten().any(|(name, _)| *name == functor)
+    }
+}
+
+/// The variable that holds the facts keeps them alive; this is how it refers to them.
+struct FactsObject(Rc<Facts>);
+
+impl Foreign for FactsObject {
+    fn type_symbol(&self) -> Sym {
+        known::T
+    }
+
+    fn print(&self, _: &Image, _: bool) -> String {
+        format!("#<{} FACT-GROUPS>", self.0.groups.borrow().len())
+    }
+}
+
+/// The facts of an image.
+pub fn of(image: &mut Image) -> Rc<Facts> {
+    let package = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
+    let variable = image.intern(package, "*FACTS*");
+    if let Some(object) = image.special(variable).as_foreign::<FactsObject>() {
+        return object.0.clone();
+    }
+    let facts = Rc::new(Facts::default());
+    image.define_special(variable, Value::foreign(FactsObject(facts.clone())));
+    facts
+}
+
+/// Functions of package `CRAM-PROLOG` that its macros expand into.
+pub static TABLE: &[Builtin] = &[
+    pure(
+        "DEFINE-FACT-GROUP",
+        "name rules",
+        "What DEF-FACT-GROUP expands into.",
+        &[],
+        define_group,
+    ),
+    pure(
+        "DEFINE-HANDLER",
+        "name function",
+        "What DEF-PROLOG-HANDLER expands into.",
+        &[],
+        |image, args| {
+            let Some(name) = args[0].as_symbol() else {
+                return Err(Raise::type_error(&args[0], known::SYMBOL));
+            };
+            let facts = of(image);
+            facts.handlers.borrow_mut().insert(name, args[1].clone());
+            Ok(args[0].clone())
+        },
+    ),
+];
+
+/// Macros of package `CRAM-PROLOG`.
+pub static OPERATORS: &[Operator] = &[
+    Operator {
+        name: "DEF-FACT-GROUP",
+        lambda_list: "name predicates &body rules",
+        doc: "Defines facts and rules (<- (head …) goal…); a group of the same name is replaced.",
+        examples: &[
+            "(progn (prolog:def-fact-group likings () (prolog:<- (likes robot tea))) (cut:force-ll (prolog:prolog '(likes robot ?what)))) => (((?WHAT . TEA)))",
+        ],
+        expand: Some(def_fact_group),
+    },
+    Operator {
+        name: "DEF-PROLOG-HANDLER",
+        lambda_list: "name lambda-list &body body",
+        doc: "Defines a functor by a function of the bindings and the goal's arguments; it returns a list of lists of bindings.",
+        examples: &[],
+        expand: Some(def_handler),
+    },
+    Operator {
+        name: "<-",
+        lambda_list: "head &rest goals",
+        doc: "A rule of a fact group: the head holds if all goals do.",
+        examples: &[],
+        expand: Some(|_, _| {
+            Err(Raise::program(
+                "<- is a rule of a fact group: write it inside (def-fact-group name () …).",
+            ))
+        }),
+    },
+];
+
+fn def_fact_group(image: &mut Image, form: &Value) -> Result<Value> {
+    let rest = form.cdr_or_nil();
+    let name = rest.car_or_nil();
+    let predicates = rest.cdr_or_nil().car_or_nil();
+    if name.as_symbol().is_none() || name.is_nil() || !predicates.is_list() {
+        return Err(Raise::program(
+            "DEF-FACT-GROUP takes a name, a list of exported predicates, and rules: (def-fact-group name (predicate…) (<- (head …) goal…)…).",
+        ));
+    }
+    let rules = rest.cdr_or_nil().cdr_or_nil();
+    for rule in rules.iter_list() {
+        check_rule(image, &rule).map_err(|raise| match &rule {
+            Value::Cons(cons) => raise.at(cons.place()),
+            _ => raise,
+        })?;
+    }
+    let package = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
+    let function = image.intern(package, "DEFINE-FACT-GROUP");
+    let quote = |value: Value| Value::list([known::QUOTE.into(), value]);
+    Ok(Value::list([function.into(), quote(name), quote(rules)]))
+}
+
+fn def_handler(image: &mut Image, form: &Value) -> Result<Value> {
+    let rest = form.cdr_or_nil();
+    let name = rest.car_or_nil();
+    let package = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
+    let function = image.intern(package, "DEFINE-HANDLER");
+    let quoted = Value::list([known::QUOTE.into(), name.clone()]);
+    let lambda = Value::list_with_tail([known::NAMED_LAMBDA.into(), name], rest.cdr_or_nil());
+    Ok(Value::list([function.into(), quoted, lambda]))
+}
+
+fn is_arrow(image: &Image, head: &Value) -> bool {
+    head.as_symbol().is_some_and(|s| image.name(s) == "<-")
+}
+
+fn check_rule(image: &Image, rule: &Value) -> Result<()> {
+    // A documentation string may stand among the rules.
+    if matches!(rule, Value::Str(_)) {
+        return Ok(());
+    }
+    let head = rule.cdr_or_nil().car_or_nil();
+    let functor = match &head {
+        Value::Cons(cons) => cons.car(),
+        other => other.clone(),
+    };
+    let is_rule = is_arrow(image, &rule.car_or_nil())
+        && rule.list_to_vec().is_some()
+        && functor.as_symbol().is_some()
+        && functor.is_true();
+    if is_rule {
+        return Ok(());
+    }
+    Err(Raise::program(format!(
+        "{} is not a rule: (<- (head …) goal…) was expected.",
+        print::to_string(image, rule, true)
+    )))
+}
+
+fn define_group(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let Some(name) = args[0].as_symbol() else {
+        return Err(Raise::type_error(&args[0], known::SYMBOL));
+    };
+    let mut clauses = Vec::new();
+    for rule in args[1].iter_list() {
+        check_rule(image, &rule)?;
+        let parts = rule.cdr_or_nil();
+        let head = parts.car_or_nil();
+        let functor = match &head {
+            Value::Cons(cons) => cons.car(),
+            other => other.clone(),
+        };
+        if let Some(functor) = functor.as_symbol().filter(|_| functor.is_true()) {
+            let body = parts.cdr_or_nil();
+            clauses.push((functor, Clause { head, body }));
+        }
+    }
+    of(image).groups.borrow_mut().insert(name, clauses);
+    Ok(args[0].clone())
+}

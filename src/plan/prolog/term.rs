@@ -1,0 +1,226 @@
+//! Terms and bindings: Lisp values in which fresh variables stand for those of a clause.
+
+use std::rc::Rc;
+
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::equality;
+use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
+
+/// How deep terms may be nested.
+const MOST_NESTED: usize = 500;
+
+/// A variable of a proof.
+pub struct Variable {
+    /// Its place among the bindings.
+    pub index: usize,
+    /// The symbol it was written as.
+    pub name: Sym,
+}
+
+impl Foreign for Variable {
+    fn type_symbol(&self) -> Sym {
+        known::SYMBOL
+    }
+
+    fn print(&self, image: &Image, _: bool) -> String {
+        image.name(self.name).to_owned()
+    }
+}
+
+/// Is this symbol a variable as plans write them?
+pub fn is_variable_name(image: &Image, value: &Value) -> bool {
+    value
+        .as_symbol()
+        .is_some_and(|sym| image.name(sym).starts_with('?'))
+}
+
+fn too_deep() -> Box<Raise> {
+    Raise::simple("A term of a Prolog goal is nested too deeply.")
+}
+
+/// The variables of one clause or query, as they are made.
+#[derive(Default)]
+pub struct Naming {
+    /// Symbols with their variables, in order of first appearance.
+    pub variables: Vec<(Sym, Value)>,
+}
+
+/// Bindings, and the order in which they were made.
+#[derive(Default)]
+pub struct Bindings {
+    values: Vec<Option<Value>>,
+    trail: Vec<usize>,
+}
+
+/// A state of bindings to come back to.
+#[derive(Clone, Copy)]
+pub struct Mark {
+    values: usize,
+    trail: usize,
+}
+
+impl Bindings {
+    /// Remembers the present state.
+    pub fn mark(&self) -> Mark {
+        Mark {
+            values: self.values.len(),
+            trail: self.trail.len(),
+        }
+    }
+
+    /// Goes back to a remembered state.
+    pub fn undo(&mut self, mark: Mark) {
+        for index in self.trail.drain(mark.trail..) {
+            if let Some(slot) = self.values.get_mut(index) {
+                *slot = None;
+            }
+        }
+        self.values.truncate(mark.values);
+    }
+
+    /// A new unbound variable.
+    pub fn fresh(&mut self, name: Sym) -> Value {
+        let index = self.values.len();
+        self.values.push(None);
+        Value::foreign(Variable { index, name })
+    }
+
+    /// The term with variables in place of `?symbols`; `?_` is a new one each time.
+    pub fn rename(
+        &mut self,
+        image: &Image,
+        term: &Value,
+        naming: &mut Naming,
+    ) -> Result<Value, Box<Raise>> {
+        self.rename_at(image, term, naming, 0)
+    }
+
+    fn rename_at(
+        &mut self,
+        image: &Image,
+        term: &Value,
+        naming: &mut Naming,
+        depth: usize,
+    ) -> Result<Value, Box<Raise>> {
+        if depth > MOST_NESTED {
+            return Err(too_deep());
+        }
+        match term {
+            Value::Symbol(sym) if image.name(*sym).starts_with('?') => {
+                if image.name(*sym) == "?_" {
+                    return Ok(self.fresh(*sym));
+                }
+                if let Some((_, variable)) = naming.variables.iter().find(|(s, _)| s == sym) {
+                    return Ok(variable.clone());
+                }
+                let variable = self.fresh(*sym);
+                naming.variables.push((*sym, variable.clone()));
+                Ok(variable)
+            }
+            Value::Cons(_) => {
+                let mut items = Vec::new();
+                let mut rest = term.iter_list();
+                for item in rest.by_ref() {
+                    items.push(self.rename_at(image, &item, naming, depth + 1)?);
+                }
+                let tail = self.rename_at(image, &rest.rest, naming, depth + 1)?;
+                Ok(Value::list_with_tail(items, tail))
+            }
+            other => Ok(other.clone()),
+        }
+    }
+
+    /// What a term stands for, its parts left as they are.
+    pub fn walk(&self, term: &Value) -> Value {
+        let mut term = term.clone();
+        while let Some(next) = term
+            .as_foreign::<Variable>()
+            .and_then(|v| self.values.get(v.index).cloned().flatten())
+        {
+            term = next;
+        }
+        term
+    }
+
+    /// What a term stands for, with the variables that are unbound left in it.
+    pub fn resolve(&self, term: &Value) -> Result<Value, Box<Raise>> {
+        self.resolve_at(term, 0)
+    }
+
+    fn resolve_at(&self, term: &Value, depth: usize) -> Result<Value, Box<Raise>> {
+        if depth > MOST_NESTED {
+            return Err(too_deep());
+        }
+        let term = self.walk(term);
+        if !matches!(term, Value::Cons(_)) {
+            return Ok(term);
+        }
+        let mut items = Vec::new();
+        let mut rest = term;
+        while let Value::Cons(cons) = &rest {
+            items.push(self.resolve_at(&cons.car(), depth + 1)?);
+            let next = self.walk(&cons.cdr());
+            rest = next;
+        }
+        Ok(Value::list_with_tail(items, rest))
+    }
+
+    /// Is there an unbound variable in the term?
+    pub fn is_ground(&self, term: &Value) -> Result<bool, Box<Raise>> {
+        let mut pending = vec![self.resolve(term)?];
+        while let Some(term) = pending.pop() {
+            match &term {
+                Value::Foreign(_) if term.as_foreign::<Variable>().is_some() => return Ok(false),
+                Value::Cons(cons) => {
+                    pending.push(cons.car());
+                    pending.push(cons.cdr());
+                }
+                _ => {}
+            }
+        }
+        Ok(true)
+    }
+
+    fn bind(&mut self, variable: &Variable, value: Value) {
+        if let Some(slot) = self.values.get_mut(variable.index) {
+            *slot = Some(value);
+            self.trail.push(variable.index);
+        }
+    }
+
+    /// Makes two terms equal by binding variables; false if that is impossible (bindings
+    /// made on the way stay and are to be undone).
+    pub fn unify(&mut self, a: &Value, b: &Value) -> bool {
+        let mut pending = vec![(a.clone(), b.clone())];
+        while let Some((a, b)) = pending.pop() {
+            let (a, b) = (self.walk(&a), self.walk(&b));
+            if a.is_eq(&b) {
+                continue;
+            }
+            if let Some(variable) = a.as_foreign::<Variable>() {
+                self.bind(variable, b.clone());
+                continue;
+            }
+            if let Some(variable) = b.as_foreign::<Variable>() {
+                self.bind(variable, a.clone());
+                continue;
+            }
+            match (&a, &b) {
+                (Value::Cons(x), Value::Cons(y)) => {
+                    if Rc::ptr_eq(x, y) {
+                        continue;
+                    }
+                    pending.push((x.cdr(), y.cdr()));
+                    pending.push((x.car(), y.car()));
+                }
+                _ if equality::equal(&a, &b) => {}
+                _ => return false,
+            }
+        }
+        true
+    }
+}

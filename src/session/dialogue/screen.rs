@@ -1,0 +1,327 @@
+//! Shows events as a person sees them at the prompt.
+//!
+//! Values are on lines of their own: when the program's output left the cursor in the
+//! middle of a line, that line is ended first.
+
+use std::io::{self, Write};
+
+use crate::lisp::source::Location;
+use crate::picture::{Image, InlinePictures};
+use crate::session::dialogue::evaluate::{Abort, Event, Stop};
+
+/// Turns events into text.
+pub struct Screen<W> {
+    to: W,
+    at_line_start: bool,
+    /// Values of forms are shown.
+    echo: bool,
+    source_name: String,
+    source_has_lines: bool,
+    is_detailed: bool,
+    /// Progress is shown, on a line that is taken away afterwards.
+    is_terminal: bool,
+    /// Such a line is there.
+    has_progress: bool,
+    pictures: Option<InlinePictures>,
+}
+
+impl<W: Write> Screen<W> {
+    /// A screen that writes to `to`, the cursor being at the start of a line.
+    pub fn new(to: W) -> Self {
+        Screen {
+            to,
+            at_line_start: true,
+            echo: true,
+            source_name: String::new(),
+            source_has_lines: false,
+            is_detailed: false,
+            is_terminal: false,
+            has_progress: false,
+            pictures: None,
+        }
+    }
+
+    /// From here on, writes to a terminal, or not: shows the progress of motions, and knows
+    /// that an interrupt leaves a `^C` there.
+    pub fn set_terminal(&mut self, is_terminal: bool) {
+        self.is_terminal = is_terminal;
+    }
+
+    /// From here on, tells the actions around a condition, or leaves them out.
+    pub fn set_detailed(&mut self, is_detailed: bool) {
+        self.is_detailed = is_detailed;
+    }
+
+    /// From here on, shows pictures in this way, or leaves them out.
+    pub fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
+        self.pictures = pictures;
+    }
+
+    /// From here on, shows the values of forms or leaves them out.
+    pub fn set_echo(&mut self, echo: bool) {
+        self.echo = echo;
+    }
+
+    /// Tells which input the next events belong to; the cursor is at the start of a line.
+    ///
+    /// An aborted evaluation names its place, when that is in another file or the input
+    /// has several lines.
+    pub fn begin_input(&mut self, source_name: &str, text: &str) {
+        source_name.clone_into(&mut self.source_name);
+        self.source_has_lines = text.trim_end().contains('\n');
+    }
+
+    /// Shows an event.
+    pub fn show(&mut self, event: &Event) -> io::Result<()> {
+        if let Event::Progress(line) = event {
+            return self.progress(line);
+        }
+        self.end_progress()?;
+        match event {
+            Event::Output(text) => self.write(text),
+            Event::Values(values) if self.echo => self.values(values),
+            Event::Values(_) => Ok(()),
+            Event::Picture(picture) => self.picture(picture),
+            Event::Aborted(abort) => self.aborted(abort),
+            Event::Stopped(stop) => self.stopped(stop),
+            Event::Left(condition) => self.left(condition),
+            Event::Progress(_) => Ok(()),
+        }
+    }
+
+    /// Shows a line of progress in place of the last one, unless the cursor is in the middle
+    /// of a line.
+    fn progress(&mut self, line: &str) -> io::Result<()> {
+        if !self.is_terminal || !self.at_line_start {
+            return Ok(());
+        }
+        self.has_progress = true;
+        write!(self.to, "\r\x1b[2K{line}")
+    }
+
+    fn end_progress(&mut self) -> io::Result<()> {
+        if !std::mem::take(&mut self.has_progress) {
+            return Ok(());
+        }
+        self.to.write_all(b"\r\x1b[2K")
+    }
+
+    /// Ends a line that was begun.
+    pub fn fresh_line(&mut self) -> io::Result<()> {
+        self.end_progress()?;
+        if self.at_line_start {
+            Ok(())
+        } else {
+            self.write("\n")
+        }
+    }
+
+    /// Hands on what has been written so far.
+    pub fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+
+    /// What the screen writes to, as it is now.
+    pub fn written(&self) -> &W {
+        &self.to
+    }
+
+    /// What the screen writes to.
+    pub fn into_inner(self) -> W {
+        self.to
+    }
+
+    fn write(&mut self, text: &str) -> io::Result<()> {
+        if !text.is_empty() {
+            self.at_line_start = text.ends_with('\n');
+        }
+        self.to.write_all(text.as_bytes())
+    }
+
+    fn line(&mut self, text: &str) -> io::Result<()> {
+        self.fresh_line()?;
+        self.write(text)?;
+        self.write("\n")
+    }
+
+    fn values(&mut self, values: &[String]) -> io::Result<()> {
+        if values.is_empty() {
+            return self.line("; No value");
+        }
+        values.iter().try_for_each(|value| self.line(value))
+    }
+
+    fn picture(&mut self, picture: &Image) -> io::Result<()> {
+        let Some(show) = self.pictures else {
+            return Ok(());
+        };
+        self.fresh_line()?;
+        self.to.write_all(&show.encoded(picture))?;
+        self.write("\n")
+    }
+
+    fn aborted(&mut self, abort: &Abort) -> io::Result<()> {
+        self.report(abort)?;
+        self.left(&abort.condition)
+    }
+
+    fn left(&mut self, condition: &str) -> io::Result<()> {
+        self.line(&format!("; Evaluation aborted on {condition}."))
+    }
+
+    fn stopped(&mut self, stop: &Stop) -> io::Result<()> {
+        if self.is_terminal && stop.abort.condition == INTERRUPT {
+            self.at_line_start = false;
+        }
+        self.report(&stop.abort)?;
+        let width = stop.choices.len().saturating_sub(1).to_string().len();
+        for (number, choice) in stop.choices.iter().enumerate() {
+            self.line(&format!(" {number:>width$}: {choice}"))?;
+        }
+        if stop.remark.is_empty() {
+            return Ok(());
+        }
+        self.line(stop.remark)
+    }
+
+    fn report(&mut self, abort: &Abort) -> io::Result<()> {
+        let report = abort.report.trim_end();
+        if !report.is_empty() {
+            self.line(report)?;
+        }
+        if let Some(place) = self.place(abort) {
+            self.line(&place)?;
+        }
+        if self.is_detailed {
+            for line in abort.context().iter().flat_map(|text| text.lines()) {
+                self.line(&format!("; {line}"))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The place worth telling; if it is in a plan that comes with the program, also where
+    /// the person's own text comes in.
+    fn place(&self, abort: &Abort) -> Option<String> {
+        let place = abort.place.as_ref()?;
+        let user = abort.user_place.as_ref();
+        let told: Vec<String> = std::iter::once(place)
+            .chain(user)
+            .filter_map(|place| self.told(place))
+            .collect();
+        (!told.is_empty()).then(|| format!("; at {}", told.join(", from ")))
+    }
+
+    /// A place in words: inputs have no name that a person knows, and in an input of one line
+    /// there is nothing to find.
+    fn told(&self, place: &Location) -> Option<String> {
+        if *place.name == *self.source_name {
+            self.source_has_lines
+                .then(|| format!("line {}, column {}", place.line, place.column))
+        } else {
+            (!place.name.starts_with(INPUT_NAME)).then(|| place.to_string())
+        }
+    }
+}
+
+/// An interrupt as it prints.
+pub const INTERRUPT: &str = "#<INTERACTIVE-INTERRUPT>";
+
+const INPUT_NAME: &str = "prompt[";
+
+/// The name of the `number`th input at a prompt, as the source of places.
+pub fn input_name(number: usize) -> String {
+    format!("{INPUT_NAME}{number}]")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lisp::source::Location;
+
+    fn shown(events: &[Event]) -> String {
+        shown_for("x", events)
+    }
+
+    fn shown_for(text: &str, events: &[Event]) -> String {
+        let mut screen = Screen::new(Vec::new());
+        screen.begin_input(&input_name(1), text);
+        for event in events {
+            screen.show(event).unwrap();
+        }
+        String::from_utf8(screen.into_inner()).unwrap()
+    }
+
+    fn output(text: &str) -> Event {
+        Event::Output(text.to_owned())
+    }
+
+    fn values(values: &[&str]) -> Event {
+        Event::Values(values.iter().map(|&v| v.to_owned()).collect())
+    }
+
+    fn aborted(name: &str) -> Event {
+        Event::Aborted(Box::new(Abort {
+            report: "The variable B is unbound.".to_owned(),
+            condition: "#<UNBOUND-VARIABLE B>".to_owned(),
+            place: Some(Location {
+                name: name.into(),
+                line: 2,
+                column: 3,
+                line_text: "  b".to_owned(),
+                width: 1,
+            }),
+            ..Abort::default()
+        }))
+    }
+
+    #[test]
+    fn each_value_has_a_line() {
+        assert_eq!(shown(&[values(&["1", "2"]), values(&["3"])]), "1\n2\n3\n");
+    }
+
+    #[test]
+    fn no_value_is_told() {
+        assert_eq!(shown(&[values(&[])]), "; No value\n");
+    }
+
+    #[test]
+    fn values_begin_on_a_fresh_line() {
+        assert_eq!(shown(&[output("\n1 "), values(&["1"])]), "\n1 \n1\n");
+        assert_eq!(shown(&[output("line\n"), values(&["NIL"])]), "line\nNIL\n");
+        assert_eq!(
+            shown(&[output("x\n"), output(""), values(&["NIL"])]),
+            "x\nNIL\n"
+        );
+    }
+
+    #[test]
+    fn an_aborted_evaluation_shows_its_report_and_condition() {
+        assert_eq!(
+            shown(&[output("x"), aborted("prompt[1]")]),
+            "x\nThe variable B is unbound.\n; Evaluation aborted on #<UNBOUND-VARIABLE B>.\n"
+        );
+    }
+
+    #[test]
+    fn the_place_is_told_where_it_helps() {
+        let place = |text, name| {
+            let shown = shown_for(text, &[aborted(name)]);
+            shown.lines().nth(1).unwrap().to_owned()
+        };
+        assert_eq!(place("(list\n  b)", "prompt[1]"), "; at line 2, column 3");
+        assert_eq!(place("(f)", "kitchen.plan"), "; at kitchen.plan:2:3");
+        let untold = "; Evaluation aborted on #<UNBOUND-VARIABLE B>.";
+        assert_eq!(place("(f)", "prompt[1]"), untold);
+        assert_eq!(place("(list\n  b)", "prompt[7]"), untold);
+    }
+
+    #[test]
+    fn without_echo_only_values_are_left_out() {
+        let mut screen = Screen::new(Vec::new());
+        screen.set_echo(false);
+        screen.show(&values(&["1"])).unwrap();
+        screen.show(&output("a\n")).unwrap();
+        assert_eq!(screen.into_inner(), b"a\n");
+    }
+}

@@ -1,0 +1,244 @@
+//! What a session leaves for those who look: the newest moment, the past, and the news.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use super::timeline::Timeline;
+use crate::watch::{Happening, Kind, Moment, Node};
+
+/// News that are kept; the oldest are forgotten first.
+const MOST_NEWS: usize = 40_000;
+
+/// Characters of one piece of news that are kept.
+const MOST_TEXT: usize = 4_000;
+
+/// Where a chronicle comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A session that goes on.
+    Session,
+    /// A recording.
+    Recording,
+}
+
+/// What a session leaves for those who look. Clones are the same chronicle.
+#[derive(Clone)]
+pub struct Chronicle {
+    shared: Arc<Shared>,
+}
+
+struct Shared {
+    origin: Origin,
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    nodes: Vec<Arc<Node>>,
+    newest: Option<Arc<Moment>>,
+    past: Timeline,
+    news: VecDeque<Arc<(f64, Happening)>>,
+    /// How many news were forgotten.
+    forgotten: usize,
+    /// Counts changes.
+    version: u64,
+    is_over: bool,
+}
+
+/// How far a reader has come.
+#[derive(Clone, Default)]
+pub(crate) struct Bookmark {
+    version: u64,
+    nodes: usize,
+    news: usize,
+    has_all: bool,
+}
+
+impl Bookmark {
+    /// Whether the last reading came to the end.
+    pub(crate) fn is_read(&self) -> bool {
+        self.has_all
+    }
+}
+
+/// What a reader has not had yet.
+pub(crate) struct Pages {
+    pub(crate) nodes: Vec<Arc<Node>>,
+    pub(crate) newest: Option<Arc<Moment>>,
+    pub(crate) news: Vec<Arc<(f64, Happening)>>,
+    pub(crate) span: Option<[f64; 2]>,
+    pub(crate) is_over: bool,
+}
+
+impl Chronicle {
+    /// An empty one.
+    pub fn new(origin: Origin) -> Self {
+        let shared = Shared {
+            origin,
+            state: Mutex::default(),
+            changed: Condvar::new(),
+        };
+        Self {
+            shared: Arc::new(shared),
+        }
+    }
+
+    /// Where it comes from.
+    pub fn origin(&self) -> Origin {
+        self.shared.origin
+    }
+
+    /// Leaves the newest moment; `nodes` are all that are known. It goes into the past, too, if
+    /// that is asked for.
+    pub fn leave(&self, nodes: &[Arc<Node>], moment: Arc<Moment>, keep: bool) {
+        self.change(|state| {
+            let known = state.nodes.len().min(nodes.len());
+            state.nodes.extend_from_slice(&nodes[known..]);
+            if keep {
+                state.past.push(Arc::clone(&moment));
+            }
+            state.newest = Some(moment);
+        });
+    }
+
+    /// Adds news of that simulated time (s).
+    pub fn tell(&self, time: f64, happening: &Happening) {
+        let happening = match happening {
+            Happening::Output(text) => Happening::Output(shortened(text)),
+            Happening::Aborted(text) => Happening::Aborted(shortened(text)),
+            Happening::Task(news) => {
+                let mut news = news.clone();
+                news.name = shortened(&news.name);
+                news.failure = shortened(&news.failure);
+                Happening::Task(news)
+            }
+        };
+        self.change(|state| {
+            if state.news.len() >= MOST_NEWS {
+                state.news.pop_front();
+                state.forgotten += 1;
+            }
+            state.news.push_back(Arc::new((time, happening)));
+        });
+    }
+
+    /// Tells the readers that nothing more will come.
+    pub fn close(&self) {
+        self.change(|state| state.is_over = true);
+    }
+
+    /// What a reader has not had yet, as soon as there is something or that much time has
+    /// passed; at most `most` news.
+    pub(crate) fn read(&self, mark: &mut Bookmark, most: usize, patience: Duration) -> Pages {
+        let state = self.state();
+        let is_old = |state: &mut State| state.version == mark.version && mark.has_all;
+        let waiting = self
+            .shared
+            .changed
+            .wait_timeout_while(state, patience, is_old);
+        let (state, _) = waiting.unwrap_or_else(PoisonError::into_inner);
+        mark.version = state.version;
+        let nodes = state.nodes.get(mark.nodes..).unwrap_or_default().to_vec();
+        mark.nodes = state.nodes.len();
+        let first = mark.news.saturating_sub(state.forgotten);
+        let news: Vec<_> = state.news.iter().skip(first).take(most).cloned().collect();
+        mark.news = state.forgotten + first.min(state.news.len()) + news.len();
+        mark.has_all = mark.news >= state.forgotten + state.news.len();
+        Pages {
+            nodes,
+            newest: state.newest.clone(),
+            news,
+            span: state.past.span(),
+            is_over: state.is_over,
+        }
+    }
+
+    /// The node of a link of the robot, by the link's name.
+    pub fn link_named(&self, name: &str) -> Option<u32> {
+        let state = self.state();
+        let mut links = state.nodes.iter().filter(|n| n.kind == Kind::Robot);
+        links.find(|node| node.name == name).map(|node| node.id)
+    }
+
+    /// Nodes from that number on.
+    pub fn nodes_from(&self, first: usize) -> Vec<Arc<Node>> {
+        self.state().nodes.get(first..).unwrap_or_default().to_vec()
+    }
+
+    /// The news that are remembered, with their simulated times (s).
+    pub fn news(&self) -> Vec<Arc<(f64, Happening)>> {
+        self.state().news.iter().cloned().collect()
+    }
+
+    /// The past between two times (s), at most so many moments.
+    pub fn past(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Moment>> {
+        self.state().past.between(from, to, most)
+    }
+
+    fn change(&self, change: impl FnOnce(&mut State)) {
+        let mut state = self.state();
+        change(&mut state);
+        state.version = state.version.wrapping_add(1);
+        drop(state);
+        self.shared.changed.notify_all();
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        // Nothing panics while it holds the lock, and if it did, the state would be whole.
+        let state = self.shared.state.lock();
+        state.unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(MOST_TEXT) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::watch::live::chronicle::*;
+
+    fn told(chronicle: &Chronicle, text: &str) {
+        chronicle.tell(0.0, &Happening::Output(text.to_owned()));
+    }
+
+    fn read(chronicle: &Chronicle, mark: &mut Bookmark) -> Vec<String> {
+        let pages = chronicle.read(mark, 3, Duration::ZERO);
+        let texts = pages.news.iter().map(|news| match &news.1 {
+            Happening::Output(text) => text.clone(),
+            other => panic!("{other:?}"),
+        });
+        texts.collect()
+    }
+
+    #[test]
+    fn a_reader_gets_everything_once() {
+        let chronicle = Chronicle::new(Origin::Session);
+        for text in ["a", "b", "c", "d"] {
+            told(&chronicle, text);
+        }
+        let mut mark = Bookmark::default();
+        assert_eq!(read(&chronicle, &mut mark), ["a", "b", "c"]);
+        assert_eq!(read(&chronicle, &mut mark), ["d"]);
+        assert!(read(&chronicle, &mut mark).is_empty());
+        told(&chronicle, "e");
+        assert_eq!(read(&chronicle, &mut mark), ["e"]);
+    }
+
+    #[test]
+    fn news_are_forgotten_but_those_that_come_are_read() {
+        let chronicle = Chronicle::new(Origin::Session);
+        let mut mark = Bookmark::default();
+        (0..MOST_NEWS + 5).for_each(|i| told(&chronicle, &i.to_string()));
+        assert_eq!(read(&chronicle, &mut mark)[0], "5");
+        assert_eq!(chronicle.state().news.len(), MOST_NEWS);
+        told(&chronicle, &"x".repeat(10 * MOST_TEXT));
+        let last = chronicle.state().news.back().cloned();
+        assert!(matches!(&last.unwrap().1, Happening::Output(t) if t.len() < MOST_TEXT + 9));
+    }
+}

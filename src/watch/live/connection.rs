@@ -1,0 +1,135 @@
+//! One connection: who asks, and for what.
+
+use std::io;
+use std::net::TcpStream;
+use std::sync::Arc;
+
+use super::frame::frame;
+use super::http::{HttpError, Request, answer, read_request};
+use super::mesh_bytes::mesh_bytes;
+use super::pace_control::{PaceControl, Speed};
+use super::page::page;
+use super::server::Shared;
+use super::stream::stream;
+use super::token::{is_same, random_word};
+
+/// Moments of the past in one answer.
+const MOST_MOMENTS: usize = 120;
+
+const TEXT: &str = "text/plain; charset=utf-8";
+
+/// Answers one request, or drops it.
+pub(crate) fn serve(shared: &Arc<Shared>, mut to: TcpStream) {
+    // Frames are small and must not wait for others.
+    let prepared = to.set_nodelay(true);
+    // Who sent something malformed, is too slow or has left gets no answer.
+    if prepared.is_ok() {
+        let _ = read_and_answer(shared, &mut to);
+    }
+}
+
+fn read_and_answer(shared: &Arc<Shared>, to: &mut TcpStream) -> Result<(), HttpError> {
+    let request = read_request(to)?;
+    if !is_from_own_page(shared, &request) {
+        answer(to, "403 Forbidden", TEXT, "", b"Not for other pages.\n")?;
+        return Ok(());
+    }
+    let mut parts = request.path.splitn(3, '/').skip(1);
+    let token = parts.next().unwrap_or_default();
+    if !is_same(token.as_bytes(), shared.token.as_bytes()) {
+        answer(to, "404 Not Found", TEXT, "", b"There is nothing here.\n")?;
+        return Ok(());
+    }
+    match (request.method.as_str(), parts.next()) {
+        ("GET", Some("")) => send_page(to)?,
+        ("GET", Some("events")) => {
+            let _viewing = shared.begin_viewing();
+            stream(shared, to)?;
+        }
+        ("GET", Some("meshes")) => {
+            // The cast saturates.
+            let first = request.number("from").unwrap_or(0.0) as usize;
+            let bytes = mesh_bytes(&shared.chronicle.nodes_from(first));
+            answer(to, "200 OK", "application/octet-stream", "", &bytes)?;
+        }
+        ("GET", Some("past")) => {
+            let text = past(shared, &request);
+            answer(to, "200 OK", "application/json", "", text.as_bytes())?;
+        }
+        ("POST", Some("pace")) => {
+            let is_known = shared
+                .pace
+                .as_ref()
+                .is_some_and(|p| change_pace(p, &request.body));
+            let status = if is_known {
+                "204 No Content"
+            } else {
+                "400 Bad Request"
+            };
+            answer(to, status, TEXT, "", b"")?;
+        }
+        _ => answer(to, "404 Not Found", TEXT, "", b"There is nothing here.\n")?,
+    }
+    Ok(())
+}
+
+/// Whether the request names this server as its host, so that no other name leads here, and
+/// does not come from another page.
+fn is_from_own_page(shared: &Shared, request: &Request) -> bool {
+    let port = shared.port;
+    let hosts = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
+    let Some(host) = hosts.iter().find(|h| request.host.as_ref() == Some(h)) else {
+        return false;
+    };
+    let origin = request.origin.as_deref();
+    let is_own = origin.is_none_or(|origin| origin.strip_prefix("http://") == Some(host));
+    let site = request.site.as_deref();
+    // An address that was typed in, or opened from elsewhere, is asked for by nobody.
+    let is_alone = matches!(site, None | Some("same-origin" | "none"));
+    let is_safe = request.method == "GET" || origin.is_some();
+    is_own && is_alone && is_safe
+}
+
+fn send_page(to: &mut TcpStream) -> io::Result<()> {
+    let word = random_word();
+    let policy = format!(
+        "Content-Security-Policy: default-src 'none'; script-src 'nonce-{word}'; \
+         style-src 'nonce-{word}'; connect-src 'self'; img-src data:; base-uri 'none'; \
+         form-action 'none'; frame-ancestors 'none'\r\n"
+    );
+    answer(
+        to,
+        "200 OK",
+        "text/html; charset=utf-8",
+        &policy,
+        page(&word).as_bytes(),
+    )
+}
+
+/// The past between two times as a list of frames, each as it differs from the one before.
+fn past(shared: &Shared, request: &Request) -> String {
+    let from = request.number("from").unwrap_or(0.0);
+    let to = request.number("to").unwrap_or(from);
+    let moments = shared.chronicle.past(from, to, MOST_MOMENTS);
+    let mut before = None;
+    let frames: Vec<String> = moments
+        .iter()
+        .map(|moment| frame(moment, before.replace(moment.as_ref())))
+        .collect();
+    format!("[{}]", frames.join(","))
+}
+
+/// Does what a viewer asks for: `pause`, `go`, or `speed` and which. Returns whether that is
+/// known.
+fn change_pace(pace: &PaceControl, wanted: &str) -> bool {
+    match wanted.split_once(' ') {
+        None if wanted == "pause" => pace.set_paused(true),
+        None if wanted == "go" => pace.set_paused(false),
+        Some(("speed", speed)) => match Speed::named(speed) {
+            Some(speed) => pace.set_speed(speed),
+            None => return false,
+        },
+        _ => return false,
+    }
+    true
+}

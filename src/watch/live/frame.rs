@@ -1,0 +1,173 @@
+//! Moments as text for the page.
+//!
+//! A frame tells what is different from the one before it: lengths in tenths of a millimetre,
+//! quaternions in hundred-thousandths.
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use crate::watch::{Moment, Path, Placed};
+
+/// Parts of a metre, and of one in quaternions.
+const METRE: f32 = 1e4;
+const UNIT: f32 = 1e5;
+
+/// The moment as a JSON object, as it differs from the one that the page has.
+pub(crate) fn frame(moment: &Moment, before: Option<&Moment>) -> String {
+    let mut text = String::with_capacity(4096);
+    // Writing to a string does not fail.
+    let _ = write!(
+        text,
+        "{{\"t\":{:.4},\"whole\":{}",
+        moment.time,
+        before.is_none()
+    );
+    let known = before.map_or(&[][..], |b| &b.placed);
+    let placed = moment.placed.iter();
+    let moved = placed.filter(|p| {
+        let then = known.binary_search_by_key(&p.node, |k| k.node);
+        // A place that the search found is within the list.
+        then.map_or(true, |i| numbers(&known[i]) != numbers(p))
+    });
+    list(&mut text, "p", moved, |text, p| {
+        let _ = write!(text, "{}", p.node);
+        for number in numbers(p) {
+            let _ = write!(text, ",{number}");
+        }
+    });
+    let is_here = |p: &&Placed| {
+        moment
+            .placed
+            .binary_search_by_key(&p.node, |k| k.node)
+            .is_ok()
+    };
+    let gone = known.iter().filter(|p| !is_here(p));
+    list(&mut text, "gone", gone, |text, p| {
+        let _ = write!(text, "{}", p.node);
+    });
+    list(&mut text, "held", &moment.holds, |text, hold| {
+        let _ = write!(text, "[{},{}]", hold.object, quoted(&hold.link));
+    });
+    list(&mut text, "touch", &moment.touching, |text, [a, b]| {
+        let _ = write!(text, "[{a},{b}]");
+    });
+    list(&mut text, "hits", &moment.hits, |text, hit| {
+        let _ = write!(
+            text,
+            "{{\"nodes\":{:?},\"at\":{:?}}}",
+            hit.nodes,
+            units(hit.at, METRE)
+        );
+    });
+    list(&mut text, "axes", &moment.axes, |text, (place, size)| {
+        for number in numbers(place) {
+            let _ = write!(text, "{number},");
+        }
+        let _ = write!(text, "{}", rounded(*size, METRE));
+    });
+    if before.is_none_or(|b| !Arc::ptr_eq(&b.paths, &moment.paths)) {
+        list(&mut text, "paths", moment.paths.iter(), path);
+    }
+    text.push('}');
+    text
+}
+
+fn path(text: &mut String, path: &Path) {
+    let frame = path.frame.map_or(-1, i64::from);
+    let _ = write!(text, "{{\"what\":{:?},\"frame\":{frame}", path.what);
+    list(text, "points", &path.points, |text, point| {
+        let [x, y, z] = units(*point, METRE);
+        let _ = write!(text, "{x},{y},{z}");
+    });
+    text.push('}');
+}
+
+/// Adds a member of an object: a list.
+fn list<T>(
+    text: &mut String,
+    name: &str,
+    items: impl IntoIterator<Item = T>,
+    mut write_item: impl FnMut(&mut String, T),
+) {
+    let _ = write!(text, ",\"{name}\":[");
+    for (i, item) in items.into_iter().enumerate() {
+        if i > 0 {
+            text.push(',');
+        }
+        write_item(text, item);
+    }
+    text.push(']');
+}
+
+/// Origin and quaternion as the page gets them.
+pub(crate) fn numbers(placed: &Placed) -> [i32; 7] {
+    let [x, y, z] = units(placed.at, METRE);
+    let [i, j, k, w] = units(placed.turn, UNIT);
+    [x, y, z, i, j, k, w]
+}
+
+fn units<const N: usize>(values: [f32; N], unit: f32) -> [i32; N] {
+    values.map(|value| rounded(value, unit))
+}
+
+fn rounded(value: f32, unit: f32) -> i32 {
+    // The cast saturates.
+    (value * unit).round() as i32
+}
+
+/// The text as a JSON string.
+pub(crate) fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::spatial::Pose;
+    use crate::watch::Hold;
+    use crate::watch::live::frame::*;
+
+    fn moment(x: f64) -> Moment {
+        let still = Placed::new(1, &Pose::identity());
+        Moment {
+            time: 2.0,
+            placed: vec![still, Placed::new(4, &Pose::translation(x, 0.0, -0.5))],
+            holds: vec![Hold {
+                object: 4,
+                link: "a\"b".into(),
+            }],
+            ..Moment::default()
+        }
+    }
+
+    fn parsed(moment: &Moment, before: Option<&Moment>) -> serde_json::Value {
+        serde_json::from_str(&frame(moment, before)).unwrap()
+    }
+
+    #[test]
+    fn a_first_frame_is_whole() {
+        let frame = parsed(&moment(1.0), None);
+        assert_eq!(frame["whole"], true);
+        let places = [
+            1, 0, 0, 0, 0, 0, 0, 100_000, 4, 10_000, 0, -5_000, 0, 0, 0, 100_000,
+        ];
+        assert_eq!(frame["p"], serde_json::json!(places));
+        assert_eq!(frame["held"], serde_json::json!([[4, "a\"b"]]));
+    }
+
+    #[test]
+    fn a_later_frame_tells_what_moved_and_what_is_gone() {
+        let before = moment(1.0);
+        assert_eq!(
+            parsed(&moment(1.00001), Some(&before))["p"],
+            serde_json::json!([])
+        );
+        let moved = parsed(&moment(1.001), Some(&before));
+        assert_eq!(moved["p"][0], 4);
+        let mut empty = moment(1.0);
+        empty.placed.pop();
+        assert_eq!(
+            parsed(&empty, Some(&before))["gone"],
+            serde_json::json!([4])
+        );
+    }
+}

@@ -1,0 +1,40 @@
+//! News as text for the page.
+
+use serde_json::{Value, json};
+
+use crate::watch::{Happening, Node, TaskId};
+
+/// A piece of news of that simulated time (s).
+pub(crate) fn news((time, happening): &(f64, Happening)) -> Value {
+    match happening {
+        Happening::Output(text) => json!({"t": time, "text": text}),
+        Happening::Aborted(text) => json!({"t": time, "aborted": text}),
+        Happening::Task(news) => json!({
+            "t": time,
+            "task": id(news.id),
+            "parent": news.parent.map(id),
+            "name": news.name,
+            "state": news.state.name(),
+            "failure": news.failure,
+        }),
+    }
+}
+
+/// What the page needs to know of a node beside its mesh.
+pub(crate) fn node(node: &Node) -> Value {
+    json!({
+        "id": node.id,
+        "name": node.name,
+        "kind": node.kind.name(),
+        "type": node.type_name,
+        "still": node.still.as_ref().map(crate::watch::live::frame::numbers),
+        "seen": !node.mesh.triangles.is_empty(),
+    })
+}
+
+fn id(id: TaskId) -> String {
+    match id {
+        TaskId::Task(number) => format!("t{number}"),
+        TaskId::Motion(number) => format!("m{number}"),
+    }
+}

@@ -1,0 +1,161 @@
+//! The server of the page.
+
+use std::io;
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use serde_json::Value;
+
+use super::chronicle::Chronicle;
+use super::connection;
+use super::pace_control::PaceControl;
+use super::token::random_word;
+use super::views::Views;
+
+/// Connections at the same time; further ones are closed at once.
+const MOST_CONNECTIONS: usize = 48;
+
+/// Bytes of the stack of a connection's thread.
+const STACK_BYTES: usize = 512 << 10;
+
+/// How long the last viewer must be gone before a pause ends.
+const GONE: Duration = Duration::from_secs(3);
+
+/// Serves the page until it is dropped.
+pub struct Server {
+    shared: Arc<Shared>,
+    address: SocketAddr,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// What the threads of the server share.
+pub(crate) struct Shared {
+    pub(crate) chronicle: Chronicle,
+    /// None where time does not pass, as in a recording.
+    pub(crate) pace: Option<PaceControl>,
+    pub(crate) views: Value,
+    /// The random word in the page's address.
+    pub(crate) token: String,
+    pub(crate) port: u16,
+    connections: AtomicUsize,
+    viewers: AtomicUsize,
+    had_viewer: AtomicBool,
+    is_stopped: AtomicBool,
+}
+
+impl Server {
+    /// Starts to serve on 127.0.0.1, on any port that is free.
+    pub fn start(
+        chronicle: Chronicle,
+        pace: Option<PaceControl>,
+        views: Views,
+    ) -> io::Result<Self> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+        let address = listener.local_addr()?;
+        let shared = Arc::new(Shared {
+            chronicle,
+            pace,
+            views: views.0,
+            token: random_word(),
+            port: address.port(),
+            connections: AtomicUsize::new(0),
+            viewers: AtomicUsize::new(0),
+            had_viewer: AtomicBool::new(false),
+            is_stopped: AtomicBool::new(false),
+        });
+        let accepting = Arc::clone(&shared);
+        let thread = thread::Builder::new()
+            .name("live view".to_owned())
+            .spawn(move || accept(&listener, &accepting))?;
+        Ok(Self {
+            shared,
+            address,
+            thread: Some(thread),
+        })
+    }
+
+    /// The page's address.
+    pub fn address(&self) -> String {
+        format!("http://{}/{}/", self.address, self.shared.token)
+    }
+
+    /// How many viewers there are now.
+    pub fn viewers(&self) -> usize {
+        self.shared.viewers.load(Ordering::Relaxed)
+    }
+
+    /// Whether there has been one.
+    pub fn had_viewer(&self) -> bool {
+        self.shared.had_viewer.load(Ordering::Relaxed)
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        self.shared.is_stopped.store(true, Ordering::Relaxed);
+        // A connection wakes the thread that waits for one.
+        drop(TcpStream::connect(self.address));
+        if let Some(thread) = self.thread.take() {
+            // It does not panic, and if it did, there would be nothing to do.
+            drop(thread.join());
+        }
+    }
+}
+
+impl Shared {
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.is_stopped.load(Ordering::Relaxed)
+    }
+
+    /// Counts a viewer in as long as the result lives.
+    pub(crate) fn begin_viewing(self: &Arc<Self>) -> Viewing {
+        self.viewers.fetch_add(1, Ordering::Relaxed);
+        self.had_viewer.store(true, Ordering::Relaxed);
+        Viewing(Arc::clone(self))
+    }
+}
+
+/// A viewer that is there.
+pub(crate) struct Viewing(Arc<Shared>);
+
+impl Drop for Viewing {
+    fn drop(&mut self) {
+        self.0.viewers.fetch_sub(1, Ordering::Relaxed);
+        let Some(pace) = &self.0.pace else { return };
+        // Somebody who reloads the page comes back at once. A pause that nobody sees, and
+        // nobody can end, ends by itself.
+        thread::sleep(GONE);
+        if self.0.viewers.load(Ordering::Relaxed) == 0 {
+            pace.set_paused(false);
+        }
+    }
+}
+
+fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
+    for stream in listener.incoming() {
+        if shared.is_stopped() {
+            return;
+        }
+        let Ok(stream) = stream else {
+            // Out of files, most likely: some will be closed soon.
+            thread::sleep(Duration::from_millis(50));
+            continue;
+        };
+        if shared.connections.fetch_add(1, Ordering::Relaxed) >= MOST_CONNECTIONS {
+            shared.connections.fetch_sub(1, Ordering::Relaxed);
+            continue;
+        }
+        let own = Arc::clone(shared);
+        let serve = move || {
+            connection::serve(&own, stream);
+            own.connections.fetch_sub(1, Ordering::Relaxed);
+        };
+        let thread = thread::Builder::new().stack_size(STACK_BYTES).spawn(serve);
+        if thread.is_err() {
+            shared.connections.fetch_sub(1, Ordering::Relaxed);
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! What one viewer gets as long as it looks.
+
+use std::io::{self, Write};
+use std::net::TcpStream;
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use serde_json::json;
+
+use super::chronicle::{Bookmark, Origin};
+use super::frame::frame;
+use super::http::begin_events;
+use super::news;
+use super::pace_control::Speed;
+use super::server::Shared;
+use crate::watch::Moment;
+
+/// Least time between two frames.
+const BETWEEN_FRAMES: Duration = Duration::from_millis(15);
+
+/// How long nothing may come before a sign of life, by which one that has left is noticed.
+const SIGN_OF_LIFE: Duration = Duration::from_millis(500);
+
+/// Pieces of news in one message.
+const MOST_NEWS: usize = 500;
+
+/// Sends what is new until the viewer or the session is gone. Sends only the newest moment: a
+/// viewer that is slow misses some.
+pub(crate) fn stream(shared: &Shared, to: &mut TcpStream) -> io::Result<()> {
+    begin_events(to)?;
+    let mut mark = Bookmark::default();
+    let mut shown: Option<Arc<Moment>> = None;
+    let mut pace = None;
+    let hello = json!({
+        "recording": shared.chronicle.origin() == Origin::Recording,
+        "views": shared.views,
+    });
+    let mut text = message("hello", &hello.to_string());
+    loop {
+        let begin = Instant::now();
+        let pages = shared.chronicle.read(&mut mark, MOST_NEWS, SIGN_OF_LIFE);
+        if !pages.nodes.is_empty() {
+            let nodes: Vec<_> = pages.nodes.iter().map(|n| news::node(n)).collect();
+            text += &message("nodes", &json!(nodes).to_string());
+        }
+        if !pages.news.is_empty() {
+            let news: Vec<_> = pages.news.iter().map(|n| news::news(n)).collect();
+            text += &message("news", &json!(news).to_string());
+        }
+        let now = shared.pace.as_ref().map(|p| p.get());
+        if now != pace {
+            pace = now;
+            text += &message("pace", &described(now));
+        }
+        if let Some(newest) = pages.newest
+            && shown
+                .as_ref()
+                .is_none_or(|shown| !Arc::ptr_eq(shown, &newest))
+        {
+            let [start, end] = pages.span.unwrap_or([newest.time; 2]);
+            text += &message("span", &format!("[{start:.4},{end:.4}]"));
+            text += &message("frame", &frame(&newest, shown.as_deref()));
+            shown = Some(newest);
+        }
+        let is_over = shared.chronicle.origin() == Origin::Session && pages.is_over;
+        if is_over && mark.is_read() {
+            text += &message("over", "{}");
+        }
+        if text.is_empty() {
+            text += ": still here\n\n";
+        }
+        to.write_all(text.as_bytes())?;
+        if (is_over && mark.is_read()) || shared.is_stopped() {
+            return Ok(());
+        }
+        text.clear();
+        thread::sleep(BETWEEN_FRAMES.saturating_sub(begin.elapsed()));
+    }
+}
+
+fn described(pace: Option<(Speed, bool)>) -> String {
+    match pace {
+        Some((speed, is_paused)) => {
+            let factor = Some(speed.factor()).filter(|factor| factor.is_finite());
+            json!({"paused": is_paused, "speed": factor}).to_string()
+        }
+        None => "null".to_owned(),
+    }
+}
+
+fn message(name: &str, data: &str) -> String {
+    format!("event: {name}\ndata: {data}\n\n")
+}

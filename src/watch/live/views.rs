@@ -1,0 +1,56 @@
+//! What the page needs to know to look from the named places.
+
+use serde_json::{Value, json};
+
+use crate::picture::View;
+use crate::robot::LinkId;
+use crate::world::World;
+
+/// How far (m) the frustum of the robot's camera is drawn.
+const FRUSTUM: f64 = 1.6;
+
+/// Heights (m) that views look at: what is in the middle of the picture lies there.
+const LOOKED_AT: f64 = 0.7;
+
+/// What the page needs to know to look from the named places.
+#[derive(Clone, Debug)]
+pub struct Views(pub(crate) Value);
+
+impl Views {
+    /// The named places in the world. `node_of` tells the node of a link of the robot, by its
+    /// name.
+    pub fn new(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Self {
+        Self(views(world, node_of))
+    }
+}
+
+fn views(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Value {
+    let fixed = [View::Kitchen, View::Top, View::Table, View::Island];
+    let fixed = fixed.into_iter().filter_map(|view| {
+        let camera = view.camera(world, 4, 3).ok()?;
+        let eye = camera.pose.translation.vector;
+        let forward = camera.pose.rotation * nalgebra::Vector3::z();
+        let distance = (eye.z - LOOKED_AT) / -forward.z.min(-0.05);
+        let at = eye + forward * distance;
+        Some(json!({
+            "name": view.name(),
+            "from": eye.as_slice(),
+            "at": at.as_slice(),
+            "fov": camera.vertical_fov,
+        }))
+    });
+    let camera = world.models().description.camera();
+    let robot = &world.models().robot;
+    let node = |link: LinkId| node_of(&robot.link(link).name);
+    json!({
+        "fixed": fixed.collect::<Vec<_>>(),
+        "base": node(robot.root()),
+        "camera": {
+            "node": node(camera.frame),
+            "fov": camera.vertical_view,
+            "aspect": camera.width as f64 / camera.height as f64,
+            "near": camera.near,
+            "far": FRUSTUM,
+        },
+    })
+}

@@ -1,0 +1,100 @@
+//! Things that have a place: links of the robot, pieces of furniture, objects.
+
+use std::sync::Arc;
+
+use nalgebra::Vector3;
+
+use super::moment::Placed;
+use crate::picture::scene::{Finish, Scene};
+
+/// What sort of thing a node is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A link of the robot.
+    Robot,
+    /// A link of the kitchen.
+    Furniture,
+    /// An object.
+    Object,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Self; 3] = [Self::Robot, Self::Furniture, Self::Object];
+
+    /// Name of the kind.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Robot => "robot",
+            Self::Furniture => "furniture",
+            Self::Object => "object",
+        }
+    }
+}
+
+/// A thing that has a place. Never changes once it is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// Its number, counted from zero in the order in which nodes became known.
+    pub id: u32,
+    /// Name; that of an object is unique among those that are in the world together.
+    pub name: String,
+    /// What sort of thing it is.
+    pub kind: Kind,
+    /// Type of an object in the object library, else empty.
+    pub type_name: String,
+    /// Where it always is, if it cannot move.
+    pub still: Option<Placed>,
+    /// How it looks, in its own frame; empty for a mere frame. Nodes that look the same share it.
+    pub mesh: Arc<VisualMesh>,
+}
+
+/// A corner of what is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Where (m).
+    pub at: [f32; 3],
+    /// Unit normal.
+    pub normal: [f32; 3],
+    /// Linear colour, red green blue alpha in 0..1.
+    pub color: [f32; 4],
+    /// How clearly it reflects the lamp, 0..1.
+    pub gloss: f32,
+}
+
+/// A surface with colours.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VisualMesh {
+    /// Corners.
+    pub vertices: Vec<Vertex>,
+    /// Triangles as places in `vertices`, counter-clockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl VisualMesh {
+    /// All bodies of a scene as one surface.
+    pub fn of(scene: &Scene) -> Self {
+        let mut mesh = Self::default();
+        for body in &scene.bodies {
+            // A surface of four milliard corners does not fit into memory.
+            let first = u32::try_from(mesh.vertices.len()).unwrap_or(u32::MAX);
+            let gloss = match body.finish {
+                Finish::Matt | Finish::Boards => 0.0,
+                Finish::Satin => 0.4,
+                Finish::Gloss => 1.0,
+            };
+            let single = |v: Vector3<f64>| [v.x as f32, v.y as f32, v.z as f32];
+            mesh.vertices
+                .extend(body.surface.corners.iter().map(|corner| Vertex {
+                    at: single((body.pose * corner.point).coords),
+                    normal: single(body.pose.rotation * corner.normal),
+                    color: body.color,
+                    gloss,
+                }));
+            let triangles = body.surface.triangles.iter();
+            mesh.triangles
+                .extend(triangles.map(|t| t.map(|i| i.saturating_add(first))));
+        }
+        mesh
+    }
+}

@@ -1,0 +1,88 @@
+//! Planned ways as lines.
+
+use super::moment::Path;
+use crate::motion::{PlannedWay, WayAxes};
+use crate::robot::Side;
+use crate::spatial::Pose;
+use crate::world::World;
+
+/// Time (s) between two points of a line, and most points.
+const EVERY: f64 = 0.08;
+const MOST_POINTS: usize = 90;
+
+/// Height (m) of the line of the base above the floor.
+const ABOVE_FLOOR: f32 = 0.015;
+
+/// A way that has been made into lines.
+pub(crate) struct KnownWay {
+    number: u64,
+    duration: f64,
+    end: Vec<f64>,
+    pub(crate) lines: Vec<Path>,
+}
+
+impl KnownWay {
+    /// The lines of the way; `base` is the node of the robot's base.
+    pub(crate) fn new(world: &World, base: u32, number: u64, way: &PlannedWay<'_>) -> Self {
+        let lines = match way.axes {
+            WayAxes::Base => vec![Path {
+                what: Path::WHAT[0],
+                frame: None,
+                points: points(way, |at| match at {
+                    [x, y, ..] => Some([*x as f32, *y as f32, ABOVE_FLOOR]),
+                    _ => None,
+                }),
+            }],
+            WayAxes::Joints(joints) => {
+                let description = &world.models().description;
+                let moved = |side: &Side| {
+                    let own = description.arm(*side).joints();
+                    own.iter().any(|joint| joints.contains(joint))
+                };
+                let sides = Side::BOTH.into_iter().filter(moved);
+                sides
+                    .map(|side| Path {
+                        what: Path::WHAT[1 + side.index()],
+                        frame: Some(base),
+                        points: points(way, |at| {
+                            let mut q = world.robot_configuration().joints.clone();
+                            for (joint, position) in joints.iter().zip(at) {
+                                q.set(*joint, *position);
+                            }
+                            let hand = description.arm(side).gripper.palm;
+                            let tree = &world.models().robot;
+                            let pose = tree.link_pose(hand, &Pose::identity(), &q);
+                            let at = pose.translation.vector;
+                            Some([at.x as f32, at.y as f32, at.z as f32])
+                        }),
+                    })
+                    .collect()
+            }
+        };
+        Self {
+            number,
+            duration: way.trajectory.duration(),
+            end: way.trajectory.last().to_vec(),
+            lines,
+        }
+    }
+
+    /// Whether these are the lines of that way.
+    pub(crate) fn is(&self, number: u64, way: &PlannedWay<'_>) -> bool {
+        self.number == number
+            && self.duration == way.trajectory.duration()
+            && self.end == way.trajectory.last()
+    }
+}
+
+fn points(
+    way: &PlannedWay<'_>,
+    mut point: impl FnMut(&[f64]) -> Option<[f32; 3]>,
+) -> Vec<[f32; 3]> {
+    let duration = way.trajectory.duration();
+    // The cast saturates.
+    let count = ((duration / EVERY).ceil() as usize).clamp(1, MOST_POINTS);
+    (0..=count)
+        .filter_map(|i| point(&way.trajectory.position(duration * i as f64 / count as f64)))
+        .collect()
+}

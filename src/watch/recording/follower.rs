@@ -1,0 +1,154 @@
+//! Records what happens in a session.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
+
+use super::RecordingError;
+use super::write::RecordingWriter;
+use crate::watch::{Cause, Follower, Happening, Moment, Node, Seen, Witness};
+use crate::world::{CollisionHit, World};
+
+/// Simulated time (s) between two moments, and between two pictures of the camera.
+const BETWEEN_MOMENTS: f64 = 1.0 / 30.0;
+const BETWEEN_PICTURES: f64 = 1.0;
+
+/// Less than a step of the world (s).
+const EPSILON: f64 = 1e-4;
+
+/// What may wait to be written: the session waits when there is more, so that nothing is lost.
+const MOST_WAITING: usize = 64;
+
+/// Records what happens in a session until it is dropped. Texts and pictures are made on a
+/// thread of its own.
+pub struct Recorder {
+    witness: Witness,
+    known: usize,
+    last: f64,
+    last_picture: f64,
+    to: Option<SyncSender<Item>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// How a recording went. Ends of it are known when the recorder is dropped.
+#[derive(Clone, Default)]
+pub struct RecordingResult(Arc<Mutex<Option<RecordingError>>>);
+
+impl RecordingResult {
+    /// What went wrong, once.
+    pub fn take(&self) -> Option<RecordingError> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    fn fail(&self, error: RecordingError) {
+        let mut place = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        place.get_or_insert(error);
+    }
+}
+
+enum Item {
+    Moment(Vec<Arc<Node>>, Box<Moment>),
+    Picture(f64, Box<World>),
+    Happening(f64, Happening),
+}
+
+impl Recorder {
+    /// Begins a recording in the file, which is written anew.
+    pub fn create(path: &Path, world: &World) -> Result<(Self, RecordingResult), RecordingError> {
+        let witness = Witness::new(world);
+        let tree = &world.models().robot;
+        let joints = witness.joints().iter();
+        let names = joints
+            .map(|joint| tree.joint(*joint).name.clone())
+            .collect();
+        let writer = RecordingWriter::new(BufWriter::new(File::create(path)?), names)?;
+        let (to, from) = sync_channel(MOST_WAITING);
+        let result = RecordingResult::default();
+        let told = result.clone();
+        let thread = thread::Builder::new()
+            .name("recording".to_owned())
+            .spawn(move || {
+                if let Err(error) = write(writer, &from) {
+                    told.fail(error);
+                    // Whoever sends does not wait for ever.
+                    from.iter().for_each(drop);
+                }
+            })?;
+        let recorder = Self {
+            witness,
+            known: 0,
+            last: f64::NEG_INFINITY,
+            last_picture: f64::NEG_INFINITY,
+            to: Some(to),
+            thread: Some(thread),
+        };
+        Ok((recorder, result))
+    }
+
+    fn send(&self, item: Item) {
+        if let Some(to) = &self.to {
+            // A writer that is gone has told why.
+            let _ = to.send(item);
+        }
+    }
+}
+
+fn write(
+    mut writer: RecordingWriter<BufWriter<File>>,
+    from: &Receiver<Item>,
+) -> Result<(), RecordingError> {
+    for item in from {
+        match item {
+            Item::Moment(nodes, moment) => writer.moment(nodes, &moment)?,
+            Item::Picture(time, world) => writer.picture(time, &world)?,
+            Item::Happening(time, happening) => writer.happening(time, &happening)?,
+        }
+    }
+    writer.finish()
+}
+
+impl Follower for Recorder {
+    fn see(&mut self, seen: &Seen<'_>, cause: Cause) {
+        let is_due = seen.time >= self.last + BETWEEN_MOMENTS - EPSILON;
+        // What is edited is seen when the evaluation has ended, or at the next step.
+        let is_wanted = match cause {
+            Cause::Step => is_due,
+            Cause::Rest => true,
+            Cause::Edit | Cause::Wait => false,
+        };
+        if !is_wanted {
+            return;
+        }
+        self.last = seen.time;
+        let moment = Box::new(self.witness.look(seen));
+        let nodes = self.witness.nodes();
+        let fresh = nodes.get(self.known..).unwrap_or_default().to_vec();
+        self.known = nodes.len();
+        self.send(Item::Moment(fresh, moment));
+        if seen.time >= self.last_picture + BETWEEN_PICTURES - EPSILON {
+            self.last_picture = seen.time;
+            self.send(Item::Picture(seen.time, Box::new(seen.world.clone())));
+        }
+    }
+
+    fn hear(&mut self, time: f64, happening: &Happening) {
+        self.send(Item::Happening(time, happening.clone()));
+    }
+
+    fn collide(&mut self, time: f64, hit: &CollisionHit) {
+        self.witness.collide(time, hit);
+    }
+}
+
+impl Drop for Recorder {
+    fn drop(&mut self) {
+        drop(self.to.take());
+        if let Some(thread) = self.thread.take() {
+            // Whatever went wrong is in the result.
+            drop(thread.join());
+        }
+    }
+}

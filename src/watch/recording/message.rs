@@ -1,0 +1,293 @@
+//! The messages of a recording. Names and meanings of the fields are those of Foxglove's
+//! schemas, but for the last ones, which are our own.
+
+use serde::{Deserialize, Serialize};
+
+/// A simulated time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Time {
+    pub(crate) sec: u32,
+    pub(crate) nsec: u32,
+}
+
+impl Time {
+    /// The time in nanoseconds.
+    pub(crate) fn nanoseconds(seconds: f64) -> u64 {
+        // The cast saturates; a negative time is none.
+        (seconds * 1e9).round() as u64
+    }
+
+    /// So many seconds after the session began.
+    pub(crate) fn new(seconds: f64) -> Self {
+        let nanoseconds = Self::nanoseconds(seconds);
+        Self {
+            sec: u32::try_from(nanoseconds / 1_000_000_000).unwrap_or(u32::MAX),
+            // Less than a milliard.
+            nsec: (nanoseconds % 1_000_000_000) as u32,
+        }
+    }
+}
+
+/// A point or a direction (m), or a size.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Vector3 {
+    pub(crate) x: f32,
+    pub(crate) y: f32,
+    pub(crate) z: f32,
+}
+
+impl From<[f32; 3]> for Vector3 {
+    fn from([x, y, z]: [f32; 3]) -> Self {
+        Self { x, y, z }
+    }
+}
+
+impl From<Vector3> for [f32; 3] {
+    fn from(v: Vector3) -> Self {
+        [v.x, v.y, v.z]
+    }
+}
+
+/// A rotation as a unit quaternion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Quaternion {
+    pub(crate) x: f32,
+    pub(crate) y: f32,
+    pub(crate) z: f32,
+    pub(crate) w: f32,
+}
+
+impl Default for Quaternion {
+    fn default() -> Self {
+        [0.0, 0.0, 0.0, 1.0].into()
+    }
+}
+
+impl From<[f32; 4]> for Quaternion {
+    fn from([x, y, z, w]: [f32; 4]) -> Self {
+        Self { x, y, z, w }
+    }
+}
+
+impl From<Quaternion> for [f32; 4] {
+    fn from(q: Quaternion) -> Self {
+        [q.x, q.y, q.z, q.w]
+    }
+}
+
+/// `foxglove.FrameTransform`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct FrameTransform {
+    pub(crate) timestamp: Time,
+    pub(crate) parent_frame_id: String,
+    pub(crate) child_frame_id: String,
+    pub(crate) translation: Vector3,
+    pub(crate) rotation: Quaternion,
+}
+
+/// `foxglove.FrameTransforms`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct FrameTransforms {
+    pub(crate) transforms: Vec<FrameTransform>,
+}
+
+/// `foxglove.SceneUpdate`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SceneUpdate {
+    pub(crate) deletions: Vec<SceneEntityDeletion>,
+    pub(crate) entities: Vec<SceneEntity>,
+}
+
+/// `foxglove.SceneEntityDeletion`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SceneEntityDeletion {
+    pub(crate) timestamp: Time,
+    /// 1: all of the topic.
+    #[serde(rename = "type")]
+    pub(crate) kind: u8,
+    pub(crate) id: String,
+}
+
+/// `foxglove.SceneEntity`. Kinds of primitives that we do not write are always empty.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SceneEntity {
+    pub(crate) timestamp: Time,
+    pub(crate) frame_id: String,
+    pub(crate) id: String,
+    pub(crate) lifetime: Time,
+    pub(crate) frame_locked: bool,
+    pub(crate) metadata: Vec<KeyValuePair>,
+    pub(crate) arrows: [(); 0],
+    pub(crate) cubes: [(); 0],
+    pub(crate) spheres: [(); 0],
+    pub(crate) cylinders: [(); 0],
+    pub(crate) lines: Vec<LinePrimitive>,
+    pub(crate) triangles: Vec<TriangleListPrimitive>,
+    pub(crate) texts: [(); 0],
+    pub(crate) models: [(); 0],
+}
+
+impl SceneEntity {
+    /// The value of a key of the metadata.
+    pub(crate) fn metadata(&self, key: &str) -> Option<&str> {
+        let pair = self.metadata.iter().find(|pair| pair.key == key)?;
+        Some(&pair.value)
+    }
+}
+
+/// `foxglove.KeyValuePair`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct KeyValuePair {
+    pub(crate) key: String,
+    pub(crate) value: String,
+}
+
+/// `foxglove.Pose`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PoseMessage {
+    pub(crate) position: Vector3,
+    pub(crate) orientation: Quaternion,
+}
+
+/// `foxglove.Color`, as a screen has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Color {
+    pub(crate) r: f32,
+    pub(crate) g: f32,
+    pub(crate) b: f32,
+    pub(crate) a: f32,
+}
+
+/// `foxglove.LinePrimitive`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct LinePrimitive {
+    /// 0: through all points; 2: between each two.
+    #[serde(rename = "type")]
+    pub(crate) kind: u8,
+    pub(crate) pose: PoseMessage,
+    pub(crate) thickness: f32,
+    pub(crate) scale_invariant: bool,
+    pub(crate) points: Vec<Vector3>,
+    pub(crate) color: Color,
+    pub(crate) colors: Vec<Color>,
+    pub(crate) indices: Vec<u32>,
+}
+
+/// `foxglove.TriangleListPrimitive`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct TriangleListPrimitive {
+    pub(crate) pose: PoseMessage,
+    pub(crate) points: Vec<Vector3>,
+    pub(crate) color: Color,
+    pub(crate) colors: Vec<Color>,
+    pub(crate) indices: Vec<u32>,
+}
+
+/// `foxglove.JointStates`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct JointStates {
+    pub(crate) timestamp: Time,
+    pub(crate) joints: Vec<JointState>,
+}
+
+/// `foxglove.JointState`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct JointState {
+    pub(crate) name: String,
+    /// rad or m.
+    pub(crate) position: f64,
+}
+
+/// `foxglove.CompressedImage`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct CompressedImage {
+    pub(crate) timestamp: Time,
+    pub(crate) frame_id: String,
+    pub(crate) data: String,
+    pub(crate) format: String,
+}
+
+/// `foxglove.CameraCalibration`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(non_snake_case, reason = "the schema names matrices so")]
+pub(crate) struct CameraCalibration {
+    pub(crate) timestamp: Time,
+    pub(crate) frame_id: String,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) distortion_model: String,
+    pub(crate) D: Vec<f64>,
+    pub(crate) K: [f64; 9],
+    pub(crate) R: [f64; 9],
+    pub(crate) P: [f64; 12],
+}
+
+/// `foxglove.Log`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Log {
+    pub(crate) timestamp: Time,
+    /// 0 unknown, 1 debug, 2 info, 3 warning, 4 error.
+    pub(crate) level: u8,
+    pub(crate) message: String,
+    pub(crate) name: String,
+    pub(crate) file: String,
+    pub(crate) line: u32,
+}
+
+/// A task or a motion began, or its state changed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Task {
+    pub(crate) timestamp: Time,
+    /// `t` for a task or `m` for a motion, and its number.
+    pub(crate) id: String,
+    /// The task that started it; empty if the prompt did.
+    pub(crate) parent: String,
+    pub(crate) name: String,
+    pub(crate) state: String,
+    pub(crate) failure: String,
+}
+
+/// What is shown beside bodies and their places, until the next message.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Shown {
+    pub(crate) timestamp: Time,
+    pub(crate) held: Vec<Held>,
+    /// Frames of links and objects that press on one another.
+    pub(crate) touching: Vec<[String; 2]>,
+    pub(crate) stops: Vec<Stop>,
+    pub(crate) axes: Vec<Axes>,
+    pub(crate) paths: Vec<PathMessage>,
+}
+
+/// An object in a hand.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Held {
+    /// Frame of the object.
+    pub(crate) object: String,
+    /// Name of the link.
+    pub(crate) link: String,
+}
+
+/// What stopped a motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Stop {
+    pub(crate) frames: Vec<String>,
+    pub(crate) position: Vector3,
+}
+
+/// Coordinate axes that somebody wanted to see.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Axes {
+    pub(crate) pose: PoseMessage,
+    /// m.
+    pub(crate) length: f32,
+}
+
+/// A planned way.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PathMessage {
+    /// `base`, `left` or `right`.
+    pub(crate) what: String,
+    pub(crate) frame_id: String,
+    pub(crate) points: Vec<Vector3>,
+}

@@ -1,0 +1,285 @@
+//! Reading a recording back.
+
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+use mcap::MessageStream;
+use mcap::read::Options;
+use serde::de::DeserializeOwned;
+
+use super::RecordingError;
+use super::channel::Channel;
+use super::message::{FrameTransform, FrameTransforms, Log, SceneUpdate, Shown, Task};
+use super::shapes::{frame_of, node, way_name};
+use crate::watch::live::Chronicle;
+use crate::watch::{
+    Happening, Hit, Hold, Kind, Moment, Node, Path, Placed, TaskId, TaskNews, TaskState,
+};
+
+/// What a recording holds.
+#[derive(Debug, PartialEq)]
+pub struct Recording {
+    /// How many moments.
+    pub moments: usize,
+    /// How many pieces of news.
+    pub news: usize,
+    /// Whether the file ends in the middle, as when the session was killed.
+    pub is_cut_off: bool,
+}
+
+/// Reads a file's bytes into a chronicle. What is not ours in it is passed over.
+pub fn read_recording(bytes: &[u8], to: &Chronicle) -> Result<Recording, RecordingError> {
+    let mut reader = Reader {
+        to,
+        nodes: Vec::new(),
+        frames: IndexMap::new(),
+        still: IndexMap::new(),
+        objects: IndexMap::new(),
+        shown: Moment::default(),
+        moments: 0,
+        news: 0,
+    };
+    let mut is_cut_off = false;
+    for message in MessageStream::new_with_options(bytes, Options::IgnoreEndMagic.into())? {
+        match message {
+            Ok(message) => reader.take(&message)?,
+            // A session that was killed left half of a message at the end.
+            Err(_) if reader.moments > 0 => {
+                is_cut_off = true;
+                break;
+            }
+            Err(error) => return Err(error.into()),
+        }
+    }
+    if reader.moments == 0 {
+        return Err(RecordingError::Foreign);
+    }
+    Ok(Recording {
+        moments: reader.moments,
+        news: reader.news,
+        is_cut_off,
+    })
+}
+
+struct Reader<'a> {
+    to: &'a Chronicle,
+    nodes: Vec<Arc<Node>>,
+    /// Nodes by their frames: those that are in the world.
+    frames: IndexMap<String, u32>,
+    /// Where frames are that cannot move.
+    still: IndexMap<String, Placed>,
+    /// Nodes of objects by what the writer numbered them.
+    objects: IndexMap<String, u32>,
+    /// What is shown beside bodies now.
+    shown: Moment,
+    moments: usize,
+    news: usize,
+}
+
+impl Reader<'_> {
+    fn take(&mut self, message: &mcap::Message<'_>) -> Result<(), RecordingError> {
+        let Some(channel) = Channel::of_topic(&message.channel.topic) else {
+            return Ok(());
+        };
+        if message.channel.message_encoding != "json" {
+            return Ok(());
+        }
+        let time = message.log_time as f64 * 1e-9;
+        let data = &message.data;
+        match channel {
+            Channel::Transforms => self.transforms(time, &parsed(data)?),
+            Channel::Still => {
+                let message: FrameTransforms = parsed(data)?;
+                let placed = message.transforms.iter().filter_map(|transform| {
+                    let frame = transform.child_frame_id.clone();
+                    Some((frame, placed(transform, 0)?))
+                });
+                self.still.extend(placed);
+            }
+            Channel::Furnishing | Channel::Objects => {
+                let update: SceneUpdate = parsed(data)?;
+                self.scene(channel, &update);
+            }
+            Channel::Shown => {
+                let shown: Shown = parsed(data)?;
+                self.shown(&shown);
+            }
+            Channel::Log => {
+                let log: Log = parsed(data)?;
+                let level = ["", "DEBUG", "INFO", "WARN", "ERROR"].get(usize::from(log.level));
+                let told = match level {
+                    _ if log.name == "aborted" => Happening::Aborted(log.message),
+                    Some(&level) if !level.is_empty() => Happening::Output(format!(
+                        "[({}) {level}] {time:.3}: {}\n",
+                        log.name, log.message
+                    )),
+                    _ => Happening::Output(format!("{}\n", log.message)),
+                };
+                self.tell(time, &told);
+            }
+            Channel::Tasks => {
+                let task: Task = parsed(data)?;
+                if let Some(news) = news(task) {
+                    self.tell(time, &Happening::Task(news));
+                }
+            }
+            Channel::Joints | Channel::Picture | Channel::Calibration | Channel::Overlay => {}
+        }
+        Ok(())
+    }
+
+    fn tell(&mut self, time: f64, happening: &Happening) {
+        self.to.tell(time, happening);
+        self.news += 1;
+    }
+
+    fn transforms(&mut self, time: f64, message: &FrameTransforms) {
+        let mut placed: Vec<Placed> = Vec::new();
+        for transform in &message.transforms {
+            let frame = &transform.child_frame_id;
+            let known = self.frames.get(frame).copied();
+            let id = match known {
+                Some(id) => id,
+                // A mere frame, such as the camera's.
+                None if !frame.starts_with("object/") => self.add_frame(frame),
+                None => continue,
+            };
+            placed.extend(self::placed(transform, id));
+        }
+        placed.sort_by_key(|p| p.node);
+        placed.dedup_by_key(|p| p.node);
+        let moment = Moment {
+            time,
+            placed,
+            ..self.shown.clone()
+        };
+        self.moments += 1;
+        self.to.leave(&self.nodes, Arc::new(moment), true);
+    }
+
+    fn scene(&mut self, channel: Channel, update: &SceneUpdate) {
+        if channel == Channel::Objects {
+            self.frames.retain(|frame, _| !frame.starts_with("object/"));
+        }
+        for entity in &update.entities {
+            let is_object = channel == Channel::Objects;
+            let known = self.objects.get(&entity.id).copied().filter(|_| is_object);
+            let id = match known {
+                Some(id) => id,
+                None => {
+                    let id = self.next_id();
+                    let still = self.still.get(&entity.frame_id);
+                    let still = still.map(|place| Placed { node: id, ..*place });
+                    let Some(node) = node(entity, id, still) else {
+                        continue;
+                    };
+                    if is_object != (node.kind == Kind::Object) {
+                        continue;
+                    }
+                    let id = self.add(node);
+                    if is_object {
+                        self.objects.insert(entity.id.clone(), id);
+                    }
+                    id
+                }
+            };
+            self.frames.insert(entity.frame_id.clone(), id);
+        }
+    }
+
+    fn shown(&mut self, shown: &Shown) {
+        let node = |frame: &String| self.frames.get(frame).copied();
+        let now = Moment {
+            holds: (shown.held.iter())
+                .filter_map(|held| {
+                    Some(Hold {
+                        object: node(&held.object)?,
+                        link: held.link.as_str().into(),
+                    })
+                })
+                .collect(),
+            touching: (shown.touching.iter())
+                .filter_map(|[a, b]| Some([node(a)?, node(b)?]))
+                .collect(),
+            hits: (shown.stops.iter())
+                .map(|stop| Hit {
+                    nodes: stop.frames.iter().filter_map(node).collect(),
+                    at: stop.position.into(),
+                })
+                .collect(),
+            axes: shown.axes.first().map(|axes| {
+                let place = Placed {
+                    node: 0,
+                    at: axes.pose.position.into(),
+                    turn: axes.pose.orientation.into(),
+                };
+                (place, axes.length)
+            }),
+            paths: (shown.paths.iter())
+                .filter_map(|path| {
+                    Some(Path {
+                        what: way_name(&path.what)?,
+                        frame: node(&path.frame_id),
+                        points: path.points.iter().map(|p| (*p).into()).collect(),
+                    })
+                })
+                .collect(),
+            ..Moment::default()
+        };
+        self.shown = now;
+    }
+
+    fn add_frame(&mut self, frame: &str) -> u32 {
+        let id = self.add(Node {
+            id: self.next_id(),
+            name: frame.to_owned(),
+            kind: Kind::Robot,
+            type_name: String::new(),
+            still: None,
+            mesh: Arc::default(),
+        });
+        self.frames.insert(frame.to_owned(), id);
+        id
+    }
+
+    fn next_id(&self) -> u32 {
+        u32::try_from(self.nodes.len()).unwrap_or(u32::MAX)
+    }
+
+    fn add(&mut self, node: Node) -> u32 {
+        let id = node.id;
+        debug_assert!(!frame_of(&node).is_empty());
+        self.nodes.push(Arc::new(node));
+        id
+    }
+}
+
+/// Where the transform says that the node is, if it is anywhere.
+fn placed(transform: &FrameTransform, node: u32) -> Option<Placed> {
+    let at: [f32; 3] = transform.translation.into();
+    let turn: [f32; 4] = transform.rotation.into();
+    let is_finite = at.iter().chain(&turn).all(|n| n.is_finite());
+    is_finite.then_some(Placed { node, at, turn })
+}
+
+fn parsed<T: DeserializeOwned>(data: &[u8]) -> Result<T, RecordingError> {
+    Ok(serde_json::from_slice(data)?)
+}
+
+fn news(task: Task) -> Option<TaskNews> {
+    Some(TaskNews {
+        id: task_id(&task.id)?,
+        parent: task_id(&task.parent),
+        name: task.name,
+        state: TaskState::named(&task.state)?,
+        failure: task.failure,
+    })
+}
+
+fn task_id(text: &str) -> Option<TaskId> {
+    let number = |rest: &str| rest.parse().ok();
+    match text.strip_prefix('t') {
+        Some(rest) => number(rest).map(TaskId::Task),
+        None => number(text.strip_prefix('m')?).map(TaskId::Motion),
+    }
+}

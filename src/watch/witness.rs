@@ -1,0 +1,265 @@
+//! Makes moments of the world.
+
+use std::sync::Arc;
+
+use indexmap::IndexMap;
+
+use super::Seen;
+use super::moment::{Hit, Hold, Moment, Path, Placed};
+use super::node::{Kind, Node, VisualMesh};
+use super::path::KnownWay;
+use crate::picture::scene::Scene;
+use crate::robot::{JointId, JointKind, KinematicTree, LinkId};
+use crate::world::{BodyName, CollisionHit, Object, World};
+
+/// Force (N) from which on a touch is told.
+const LEAST_FORCE: f64 = 0.5;
+
+/// How long (s) it is shown what stopped a motion.
+const HIT_SECONDS: f64 = 2.5;
+
+/// What tells objects apart that look different or are called differently.
+type ObjectKey = (String, String, [u32; 4]);
+
+/// Makes moments of one world, and knows the nodes in them.
+pub struct Witness {
+    nodes: Vec<Arc<Node>>,
+    /// Nodes of links, by the links' places in their trees.
+    robot: IndexMap<usize, u32>,
+    furniture: IndexMap<usize, u32>,
+    /// Links that can move, with their nodes.
+    moving_furniture: Vec<(LinkId, u32)>,
+    robot_links: Vec<(LinkId, u32)>,
+    objects: IndexMap<ObjectKey, u32>,
+    /// How objects look, by type and colour.
+    meshes: IndexMap<(String, [u32; 4]), Arc<VisualMesh>>,
+    joints: Vec<JointId>,
+    base: u32,
+    ways: Vec<KnownWay>,
+    paths: Arc<[Path]>,
+    hits: Vec<(f64, Hit)>,
+}
+
+impl Witness {
+    /// A witness of the world, whose robot and kitchen become nodes.
+    pub fn new(world: &World) -> Self {
+        let mut witness = Self {
+            nodes: Vec::new(),
+            robot: IndexMap::new(),
+            furniture: IndexMap::new(),
+            moving_furniture: Vec::new(),
+            robot_links: Vec::new(),
+            objects: IndexMap::new(),
+            meshes: IndexMap::new(),
+            joints: Vec::new(),
+            base: 0,
+            ways: Vec::new(),
+            paths: Vec::new().into(),
+            hits: Vec::new(),
+        };
+        let models = world.models();
+        let actuated = models.robot.joints().filter(|(_, j)| j.is_actuated());
+        witness.joints = actuated.map(|(id, _)| id).collect();
+        let camera = models.description.camera().frame;
+        for (link, _) in models.robot.links() {
+            let scene = Scene::of_link(&models.robot, link, true);
+            if scene.bodies.is_empty() && link != models.robot.root() && link != camera {
+                continue;
+            }
+            let node = witness.add_link(&models.robot, link, Kind::Robot, &scene, None);
+            witness.robot.insert(link.index(), node);
+            witness.robot_links.push((link, node));
+        }
+        witness.base = witness.node_of(models.robot.root().index()).unwrap_or(0);
+        for (link, _) in models.kitchen.links() {
+            let scene = Scene::of_link(&models.kitchen, link, false);
+            if scene.bodies.is_empty() {
+                continue;
+            }
+            let is_still = |joint: JointId| models.kitchen.joint(joint).kind == JointKind::Fixed;
+            let still = models.kitchen.ancestors(link).all(is_still);
+            // The number is given when the node is added.
+            let place = Placed::new(0, &world.furniture_pose(link));
+            let still = still.then_some(place);
+            let node = witness.add_link(&models.kitchen, link, Kind::Furniture, &scene, still);
+            witness.furniture.insert(link.index(), node);
+            if still.is_none() {
+                witness.moving_furniture.push((link, node));
+            }
+        }
+        witness
+    }
+
+    /// All nodes that are known, in order of their numbers.
+    pub fn nodes(&self) -> &[Arc<Node>] {
+        &self.nodes
+    }
+
+    /// The node of a link of the robot, by the link's name.
+    pub fn node_named(&self, link: &str) -> Option<u32> {
+        let robot = self.robot_links.iter().map(|(_, node)| *node);
+        let named = |node: &u32| {
+            self.nodes
+                .get(*node as usize)
+                .is_some_and(|n| n.name == link)
+        };
+        robot.into_iter().find(named)
+    }
+
+    /// The node of a link of the robot, by its place in the tree.
+    fn node_of(&self, link: usize) -> Option<u32> {
+        self.robot.get(&link).copied()
+    }
+
+    /// The robot's actuated joints, in the order of [`Moment::joints`].
+    pub fn joints(&self) -> &[JointId] {
+        &self.joints
+    }
+
+    /// The world as it is now. Objects that have not been seen before become nodes.
+    pub fn look(&mut self, seen: &Seen<'_>) -> Moment {
+        let world = seen.world;
+        let mut placed: Vec<Placed> = Vec::with_capacity(self.nodes.len());
+        let links = self.robot_links.iter();
+        placed.extend(links.map(|(link, node)| Placed::new(*node, &world.link_pose(*link))));
+        let links = self.moving_furniture.iter();
+        placed.extend(links.map(|(link, node)| Placed::new(*node, &world.furniture_pose(*link))));
+        let mut holds = Vec::new();
+        let mut touching = Vec::new();
+        for object in world.objects() {
+            let node = self.object_node(object);
+            // The name comes from the world itself.
+            let Ok(pose) = world.object_pose(object.name()) else {
+                continue;
+            };
+            placed.push(Placed::new(node, &pose));
+            if let Some(hold) = object.attachment() {
+                holds.push(Hold {
+                    object: node,
+                    link: world.models().robot.link(hold.link).name.as_str().into(),
+                });
+            }
+            for contact in world.object_contacts(object.name()).unwrap_or_default() {
+                let link = contact.body.robot_link();
+                if let Some(link) = link.and_then(|l| self.node_of(l.index()))
+                    && contact.force >= LEAST_FORCE
+                {
+                    touching.push([link, node]);
+                }
+            }
+        }
+        placed.sort_by_key(|p| p.node);
+        self.hits
+            .retain(|(since, _)| (0.0..HIT_SECONDS).contains(&(seen.time - since)));
+        self.follow_ways(seen);
+        let robot = world.robot_configuration();
+        let position = |joint: &JointId| world.models().robot.position(&robot.joints, *joint);
+        Moment {
+            time: seen.time,
+            placed,
+            holds,
+            touching,
+            hits: self.hits.iter().map(|(_, hit)| hit.clone()).collect(),
+            // The axes are no node.
+            axes: (seen.axes).map(|(pose, size)| (Placed::new(0, &pose), size as f32)),
+            paths: self.paths.clone(),
+            joints: self.joints.iter().map(position).collect(),
+        }
+    }
+
+    /// Remembers what stopped a motion at that time (s).
+    pub fn collide(&mut self, time: f64, hit: &CollisionHit) {
+        let bodies = [&hit.moving, &hit.other];
+        let nodes = bodies.iter().filter_map(|body| self.body_node(body));
+        let p = hit.point;
+        let hit = Hit {
+            nodes: nodes.collect(),
+            at: [p.x as f32, p.y as f32, p.z as f32],
+        };
+        self.hits.push((time, hit));
+    }
+
+    fn body_node(&self, body: &BodyName) -> Option<u32> {
+        match body {
+            BodyName::Robot(link) => self.robot.get(&link.id.index()).copied(),
+            BodyName::Furniture(link) => self.furniture.get(&link.id.index()).copied(),
+            BodyName::Object(name) => {
+                let mut known = self.objects.iter().rev();
+                known.find(|((n, ..), _)| n == name).map(|(_, id)| *id)
+            }
+            BodyName::Floor => None,
+        }
+    }
+
+    fn follow_ways(&mut self, seen: &Seen<'_>) {
+        let is_known = |(known, (number, way)): (&KnownWay, &(u64, _))| known.is(*number, way);
+        if self.ways.len() == seen.ways.len() && self.ways.iter().zip(seen.ways).all(is_known) {
+            return;
+        }
+        let mut before = std::mem::take(&mut self.ways);
+        for (number, way) in seen.ways {
+            let place = before.iter().position(|known| known.is(*number, way));
+            self.ways.push(match place {
+                Some(place) => before.remove(place),
+                None => KnownWay::new(seen.world, self.base, *number, way),
+            });
+        }
+        let lines = self.ways.iter().flat_map(|way| way.lines.iter().cloned());
+        self.paths = lines.collect();
+    }
+
+    fn object_node(&mut self, object: &Object) -> u32 {
+        let name = object.name().to_owned();
+        let key = (
+            name,
+            object.type_name().to_owned(),
+            object.color().map(f32::to_bits),
+        );
+        if let Some(known) = self.objects.get(&key) {
+            return *known;
+        }
+        let look = (key.1.clone(), key.2);
+        let mesh = self.meshes.entry(look);
+        let mesh = mesh.or_insert_with(|| VisualMesh::of(&Scene::of_object(object)).into());
+        let mesh = Arc::clone(mesh);
+        let node = self.add(Node {
+            id: 0,
+            name: key.0.clone(),
+            kind: Kind::Object,
+            type_name: key.1.clone(),
+            still: None,
+            mesh,
+        });
+        self.objects.insert(key, node);
+        node
+    }
+
+    fn add_link(
+        &mut self,
+        tree: &KinematicTree,
+        link: LinkId,
+        kind: Kind,
+        scene: &Scene,
+        still: Option<Placed>,
+    ) -> u32 {
+        self.add(Node {
+            id: 0,
+            name: tree.link(link).name.clone(),
+            kind,
+            type_name: String::new(),
+            still,
+            mesh: VisualMesh::of(scene).into(),
+        })
+    }
+
+    fn add(&mut self, mut node: Node) -> u32 {
+        // Four milliard nodes do not fit into memory.
+        node.id = u32::try_from(self.nodes.len()).unwrap_or(u32::MAX);
+        if let Some(still) = &mut node.still {
+            still.node = node.id;
+        }
+        let id = node.id;
+        self.nodes.push(Arc::new(node));
+        id
+    }
+}
