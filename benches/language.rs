@@ -1,8 +1,7 @@
 //! How fast the language is: calls, handling failures, reading and compiling plans.
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use planwright::dialogue::{Evaluate, Event, Outcome};
-use planwright::session::{Session, SessionOptions};
+use planwright::{Evaluate, Event, Outcome, Session, SessionOptions};
 
 fn session() -> Session {
     // The built-in models are known to be right.

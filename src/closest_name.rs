@@ -5,7 +5,10 @@
 /// the nearest one differs in more than a third of its letters.
 ///
 /// Of equally near names the first one wins.
-pub fn closest_name<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn closest_name<'a>(
+    wanted: &str,
+    names: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     let wanted: Vec<char> = wanted.to_lowercase().chars().collect();
     let mut best: Option<(usize, &str)> = None;
     for name in names {

@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    planwright::front::command::main()
+    planwright::main()
 }

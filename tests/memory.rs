@@ -3,8 +3,7 @@
 
 #![cfg(target_os = "linux")]
 
-use planwright::dialogue::{Evaluate, Outcome};
-use planwright::session::{Session, SessionOptions};
+use planwright::{Evaluate, Outcome, Session, SessionOptions};
 
 /// Kilobytes of memory that this process holds.
 fn resident() -> u64 {

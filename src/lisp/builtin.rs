@@ -9,24 +9,24 @@ use super::value::raise::Raise;
 use super::value::symbol::Sym;
 
 /// One builtin function.
-pub struct Builtin {
+pub(crate) struct Builtin {
     /// The name in upper case; the package is that of its table unless it says
     /// `PACKAGE:NAME`.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// The lambda list as the manual shows it (`"function list &rest lists"`). The
     /// number of arguments that a call may have is read from it.
-    pub lambda_list: &'static str,
+    pub(crate) lambda_list: &'static str,
     /// One or two sentences.
-    pub doc: &'static str,
+    pub(crate) doc: &'static str,
     /// Examples: `"(1+ 2) => 3"`; each is run as a test. The right side is what the
     /// prompt prints, several values separated by `" ; "`.
-    pub examples: &'static [&'static str],
+    pub(crate) examples: &'static [&'static str],
     /// The Rust function.
-    pub call: BuiltinCall,
+    pub(crate) call: BuiltinCall,
 }
 
 /// The Rust function of a builtin.
-pub enum BuiltinCall {
+pub(crate) enum BuiltinCall {
     /// Returns at once.
     Pure(PureFn),
     /// May call, wait or unwind.
@@ -34,7 +34,7 @@ pub enum BuiltinCall {
 }
 
 /// A pure builtin.
-pub const fn pure(
+pub(crate) const fn pure(
     name: &'static str,
     lambda_list: &'static str,
     doc: &'static str,
@@ -51,7 +51,7 @@ pub const fn pure(
 }
 
 /// A builtin that may call, wait or unwind.
-pub const fn control(
+pub(crate) const fn control(
     name: &'static str,
     lambda_list: &'static str,
     doc: &'static str,
@@ -69,7 +69,7 @@ pub const fn control(
 
 impl Builtin {
     /// The function object, under a name.
-    pub fn function(&self, name: Sym) -> Function {
+    pub(crate) fn function(&self, name: Sym) -> Function {
         let (min, max) = self.arity();
         let call = match self.call {
             BuiltinCall::Pure(f) => NativeCall::Pure(f),
@@ -79,7 +79,7 @@ impl Builtin {
     }
 
     /// Fewest and most arguments, from the lambda list.
-    pub fn arity(&self) -> (u16, Option<u16>) {
+    pub(crate) fn arity(&self) -> (u16, Option<u16>) {
         let mut min = 0;
         let mut optional = 0;
         let mut in_optional = false;
@@ -96,18 +96,18 @@ impl Builtin {
 }
 
 /// Expands a macro call: maps the whole form to the form that takes its place.
-pub type Expander = fn(&mut Image, &Value) -> Result<Value, Box<Raise>>;
+pub(crate) type Expander = fn(&mut Image, &Value) -> Result<Value, Box<Raise>>;
 
 /// A macro written in Rust, or a special operator.
-pub struct Operator {
+pub(crate) struct Operator {
     /// The name in upper case; the package is that of its table.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Shape of a form, after the operator.
-    pub lambda_list: &'static str,
+    pub(crate) lambda_list: &'static str,
     /// One or two sentences.
-    pub doc: &'static str,
+    pub(crate) doc: &'static str,
     /// Examples, as for builtins.
-    pub examples: &'static [&'static str],
+    pub(crate) examples: &'static [&'static str],
     /// How it expands; none for a special operator, which the compiler translates itself.
-    pub expand: Option<Expander>,
+    pub(crate) expand: Option<Expander>,
 }

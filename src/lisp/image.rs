@@ -24,59 +24,59 @@ use super::value::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableK
 use super::vm::call::Call;
 
 /// An image.
-pub struct Image {
+pub(crate) struct Image {
     /// All symbols.
-    pub symbols: SymbolTable,
+    pub(crate) symbols: SymbolTable,
     /// All packages.
-    pub packages: PackageTable,
+    pub(crate) packages: PackageTable,
     /// Classes by name, in order of definition.
-    pub classes: IndexMap<Sym, Rc<Class>>,
+    pub(crate) classes: IndexMap<Sym, Rc<Class>>,
     /// Expanders of `deftype`, by name.
-    pub types: IndexMap<Sym, Rc<Function>>,
+    pub(crate) types: IndexMap<Sym, Rc<Function>>,
     /// Source texts and places.
-    pub sources: Sources,
+    pub(crate) sources: Sources,
     /// Text written to standard output that nobody has taken yet.
-    pub output: Output,
+    pub(crate) output: Output,
     /// Seed and state of `random`.
-    pub random: rand_pcg::Pcg64,
+    pub(crate) random: rand_pcg::Pcg64,
     /// How `setf` treats operators that have an expander instead of a setf function.
-    pub setf_expanders: IndexMap<Sym, SetfExpander>,
+    pub(crate) setf_expanders: IndexMap<Sym, SetfExpander>,
     /// Set from outside to interrupt the machine.
-    pub interrupt: Arc<AtomicBool>,
+    pub(crate) interrupt: Arc<AtomicBool>,
     /// How often has the flag been looked at? Counts the same in every run, so that an
     /// interrupt can be repeated.
-    pub polls: super::polls::Polls,
+    pub(crate) polls: super::polls::Polls,
     /// Bytes of the Rust stack that the compiler may use for nested forms.
-    pub stack_budget: usize,
+    pub(crate) stack_budget: usize,
     /// What the compiler notices, while somebody wants to know.
-    pub notes: Option<Vec<Note>>,
+    pub(crate) notes: Option<Vec<Note>>,
     /// Runs of macro functions inside each other.
-    pub nesting: usize,
+    pub(crate) nesting: usize,
     /// The calls in which the conditions signalled last were signalled, newest last.
     condition_calls: VecDeque<(Vec<Value>, Vec<Call>)>,
     identities: i64,
     /// Builtins by the symbol that names them: help and the manual read them.
-    pub builtins: IndexMap<Sym, &'static Builtin>,
+    pub(crate) builtins: IndexMap<Sym, &'static Builtin>,
     /// Macros written in Rust and special operators, by the symbol that names them.
-    pub operators: IndexMap<Sym, &'static Operator>,
+    pub(crate) operators: IndexMap<Sym, &'static Operator>,
     /// Made-up addresses of objects that were printed.
-    pub printed: RefCell<super::print::identity::Identities>,
+    pub(crate) printed: RefCell<super::print::identity::Identities>,
     /// How many motions of the robot have been begun.
-    pub motions: u64,
+    pub(crate) motions: u64,
     /// What layers above the language keep in the image: one value per type.
     extensions: Vec<Rc<dyn Any>>,
 }
 
 /// Standard output: text in order, and the column where the next character goes.
 #[derive(Default)]
-pub struct Output {
+pub(crate) struct Output {
     text: String,
     column: usize,
 }
 
 impl Output {
     /// Writes a text.
-    pub fn write(&mut self, text: &str) {
+    pub(crate) fn write(&mut self, text: &str) {
         match text.rfind('\n') {
             Some(i) => self.column = text[i + 1..].chars().count(),
             None => self.column += text.chars().count(),
@@ -85,24 +85,24 @@ impl Output {
     }
 
     /// Starts a new line unless at the start of one.
-    pub fn fresh_line(&mut self) {
+    pub(crate) fn fresh_line(&mut self) {
         if self.column > 0 {
             self.write("\n");
         }
     }
 
     /// Notes that what is written next stands at the start of a line.
-    pub fn begin_line(&mut self) {
+    pub(crate) fn begin_line(&mut self) {
         self.column = 0;
     }
 
     /// Number of characters on the current line.
-    pub fn column(&self) -> usize {
+    pub(crate) fn column(&self) -> usize {
         self.column
     }
 
     /// Takes what was written.
-    pub fn take(&mut self) -> String {
+    pub(crate) fn take(&mut self) -> String {
         std::mem::take(&mut self.text)
     }
 }
@@ -154,12 +154,12 @@ impl Image {
     }
 
     /// Is the interrupt flag set?
-    pub fn is_interrupted(&self) -> bool {
+    pub(crate) fn is_interrupted(&self) -> bool {
         self.polls.look(&self.interrupt)
     }
 
     /// Was the interrupt flag set? It is not afterwards.
-    pub fn take_interrupt(&self) -> bool {
+    pub(crate) fn take_interrupt(&self) -> bool {
         let was = self.is_interrupted();
         if was {
             self.interrupt.store(false, Ordering::Relaxed);
@@ -168,7 +168,7 @@ impl Image {
     }
 
     /// Takes a note about a form, if notes are wanted.
-    pub fn note(&mut self, place: Place, kind: impl FnOnce() -> NoteKind) {
+    pub(crate) fn note(&mut self, place: Place, kind: impl FnOnce() -> NoteKind) {
         if let Some(notes) = &mut self.notes {
             let kind = kind();
             notes.push(Note { place, kind });
@@ -176,12 +176,12 @@ impl Image {
     }
 
     /// Seeds `random`.
-    pub fn seed(&mut self, seed: u64) {
+    pub(crate) fn seed(&mut self, seed: u64) {
         self.random = rand_pcg::Pcg64::new(u128::from(seed), STREAM);
     }
 
     /// Keeps a value of a layer above the language, in place of one of the same type.
-    pub fn extend<T: 'static>(&mut self, value: T) -> Rc<T> {
+    pub(crate) fn extend<T: 'static>(&mut self, value: T) -> Rc<T> {
         let value = Rc::new(value);
         self.extensions.retain(|kept| !kept.is::<T>());
         self.extensions.push(value.clone());
@@ -189,21 +189,21 @@ impl Image {
     }
 
     /// The value of a layer above the language, found by its type.
-    pub fn extension<T: 'static>(&self) -> Option<Rc<T>> {
+    pub(crate) fn extension<T: 'static>(&self) -> Option<Rc<T>> {
         self.extensions
             .iter()
             .find_map(|kept| kept.clone().downcast().ok())
     }
 
     /// A number that no block or tagbody had before.
-    pub fn fresh_identity(&mut self) -> i64 {
+    pub(crate) fn fresh_identity(&mut self) -> i64 {
         self.identities += 1;
         self.identities
     }
 
     /// The calls that were open where a condition was signalled, innermost first; none if
     /// that is not known.
-    pub fn condition_calls(&self, condition: &Value) -> Option<&[Call]> {
+    pub(crate) fn condition_calls(&self, condition: &Value) -> Option<&[Call]> {
         self.condition_calls
             .iter()
             .rev()
@@ -212,7 +212,7 @@ impl Image {
     }
 
     /// Remembers the calls that were open where a condition was signalled.
-    pub fn set_condition_calls(&mut self, condition: &Value, calls: Vec<Call>) {
+    pub(crate) fn set_condition_calls(&mut self, condition: &Value, calls: Vec<Call>) {
         if self.condition_calls.len() == REMEMBERED_CONDITIONS {
             self.condition_calls.pop_front();
         }
@@ -221,7 +221,7 @@ impl Image {
     }
 
     /// Adds the calls of the code that a condition has come to from a task of its own.
-    pub fn add_condition_calls(&mut self, condition: &Value, calls: Vec<Call>) {
+    pub(crate) fn add_condition_calls(&mut self, condition: &Value, calls: Vec<Call>) {
         let known = self.condition_calls.iter_mut().rev();
         let mut known = known.filter(|(of, _)| of.iter().any(|other| other.is_eq(condition)));
         if let Some((_, inner)) = known.next() {
@@ -232,7 +232,7 @@ impl Image {
 
     /// A condition goes on in another one, its envelope: what is known of its calls, and what
     /// becomes known later, holds for both.
-    pub fn share_condition_calls(&mut self, condition: &Value, envelope: &Value) {
+    pub(crate) fn share_condition_calls(&mut self, condition: &Value, envelope: &Value) {
         let known = self.condition_calls.iter_mut().rev();
         let mut known = known.filter(|(of, _)| of.iter().any(|other| other.is_eq(condition)));
         if let Some((of, _)) = known.next() {
@@ -241,7 +241,10 @@ impl Image {
     }
 
     /// The function that a function or a symbol designates.
-    pub fn coerce_to_function(&self, designator: &Value) -> Result<Rc<Function>, Box<Raise>> {
+    pub(crate) fn coerce_to_function(
+        &self,
+        designator: &Value,
+    ) -> Result<Rc<Function>, Box<Raise>> {
         match designator {
             Value::Function(f) => Ok(f.clone()),
             Value::Symbol(sym) => match &self.symbols.get(*sym).function {
@@ -257,50 +260,50 @@ impl Image {
 
     /// The data of a symbol.
     #[inline]
-    pub fn symbol(&self, sym: Sym) -> &SymbolData {
+    pub(crate) fn symbol(&self, sym: Sym) -> &SymbolData {
         self.symbols.get(sym)
     }
 
     /// A symbol's name.
-    pub fn name(&self, sym: Sym) -> &str {
+    pub(crate) fn name(&self, sym: Sym) -> &str {
         &self.symbols.get(sym).name
     }
 
     /// The value of a special variable as the running fiber sees it.
     #[inline]
-    pub fn special(&self, sym: Sym) -> &Value {
+    pub(crate) fn special(&self, sym: Sym) -> &Value {
         &self.symbols.get(sym).value
     }
 
     /// Assigns a special variable.
-    pub fn set_special(&mut self, sym: Sym, value: Value) {
+    pub(crate) fn set_special(&mut self, sym: Sym, value: Value) {
         self.symbols.get_mut(sym).value = value;
     }
 
     /// The symbol `name` of a package, made if need be.
-    pub fn intern(&mut self, package: PackageId, name: &str) -> Sym {
+    pub(crate) fn intern(&mut self, package: PackageId, name: &str) -> Sym {
         self.packages.intern(&mut self.symbols, package, name)
     }
 
     /// The keyword of that name.
-    pub fn keyword(&mut self, name: &str) -> Sym {
+    pub(crate) fn keyword(&mut self, name: &str) -> Sym {
         self.intern(PackageTable::KEYWORD, name)
     }
 
     /// The symbol of that name in the named package, exported; the package must exist.
-    pub fn export_symbol(&mut self, package: PackageId, name: &str) -> Sym {
+    pub(crate) fn export_symbol(&mut self, package: PackageId, name: &str) -> Sym {
         let sym = self.intern(package, name);
         self.packages.export(&mut self.symbols, package, sym);
         sym
     }
 
     /// Is the symbol a keyword?
-    pub fn is_keyword(&self, sym: Sym) -> bool {
+    pub(crate) fn is_keyword(&self, sym: Sym) -> bool {
         self.symbols.get(sym).package == Some(PackageTable::KEYWORD)
     }
 
     /// The value of `*package*`.
-    pub fn current_package(&self) -> PackageId {
+    pub(crate) fn current_package(&self) -> PackageId {
         match self.special(known::V_PACKAGE) {
             Value::Package(id) => *id,
             _ => PackageTable::USER,
@@ -308,7 +311,7 @@ impl Image {
     }
 
     /// Is the symbol accessible in the current package without a prefix?
-    pub fn is_accessible(&self, sym: Sym) -> bool {
+    pub(crate) fn is_accessible(&self, sym: Sym) -> bool {
         let name = &self.symbols.get(sym).name;
         self.packages
             .find_symbol(self.current_package(), name)
@@ -316,7 +319,7 @@ impl Image {
     }
 
     /// How the symbol stands in its home package.
-    pub fn home_access(&self, sym: Sym) -> Option<Access> {
+    pub(crate) fn home_access(&self, sym: Sym) -> Option<Access> {
         let data = self.symbols.get(sym);
         self.packages
             .find_symbol(data.package?, &data.name)
@@ -324,12 +327,12 @@ impl Image {
     }
 
     /// An uninterned symbol.
-    pub fn make_symbol(&mut self, name: &str) -> Sym {
+    pub(crate) fn make_symbol(&mut self, name: &str) -> Sym {
         self.symbols.make(name.into())
     }
 
     /// An uninterned symbol with a fresh number: `G123`.
-    pub fn gensym(&mut self, prefix: &str) -> Sym {
+    pub(crate) fn gensym(&mut self, prefix: &str) -> Sym {
         let counter = match self.special(known::V_GENSYM_COUNTER) {
             Value::Int(n) => *n,
             _ => 0,
@@ -339,12 +342,12 @@ impl Image {
     }
 
     /// Sets a symbol's global function.
-    pub fn set_function(&mut self, sym: Sym, function: Rc<Function>) {
+    pub(crate) fn set_function(&mut self, sym: Sym, function: Rc<Function>) {
         self.symbols.get_mut(sym).function = FunctionCell::Function(function);
     }
 
     /// The global function of a symbol.
-    pub fn function(&self, sym: Sym) -> Option<&Rc<Function>> {
+    pub(crate) fn function(&self, sym: Sym) -> Option<&Rc<Function>> {
         match &self.symbols.get(sym).function {
             FunctionCell::Function(f) => Some(f),
             _ => None,
@@ -352,21 +355,21 @@ impl Image {
     }
 
     /// Makes a symbol's bindings dynamic and gives it a value.
-    pub fn define_special(&mut self, sym: Sym, value: Value) {
+    pub(crate) fn define_special(&mut self, sym: Sym, value: Value) {
         let data = self.symbols.get_mut(sym);
         data.kind = VariableKind::Special;
         data.value = value;
     }
 
     /// Makes a symbol a constant.
-    pub fn define_constant(&mut self, sym: Sym, value: Value) {
+    pub(crate) fn define_constant(&mut self, sym: Sym, value: Value) {
         let data = self.symbols.get_mut(sym);
         data.kind = VariableKind::Constant;
         data.value = value;
     }
 
     /// Installs the builtins of a table as exported functions of a package.
-    pub fn install(&mut self, package: PackageId, table: &'static [Builtin]) {
+    pub(crate) fn install(&mut self, package: PackageId, table: &'static [Builtin]) {
         for builtin in table {
             let sym = self.export_symbol(package, builtin.name);
             self.set_function(sym, Rc::new(builtin.function(sym)));
@@ -376,7 +379,7 @@ impl Image {
 
     /// Installs the functions of a table as what `setf` calls for the places of those
     /// names; the new value is their first argument.
-    pub fn install_setf(&mut self, package: PackageId, table: &'static [Builtin]) {
+    pub(crate) fn install_setf(&mut self, package: PackageId, table: &'static [Builtin]) {
         for setter in table {
             let sym = self.export_symbol(package, setter.name);
             let function = Rc::new(Builtin::function(setter, sym));
@@ -385,7 +388,7 @@ impl Image {
     }
 
     /// Installs the macros and special operators of a table, exported from a package.
-    pub fn install_operators(&mut self, package: PackageId, table: &'static [Operator]) {
+    pub(crate) fn install_operators(&mut self, package: PackageId, table: &'static [Operator]) {
         for operator in table {
             let sym = self.export_symbol(package, operator.name);
             self.symbols.get_mut(sym).function = FunctionCell::Builtin;
@@ -394,7 +397,7 @@ impl Image {
     }
 
     /// The class of that name.
-    pub fn class(&self, name: Sym) -> Option<&Rc<Class>> {
+    pub(crate) fn class(&self, name: Sym) -> Option<&Rc<Class>> {
         self.classes.get(&name)
     }
 }

@@ -1,25 +1,25 @@
 //! The language without robots: values, symbols, the compiler, the machine and the
 //! builtin functions. Depends on nothing but the reader.
 
-pub mod builtin;
-pub mod builtins;
-pub mod compile;
-pub mod condition;
-pub mod image;
-pub mod loop_macro;
-pub mod object;
-pub mod polls;
-pub mod print;
-pub mod reader;
+pub(crate) mod builtin;
+pub(crate) mod builtins;
+pub(crate) mod compile;
+pub(crate) mod condition;
+pub(crate) mod image;
+pub(crate) mod loop_macro;
+pub(crate) mod object;
+pub(crate) mod polls;
+pub(crate) mod print;
+pub(crate) mod reader;
 mod setup;
-pub mod source;
-pub mod stream;
-pub mod structure;
-pub mod types;
-pub mod value;
-pub mod vm;
+pub(crate) mod source;
+pub(crate) mod stream;
+pub(crate) mod structure;
+pub(crate) mod types;
+pub(crate) mod value;
+pub(crate) mod vm;
 
-pub use image::Image;
-pub use value::Value;
-pub use value::raise::Raise;
-pub use value::symbol::Sym;
+pub(crate) use image::Image;
+pub(crate) use value::Value;
+pub(crate) use value::raise::Raise;
+pub(crate) use value::symbol::Sym;

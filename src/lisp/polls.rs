@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A count of looks at the interrupt flag.
 #[derive(Debug, Default)]
-pub struct Polls {
+pub(crate) struct Polls {
     count: Cell<u64>,
     seen_at: Cell<Option<u64>>,
     due_at: Cell<Option<u64>>,
@@ -14,19 +14,19 @@ pub struct Polls {
 
 impl Polls {
     /// Begins a new count. At the given look, if any, the flag will be found set.
-    pub fn begin(&self, due_at: Option<u64>) {
+    pub(crate) fn begin(&self, due_at: Option<u64>) {
         self.count.set(0);
         self.seen_at.set(None);
         self.due_at.set(due_at);
     }
 
     /// The first look at which the flag was set.
-    pub fn seen_at(&self) -> Option<u64> {
+    pub(crate) fn seen_at(&self) -> Option<u64> {
         self.seen_at.get()
     }
 
     /// The flag has been seen set since the last look: as if it had been set then.
-    pub fn seen_since_last(&self) {
+    pub(crate) fn seen_since_last(&self) {
         if self.seen_at.get().is_none() {
             self.seen_at.set(Some(self.count.get()));
         }

@@ -10,7 +10,7 @@ use super::value::symbol::Sym;
 
 impl Image {
     /// An image as sessions start with, in `COMMON-LISP-USER`.
-    pub fn new() -> Image {
+    pub(crate) fn new() -> Image {
         let mut image = Image::bare();
         image.define_constant(known::NIL, Value::NIL);
         image.define_constant(known::T, Value::T);

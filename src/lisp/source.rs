@@ -4,28 +4,28 @@ use std::rc::Rc;
 
 /// Handle of a stretch of source text; [`Sources`] resolves it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
-pub struct Place(pub(crate) u32);
+pub(crate) struct Place(pub(crate) u32);
 
 impl Place {
     /// No source text.
-    pub const NONE: Place = Place(0);
+    pub(crate) const NONE: Place = Place(0);
 
     /// Is there a source text?
-    pub fn is_some(self) -> bool {
+    pub(crate) fn is_some(self) -> bool {
         self != Place::NONE
     }
 }
 
 /// Handle of a source text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct SourceId(pub(crate) u32);
+pub(crate) struct SourceId(pub(crate) u32);
 
 /// One text that forms were read from: a file, or an input at the prompt.
-pub struct Source {
+pub(crate) struct Source {
     /// File name, or a name such as `prompt[3]`.
-    pub name: Rc<str>,
+    pub(crate) name: Rc<str>,
     /// The whole text.
-    pub text: Rc<str>,
+    pub(crate) text: Rc<str>,
     /// Byte offset of the start of each line.
     line_starts: Vec<u32>,
 }
@@ -71,14 +71,14 @@ struct Span {
 
 /// All source texts of an image, and the places in them.
 #[derive(Default)]
-pub struct Sources {
+pub(crate) struct Sources {
     sources: Vec<Source>,
     spans: Vec<Span>,
 }
 
 impl Sources {
     /// Adds a text.
-    pub fn add(&mut self, name: &str, text: &str) -> SourceId {
+    pub(crate) fn add(&mut self, name: &str, text: &str) -> SourceId {
         let line_starts = std::iter::once(0)
             .chain(text.match_indices('\n').map(|(i, _)| offset(i + 1)))
             .collect();
@@ -92,12 +92,12 @@ impl Sources {
     }
 
     /// The source text.
-    pub fn get(&self, id: SourceId) -> Option<&Source> {
+    pub(crate) fn get(&self, id: SourceId) -> Option<&Source> {
         self.sources.get(id.0 as usize)
     }
 
     /// Registers the bytes `start..end` of a source as a place.
-    pub fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
+    pub(crate) fn place(&mut self, source: SourceId, start: usize, end: usize) -> Place {
         self.spans.push(Span {
             source,
             start: offset(start),
@@ -107,14 +107,14 @@ impl Sources {
     }
 
     /// The text that a place covers.
-    pub fn text(&self, place: Place) -> Option<&str> {
+    pub(crate) fn text(&self, place: Place) -> Option<&str> {
         let span = self.span(place)?;
         let source = self.get(span.source)?;
         source.text.get(span.start as usize..span.end as usize)
     }
 
     /// The place of the bytes `start..end` of the text that a place covers.
-    pub fn within(&mut self, place: Place, start: usize, end: usize) -> Option<Place> {
+    pub(crate) fn within(&mut self, place: Place, start: usize, end: usize) -> Option<Place> {
         let span = self.span(place)?;
         let (source, first) = (span.source, span.start as usize);
         Some(self.place(source, first + start, first + end))
@@ -125,7 +125,7 @@ impl Sources {
     }
 
     /// Line and column of a place.
-    pub fn locate(&self, place: Place) -> Option<Location> {
+    pub(crate) fn locate(&self, place: Place) -> Option<Location> {
         let span = self.span(place)?;
         let source = self.get(span.source)?;
         let line = source

@@ -17,18 +17,18 @@ use super::value::string::LispString;
 use super::value::symbol::Sym;
 
 /// How deep streams may be made of other streams.
-pub const MAX_NESTING: u32 = 100;
+pub(crate) const MAX_NESTING: u32 = 100;
 
 /// A stream.
-pub struct Stream {
+pub(crate) struct Stream {
     /// What stands behind it.
-    pub kind: RefCell<StreamKind>,
+    pub(crate) kind: RefCell<StreamKind>,
     /// How many levels of other streams it is made of.
     nesting: u32,
 }
 
 /// What stands behind a stream.
-pub enum StreamKind {
+pub(crate) enum StreamKind {
     /// The image's standard output.
     StandardOutput,
     /// The image's standard input, which is always at its end: plans are not interactive.
@@ -93,7 +93,7 @@ pub enum StreamKind {
 
 impl Stream {
     /// A stream of a kind that is not made of other streams.
-    pub fn new(kind: StreamKind) -> Stream {
+    pub(crate) fn new(kind: StreamKind) -> Stream {
         Stream {
             kind: RefCell::new(kind),
             nesting: 0,
@@ -101,7 +101,7 @@ impl Stream {
     }
 
     /// A stream that is made of others.
-    pub fn compound(kind: StreamKind, parts: &[Rc<Stream>]) -> Result<Stream, Box<Raise>> {
+    pub(crate) fn compound(kind: StreamKind, parts: &[Rc<Stream>]) -> Result<Stream, Box<Raise>> {
         let nesting = parts.iter().map(|p| p.nesting).max().unwrap_or(0) + 1;
         if nesting > MAX_NESTING {
             return Err(Raise::new(
@@ -116,7 +116,7 @@ impl Stream {
     }
 
     /// A stream that gives the characters of a text.
-    pub fn from_text(text: impl Into<Rc<str>>) -> Stream {
+    pub(crate) fn from_text(text: impl Into<Rc<str>>) -> Stream {
         Stream::new(StreamKind::StringInput {
             text: text.into(),
             position: 0,
@@ -124,14 +124,14 @@ impl Stream {
     }
 
     /// A stream that collects what is written.
-    pub fn to_text() -> Stream {
+    pub(crate) fn to_text() -> Stream {
         Stream::new(StreamKind::StringOutput {
             text: String::new(),
         })
     }
 
     /// Takes the text that a string output stream has collected; none of another kind.
-    pub fn take_text(&self) -> Option<String> {
+    pub(crate) fn take_text(&self) -> Option<String> {
         match &mut *self.kind.borrow_mut() {
             StreamKind::StringOutput { text } => Some(std::mem::take(text)),
             _ => None,
@@ -139,7 +139,7 @@ impl Stream {
     }
 
     /// Can the stream be read?
-    pub fn is_input(&self) -> bool {
+    pub(crate) fn is_input(&self) -> bool {
         matches!(
             &*self.kind.borrow(),
             StreamKind::StandardInput
@@ -151,7 +151,7 @@ impl Stream {
     }
 
     /// Can the stream be written?
-    pub fn is_output(&self) -> bool {
+    pub(crate) fn is_output(&self) -> bool {
         matches!(
             &*self.kind.borrow(),
             StreamKind::StandardOutput
@@ -166,7 +166,7 @@ impl Stream {
 }
 
 /// Defines the standard stream variables.
-pub fn install(image: &mut Image) {
+pub(crate) fn install(image: &mut Image) {
     let input = Rc::new(Stream::new(StreamKind::StandardInput));
     let output = Rc::new(Stream::new(StreamKind::StandardOutput));
     let both = || {
@@ -195,13 +195,13 @@ pub fn install(image: &mut Image) {
 
 /// The stream that a designator for an output stream means: `NIL` is
 /// `*standard-output*`, `T` is `*terminal-io*`.
-pub fn output_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
+pub(crate) fn output_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, designator, known::V_STANDARD_OUTPUT)
 }
 
 /// The stream that a designator for an input stream means: `NIL` is `*standard-input*`,
 /// `T` is `*terminal-io*`.
-pub fn input_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
+pub(crate) fn input_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, designator, known::V_STANDARD_INPUT)
 }
 
@@ -238,7 +238,7 @@ fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>, Box<Raise>
 }
 
 /// Writes a text to the stream that a designator means.
-pub fn write(image: &mut Image, designator: &Value, text: &str) -> Result<(), Box<Raise>> {
+pub(crate) fn write(image: &mut Image, designator: &Value, text: &str) -> Result<(), Box<Raise>> {
     let stream = output_stream(image, designator)?;
     write_to(image, &stream, text, 0)
 }
@@ -296,7 +296,7 @@ fn column_after(text: &str, before: usize) -> usize {
 }
 
 /// Number of characters on the current line of an output stream, where that is known.
-pub fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Raise>> {
+pub(crate) fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Raise>> {
     let mut stream = output_stream(image, designator)?;
     for _ in 0..=MAX_NESTING {
         let next = match &*stream.kind.borrow() {
@@ -320,7 +320,7 @@ pub fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Ra
 }
 
 /// Starts a new line unless the stream is at the start of one; was a newline written?
-pub fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Raise>> {
     let needed = column(image, designator)?.is_none_or(|column| column > 0);
     if needed {
         write(image, designator, "\n")?;
@@ -329,7 +329,7 @@ pub fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Rai
 }
 
 /// Reads a character; none at the end.
-pub fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
+pub(crate) fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
     let c = peek_char(image, designator)?;
     if let Some(c) = c {
         advance(image, designator, c.len_utf8())?;
@@ -338,7 +338,7 @@ pub fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, 
 }
 
 /// Looks at the next character without reading it; none at the end.
-pub fn peek_char(image: &Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
+pub(crate) fn peek_char(image: &Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
     let stream = input_stream(image, designator)?;
     peek_at(image, &stream, 0)
 }
@@ -374,7 +374,7 @@ fn peek_at(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<Option<char
 
 /// The text that an input stream has still to give, as a text and the byte offset where
 /// the rest begins. [`advance`] tells the stream how much of it was read.
-pub fn rest(image: &Image, designator: &Value) -> Result<(Rc<str>, usize), Box<Raise>> {
+pub(crate) fn rest(image: &Image, designator: &Value) -> Result<(Rc<str>, usize), Box<Raise>> {
     let stream = input_stream(image, designator)?;
     if let StreamKind::StringInput { text, position } = &*stream.kind.borrow() {
         return Ok((text.clone(), *position));
@@ -417,7 +417,11 @@ fn rest_of(
 }
 
 /// Counts `bytes` bytes of the text that [`rest`] gave as read.
-pub fn advance(image: &mut Image, designator: &Value, bytes: usize) -> Result<(), Box<Raise>> {
+pub(crate) fn advance(
+    image: &mut Image,
+    designator: &Value,
+    bytes: usize,
+) -> Result<(), Box<Raise>> {
     let stream = input_stream(image, designator)?;
     advance_in(image, &stream, bytes, 0).map(drop)
 }
@@ -498,7 +502,11 @@ fn drop_used_up(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<(), Bo
 }
 
 /// Gives the character back that was read last.
-pub fn unread_char(image: &mut Image, designator: &Value, c: char) -> Result<(), Box<Raise>> {
+pub(crate) fn unread_char(
+    image: &mut Image,
+    designator: &Value,
+    c: char,
+) -> Result<(), Box<Raise>> {
     let mut stream = input_stream(image, designator)?;
     for _ in 0..=MAX_NESTING {
         let next = match &mut *stream.kind.borrow_mut() {
@@ -532,7 +540,7 @@ pub fn unread_char(image: &mut Image, designator: &Value, c: char) -> Result<(),
 }
 
 /// Writes out what a file stream holds back.
-pub fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
+pub(crate) fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
     match &mut *stream.kind.borrow_mut() {
         StreamKind::FileOutput { file, .. } => file
             .flush()
@@ -542,7 +550,7 @@ pub fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
 }
 
 /// Closes a stream; was it open?
-pub fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
+pub(crate) fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
     flush(stream)?;
     let mut kind = stream.kind.borrow_mut();
     let was_open = !matches!(*kind, StreamKind::Closed);

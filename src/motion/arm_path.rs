@@ -11,24 +11,24 @@ use rand_pcg::rand_core::Rng;
 
 /// One axis of the search space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathAxis {
+pub(crate) struct PathAxis {
     /// Least value that is tried (rad or m).
-    pub lower: f64,
+    pub(crate) lower: f64,
     /// Greatest value that is tried (rad or m).
-    pub upper: f64,
+    pub(crate) upper: f64,
     /// How far (m) any part of the robot moves at most per unit of the axis.
-    pub reach: f64,
+    pub(crate) reach: f64,
     /// The chain of joints that the axis is part of, such as one of two arms: axes of
     /// different chains move different parts. [`ALL_CHAINS`] for an axis that moves all.
-    pub chain: usize,
+    pub(crate) chain: usize,
 }
 
 /// The chain of an axis that carries all other chains.
-pub const ALL_CHAINS: usize = 0;
+pub(crate) const ALL_CHAINS: usize = 0;
 
 /// Why there is no path; `P` is what the caller's check names.
 #[derive(Clone, Debug, PartialEq)]
-pub enum ArmPathFailure<P> {
+pub(crate) enum ArmPathFailure<P> {
     /// The start is blocked.
     Start(P),
     /// The goal is blocked.
@@ -44,15 +44,15 @@ pub enum ArmPathFailure<P> {
 
 /// How fine and how long to search.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ArmPathEffort {
+pub(crate) struct ArmPathEffort {
     /// Greatest motion (m) of any part of the robot between two checked configurations.
-    pub resolution: f64,
+    pub(crate) resolution: f64,
     /// Greatest number of random configurations.
-    pub samples: usize,
+    pub(crate) samples: usize,
     /// Greatest number of configurations that are checked, for all together.
-    pub checks: usize,
+    pub(crate) checks: usize,
     /// Attempts to shorten the path.
-    pub shortcuts: usize,
+    pub(crate) shortcuts: usize,
 }
 
 impl Default for ArmPathEffort {
@@ -78,7 +78,7 @@ const CHAINS: usize = 3;
 type Point = Vec<f64>;
 
 /// A path from `start` to `goal`, both included, on which `blocked` names nothing.
-pub fn find_arm_path<P>(
+pub(crate) fn find_arm_path<P>(
     axes: &[PathAxis],
     start: &[f64],
     goal: &[f64],
@@ -124,7 +124,7 @@ pub fn find_arm_path<P>(
 }
 
 /// What blocks the straight path between two free configurations, if anything does.
-pub fn blocked_between<P>(
+pub(crate) fn blocked_between<P>(
     axes: &[PathAxis],
     from: &[f64],
     to: &[f64],
@@ -382,7 +382,7 @@ impl Tree {
 }
 
 /// The point at `fraction` of the way.
-pub fn between(from: &[f64], to: &[f64], fraction: f64) -> Point {
+pub(crate) fn between(from: &[f64], to: &[f64], fraction: f64) -> Point {
     from.iter()
         .zip(to)
         .map(|(a, b)| a + (b - a) * fraction)

@@ -15,15 +15,15 @@ use super::interruption;
 use crate::spatial::trig;
 
 /// A place of the base: x (m), y (m), heading (rad, not wrapped) in the map frame.
-pub type BasePlace = [f64; 3];
+pub(crate) type BasePlace = [f64; 3];
 
 /// The part of the floor where paths are looked for, in the map frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FloorArea {
+pub(crate) struct FloorArea {
     /// Smallest x and y (m).
-    pub min: [f64; 2],
+    pub(crate) min: [f64; 2],
     /// Largest x and y (m).
-    pub max: [f64; 2],
+    pub(crate) max: [f64; 2],
 }
 
 impl FloorArea {
@@ -34,7 +34,7 @@ impl FloorArea {
 
 /// Why there is no path; `P` is what the caller's check names.
 #[derive(Clone, Debug, PartialEq)]
-pub enum BasePathFailure<P> {
+pub(crate) enum BasePathFailure<P> {
     /// The robot touches something where it stands.
     StartOccupied(P),
     /// Something is where the robot shall stand.
@@ -71,7 +71,7 @@ type Check<'a, P> = dyn FnMut(&BasePlace, f64) -> Option<P> + 'a;
 ///
 /// `blocked` names what the robot touches at a place, or comes nearer to than the margin
 /// (m). `reach` (m) is the greatest distance of any part of the robot from the base's axis.
-pub fn find_base_path<P: Clone + PartialEq>(
+pub(crate) fn find_base_path<P: Clone + PartialEq>(
     start: BasePlace,
     goal: BasePlace,
     area: FloorArea,

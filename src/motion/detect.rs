@@ -7,26 +7,26 @@ use crate::world::World;
 
 /// Which objects are looked for.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct DetectQuery {
+pub(crate) struct DetectQuery {
     /// Name in the world; any when absent.
-    pub name: Option<String>,
+    pub(crate) name: Option<String>,
     /// Types of the object library of which the object has one; any when empty.
-    pub types: Vec<String>,
+    pub(crate) types: Vec<String>,
     /// What failures call the object, such as its designator.
-    pub description: String,
+    pub(crate) description: String,
 }
 
 /// Finds all objects that match the query and that the camera sees, in the order in which
 /// they appeared in the world.
 #[derive(Clone, Debug)]
-pub struct Detect {
+pub(crate) struct Detect {
     query: DetectQuery,
     ended: bool,
 }
 
 impl Detect {
     /// Looks once, with the head as it is.
-    pub fn new(query: DetectQuery) -> Self {
+    pub(crate) fn new(query: DetectQuery) -> Self {
         Self {
             query,
             ended: false,

@@ -41,7 +41,7 @@ const MOST_PLANS: u32 = 8;
 
 /// Drives the base to a pose.
 #[derive(Clone, Debug)]
-pub struct Drive {
+pub(crate) struct Drive {
     goal: BasePlace,
     way: Option<Follower>,
     /// Torso and arms in the last tick, and for how long (s) they have been so.
@@ -62,7 +62,7 @@ pub struct Drive {
 
 impl Drive {
     /// To the pose in the map frame, of which only x, y and the heading count.
-    pub fn new(goal: &Pose) -> Self {
+    pub(crate) fn new(goal: &Pose) -> Self {
         let t = goal.translation;
         Self {
             goal: [t.x, t.y, pose::yaw(goal)],

@@ -150,7 +150,7 @@ pub(super) fn is_way_free(world: &World, way: &Trajectory) -> bool {
 }
 
 /// The path of the base from where it is, for the robot's present posture.
-pub fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, MotionFailure> {
+pub(crate) fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, MotionFailure> {
     let base = world.robot_configuration().base;
     let t = base.translation;
     let start = [t.x, t.y, pose::yaw(&base)];

@@ -7,7 +7,7 @@ use crate::world::{AllowedPairs, BodyName, World};
 
 /// What a motion of the hands may touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CollisionMode {
+pub(crate) enum CollisionMode {
     /// Nothing.
     AvoidAll,
     /// The hand may touch objects, and what it holds may stand on something.

@@ -17,7 +17,7 @@ use crate::world::{BodyName, CollisionHit};
 
 /// Why a motion did not reach its goal.
 #[derive(Clone, Debug, Error, PartialEq)]
-pub enum MotionFailure {
+pub(crate) enum MotionFailure {
     /// Something is where the base shall stand.
     #[error("the robot cannot stand at {}: {}{}", place(.goal), touch(.hit), nearest(.nearest_free))]
     GoalOccupied {
@@ -243,7 +243,7 @@ impl MotionFailure {
     }
 
     /// The two bodies that touch, or would, if that is the reason.
-    pub fn hit(&self) -> Option<&CollisionHit> {
+    pub(crate) fn hit(&self) -> Option<&CollisionHit> {
         match self {
             Self::GoalOccupied { hit, .. }
             | Self::DriveStartOccupied { hit }
@@ -260,7 +260,7 @@ impl MotionFailure {
     }
 
     /// Name of CRAM's failure class that handlers name to catch this failure.
-    pub fn class_name(&self) -> &'static str {
+    pub(crate) fn class_name(&self) -> &'static str {
         match self {
             Self::GoalOccupied { .. } | Self::Enclosed { .. } => "NAVIGATION-POSE-UNREACHABLE",
             Self::DriveStartOccupied { .. } | Self::DriveBlocked { .. } => {

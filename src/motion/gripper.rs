@@ -18,13 +18,13 @@ const CROPPED: f64 = 1e-4;
 /// they look for another way: often it is the own forearm that fingers would touch.
 const PATIENCE: f64 = 1.0;
 /// Force (N) from which on a finger counts as pressing.
-pub const GRIP_FORCE: f64 = 2.0;
+pub(crate) const GRIP_FORCE: f64 = 2.0;
 /// How long (s) fingers may press on different things before that counts as a failure.
 const UNEQUAL: f64 = 0.25;
 
 /// What to do with the fingers of a hand.
 #[derive(Clone, Debug, PartialEq)]
-pub enum GripperCommand {
+pub(crate) enum GripperCommand {
     /// Open as far as possible.
     Open,
     /// Close completely, or as far as what is in between lets them.
@@ -40,7 +40,7 @@ pub enum GripperCommand {
 
 /// Moves the fingers of one hand.
 #[derive(Clone, Debug)]
-pub struct MoveGripper {
+pub(crate) struct MoveGripper {
     side: Side,
     command: GripperCommand,
     follow: Option<JointFollow>,
@@ -65,7 +65,7 @@ pub(super) fn hand_names(world: &World, side: Side) -> Vec<BodyName> {
 
 impl MoveGripper {
     /// Carries out the command with one hand.
-    pub fn new(side: Side, command: GripperCommand) -> Self {
+    pub(crate) fn new(side: Side, command: GripperCommand) -> Self {
         Self {
             side,
             command,

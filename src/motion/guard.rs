@@ -12,11 +12,11 @@ use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
 
 /// Overlap (m) that a step may bring about: much less than the 2 mm that are
 /// never exceeded, to leave room for sliding away.
-pub const GUARD_DEPTH: f64 = 0.0008;
+pub(crate) const GUARD_DEPTH: f64 = 0.0008;
 /// Lag (m) of a held object behind the hand from which on it is taken to be stuck.
-pub const GREATEST_LAG: f64 = 0.01;
+pub(crate) const GREATEST_LAG: f64 = 0.01;
 /// Force (N) between a held object and what it bumps into from which on it is stuck.
-pub const GREATEST_FORCE: f64 = 50.0;
+pub(crate) const GREATEST_FORCE: f64 = 50.0;
 /// Overlap (m) that no step brings about, however it began.
 const GREATEST_DEPTH: f64 = 0.0019;
 /// A step that slides along may seem to go deeper by this (m): rounding, not motion.
@@ -51,15 +51,15 @@ pub(super) fn obstacle(
 
 /// A held object that does not follow the hand as it should.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StuckObject {
+pub(crate) struct StuckObject {
     /// Name of the object.
-    pub object: String,
+    pub(crate) object: String,
     /// How far it lags behind the hand (m).
-    pub lag: f64,
+    pub(crate) lag: f64,
     /// Force (N) with which it is pressed against something else than the robot.
-    pub force: f64,
+    pub(crate) force: f64,
     /// What it is pressed against most, where it is known.
-    pub against: Option<crate::world::BodyName>,
+    pub(crate) against: Option<crate::world::BodyName>,
 }
 
 /// The first object held by one of the links that lags or is pressed too much.

@@ -12,7 +12,7 @@ const QUIET: u32 = 24;
 const SETTLE: f64 = 2.0;
 
 /// Welds the object softly to the palm of the hand, where it is now.
-pub fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), MotionFailure> {
+pub(crate) fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), MotionFailure> {
     let palm = world.models().description.arm(side).gripper.palm;
     world
         .attach(object, palm)
@@ -20,7 +20,7 @@ pub fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), Moti
 }
 
 /// Names of the objects that the hand holds.
-pub fn held_objects(world: &World, side: Side) -> Vec<String> {
+pub(crate) fn held_objects(world: &World, side: Side) -> Vec<String> {
     let palm = world.models().description.arm(side).gripper.palm;
     let held = world
         .objects()
@@ -30,7 +30,7 @@ pub fn held_objects(world: &World, side: Side) -> Vec<String> {
 
 /// Lets go of an object and waits until everything is at rest.
 #[derive(Clone, Debug)]
-pub struct LetGo {
+pub(crate) struct LetGo {
     side: Side,
     object: Option<String>,
     released: Option<String>,
@@ -41,7 +41,7 @@ pub struct LetGo {
 
 impl LetGo {
     /// Of the named object, or of whatever the hand holds.
-    pub fn new(side: Side, object: Option<String>) -> Self {
+    pub(crate) fn new(side: Side, object: Option<String>) -> Self {
         Self {
             side,
             object,

@@ -19,7 +19,7 @@ thread_local! {
 struct GivenUp;
 
 /// Does something that searches may end early; none if one did.
-pub fn interruptible<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> Option<T> {
+pub(crate) fn interruptible<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> Option<T> {
     FLAG.set(Some(Arc::clone(flag)));
     let done = catch_unwind(AssertUnwindSafe(work));
     FLAG.set(None);

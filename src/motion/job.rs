@@ -11,7 +11,7 @@ use crate::world::{BodyName, World};
 /// The part of the robot that a motion needs for itself. At most one job per module may be
 /// active at a time; jobs of different modules write different joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ProcessModule {
+pub(crate) enum ProcessModule {
     /// The base.
     Navigation,
     /// The torso lift.
@@ -41,7 +41,7 @@ impl fmt::Display for ProcessModule {
 
 /// What a motion has brought about.
 #[derive(Clone, Debug, PartialEq)]
-pub enum MotionOutcome {
+pub(crate) enum MotionOutcome {
     /// The goal is reached.
     Arrived,
     /// Objects that the camera sees.
@@ -70,20 +70,20 @@ pub enum MotionOutcome {
 
 /// An object that a camera sees.
 #[derive(Clone, Debug, PartialEq)]
-pub struct DetectedObject {
+pub(crate) struct DetectedObject {
     /// Name in the world.
-    pub name: String,
+    pub(crate) name: String,
     /// Type in the object library.
-    pub type_name: String,
+    pub(crate) type_name: String,
     /// Pose in the frame of the robot's base.
-    pub pose_in_base: Pose,
+    pub(crate) pose_in_base: Pose,
     /// Pose in the map frame.
-    pub pose_in_map: Pose,
+    pub(crate) pose_in_map: Pose,
 }
 
 /// How a motion stands after a tick.
 #[derive(Clone, Debug, PartialEq)]
-pub enum MotionStatus {
+pub(crate) enum MotionStatus {
     /// It goes on.
     Running,
     /// It has ended well.
@@ -121,11 +121,11 @@ impl MotionStatus {
 
 /// What a motion is doing, for a line that shows it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
+pub(crate) struct Progress {
     /// What is going on, such as "driving".
-    pub what: &'static str,
+    pub(crate) what: &'static str,
     /// How much of it is done, 0..1.
-    pub fraction: f64,
+    pub(crate) fraction: f64,
 }
 
 /// A motion of the robot as a job that is advanced step by step.
@@ -133,7 +133,7 @@ pub struct Progress {
 /// `tick` is called once before every [`World::step`] until it returns something else than
 /// [`MotionStatus::Running`]; planning happens in the first tick. Several jobs of different
 /// modules may be active at once; they are polled one after the other in a fixed order.
-pub trait Motion {
+pub(crate) trait Motion {
     /// The part of the robot that the job needs for itself.
     fn module(&self) -> ProcessModule;
 
@@ -160,16 +160,16 @@ pub trait Motion {
 
 /// A way that was planned.
 #[derive(Clone, Copy, Debug)]
-pub struct PlannedWay<'a> {
+pub(crate) struct PlannedWay<'a> {
     /// What the numbers of the trajectory mean.
-    pub axes: WayAxes<'a>,
+    pub(crate) axes: WayAxes<'a>,
     /// Where the axes are when.
-    pub trajectory: &'a Trajectory,
+    pub(crate) trajectory: &'a Trajectory,
 }
 
 /// What moves along a way.
 #[derive(Clone, Copy, Debug)]
-pub enum WayAxes<'a> {
+pub(crate) enum WayAxes<'a> {
     /// The base: x, y (m) and heading (rad) in the map.
     Base,
     /// Joints (rad or m); axes of the trajectory beyond them move nothing.

@@ -22,7 +22,7 @@ const PATIENCE: f64 = 0.3;
 
 /// A direction to look in, as seen from the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LookDirection {
+pub(crate) enum LookDirection {
     /// Straight ahead, both neck joints at 0.
     Forward,
     /// At a table in front of the robot.
@@ -50,7 +50,7 @@ impl LookDirection {
 
 /// What to look at.
 #[derive(Clone, Debug, PartialEq)]
-pub enum LookTarget {
+pub(crate) enum LookTarget {
     /// A pose in the map frame: its origin.
     InMap(Pose),
     /// A pose in the frame of the robot's base: its origin.
@@ -64,7 +64,7 @@ pub enum LookTarget {
 /// Turns the head. Angles beyond the neck's limits are first cropped and reached as far as
 /// possible, then reported.
 #[derive(Clone, Debug)]
-pub struct Look {
+pub(crate) struct Look {
     target: LookTarget,
     follow: Option<JointFollow>,
     violation: Option<LimitViolation>,
@@ -73,7 +73,7 @@ pub struct Look {
 
 impl Look {
     /// At the target as it is when the motion starts.
-    pub fn new(target: LookTarget) -> Self {
+    pub(crate) fn new(target: LookTarget) -> Self {
         Self {
             target,
             follow: None,
@@ -172,7 +172,7 @@ fn neck_joints(body: &RobotDescription) -> [JointId; 2] {
 }
 
 /// Angles (rad) of pan and tilt that aim the head at the point of the map frame (m).
-pub fn pan_and_tilt(world: &World, point: &Point3<f64>) -> [f64; 2] {
+pub(crate) fn pan_and_tilt(world: &World, point: &Point3<f64>) -> [f64; 2] {
     let tree = &world.models().robot;
     let body = &world.models().description;
     let (pan, tilt) = (body.neck.pan_link, body.neck.tilt_link);

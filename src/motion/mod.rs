@@ -3,52 +3,52 @@
 //! Only this folder moves the robot. Nothing here knows of the plan language.
 
 mod arm_axes;
-pub mod arm_path;
+pub(crate) mod arm_path;
 mod arm_way;
-pub mod base_path;
-pub mod detect;
-pub mod drive;
-pub mod drive_plan;
-pub mod expected_contacts;
-pub mod failure;
+pub(crate) mod base_path;
+pub(crate) mod detect;
+pub(crate) mod drive;
+pub(crate) mod drive_plan;
+pub(crate) mod expected_contacts;
+pub(crate) mod failure;
 mod follower;
-pub mod gripper;
-pub mod guard;
-pub mod hold;
-pub mod interruption;
-pub mod job;
+pub(crate) mod gripper;
+pub(crate) mod guard;
+pub(crate) mod hold;
+pub(crate) mod interruption;
+pub(crate) mod job;
 mod joint_follow;
 mod joint_limit;
 mod judge;
-pub mod look;
-pub mod move_joints;
-pub mod move_tcp;
-pub mod move_torso;
+pub(crate) mod look;
+pub(crate) mod move_joints;
+pub(crate) mod move_tcp;
+pub(crate) mod move_torso;
 mod patience;
-pub mod put;
+pub(crate) mod put;
 mod put_plan;
-pub mod reach;
-pub mod speeds;
-pub mod tcp_line;
+pub(crate) mod reach;
+pub(crate) mod speeds;
+pub(crate) mod tcp_line;
 mod tcp_plan;
 mod touching;
-pub mod trajectory;
-pub mod unreachable;
+pub(crate) mod trajectory;
+pub(crate) mod unreachable;
 
-pub use detect::{Detect, DetectQuery};
-pub use drive::Drive;
-pub use expected_contacts::CollisionMode;
-pub use failure::MotionFailure;
-pub use gripper::{GripperCommand, MoveGripper};
-pub use hold::{LetGo, held_objects, take_hold};
-pub use job::{
+pub(crate) use detect::{Detect, DetectQuery};
+pub(crate) use drive::Drive;
+pub(crate) use expected_contacts::CollisionMode;
+pub(crate) use failure::MotionFailure;
+pub(crate) use gripper::{GripperCommand, MoveGripper};
+pub(crate) use hold::{LetGo, held_objects, take_hold};
+pub(crate) use job::{
     DetectedObject, Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress,
     WayAxes,
 };
-pub use look::{Look, LookDirection, LookTarget, pan_and_tilt};
-pub use move_joints::MoveJoints;
-pub use move_tcp::{MoveTcp, TcpGoal, TcpPath};
-pub use move_torso::MoveTorso;
-pub use put::Put;
-pub use reach::{can_reach, can_stand, touching_at};
-pub use unreachable::{UnreachablePose, UnreachableReason};
+pub(crate) use look::{Look, LookDirection, LookTarget, pan_and_tilt};
+pub(crate) use move_joints::MoveJoints;
+pub(crate) use move_tcp::{MoveTcp, TcpGoal, TcpPath};
+pub(crate) use move_torso::MoveTorso;
+pub(crate) use put::Put;
+pub(crate) use reach::{can_reach, can_stand, touching_at};
+pub(crate) use unreachable::{UnreachablePose, UnreachableReason};

@@ -23,7 +23,7 @@ const MOST_PLANS: u32 = 4;
 
 /// Moves the joints of one or both arms. Both arrive at the same time.
 #[derive(Clone, Debug)]
-pub struct MoveJoints {
+pub(crate) struct MoveJoints {
     goals: [Option<Vec<f64>>; 2],
     follow: Option<JointFollow>,
     retry: Retry,
@@ -34,7 +34,7 @@ pub struct MoveJoints {
 impl MoveJoints {
     /// The positions (rad) of the left and of the right arm, from the shoulder to the wrist;
     /// an arm without positions stays. Continuous joints turn the shorter way.
-    pub fn new(left: Option<Vec<f64>>, right: Option<Vec<f64>>) -> Self {
+    pub(crate) fn new(left: Option<Vec<f64>>, right: Option<Vec<f64>>) -> Self {
         Self {
             goals: [left, right],
             follow: None,

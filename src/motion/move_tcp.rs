@@ -24,7 +24,7 @@ const MOST_PLANS: u32 = 4;
 
 /// A pose of a tool centre point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum TcpGoal {
+pub(crate) enum TcpGoal {
     /// In the frame of the robot's base when the motion starts.
     InBase(Pose),
     /// In the map frame.
@@ -33,7 +33,7 @@ pub enum TcpGoal {
 
 /// The way that a hand takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TcpPath {
+pub(crate) enum TcpPath {
     /// Any way around what is there.
     Free,
     /// Straight, as for approaching and lifting; any way where there is no straight one.
@@ -42,7 +42,7 @@ pub enum TcpPath {
 
 /// Moves one or both hands to poses, with the torso's help where that is needed.
 #[derive(Clone, Debug)]
-pub struct MoveTcp {
+pub(crate) struct MoveTcp {
     goals: [Option<TcpGoal>; 2],
     path: TcpPath,
     mode: CollisionMode,
@@ -54,7 +54,7 @@ pub struct MoveTcp {
 
 impl MoveTcp {
     /// Goals of the left and of the right hand; a hand without one stays with its arm.
-    pub fn new(
+    pub(crate) fn new(
         left: Option<TcpGoal>,
         right: Option<TcpGoal>,
         path: TcpPath,

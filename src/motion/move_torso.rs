@@ -17,7 +17,7 @@ const PATIENCE: f64 = 1.0;
 /// Moves the torso to a height. A goal beyond the joint's limits is first cropped and
 /// reached as far as possible, then reported.
 #[derive(Clone, Debug)]
-pub struct MoveTorso {
+pub(crate) struct MoveTorso {
     goal: f64,
     follow: Option<JointFollow>,
     ended: bool,
@@ -25,7 +25,7 @@ pub struct MoveTorso {
 
 impl MoveTorso {
     /// To the height (m) of the lift joint.
-    pub fn new(goal: f64) -> Self {
+    pub(crate) fn new(goal: f64) -> Self {
         Self {
             goal,
             follow: None,

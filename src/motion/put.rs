@@ -28,7 +28,7 @@ const PATIENCE: f64 = 0.3;
 
 /// Puts down what a hand holds.
 #[derive(Clone, Debug)]
-pub struct Put {
+pub(crate) struct Put {
     side: Side,
     goal: TcpGoal,
     object: String,
@@ -38,7 +38,7 @@ pub struct Put {
 
 impl Put {
     /// With the tool centre point going to the goal.
-    pub fn new(side: Side, goal: TcpGoal) -> Self {
+    pub(crate) fn new(side: Side, goal: TcpGoal) -> Self {
         Self {
             side,
             goal,

@@ -15,13 +15,13 @@ use crate::world::{AllowedPairs, CollisionHit, World};
 
 /// Whether the base could be at the place (m, m, rad) with torso and arms as they are,
 /// touching nothing.
-pub fn can_stand(world: &World, place: &BasePlace) -> bool {
+pub(crate) fn can_stand(world: &World, place: &BasePlace) -> bool {
     BaseJudge::new(world).blocked(place, 0.0).is_none()
 }
 
 /// What the robot would touch with its base at the place (m, m, rad), torso and arms as they
 /// are.
-pub fn touching_at(world: &World, place: &BasePlace) -> Vec<CollisionHit> {
+pub(crate) fn touching_at(world: &World, place: &BasePlace) -> Vec<CollisionHit> {
     let robot = at_place(world.robot_configuration(), place);
     let mut checker = world.collision_checker();
     checker.all_hits(&robot, &AllowedPairs::none(), 0.0)
@@ -29,7 +29,7 @@ pub fn touching_at(world: &World, place: &BasePlace) -> Vec<CollisionHit> {
 
 /// Whether the tool of a hand could be at the pose in the frame of the base, at any height
 /// of the torso, while the robot touches nothing but what the mode lets it.
-pub fn can_reach(world: &World, side: Side, tool: &Pose, mode: CollisionMode) -> bool {
+pub(crate) fn can_reach(world: &World, side: Side, tool: &Pose, mode: CollisionMode) -> bool {
     let contacts = ExpectedContacts::of(world, [side].into_iter(), mode);
     let task = TcpTask {
         world,

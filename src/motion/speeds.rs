@@ -5,14 +5,14 @@ use crate::robot::description::Speed;
 use crate::robot::{JointId, RobotDescription};
 
 /// A finger while it closes on an object (rad/s).
-pub const GRIP_VELOCITY: f64 = 0.5;
+pub(crate) const GRIP_VELOCITY: f64 = 0.5;
 /// A hand that puts an object down (m): half a millimetre per step.
-pub const PUT: Speed = Speed {
+pub(crate) const PUT: Speed = Speed {
     velocity: 0.12,
     acceleration: 0.6,
 };
 /// A hand along a straight line (m).
-pub const HAND: Speed = Speed {
+pub(crate) const HAND: Speed = Speed {
     velocity: 0.25,
     acceleration: 1.0,
 };

@@ -151,7 +151,7 @@ pub(super) fn wrist_in_torso(
 }
 
 /// Where the tool of the arm is now, in the frame of the base.
-pub fn tcp_in_base(world: &World, side: Side) -> Pose {
+pub(crate) fn tcp_in_base(world: &World, side: Side) -> Pose {
     let arm = world.models().description.arm(side);
     let base = world.robot_configuration().base;
     base.inverse() * arm.tool_for_wrist(&world.link_pose(arm.wrist))

@@ -19,18 +19,18 @@ use std::ops::Range;
 /// Speed limits that apply to some neighbouring axes together: to the Euclidean norm of
 /// their velocities and accelerations. A single joint is a group of one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AxisGroup {
+pub(crate) struct AxisGroup {
     /// The axes of the group.
-    pub axes: Range<usize>,
+    pub(crate) axes: Range<usize>,
     /// Greatest speed (rad/s or m/s), positive.
-    pub velocity: f64,
+    pub(crate) velocity: f64,
     /// Greatest acceleration (rad/s² or m/s²), positive.
-    pub acceleration: f64,
+    pub(crate) acceleration: f64,
 }
 
 impl AxisGroup {
     /// The limits of one axis on its own.
-    pub fn single(axis: usize, velocity: f64, acceleration: f64) -> Self {
+    pub(crate) fn single(axis: usize, velocity: f64, acceleration: f64) -> Self {
         Self {
             axes: axis..axis + 1,
             velocity,
@@ -50,7 +50,7 @@ impl AxisGroup {
 
 /// What a trajectory does where two legs of its path meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Corners {
+pub(crate) enum Corners {
     /// Rounds them: faster and smoother, but inside of the polyline.
     Round,
     /// Stops in them: never leaves the polyline.
@@ -72,7 +72,7 @@ struct Leg {
 
 /// A motion along a path within limits, see the module's comment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Trajectory {
+pub(crate) struct Trajectory {
     first: Vec<f64>,
     last: Vec<f64>,
     legs: Vec<Leg>,
@@ -84,7 +84,7 @@ pub struct Trajectory {
 impl Trajectory {
     /// The fastest motion of this kind along the points; all have as many numbers as the
     /// first, missing ones count as "does not move". An empty path is a motion of no axis.
-    pub fn new(points: &[Vec<f64>], limits: &[AxisGroup], corners: Corners) -> Self {
+    pub(crate) fn new(points: &[Vec<f64>], limits: &[AxisGroup], corners: Corners) -> Self {
         let first = points.first().cloned().unwrap_or_default();
         let last = points.last().cloned().unwrap_or_default();
         let mut at_rest = Self {
@@ -147,22 +147,22 @@ impl Trajectory {
     }
 
     /// How long the motion takes (s).
-    pub fn duration(&self) -> f64 {
+    pub(crate) fn duration(&self) -> f64 {
         self.duration
     }
 
     /// Number of axes.
-    pub fn axis_count(&self) -> usize {
+    pub(crate) fn axis_count(&self) -> usize {
         self.first.len()
     }
 
     /// The point where the motion ends.
-    pub fn last(&self) -> &[f64] {
+    pub(crate) fn last(&self) -> &[f64] {
         &self.last
     }
 
     /// Positions `t` seconds after the start; before it the first, after the end the last point.
-    pub fn position(&self, t: f64) -> Vec<f64> {
+    pub(crate) fn position(&self, t: f64) -> Vec<f64> {
         if t <= 0.0 {
             return self.first.clone();
         }
@@ -173,7 +173,7 @@ impl Trajectory {
     }
 
     /// Velocities `t` seconds after the start; zero outside of the motion.
-    pub fn velocity(&self, t: f64) -> Vec<f64> {
+    pub(crate) fn velocity(&self, t: f64) -> Vec<f64> {
         let zero = vec![0.0; self.first.len()];
         if t <= 0.0 || t >= self.duration {
             zero

@@ -8,24 +8,24 @@ use crate::world::CollisionHit;
 
 /// A pose that the arm cannot bring its hand to, at any height of the torso.
 #[derive(Clone, Debug, PartialEq)]
-pub struct UnreachablePose {
+pub(crate) struct UnreachablePose {
     /// The arm.
-    pub side: Side,
+    pub(crate) side: Side,
     /// Frame of the pose.
-    pub frame: String,
+    pub(crate) frame: String,
     /// Pose of the wrist in that frame.
-    pub wrist: Pose,
+    pub(crate) wrist: Pose,
     /// Pose of the tool in the frame of the base.
-    pub tool: Pose,
+    pub(crate) tool: Pose,
     /// Torso heights that were tried (m): least and greatest.
-    pub torso: [f64; 2],
+    pub(crate) torso: [f64; 2],
     /// Why.
-    pub reason: UnreachableReason,
+    pub(crate) reason: UnreachableReason,
 }
 
 /// Why no posture was good enough.
 #[derive(Clone, Debug, PartialEq)]
-pub enum UnreachableReason {
+pub(crate) enum UnreachableReason {
     /// The arm is too short, or joints would have to leave their ranges.
     Arm {
         /// What is missing at the height of the torso where least is missing.

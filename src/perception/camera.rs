@@ -6,24 +6,24 @@ use crate::spatial::{Pose, trig};
 
 /// A camera in its optical frame: z forward, x to the right of the picture, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Camera {
+pub(crate) struct Camera {
     /// Pose of the optical frame in the map frame.
-    pub pose: Pose,
+    pub(crate) pose: Pose,
     /// Pixels per row.
-    pub width: usize,
+    pub(crate) width: usize,
     /// Rows.
-    pub height: usize,
+    pub(crate) height: usize,
     /// Angle (rad) between the upper and the lower border.
-    pub vertical_fov: f64,
+    pub(crate) vertical_fov: f64,
     /// Nothing nearer than this is seen (m along z).
-    pub near: f64,
+    pub(crate) near: f64,
     /// Nothing farther than this is seen (m along z).
-    pub far: f64,
+    pub(crate) far: f64,
 }
 
 impl Camera {
     /// A camera of the robot whose optical frame has the pose.
-    pub fn new(camera: &crate::robot::description::Camera, pose: Pose) -> Self {
+    pub(crate) fn new(camera: &crate::robot::description::Camera, pose: Pose) -> Self {
         Self {
             pose,
             width: camera.width,
@@ -50,19 +50,19 @@ impl Camera {
     }
 
     /// Distance of the picture plane from the focal point (pixels).
-    pub fn focal_length(&self) -> f64 {
+    pub(crate) fn focal_length(&self) -> f64 {
         let (s, c) = trig::sin_cos(self.vertical_fov / 2.0);
         self.height as f64 / 2.0 * c / s
     }
 
     /// Angle (rad) between the left and the right border.
-    pub fn horizontal_fov(&self) -> f64 {
+    pub(crate) fn horizontal_fov(&self) -> f64 {
         2.0 * trig::atan2(self.width as f64 / 2.0, self.focal_length())
     }
 
     /// The pixel (column, row) that shows the point of the map frame (m); `None` for one that
     /// is not in front of the camera. It may lie outside of the picture.
-    pub fn pixel_of(&self, point: &Point3<f64>) -> Option<[f64; 2]> {
+    pub(crate) fn pixel_of(&self, point: &Point3<f64>) -> Option<[f64; 2]> {
         let p = self.pose.inverse_transform_point(point);
         let f = self.focal_length();
         (p.z > 0.0).then(|| {
@@ -76,7 +76,7 @@ impl Camera {
     /// The same camera at the same place, turned to have the point (map frame, m) in the
     /// middle of the picture and the horizon level.
     #[must_use]
-    pub fn turned_to(&self, point: &Point3<f64>) -> Self {
+    pub(crate) fn turned_to(&self, point: &Point3<f64>) -> Self {
         let origin = Point3::from(self.pose.translation.vector);
         let Some(forward) = (point - origin).try_normalize(1e-9) else {
             return *self;

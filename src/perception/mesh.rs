@@ -14,16 +14,16 @@ const BALL_RINGS: u32 = 12;
 
 /// A closed surface; seen from outside, the corners of a triangle run counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mesh {
+pub(crate) struct Mesh {
     /// Corners (m) in the shape's frame.
-    pub corners: Vec<Point3<f64>>,
+    pub(crate) corners: Vec<Point3<f64>>,
     /// Triangles as places in `corners`.
-    pub triangles: Vec<[u32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 impl Mesh {
     /// The surface of a shape; empty for a hull that has no volume.
-    pub fn of(shape: &Shape) -> Self {
+    pub(crate) fn of(shape: &Shape) -> Self {
         match shape {
             Shape::Box { size } => Self::cuboid(size.map(|s| s / 2.0)),
             Shape::Cylinder { radius, length } => Self::cylinder(*radius, length / 2.0),

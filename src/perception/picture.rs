@@ -9,7 +9,7 @@ use crate::world::PartKey;
 
 /// What a camera sees: for every pixel the nearest body and its distance.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub(crate) struct Picture {
     camera: Camera,
     keys: Vec<Option<PartKey>>,
     /// Inverse of the depth (1/m), 0 where nothing is seen.
@@ -21,7 +21,7 @@ type Corner = Vector3<f64>;
 
 impl Picture {
     /// A picture of nothing.
-    pub fn new(camera: Camera) -> Self {
+    pub(crate) fn new(camera: Camera) -> Self {
         let pixels = camera.width * camera.height;
         Self {
             camera,
@@ -31,18 +31,18 @@ impl Picture {
     }
 
     /// The camera that took it.
-    pub fn camera(&self) -> &Camera {
+    pub(crate) fn camera(&self) -> &Camera {
         &self.camera
     }
 
     /// The body at every pixel, row by row from the top.
-    pub fn keys(&self) -> &[Option<PartKey>] {
+    pub(crate) fn keys(&self) -> &[Option<PartKey>] {
         &self.keys
     }
 
     /// Distance (m along the camera's z) of what the pixel shows; `None` for nothing or for a
     /// pixel outside of the picture.
-    pub fn depth(&self, column: usize, row: usize) -> Option<f64> {
+    pub(crate) fn depth(&self, column: usize, row: usize) -> Option<f64> {
         if column >= self.camera.width {
             return None;
         }
@@ -51,12 +51,12 @@ impl Picture {
     }
 
     /// Number of pixels that show the body.
-    pub fn count(&self, key: PartKey) -> usize {
+    pub(crate) fn count(&self, key: PartKey) -> usize {
         self.keys.iter().filter(|k| **k == Some(key)).count()
     }
 
     /// Draws a surface that stands at the pose (map frame). Surfaces may be drawn in any order.
-    pub fn draw(&mut self, key: PartKey, pose: &Pose, mesh: &Mesh) {
+    pub(crate) fn draw(&mut self, key: PartKey, pose: &Pose, mesh: &Mesh) {
         let to_camera = self.camera.pose.inverse() * pose;
         let corners: Vec<Corner> = mesh
             .corners

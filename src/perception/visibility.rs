@@ -12,7 +12,7 @@ use crate::world::{BodyName, Object, PartKey, World, WorldError};
 
 /// A side of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Border {
+pub(crate) enum Border {
     /// The left border.
     Left,
     /// The right border.
@@ -36,24 +36,24 @@ impl fmt::Display for Border {
 
 /// What a look at an object has shown.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Visibility {
+pub(crate) struct Visibility {
     /// The object's name.
-    pub object: String,
+    pub(crate) object: String,
     /// Pixels that show the object.
-    pub visible_pixels: usize,
+    pub(crate) visible_pixels: usize,
     /// Pixels that it would have alone, with the camera turned to it.
-    pub full_pixels: usize,
+    pub(crate) full_pixels: usize,
     /// Bodies in front of the object with the pixels that they take away, most first.
-    pub occluders: Vec<(BodyName, usize)>,
+    pub(crate) occluders: Vec<(BodyName, usize)>,
     /// Share of the object (0..1) that must be in sight for it to be seen.
-    pub needed_share: f64,
+    pub(crate) needed_share: f64,
     /// The border beyond which the object reaches farthest, and by how much (rad).
-    pub outside: Option<(Border, f64)>,
+    pub(crate) outside: Option<(Border, f64)>,
 }
 
 impl Visibility {
     /// Share of the object that is in sight (0..1).
-    pub fn fraction(&self) -> f64 {
+    pub(crate) fn fraction(&self) -> f64 {
         if self.full_pixels == 0 {
             return 0.0;
         }
@@ -61,7 +61,7 @@ impl Visibility {
     }
 
     /// Whether the object counts as seen.
-    pub fn is_seen(&self) -> bool {
+    pub(crate) fn is_seen(&self) -> bool {
         self.fraction() >= self.needed_share
     }
 }
@@ -86,7 +86,7 @@ impl fmt::Display for Visibility {
 }
 
 /// One look into the world.
-pub struct Sight<'w> {
+pub(crate) struct Sight<'w> {
     world: &'w World,
     picture: Picture,
     needed_share: f64,
@@ -94,20 +94,20 @@ pub struct Sight<'w> {
 
 impl<'w> Sight<'w> {
     /// Looks through the camera that the robot uses.
-    pub fn of_robot(world: &'w World) -> Self {
+    pub(crate) fn of_robot(world: &'w World) -> Self {
         let camera = world.models().description.camera();
         Self::through(world, camera)
     }
 
     /// Looks through a camera of the robot. The robot's own body may be in the way.
-    pub fn through(world: &'w World, camera: &crate::robot::description::Camera) -> Self {
+    pub(crate) fn through(world: &'w World, camera: &crate::robot::description::Camera) -> Self {
         let pose = world.link_pose(camera.frame);
         Self::take(world, Camera::new(camera, pose), camera.visible_share)
     }
 
     /// Takes a picture of the world from anywhere. An object of which `needed_share` (0..1) is
     /// in sight counts as seen.
-    pub fn take(world: &'w World, camera: Camera, needed_share: f64) -> Self {
+    pub(crate) fn take(world: &'w World, camera: Camera, needed_share: f64) -> Self {
         let mut picture = Picture::new(camera);
         for shape in world.shapes() {
             picture.draw(shape.key, &shape.pose, &Mesh::of(shape.shape));
@@ -120,12 +120,12 @@ impl<'w> Sight<'w> {
     }
 
     /// The picture.
-    pub fn picture(&self) -> &Picture {
+    pub(crate) fn picture(&self) -> &Picture {
         &self.picture
     }
 
     /// How much of the object is in sight.
-    pub fn visibility(&self, name: &str) -> Result<Visibility, WorldError> {
+    pub(crate) fn visibility(&self, name: &str) -> Result<Visibility, WorldError> {
         let object = self.world.object(name)?;
         let pose = self.world.object_pose(name)?;
         let camera = *self.picture.camera();
@@ -149,7 +149,7 @@ impl<'w> Sight<'w> {
     }
 
     /// All objects that are seen, in the order in which they appeared.
-    pub fn seen_objects(&self) -> Vec<Visibility> {
+    pub(crate) fn seen_objects(&self) -> Vec<Visibility> {
         self.world
             .objects()
             // Every name comes from the world itself.

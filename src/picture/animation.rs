@@ -21,23 +21,23 @@ const TASTED: usize = 12;
 
 /// A moment to be drawn.
 #[derive(Clone, Debug)]
-pub struct Shot {
+pub(crate) struct Shot {
     /// What there is to be seen.
-    pub scene: Scene,
+    pub(crate) scene: Scene,
     /// From where.
-    pub camera: Camera,
+    pub(crate) camera: Camera,
 }
 
 impl Shot {
     /// The picture.
-    pub fn image(&self) -> Image {
+    pub(crate) fn image(&self) -> Image {
         render(&self.scene, &self.camera)
     }
 }
 
 /// Writes the shots, which are all of the same size, as a GIF that is shown again and again,
 /// each for so many hundredths of a second.
-pub fn write_gif(shots: &[Shot], delay: u16, to: impl Write) -> io::Result<()> {
+pub(crate) fn write_gif(shots: &[Shot], delay: u16, to: impl Write) -> io::Result<()> {
     let Some(first) = shots.first() else {
         return Ok(());
     };

@@ -15,10 +15,10 @@ use crate::perception::{Camera, Picture, Sight, Visibility};
 use crate::world::{Object, PartKey, World};
 
 /// Pixels per row where nothing else is asked for.
-pub const WIDTH: usize = 960;
+pub(crate) const WIDTH: usize = 960;
 
 /// Fewest pixels per row that leave room for three panels.
-pub const LEAST_WIDTH: usize = 240;
+pub(crate) const LEAST_WIDTH: usize = 240;
 
 /// Letters and ground of the strip below the panels.
 const PAPER: Rgb = [24, 26, 30];
@@ -64,17 +64,17 @@ const DEPTH_COLORS: [[f64; 3]; 6] = [
 
 /// What the robot's camera sees.
 #[derive(Clone, Debug)]
-pub struct CameraPicture {
+pub(crate) struct CameraPicture {
     /// Three panels, and below them what they show.
-    pub image: Image,
+    pub(crate) image: Image,
     /// How much of each object that was looked for is in sight, in the order asked for.
-    pub sought: Vec<Visibility>,
+    pub(crate) sought: Vec<Visibility>,
 }
 
 impl CameraPicture {
     /// What the camera sees now, about so many pixels wide; objects of these names are looked
     /// for. Names that there are not are left out.
-    pub fn take(world: &World, looks: &Looks, sought: &[String], width: usize) -> Self {
+    pub(crate) fn take(world: &World, looks: &Looks, sought: &[String], width: usize) -> Self {
         let sight = Sight::of_robot(world);
         let through = world.models().description.camera();
         let native = *sight.picture().camera();

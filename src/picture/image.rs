@@ -21,7 +21,7 @@ impl Image {
     }
 
     /// A picture of one colour.
-    pub fn filled(width: usize, height: usize, color: Rgb) -> Self {
+    pub(crate) fn filled(width: usize, height: usize, color: Rgb) -> Self {
         Self {
             width,
             height,
@@ -76,7 +76,7 @@ impl Image {
         &self.bytes
     }
 
-    pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
+    pub fn bytes_mut(&mut self) -> &mut [u8] {
         &mut self.bytes
     }
 

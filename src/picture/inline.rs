@@ -7,7 +7,7 @@ use super::palette::Palette;
 
 /// How a terminal takes pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InlinePictures {
+pub(crate) enum InlinePictures {
     /// Kitty's graphics protocol: PNG in base 64, in chunks.
     Kitty,
     /// iTerm's inline images: PNG in base 64.
@@ -24,7 +24,7 @@ const SIXEL_COLORS: usize = 255;
 
 impl InlinePictures {
     /// What the terminal can do, as far as the variables of its environment tell.
-    pub fn detect(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
+    pub(crate) fn detect(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let value = |name: &str| variable(name).unwrap_or_default().to_lowercase();
         let (term, program) = (value("TERM"), value("TERM_PROGRAM"));
         // A multiplexer swallows what it does not know.
@@ -44,7 +44,7 @@ impl InlinePictures {
 
     /// The bytes that show the picture where the cursor is; the cursor is below it then. Empty
     /// if the picture cannot be told so.
-    pub fn encoded(self, picture: &Image) -> Vec<u8> {
+    pub(crate) fn encoded(self, picture: &Image) -> Vec<u8> {
         let mut bytes = Vec::new();
         let told = match self {
             Self::Kitty => kitty(picture, &mut bytes),

@@ -32,13 +32,13 @@ pub(crate) const FREE: [f32; 4] = [0.10, 0.46, 0.16, 0.62];
 pub(crate) const BLOCKED: [f32; 4] = [0.70, 0.07, 0.05, 0.62];
 
 /// Names of the two areas as bodies of a scene.
-pub const FREE_NAME: &str = "free";
+pub(crate) const FREE_NAME: &str = "free";
 /// Name of the area that is blocked.
-pub const BLOCKED_NAME: &str = "blocked";
+pub(crate) const BLOCKED_NAME: &str = "blocked";
 
 /// The floor as squares where the base may stand or may not.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FloorMap {
+pub(crate) struct FloorMap {
     columns: usize,
     rows: usize,
     /// Corner with the least x and y, in squares.
@@ -49,7 +49,7 @@ pub struct FloorMap {
 
 impl FloorMap {
     /// Judges the floor from one corner to the other (m, map frame).
-    pub fn of(world: &World, from: [f64; 2], to: [f64; 2]) -> Self {
+    pub(crate) fn of(world: &World, from: [f64; 2], to: [f64; 2]) -> Self {
         let square = |value: f64| (value / SQUARE).floor() as i32;
         let first = from.map(square);
         let size = [0, 1].map(|i| (square(to[i]) - first[i]).clamp(0, 400) as usize);
@@ -72,7 +72,7 @@ impl FloorMap {
 
     /// Whether the base may stand at the place (m, map frame); `None` for a place that was not
     /// judged.
-    pub fn is_free(&self, x: f64, y: f64) -> Option<bool> {
+    pub(crate) fn is_free(&self, x: f64, y: f64) -> Option<bool> {
         let place = |value: f64, first: i32| {
             usize::try_from((value / SQUARE).floor() as i64 - i64::from(first)).ok()
         };
@@ -116,7 +116,7 @@ impl FloorMap {
 }
 
 /// The world with the floor coloured, to be seen from above.
-pub fn map_scene(world: &World, looks: &Looks, map: &FloorMap) -> Scene {
+pub(crate) fn map_scene(world: &World, looks: &Looks, map: &FloorMap) -> Scene {
     let mut scene = looks.scene(world);
     for (free, name, color) in [(true, FREE_NAME, FREE), (false, BLOCKED_NAME, BLOCKED)] {
         scene.bodies.push(Body {
@@ -131,7 +131,7 @@ pub fn map_scene(world: &World, looks: &Looks, map: &FloorMap) -> Scene {
 }
 
 /// Writes below the picture what its colours mean.
-pub fn add_legend(image: &mut Image) {
+pub(crate) fn add_legend(image: &mut Image) {
     let scale = 1 + image.width() / 800;
     let entries = [
         ([96, 150, 82], "The base may stand"),

@@ -4,32 +4,32 @@
 //! from where, [`render`](render::render) makes an [`Image`] of the two. Nothing here changes
 //! the world. The same world and view give the same bytes, however many threads draw.
 
-pub mod animation;
-pub mod camera_picture;
+pub(crate) mod animation;
+pub(crate) mod camera_picture;
 mod facet;
-pub mod image;
+pub(crate) mod image;
 mod inline;
 mod lamp;
 mod lettering;
 mod loft;
-pub mod looks;
-pub mod map_picture;
+pub(crate) mod looks;
+pub(crate) mod map_picture;
 mod palette;
 mod projector;
 mod raster;
-pub mod render;
-pub mod scene;
+pub(crate) mod render;
+pub(crate) mod scene;
 mod shade;
 mod smooth;
-pub mod surface;
-pub mod view;
+pub(crate) mod surface;
+pub(crate) mod view;
 
-pub use camera_picture::CameraPicture;
+pub(crate) use camera_picture::CameraPicture;
 pub use image::Image;
-pub use inline::InlinePictures;
-pub use looks::Looks;
-pub use map_picture::{FloorMap, map_scene};
-pub use render::{render, segments};
-pub use scene::{Body, Finish, Kind, Owner, Scene};
-pub use surface::Surface;
-pub use view::{View, ViewError};
+pub(crate) use inline::InlinePictures;
+pub(crate) use looks::Looks;
+pub(crate) use map_picture::{FloorMap, map_scene};
+pub(crate) use render::{render, segments};
+pub(crate) use scene::{Body, Finish, Kind, Owner, Scene};
+pub(crate) use surface::Surface;
+pub(crate) use view::{View, ViewError};

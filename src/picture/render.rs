@@ -28,7 +28,7 @@ const SHOULDER: f32 = 0.72;
 const TONES: usize = 4096;
 
 /// The scene as the camera sees it. The camera's far limit does not count.
-pub fn render(scene: &Scene, camera: &Camera) -> Image {
+pub(crate) fn render(scene: &Scene, camera: &Camera) -> Image {
     render_with(
         scene,
         camera,
@@ -63,7 +63,7 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
 
 /// Which body every pixel shows, as a place in the scene, row by row from the top; none for
 /// the background. The first of a pixel's samples decides.
-pub fn segments(scene: &Scene, camera: &Camera) -> Vec<Option<usize>> {
+pub(crate) fn segments(scene: &Scene, camera: &Camera) -> Vec<Option<usize>> {
     let projector = Projector::new(camera);
     let seen = projector.project(&Facets::of(scene).all);
     let (width, height) = (projector.width, projector.height);

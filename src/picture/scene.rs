@@ -21,7 +21,7 @@ const AXIS_THICKNESS: f64 = 0.04;
 
 /// How a surface takes the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Finish {
+pub(crate) enum Finish {
     /// Scatters light evenly.
     Matt,
     /// With a faint reflection of the lamp.
@@ -34,7 +34,7 @@ pub enum Finish {
 
 /// What kind of thing a body is a part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// The floor.
     Floor,
     /// The kitchen; the name is that of a link.
@@ -49,16 +49,16 @@ pub enum Kind {
 
 /// Whose part a body is.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Owner {
+pub(crate) struct Owner {
     /// What kind of thing.
-    pub kind: Kind,
+    pub(crate) kind: Kind,
     /// Its name, which is unique among those of the same kind.
-    pub name: Arc<str>,
+    pub(crate) name: Arc<str>,
 }
 
 impl Owner {
     /// A thing of the kind with the name.
-    pub fn new(kind: Kind, name: &str) -> Self {
+    pub(crate) fn new(kind: Kind, name: &str) -> Self {
         let name = name.into();
         Self { kind, name }
     }
@@ -66,34 +66,34 @@ impl Owner {
 
 /// A surface with its place and colour.
 #[derive(Clone, Debug)]
-pub struct Body {
+pub(crate) struct Body {
     /// Whose part it is. A thing may have several bodies.
-    pub owner: Owner,
+    pub(crate) owner: Owner,
     /// The surface in its own frame; the same allocation as long as it does not change.
-    pub surface: Arc<Surface>,
+    pub(crate) surface: Arc<Surface>,
     /// Pose of that frame in the map frame.
-    pub pose: Pose,
+    pub(crate) pose: Pose,
     /// Linear colour, red green blue alpha in 0..1.
-    pub color: [f32; 4],
+    pub(crate) color: [f32; 4],
     /// How it takes the light.
-    pub finish: Finish,
+    pub(crate) finish: Finish,
 }
 
 /// Everything that is to be drawn.
 #[derive(Clone, Debug, Default)]
-pub struct Scene {
+pub(crate) struct Scene {
     /// The bodies; the order decides only between surfaces at exactly the same place.
-    pub bodies: Vec<Body>,
+    pub(crate) bodies: Vec<Body>,
 }
 
 impl Scene {
     /// The world as it is now. Whoever draws it again and again keeps the [`Looks`].
-    pub fn of(world: &World) -> Self {
+    pub(crate) fn of(world: &World) -> Self {
         Looks::of(world.models()).scene(world)
     }
 
     /// What is seen of a link, in the link's frame.
-    pub fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
+    pub(crate) fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
         let kind = if is_robot {
             Kind::Robot
         } else {
@@ -103,12 +103,12 @@ impl Scene {
     }
 
     /// What is seen of an object, in its own frame.
-    pub fn of_object(object: &Object) -> Self {
+    pub(crate) fn of_object(object: &Object) -> Self {
         looks::object_scene(object)
     }
 
     /// Adds coordinate axes with bars of the length (m): x red, y green, z blue.
-    pub fn add_axes(&mut self, pose: &Pose, length: f64) {
+    pub(crate) fn add_axes(&mut self, pose: &Pose, length: f64) {
         let thickness = length * AXIS_THICKNESS;
         for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
             let mut size = [thickness; 3];

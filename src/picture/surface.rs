@@ -13,26 +13,26 @@ const BALL_RINGS: u32 = 16;
 
 /// A corner of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Corner {
+pub(crate) struct Corner {
     /// Where (m), in the shape's frame.
-    pub point: Point3<f64>,
+    pub(crate) point: Point3<f64>,
     /// Unit vector away from the solid, for shading.
-    pub normal: Vector3<f64>,
+    pub(crate) normal: Vector3<f64>,
 }
 
 /// A closed surface; seen from outside, the corners of a triangle run counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Surface {
+pub(crate) struct Surface {
     /// Corners.
-    pub corners: Vec<Corner>,
+    pub(crate) corners: Vec<Corner>,
     /// Triangles as places in `corners`.
-    pub triangles: Vec<[u32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 impl Surface {
     /// The surface of a shape whose edges are broken by at most `bevel` (m); empty for a hull
     /// that has no volume.
-    pub fn of(shape: &Shape, bevel: f64) -> Self {
+    pub(crate) fn of(shape: &Shape, bevel: f64) -> Self {
         match shape {
             Shape::Box { size } => {
                 let least = size.iter().fold(f64::INFINITY, |a, b| a.min(*b));

@@ -10,14 +10,14 @@ use crate::spatial::{Pose, trig};
 use crate::world::World;
 
 /// Angle (rad) between the upper and the lower border where nothing else is asked for.
-pub const FIELD_OF_VIEW: f64 = 0.72;
+pub(crate) const FIELD_OF_VIEW: f64 = 0.72;
 
 /// Nothing nearer to a viewer than this is seen (m).
 const NEAR: f64 = 0.05;
 
 /// A place to look from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum View {
+pub(crate) enum View {
     /// The whole kitchen from its open corner.
     Kitchen,
     /// Straight down, x to the right.
@@ -46,7 +46,7 @@ pub enum View {
 
 /// Why there is no such view.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum ViewError {
+pub(crate) enum ViewError {
     /// The kitchen lacks what the view looks at.
     #[error(
         "the view {view} looks at {link}, which this kitchen lacks; say --from and --at instead"
@@ -83,7 +83,7 @@ const REACH: f64 = 1000.0;
 
 impl View {
     /// All views that have a name.
-    pub const NAMED: [Self; 7] = [
+    pub(crate) const NAMED: [Self; 7] = [
         Self::Kitchen,
         Self::Top,
         Self::Map,
@@ -94,7 +94,7 @@ impl View {
     ];
 
     /// Name of the view.
-    pub fn name(&self) -> &'static str {
+    pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Kitchen => "kitchen",
             Self::Top => "top",
@@ -108,13 +108,18 @@ impl View {
     }
 
     /// Corners (m, map frame) of the floor that [`View::Map`] shows in a picture of that size.
-    pub fn map_area(width: usize, height: usize) -> [[f64; 2]; 2] {
+    pub(crate) fn map_area(width: usize, height: usize) -> [[f64; 2]; 2] {
         let half = [MAP_HALF * width as f64 / height.max(1) as f64, MAP_HALF];
         [-1.0, 1.0].map(|sign| [0, 1].map(|i| MAP_MIDDLE[i] + sign * half[i]))
     }
 
     /// The camera that has the view, for a picture of that size (pixels).
-    pub fn camera(&self, world: &World, width: usize, height: usize) -> Result<Camera, ViewError> {
+    pub(crate) fn camera(
+        &self,
+        world: &World,
+        width: usize,
+        height: usize,
+    ) -> Result<Camera, ViewError> {
         let camera = |pose: Pose, vertical_fov: f64| Camera {
             pose,
             width,

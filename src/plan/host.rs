@@ -10,13 +10,13 @@ use crate::lisp::value::raise::Raise;
 
 /// A request of a task that the host is working on.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct Ticket(pub u64);
+pub(crate) struct Ticket(pub(crate) u64);
 
 /// What became of a request: its value, or the condition to signal in the task.
-pub type Outcome = Result<Value, Box<Raise>>;
+pub(crate) type Outcome = Result<Value, Box<Raise>>;
 
 /// The host's answer to a request.
-pub enum Reply {
+pub(crate) enum Reply {
     /// It is done.
     Now(Outcome),
     /// It takes simulated time: [`Host::advance`] tells when it is done.
@@ -24,15 +24,15 @@ pub enum Reply {
 }
 
 /// What happened while simulated time passed.
-pub struct Advance {
+pub(crate) struct Advance {
     /// The time now, in simulated seconds.
-    pub now: f64,
+    pub(crate) now: f64,
     /// Requests that are done.
-    pub done: Vec<(Ticket, Outcome)>,
+    pub(crate) done: Vec<(Ticket, Outcome)>,
 }
 
 /// Carries out what tasks request of the world.
-pub trait Host {
+pub(crate) trait Host {
     /// A request that the scheduler does not know itself.
     fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply;
 
@@ -62,7 +62,7 @@ pub trait Host {
 
 /// A host without a world.
 #[derive(Default, Clone, Copy, Debug)]
-pub struct NullHost;
+pub(crate) struct NullHost;
 
 impl Host for NullHost {
     fn request(&mut self, _: &mut Image, _: TaskId, _: Box<dyn Any>) -> Reply {

@@ -21,7 +21,7 @@ const PRELUDE: &str = include_str!("prelude.lisp");
 
 /// Makes the packages of the plan language in an image that has the standard ones, and
 /// everything in them.
-pub fn install(image: &mut Image) {
+pub(crate) fn install(image: &mut Image) {
     let packages = Packages::make(image);
     // Arithmetic on fluents comes before Common Lisp's is exported from the same package.
     for table in builtins::LANGUAGE {

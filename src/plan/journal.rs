@@ -11,19 +11,19 @@ const MOST_ENTRIES: usize = 20_000;
 
 /// A task that began, or whose status changed.
 #[derive(Clone)]
-pub struct TaskChange {
+pub(crate) struct TaskChange {
     /// Which task.
-    pub id: TaskId,
+    pub(crate) id: TaskId,
     /// The task that started it; none if the prompt did.
-    pub parent: Option<TaskId>,
+    pub(crate) parent: Option<TaskId>,
     /// Its name.
-    pub name: String,
+    pub(crate) name: String,
     /// Its status now.
-    pub status: Status,
+    pub(crate) status: Status,
     /// The failure that it ended with.
-    pub failure: Option<Value>,
+    pub(crate) failure: Option<Value>,
     /// Simulated time (s).
-    pub time: f64,
+    pub(crate) time: f64,
 }
 
 /// A list of changes, if anybody wants one.

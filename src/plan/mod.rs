@@ -5,20 +5,20 @@
 //! layer knows nothing of robots: what a task asks of the world is a request that the
 //! scheduler hands to its [`Host`].
 
-pub mod builtins;
-pub mod designator;
+pub(crate) mod builtins;
+pub(crate) mod designator;
 mod failure_table;
 mod fluent;
-pub mod host;
+pub(crate) mod host;
 mod install;
 mod journal;
 mod macros;
 mod names;
 mod overview;
-pub mod package;
-pub mod packages;
-pub mod pose;
-pub mod prolog;
+pub(crate) mod package;
+pub(crate) mod packages;
+pub(crate) mod pose;
+pub(crate) mod prolog;
 mod request;
 mod scheduler;
 mod state;
@@ -26,12 +26,12 @@ mod step;
 mod task;
 mod tree;
 
-pub use fluent::{Fluent, FluentRef};
-pub use host::{Advance, Host, NullHost, Outcome, Reply, Ticket};
-pub use install::install;
-pub use journal::TaskChange;
+pub(crate) use fluent::{Fluent, FluentRef};
+pub(crate) use host::{Advance, Host, NullHost, Outcome, Reply, Ticket};
+pub(crate) use install::install;
+pub(crate) use journal::TaskChange;
 pub(crate) use overview::overview_step;
-pub use scheduler::{Evaluation, Scheduler, TaskInfo};
-pub use state::Plan;
-pub use task::{Status, Task, TaskId, TaskName, TaskRef};
-pub use tree::{NodeObject, TreeNode};
+pub(crate) use scheduler::{Evaluation, Scheduler, TaskInfo};
+pub(crate) use state::Plan;
+pub(crate) use task::{Status, Task, TaskId, TaskName, TaskRef};
+pub(crate) use tree::{NodeObject, TreeNode};

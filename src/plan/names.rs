@@ -9,20 +9,20 @@ use crate::lisp::value::symbol::Sym;
 #[derive(Clone, Copy)]
 pub(crate) struct Packages {
     /// `CRAM-LANGUAGE`: what programs use.
-    pub cpl: PackageId,
+    pub(crate) cpl: PackageId,
     /// `CRAM-LANGUAGE-IMPLEMENTATION`: where the symbols are at home.
-    pub implementation: PackageId,
+    pub(crate) implementation: PackageId,
     /// `PLAN-SYSTEM`: what the macros expand into.
-    pub system: PackageId,
+    pub(crate) system: PackageId,
     /// `CRAM-COMMON-FAILURES`.
-    pub failures: PackageId,
+    pub(crate) failures: PackageId,
     /// `KEYWORD`.
-    pub keyword: PackageId,
+    pub(crate) keyword: PackageId,
 }
 
 impl Packages {
     /// Makes the packages; `CRAM-LANGUAGE` gets its symbols later.
-    pub fn make(image: &mut Image) -> Packages {
+    pub(crate) fn make(image: &mut Image) -> Packages {
         let implementation = define(image, &IMPLEMENTATION);
         Packages {
             cpl: define(image, &LANGUAGE),
@@ -76,13 +76,13 @@ macro_rules! names {
         #[allow(missing_docs)]
         #[derive(Clone, Copy)]
         pub(crate) struct Names {
-            $($(pub $id: Sym,)*)*
-            pub inherit_parent_value: Sym,
+            $($(pub(crate) $id: Sym,)*)*
+            pub(crate) inherit_parent_value: Sym,
         }
 
         impl Names {
             /// Makes the symbols and exports them.
-            pub fn make(image: &mut Image, packages: Packages) -> Names {
+            pub(crate) fn make(image: &mut Image, packages: Packages) -> Names {
                 Names {
                     $($($id: image.export_symbol(packages.$package, $name),)*)*
                     inherit_parent_value: image.intern(packages.implementation, "INHERIT-PARENT-VALUE"),

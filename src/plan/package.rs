@@ -4,24 +4,24 @@ use crate::lisp::image::Image;
 use crate::lisp::value::package::PackageId;
 
 /// A package as a layer defines it.
-pub struct PackageDefinition {
+pub(crate) struct PackageDefinition {
     /// The name.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Other names.
-    pub nicknames: &'static [&'static str],
+    pub(crate) nicknames: &'static [&'static str],
     /// A sentence about it.
-    pub doc: &'static str,
+    pub(crate) doc: &'static str,
     /// Packages whose exported symbols it inherits; they exist already.
-    pub uses: &'static [&'static str],
+    pub(crate) uses: &'static [&'static str],
     /// Names of symbols of its own that it exports.
-    pub exports: &'static [&'static str],
+    pub(crate) exports: &'static [&'static str],
     /// Packages whose exported symbols it exports, too, unless it has a symbol of its own
     /// by that name.
-    pub reexports: &'static [&'static str],
+    pub(crate) reexports: &'static [&'static str],
 }
 
 /// Makes the package, or completes the one that has its name.
-pub fn define(image: &mut Image, definition: &PackageDefinition) -> PackageId {
+pub(crate) fn define(image: &mut Image, definition: &PackageDefinition) -> PackageId {
     let existing = image.packages.find(definition.name);
     let made = existing.or_else(|| image.packages.make(definition.name, &[]));
     // Only 65536 packages would leave none to make; the user's package then stands in.
@@ -45,7 +45,7 @@ pub fn define(image: &mut Image, definition: &PackageDefinition) -> PackageId {
 }
 
 /// Exports what another package exports, except under names that the package has itself.
-pub fn reexport(image: &mut Image, id: PackageId, source: &str) {
+pub(crate) fn reexport(image: &mut Image, id: PackageId, source: &str) {
     let Some(source) = image.packages.find(source) else {
         return;
     };

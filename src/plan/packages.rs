@@ -8,15 +8,15 @@ use crate::lisp::value::package::{PackageId, PackageTable};
 use crate::lisp::value::symbol::Sym;
 
 /// One package.
-pub struct PackageRow {
+pub(crate) struct PackageRow {
     /// The name.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Other names.
-    pub nicknames: &'static [&'static str],
+    pub(crate) nicknames: &'static [&'static str],
     /// Packages whose exported symbols are inherited.
-    pub uses: &'static [&'static str],
+    pub(crate) uses: &'static [&'static str],
     /// Symbols made and exported, separated by blanks.
-    pub exports: &'static str,
+    pub(crate) exports: &'static str,
 }
 
 const fn row(
@@ -33,7 +33,7 @@ const fn row(
 }
 
 /// All packages of plans, except those of the plan language itself and of its failures.
-pub static PACKAGES: &[PackageRow] = &[
+pub(crate) static PACKAGES: &[PackageRow] = &[
     row(
         "CRAM-UTILITIES",
         &["CUT"],
@@ -277,7 +277,7 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
 ];
 
 /// The package of that name, made if need be, with the nicknames.
-pub fn ensure(image: &mut Image, name: &str, nicknames: &[&str]) -> PackageId {
+pub(crate) fn ensure(image: &mut Image, name: &str, nicknames: &[&str]) -> PackageId {
     let id = match image.packages.find(name) {
         Some(id) => id,
         // The name is free, so `make` fails only when 65536 packages exist.
@@ -290,7 +290,7 @@ pub fn ensure(image: &mut Image, name: &str, nicknames: &[&str]) -> PackageId {
 }
 
 /// The symbol of a package, exported; package and symbol are made if need be.
-pub fn symbol(image: &mut Image, package: &str, name: &str) -> Sym {
+pub(crate) fn symbol(image: &mut Image, package: &str, name: &str) -> Sym {
     let id = ensure(image, package, &[]);
     image.export_symbol(id, name)
 }
@@ -305,7 +305,7 @@ pub(crate) fn rehome(image: &mut Image, package: PackageId, sym: Sym) {
 }
 
 /// Makes all packages of the table with their symbols.
-pub fn install(image: &mut Image) {
+pub(crate) fn install(image: &mut Image) {
     for row in PACKAGES {
         let id = ensure(image, row.name, row.nicknames);
         use_packages(image, id, row.uses);

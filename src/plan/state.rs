@@ -15,7 +15,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::symbol::Sym;
 
 /// The plan language's part of an image.
-pub struct Plan {
+pub(crate) struct Plan {
     /// Symbols that Rust code names.
     pub(crate) names: Names,
     /// Simulated seconds. Only the scheduler sets it.
@@ -41,13 +41,13 @@ pub struct Plan {
 /// A plan that is called when its pattern matches.
 pub(crate) struct Goal {
     /// The pattern of the arguments.
-    pub pattern: Value,
+    pub(crate) pattern: Value,
     /// The variables of the pattern, in the order in which the function takes their values.
-    pub variables: Vec<Sym>,
+    pub(crate) variables: Vec<Sym>,
     /// The plan.
-    pub function: Value,
+    pub(crate) function: Value,
     /// The documentation, or `NIL`.
-    pub doc: Value,
+    pub(crate) doc: Value,
 }
 
 /// The first number in generated names.
@@ -74,7 +74,7 @@ impl Plan {
     ///
     /// Never: builtins and requests of the plan language come to an image by
     /// [`super::install`], which puts this part there first.
-    pub fn of(image: &Image) -> Rc<Plan> {
+    pub(crate) fn of(image: &Image) -> Rc<Plan> {
         match image.extension() {
             Some(plan) => plan,
             None => unreachable!("the plan language is not installed"),
@@ -82,7 +82,7 @@ impl Plan {
     }
 
     /// Simulated time in seconds since the session began.
-    pub fn now(&self) -> f64 {
+    pub(crate) fn now(&self) -> f64 {
         self.now.get()
     }
 
@@ -91,12 +91,12 @@ impl Plan {
     }
 
     /// From here on, what becomes of tasks is noted until it is fetched.
-    pub fn keep_journal(&self) {
+    pub(crate) fn keep_journal(&self) {
         self.journal.begin();
     }
 
     /// What has become of tasks since it was fetched last.
-    pub fn fetch_journal(&self) -> Vec<TaskChange> {
+    pub(crate) fn fetch_journal(&self) -> Vec<TaskChange> {
         self.journal.fetch()
     }
 

@@ -20,7 +20,7 @@ use crate::lisp::value::symbol::Sym;
 
 /// Tells tasks apart and orders them by creation.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct TaskId(pub u64);
+pub(crate) struct TaskId(pub(crate) u64);
 
 impl fmt::Display for TaskId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -30,7 +30,7 @@ impl fmt::Display for TaskId {
 
 /// What a task is doing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Status {
+pub(crate) enum Status {
     /// Nothing yet.
     Created,
     /// It runs, or waits for something.
@@ -47,7 +47,7 @@ pub enum Status {
 
 impl Status {
     /// Has the task ended?
-    pub fn is_dead(self) -> bool {
+    pub(crate) fn is_dead(self) -> bool {
         matches!(
             self,
             Status::Succeeded | Status::Failed | Status::Evaporated
@@ -55,7 +55,7 @@ impl Status {
     }
 
     /// Has the task ended without a failure?
-    pub fn is_done(self) -> bool {
+    pub(crate) fn is_done(self) -> bool {
         matches!(self, Status::Succeeded | Status::Evaporated)
     }
 
@@ -74,7 +74,7 @@ impl Status {
 
 /// How a task is called.
 #[derive(Clone, Debug)]
-pub enum TaskName {
+pub(crate) enum TaskName {
     /// As somebody said.
     Given(Rc<str>),
     /// `[WHAT]-NUMBER`.
@@ -94,13 +94,13 @@ impl fmt::Display for TaskName {
 }
 
 /// A task.
-pub struct Task {
+pub(crate) struct Task {
     /// Its name.
-    pub name: TaskName,
+    pub(crate) name: TaskName,
     /// Is it the outermost task of a plan?
-    pub is_toplevel: bool,
+    pub(crate) is_toplevel: bool,
     /// Its place in the task tree.
-    pub node: Rc<TreeNode>,
+    pub(crate) node: Rc<TreeNode>,
     /// Was it told to hold still before it began?
     pub(super) is_held: Cell<bool>,
     /// The values that it ended with (`Value::Multiple` unless one), or its failure.
@@ -118,12 +118,12 @@ pub struct Task {
 
 impl Task {
     /// What the task is doing.
-    pub fn status(&self) -> Status {
+    pub(crate) fn status(&self) -> Status {
         self.status.get()
     }
 
     /// What it ended with: its values, or its failure.
-    pub fn result(&self) -> Value {
+    pub(crate) fn result(&self) -> Value {
         self.result.borrow().clone().primary()
     }
 
@@ -172,7 +172,7 @@ impl Foreign for Task {
 
 /// A counted reference to a task.
 #[derive(Clone)]
-pub struct TaskRef(Rc<ForeignBox>);
+pub(crate) struct TaskRef(Rc<ForeignBox>);
 
 impl TaskRef {
     /// A task that has not begun.
@@ -207,7 +207,7 @@ impl TaskRef {
     }
 
     /// The task that a value is.
-    pub fn from_value(value: &Value) -> Option<TaskRef> {
+    pub(crate) fn from_value(value: &Value) -> Option<TaskRef> {
         match value {
             Value::Foreign(object) if object.downcast_ref::<Task>().is_some() => {
                 Some(TaskRef(object.clone()))
@@ -217,7 +217,7 @@ impl TaskRef {
     }
 
     /// The task as a value.
-    pub fn value(&self) -> Value {
+    pub(crate) fn value(&self) -> Value {
         Value::Foreign(self.0.clone())
     }
 
@@ -226,7 +226,7 @@ impl TaskRef {
     /// # Panics
     ///
     /// Never: both ways of making a reference check what it refers to.
-    pub fn get(&self) -> &Task {
+    pub(crate) fn get(&self) -> &Task {
         match self.0.downcast_ref() {
             Some(task) => task,
             None => unreachable!("a task reference refers to a task"),
@@ -234,7 +234,7 @@ impl TaskRef {
     }
 
     /// Is this the same task?
-    pub fn is(&self, other: &TaskRef) -> bool {
+    pub(crate) fn is(&self, other: &TaskRef) -> bool {
         Rc::ptr_eq(&self.0, &other.0)
     }
 }

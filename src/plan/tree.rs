@@ -15,9 +15,9 @@ use crate::lisp::value::hash_table::{HashTable, HashTest};
 use crate::lisp::value::symbol::Sym;
 
 /// A node of a task tree.
-pub struct TreeNode {
+pub(crate) struct TreeNode {
     /// The path, innermost part first.
-    pub path: Value,
+    pub(crate) path: Value,
     children: RefCell<Vec<Child>>,
     /// Position of each part in `children`.
     parts: HashTable,
@@ -36,7 +36,7 @@ struct Child {
 
 impl TreeNode {
     /// A node without children.
-    pub fn new(path: Value) -> Rc<TreeNode> {
+    pub(crate) fn new(path: Value) -> Rc<TreeNode> {
         Rc::new(TreeNode {
             path,
             children: RefCell::default(),
@@ -46,7 +46,7 @@ impl TreeNode {
     }
 
     /// Starts a new run: calls are counted from one again, the structure stays.
-    pub fn restart(&self) {
+    pub(crate) fn restart(&self) {
         let mut pending: Vec<Rc<TreeNode>> = Vec::new();
         self.restart_children(&mut pending);
         while let Some(node) = pending.pop() {
@@ -63,7 +63,7 @@ impl TreeNode {
     }
 
     /// The node for the next call of a part; `call_marker` is the symbol `:CALL`.
-    pub fn enter(&self, part: &Value, call_marker: Sym) -> Rc<TreeNode> {
+    pub(crate) fn enter(&self, part: &Value, call_marker: Sym) -> Rc<TreeNode> {
         let mut children = self.children.borrow_mut();
         let position = match self.parts.get(part) {
             Some(Value::Int(i)) => usize::try_from(i).ok(),
@@ -92,19 +92,19 @@ impl TreeNode {
     }
 
     /// The nodes below that are remembered, in order of their parts' first call.
-    pub fn children(&self) -> Vec<Rc<TreeNode>> {
+    pub(crate) fn children(&self) -> Vec<Rc<TreeNode>> {
         let children = self.children.borrow();
         let both = |c: &Child| std::iter::once(c.first.clone()).chain(c.last.clone());
         children.iter().flat_map(both).collect()
     }
 
     /// How many nodes there were below.
-    pub fn child_count(&self) -> i64 {
+    pub(crate) fn child_count(&self) -> i64 {
         self.children.borrow().iter().map(|c| c.most).sum()
     }
 
     /// The node as a value: always the same object while somebody holds it.
-    pub fn value(self: &Rc<TreeNode>, type_symbol: Sym) -> Value {
+    pub(crate) fn value(self: &Rc<TreeNode>, type_symbol: Sym) -> Value {
         if let Some(object) = self.object.borrow().upgrade() {
             return Value::Foreign(object);
         }
@@ -143,9 +143,9 @@ fn numbered(part: &Value, n: i64, call_marker: Sym) -> Value {
 }
 
 /// A tree node as a Lisp value.
-pub struct NodeObject {
+pub(crate) struct NodeObject {
     /// The node.
-    pub node: Rc<TreeNode>,
+    pub(crate) node: Rc<TreeNode>,
     type_symbol: Sym,
 }
 

@@ -7,10 +7,10 @@ use super::{JointId, JointKind, KinematicTree, Limits, LinkId};
 
 /// Joints of an arm, from the shoulder to the wrist: shoulder pan, shoulder lift, upper
 /// arm roll, elbow flex, forearm roll, wrist flex, wrist roll.
-pub const ARM_JOINTS: usize = 7;
+pub(crate) const ARM_JOINTS: usize = 7;
 
 /// Positions (rad) of the joints of an arm, from the shoulder to the wrist.
-pub type ArmPositions = [f64; ARM_JOINTS];
+pub(crate) type ArmPositions = [f64; ARM_JOINTS];
 
 /// Indices into [`ArmPositions`].
 pub(super) const PAN: usize = 0;
@@ -34,7 +34,7 @@ const LAYOUT: [(char, bool); ARM_JOINTS] = [
 
 /// Why the inverse kinematics cannot work with a chain of joints.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum ArmChainError {
+pub(crate) enum ArmChainError {
     /// The tip does not hang on the base.
     #[error(
         "link \"{tip}\" does not hang on link \"{base}\"; an arm goes from its base to its tip"
@@ -72,24 +72,28 @@ pub enum ArmChainError {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ArmChain {
     /// The joints from the shoulder to the wrist.
-    pub joints: [JointId; ARM_JOINTS],
+    pub(crate) joints: [JointId; ARM_JOINTS],
     /// Their names.
-    pub names: [String; ARM_JOINTS],
+    pub(crate) names: [String; ARM_JOINTS],
     /// Their limits, the soft ones where there are any; `None` for the continuous ones.
-    pub limits: [Option<Limits>; ARM_JOINTS],
+    pub(crate) limits: [Option<Limits>; ARM_JOINTS],
     /// Where the pan axis is in the frame of the arm's base, at the height of the lift axis.
-    pub shoulder: Vector3<f64>,
+    pub(crate) shoulder: Vector3<f64>,
     /// From the pan axis to the lift axis.
-    pub shoulder_offset: f64,
+    pub(crate) shoulder_offset: f64,
     /// From the shoulder to the elbow.
-    pub upper_arm: f64,
+    pub(crate) upper_arm: f64,
     /// From the elbow to the wrist.
-    pub forearm: f64,
+    pub(crate) forearm: f64,
 }
 
 impl ArmChain {
     /// Reads the chain from `base` to `tip`.
-    pub fn read(tree: &KinematicTree, base: LinkId, tip: LinkId) -> Result<Self, ArmChainError> {
+    pub(crate) fn read(
+        tree: &KinematicTree,
+        base: LinkId,
+        tip: LinkId,
+    ) -> Result<Self, ArmChainError> {
         let name = |link: LinkId| tree.link(link).name.clone();
         if !tree.carries(base, tip) {
             return Err(ArmChainError::NotConnected {
@@ -144,7 +148,7 @@ impl ArmChain {
     }
 
     /// Limits of a joint; everything for a continuous one.
-    pub fn limits(&self, joint: usize) -> Limits {
+    pub(crate) fn limits(&self, joint: usize) -> Limits {
         self.limits[joint].unwrap_or(Limits {
             lower: f64::NEG_INFINITY,
             upper: f64::INFINITY,

@@ -39,13 +39,17 @@ fn nearer(a: Option<Candidate>, b: Option<Candidate>) -> Option<Candidate> {
 
 /// Inverse kinematics of one arm.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ArmKinematics {
+pub(crate) struct ArmKinematics {
     chain: ArmChain,
 }
 
 impl ArmKinematics {
     /// The arm from link `base` (the torso) to link `tip` (the wrist).
-    pub fn new(tree: &KinematicTree, base: LinkId, tip: LinkId) -> Result<Self, ArmChainError> {
+    pub(crate) fn new(
+        tree: &KinematicTree,
+        base: LinkId,
+        tip: LinkId,
+    ) -> Result<Self, ArmChainError> {
         Ok(Self {
             chain: ArmChain::read(tree, base, tip)?,
         })
@@ -53,18 +57,18 @@ impl ArmKinematics {
 
     /// The joints from the shoulder to the wrist: shoulder pan, shoulder lift, upper arm
     /// roll, elbow flex, forearm roll, wrist flex, wrist roll.
-    pub fn joints(&self) -> &[JointId; ARM_JOINTS] {
+    pub(crate) fn joints(&self) -> &[JointId; ARM_JOINTS] {
         &self.chain.joints
     }
 
     /// The limits (rad) that solutions keep; `None` for the continuous joints.
-    pub fn limits(&self) -> &[Option<Limits>; ARM_JOINTS] {
+    pub(crate) fn limits(&self) -> &[Option<Limits>; ARM_JOINTS] {
         &self.chain.limits
     }
 
     /// The solutions with the upper arm rolled to `roll` (rad): at most two, continuous
     /// joints within -π..π.
-    pub fn solve(&self, wrist: &Pose, roll: f64) -> Vec<ArmPositions> {
+    pub(crate) fn solve(&self, wrist: &Pose, roll: f64) -> Vec<ArmPositions> {
         let curve = ElbowCurve::new(&self.chain, wrist);
         let found = curve.positions_at_roll(roll).into_iter().flatten();
         found.filter_map(|q| self.within_limits(q)).collect()
@@ -74,7 +78,7 @@ impl ArmKinematics {
     /// in their most moving shoulder joint; continuous joints within -π..π.
     ///
     /// Empty exactly when the pose is unreachable.
-    pub fn solutions(&self, wrist: &Pose, step: f64) -> Vec<ArmPositions> {
+    pub(crate) fn solutions(&self, wrist: &Pose, step: f64) -> Vec<ArmPositions> {
         let curve = ElbowCurve::new(&self.chain, wrist);
         let mut found = Vec::new();
         for stretch in curve.stretches() {
@@ -100,7 +104,11 @@ impl ArmKinematics {
     /// Near means that the sum of the squared joint differences is least, among places
     /// spread over all parts of the solution set, refined around the best one. When there
     /// is no solution at all the answer says why.
-    pub fn nearest(&self, wrist: &Pose, seed: &ArmPositions) -> Result<ArmPositions, Unreachable> {
+    pub(crate) fn nearest(
+        &self,
+        wrist: &Pose,
+        seed: &ArmPositions,
+    ) -> Result<ArmPositions, Unreachable> {
         let curve = ElbowCurve::new(&self.chain, wrist);
         let mut best: Option<Candidate> = None;
         for stretch in curve.stretches() {

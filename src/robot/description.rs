@@ -14,147 +14,147 @@ use nalgebra::{Translation3, UnitQuaternion};
 
 /// Greatest velocity and acceleration of an axis (rad or m, and s).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Speed {
+pub(crate) struct Speed {
     /// Greatest velocity (rad/s or m/s).
-    pub velocity: f64,
+    pub(crate) velocity: f64,
     /// Greatest acceleration (rad/s² or m/s²).
-    pub acceleration: f64,
+    pub(crate) acceleration: f64,
 }
 
 /// The mobile base.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Base {
+pub(crate) struct Base {
     /// The frame on the floor whose pose in the map is the robot's pose; the tree's root.
-    pub frame: LinkId,
+    pub(crate) frame: LinkId,
     /// The body.
-    pub body: LinkId,
+    pub(crate) body: LinkId,
     /// Over the floor (m).
-    pub drive: Speed,
+    pub(crate) drive: Speed,
     /// About the vertical axis (rad).
-    pub turn: Speed,
+    pub(crate) turn: Speed,
 }
 
 /// The torso lift.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Torso {
+pub(crate) struct Torso {
     /// The link that the joint raises.
-    pub link: LinkId,
+    pub(crate) link: LinkId,
     /// The joint.
-    pub joint: JointId,
+    pub(crate) joint: JointId,
     /// Heights that it can have (m), the hard limits of the URDF.
-    pub limits: Limits,
+    pub(crate) limits: Limits,
     /// Height after start-up (m).
-    pub start: f64,
+    pub(crate) start: f64,
 }
 
 /// The neck, which turns the head sideways (pan), then up and down (tilt).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Neck {
+pub(crate) struct Neck {
     /// Turns the head sideways, positive to the left.
-    pub pan_joint: JointId,
+    pub(crate) pan_joint: JointId,
     /// What the pan joint turns.
-    pub pan_link: LinkId,
+    pub(crate) pan_link: LinkId,
     /// Turns the head up and down, positive downwards.
-    pub tilt_joint: JointId,
+    pub(crate) tilt_joint: JointId,
     /// What the tilt joint turns.
-    pub tilt_link: LinkId,
+    pub(crate) tilt_link: LinkId,
 }
 
 /// A camera of pinhole type.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Camera {
+pub(crate) struct Camera {
     /// Name.
-    pub name: String,
+    pub(crate) name: String,
     /// The optical frame: z forward, x to the right, y down.
-    pub frame: LinkId,
+    pub(crate) frame: LinkId,
     /// Width of the picture in pixels.
-    pub width: usize,
+    pub(crate) width: usize,
     /// Height of the picture in pixels.
-    pub height: usize,
+    pub(crate) height: usize,
     /// Angle (rad) from the picture's lower to its upper edge; pixels are square.
-    pub vertical_view: f64,
+    pub(crate) vertical_view: f64,
     /// Nearest distance (m) that is seen.
-    pub near: f64,
+    pub(crate) near: f64,
     /// Farthest distance (m) that is seen.
-    pub far: f64,
+    pub(crate) far: f64,
     /// Share of an object's pixels that must be visible for it to be seen.
-    pub visible_share: f64,
+    pub(crate) visible_share: f64,
 }
 
 /// An arm without its gripper.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Arm {
+pub(crate) struct Arm {
     /// Which one it is.
-    pub side: Side,
+    pub(crate) side: Side,
     /// The link that the arm hangs on.
-    pub base: LinkId,
+    pub(crate) base: LinkId,
     /// The last link, whose pose the inverse kinematics is asked for.
-    pub wrist: LinkId,
+    pub(crate) wrist: LinkId,
     /// The frame between the fingers, as the URDF gives it.
-    pub tool: LinkId,
+    pub(crate) tool: LinkId,
     /// From the wrist to where grasps place the tool (m), along the wrist's x axis.
-    pub tool_offset: f64,
+    pub(crate) tool_offset: f64,
     /// Orientation of the tool (x forward) in the frame that grasps are given in (z
     /// forward, x across the palm).
-    pub tool_axes: UnitQuaternion<f64>,
+    pub(crate) tool_axes: UnitQuaternion<f64>,
     /// Inverse kinematics from `base` to `wrist`.
-    pub kinematics: ArmKinematics,
+    pub(crate) kinematics: ArmKinematics,
     /// Named joint positions, in the order of the file.
-    pub postures: Vec<(String, ArmPositions)>,
+    pub(crate) postures: Vec<(String, ArmPositions)>,
     /// The posture after start-up.
-    pub start: ArmPositions,
+    pub(crate) start: ArmPositions,
     /// The gripper.
-    pub gripper: Gripper,
+    pub(crate) gripper: Gripper,
 }
 
 impl Arm {
     /// The joint positions of that posture.
-    pub fn posture(&self, name: &str) -> Option<&ArmPositions> {
+    pub(crate) fn posture(&self, name: &str) -> Option<&ArmPositions> {
         let posture = self.postures.iter().find(|(n, _)| n == name);
         posture.map(|(_, positions)| positions)
     }
 
     /// The joints from the shoulder to the wrist.
-    pub fn joints(&self) -> &[JointId; 7] {
+    pub(crate) fn joints(&self) -> &[JointId; 7] {
         self.kinematics.joints()
     }
 
     /// Positions of the arm's joints.
-    pub fn positions(&self, q: &JointPositions) -> ArmPositions {
+    pub(crate) fn positions(&self, q: &JointPositions) -> ArmPositions {
         self.joints().map(|joint| q.get(joint))
     }
 
     /// Puts the arm's joints to the positions.
-    pub fn set_positions(&self, q: &mut JointPositions, positions: &ArmPositions) {
+    pub(crate) fn set_positions(&self, q: &mut JointPositions, positions: &ArmPositions) {
         for (joint, position) in self.joints().iter().zip(positions) {
             q.set(*joint, *position);
         }
     }
 
     /// The wrist's pose that brings the tool to `tool`, in the same frame.
-    pub fn wrist_for_tool(&self, tool: &Pose) -> Pose {
+    pub(crate) fn wrist_for_tool(&self, tool: &Pose) -> Pose {
         tool * Translation3::new(-self.tool_offset, 0.0, 0.0)
     }
 
     /// The tool's pose when the wrist is at `wrist`, in the same frame.
-    pub fn tool_for_wrist(&self, wrist: &Pose) -> Pose {
+    pub(crate) fn tool_for_wrist(&self, wrist: &Pose) -> Pose {
         wrist * Translation3::new(self.tool_offset, 0.0, 0.0)
     }
 }
 
 /// A gripper with two parallel jaws that one joint moves.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Gripper {
+pub(crate) struct Gripper {
     /// The link that the fingers hang on.
-    pub palm: LinkId,
+    pub(crate) palm: LinkId,
     /// The joint that moves both fingers (rad, 0 is closed).
-    pub joint: JointId,
+    pub(crate) joint: JointId,
     /// Limits of the joint (rad).
-    pub limits: Limits,
+    pub(crate) limits: Limits,
     /// The links of the finger that closes from the left, then of the one from the right.
-    pub fingers: [Vec<LinkId>; 2],
+    pub(crate) fingers: [Vec<LinkId>; 2],
     /// Joint position (rad) per metre of opening that CRAM asks for.
-    pub joint_per_metre: f64,
+    pub(crate) joint_per_metre: f64,
     /// From a finger's joint to its tip, along the closed finger and across it (m).
     pub(super) tip: [f64; 2],
     /// From the middle of the palm to a finger's joint, minus from the tip to the face of
@@ -164,13 +164,13 @@ pub struct Gripper {
 
 impl Gripper {
     /// Gap (m) between the pads at a joint position (rad); slightly negative when closed.
-    pub fn gap(&self, position: f64) -> f64 {
+    pub(crate) fn gap(&self, position: f64) -> f64 {
         let (s, c) = trig::sin_cos(position);
         2.0 * (self.tip[0] * s + self.tip[1] * c + self.pad)
     }
 
     /// Joint position (rad), within its limits, whose gap is nearest to the given one (m).
-    pub fn position_for_gap(&self, gap: f64) -> f64 {
+    pub(crate) fn position_for_gap(&self, gap: f64) -> f64 {
         let [along, across] = self.tip;
         let aside = (0.5 * gap - self.pad) / libm::hypot(along, across);
         self.limits
@@ -179,12 +179,12 @@ impl Gripper {
 
     /// Joint position (rad), within its limits, that CRAM sets for an opening (m). Its
     /// real gap is 14 to 18 % smaller.
-    pub fn position_for_opening(&self, opening: f64) -> f64 {
+    pub(crate) fn position_for_opening(&self, opening: f64) -> f64 {
         self.limits.clamp(opening * self.joint_per_metre)
     }
 
     /// Palm and fingers.
-    pub fn links(&self) -> impl Iterator<Item = LinkId> {
+    pub(crate) fn links(&self) -> impl Iterator<Item = LinkId> {
         let [left, right] = &self.fingers;
         std::iter::once(self.palm)
             .chain(left.iter().copied())
@@ -194,43 +194,43 @@ impl Gripper {
 
 /// What the links and joints of a robot are for.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RobotDescription {
+pub(crate) struct RobotDescription {
     /// Name of the robot.
-    pub name: String,
+    pub(crate) name: String,
     /// The mobile base.
-    pub base: Base,
+    pub(crate) base: Base,
     /// The torso lift.
-    pub torso: Torso,
+    pub(crate) torso: Torso,
     /// The neck.
-    pub neck: Neck,
+    pub(crate) neck: Neck,
     /// The cameras, the one in use first; never empty.
-    pub cameras: Vec<Camera>,
+    pub(crate) cameras: Vec<Camera>,
     /// The left and the right arm.
-    pub arms: [Arm; 2],
+    pub(crate) arms: [Arm; 2],
     /// Links within one group are never judged against each other.
-    pub touching: Vec<Vec<LinkId>>,
+    pub(crate) touching: Vec<Vec<LinkId>>,
     /// Links that roll on the floor, never judged against it or the robot.
-    pub wheels: Vec<LinkId>,
+    pub(crate) wheels: Vec<LinkId>,
     /// Joints that could move but never do.
-    pub idle_joints: Vec<JointId>,
+    pub(crate) idle_joints: Vec<JointId>,
     /// Greatest velocity and acceleration of each joint, at its index.
     pub(super) speeds: Vec<Speed>,
 }
 
 impl RobotDescription {
     /// The arm of that side.
-    pub fn arm(&self, side: Side) -> &Arm {
+    pub(crate) fn arm(&self, side: Side) -> &Arm {
         &self.arms[side.index()]
     }
 
     /// The camera in use.
-    pub fn camera(&self) -> &Camera {
+    pub(crate) fn camera(&self) -> &Camera {
         // The reader refuses a file without cameras.
         &self.cameras[0]
     }
 
     /// Greatest velocity and acceleration of the joint (rad or m, and s).
-    pub fn speed(&self, joint: JointId) -> Speed {
+    pub(crate) fn speed(&self, joint: JointId) -> Speed {
         self.speeds.get(joint.index()).copied().unwrap_or(Speed {
             velocity: 1.0,
             acceleration: 1.0,
@@ -238,7 +238,7 @@ impl RobotDescription {
     }
 
     /// Where the joints stand after start-up.
-    pub fn start_positions(&self, tree: &KinematicTree) -> JointPositions {
+    pub(crate) fn start_positions(&self, tree: &KinematicTree) -> JointPositions {
         let mut q = tree.zero_positions();
         q.set(self.torso.joint, self.torso.start);
         for arm in &self.arms {
@@ -248,7 +248,7 @@ impl RobotDescription {
     }
 
     /// The search for a torso height from which an arm reaches, with the other joints as in `q`.
-    pub fn torso_search<'a>(
+    pub(crate) fn torso_search<'a>(
         &'a self,
         tree: &'a KinematicTree,
         q: &'a JointPositions,

@@ -71,7 +71,11 @@ const RECORDS: &[(&str, &[&str])] = &[
 
 impl RobotDescription {
     /// Reads a description of the robot with that tree; `file_name` is only used in errors.
-    pub fn from_sexp(text: &str, file_name: &str, tree: &KinematicTree) -> Result<Self, DataError> {
+    pub(crate) fn from_sexp(
+        text: &str,
+        file_name: &str,
+        tree: &KinematicTree,
+    ) -> Result<Self, DataError> {
         let file = DataFile::read(text, file_name)?;
         let mut records = Vec::new();
         for node in file.nodes() {

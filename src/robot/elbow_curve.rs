@@ -23,16 +23,16 @@ const SLACK: f64 = 1e-9;
 /// A stretch of the curve, given by lift angles (rad), on which all limits are kept.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
-    pub bend: f64,
-    pub from: f64,
-    pub to: f64,
+    pub(crate) bend: f64,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
 }
 
 impl Stretch {
     /// The lift angle (rad) at the share 0..1 of the stretch.
     ///
     /// Lift angles are denser towards the ends, where the pan angle changes fastest.
-    pub fn lift_at(&self, share: f64) -> f64 {
+    pub(crate) fn lift_at(&self, share: f64) -> f64 {
         let inset = 1e-9 * (self.to - self.from);
         let (from, to) = (self.from + inset, self.to - inset);
         let middle = 0.5 * (from + to);
@@ -67,7 +67,7 @@ pub(super) struct ElbowCurve<'a> {
 
 impl<'a> ElbowCurve<'a> {
     /// The curve for a pose of the wrist in the frame of the arm's base.
-    pub fn new(chain: &'a ArmChain, wrist: &Pose) -> Self {
+    pub(crate) fn new(chain: &'a ArmChain, wrist: &Pose) -> Self {
         let w: Vector3<f64> = wrist.translation.vector - chain.shoulder;
         let (d, l1, l2) = (chain.shoulder_offset, chain.upper_arm, chain.forearm);
         // On the pan axis itself the direction is arbitrary; a reach of half a nanometre
@@ -90,7 +90,7 @@ impl<'a> ElbowCurve<'a> {
     }
 
     /// The stretches on which every joint keeps its limits.
-    pub fn stretches(&self) -> Vec<Stretch> {
+    pub(crate) fn stretches(&self) -> Vec<Stretch> {
         let lift = self.chain.limits(LIFT);
         let mut cuts = vec![lift.lower, lift.upper];
         for along in [self.reach, -self.reach] {
@@ -129,13 +129,13 @@ impl<'a> ElbowCurve<'a> {
 
     /// The joint positions at a lift angle (rad), or `None` where the curve has no point.
     /// Limits are not looked at; continuous joints are within -π..π.
-    pub fn positions(&self, lift: f64, bend: f64) -> Option<ArmPositions> {
+    pub(crate) fn positions(&self, lift: f64, bend: f64) -> Option<ArmPositions> {
         self.point(lift, bend).map(|point| self.with_wrist(&point))
     }
 
     /// The joint positions with the upper arm rolled to `roll` (rad): at most two.
     /// Limits are not looked at.
-    pub fn positions_at_roll(&self, roll: f64) -> [Option<ArmPositions>; 2] {
+    pub(crate) fn positions_at_roll(&self, roll: f64) -> [Option<ArmPositions>; 2] {
         let (sin, cos) = trig::sin_cos(roll);
         self.elbow_cosines(sin).map(|elbow_cos| {
             let elbow_cos = elbow_cos.filter(|c| c.abs() <= 1.0)?;
@@ -150,7 +150,7 @@ impl<'a> ElbowCurve<'a> {
     }
 
     /// How far (m) the forearm is too short or too long at the lift angle (rad).
-    pub fn miss(&self, lift: f64) -> f64 {
+    pub(crate) fn miss(&self, lift: f64) -> f64 {
         let (s, c) = trig::sin_cos(lift);
         let around = self.chain.shoulder_offset + self.chain.upper_arm * c;
         let below = self.height + self.chain.upper_arm * s;

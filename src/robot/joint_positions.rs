@@ -8,21 +8,21 @@ use super::JointId;
 /// The entry of a joint that mimics another is not looked at; ask
 /// [`KinematicTree::position`](super::KinematicTree::position) for what it really is.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct JointPositions(Vec<f64>);
+pub(crate) struct JointPositions(Vec<f64>);
 
 impl JointPositions {
     /// Every joint at zero.
-    pub fn zero(joint_count: usize) -> Self {
+    pub(crate) fn zero(joint_count: usize) -> Self {
         Self(vec![0.0; joint_count])
     }
 
     /// Position that was set for the joint (rad or m); zero for a joint of another tree.
-    pub fn get(&self, joint: JointId) -> f64 {
+    pub(crate) fn get(&self, joint: JointId) -> f64 {
         self.0.get(joint.index()).copied().unwrap_or(0.0)
     }
 
     /// Sets the position of the joint (rad or m); no limit is applied.
-    pub fn set(&mut self, joint: JointId, position: f64) {
+    pub(crate) fn set(&mut self, joint: JointId, position: f64) {
         if joint.index() >= self.0.len() {
             self.0.resize(joint.index() + 1, 0.0);
         }
@@ -30,7 +30,7 @@ impl JointPositions {
     }
 
     /// All positions in the order of [`JointId::index`].
-    pub fn as_slice(&self) -> &[f64] {
+    pub(crate) fn as_slice(&self) -> &[f64] {
         &self.0
     }
 }

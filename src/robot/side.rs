@@ -4,7 +4,7 @@ use std::fmt;
 
 /// A side of the robot, as seen by the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Side {
+pub(crate) enum Side {
     /// Towards positive y.
     Left,
     /// Towards negative y.
@@ -13,10 +13,10 @@ pub enum Side {
 
 impl Side {
     /// Both sides, left first.
-    pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
+    pub(crate) const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
     /// 0 for left, 1 for right.
-    pub fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         match self {
             Self::Left => 0,
             Self::Right => 1,
@@ -24,7 +24,7 @@ impl Side {
     }
 
     /// The other side.
-    pub fn other(self) -> Self {
+    pub(crate) fn other(self) -> Self {
         match self {
             Self::Left => Self::Right,
             Self::Right => Self::Left,
@@ -32,7 +32,7 @@ impl Side {
     }
 
     /// `left` or `right`.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
             Self::Right => "right",
@@ -40,7 +40,7 @@ impl Side {
     }
 
     /// The side of that name.
-    pub fn named(name: &str) -> Option<Self> {
+    pub(crate) fn named(name: &str) -> Option<Self> {
         Self::BOTH.into_iter().find(|side| side.name() == name)
     }
 }

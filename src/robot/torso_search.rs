@@ -6,14 +6,14 @@ use super::{ArmPositions, JointPositions, KinematicTree, Limits, LinkId, Unreach
 use crate::spatial::Pose;
 
 /// Distance (m) between the heights that are tried.
-pub const TORSO_STEP: f64 = 0.01;
+pub(crate) const TORSO_STEP: f64 = 0.01;
 
 /// The heights (m) to try, nearest to the current one first: the current one itself, then
 /// those at multiples of [`TORSO_STEP`] above the lower limit and the upper limit itself.
 ///
 /// Of two equally near heights the higher one comes first. (CRAM tries the current height,
 /// then all others from the top down; the set is the same, the torso moves less here.)
-pub fn torso_heights(current: f64, limits: Limits) -> Vec<f64> {
+pub(crate) fn torso_heights(current: f64, limits: Limits) -> Vec<f64> {
     let current = limits.clamp(current);
     let steps = ((limits.upper - limits.lower) / TORSO_STEP + 1e-9)
         .floor()
@@ -35,16 +35,16 @@ pub fn torso_heights(current: f64, limits: Limits) -> Vec<f64> {
 
 /// A way to hold the wrist: the torso's height (m) and the arm's joint positions (rad).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reach {
+pub(crate) struct Reach {
     /// Height of the torso (m).
-    pub torso: f64,
+    pub(crate) torso: f64,
     /// Positions of the arm's joints (rad).
-    pub arm: ArmPositions,
+    pub(crate) arm: ArmPositions,
 }
 
 /// The search for a torso height from which one arm reaches a pose.
 #[derive(Clone, Debug)]
-pub struct TorsoSearch<'a> {
+pub(crate) struct TorsoSearch<'a> {
     arm: &'a Arm,
     limits: Limits,
     current: f64,
@@ -82,27 +82,27 @@ impl<'a> TorsoSearch<'a> {
     }
 
     /// Starts from other joint positions (rad) of the arm than the current ones.
-    pub fn with_seed(mut self, seed: ArmPositions) -> Self {
+    pub(crate) fn with_seed(mut self, seed: ArmPositions) -> Self {
         self.seed = seed;
         self
     }
 
     /// The pose of the wrist in the frame of the arm's base, when the torso is at `height`
     /// (m) and the wrist is at `wrist` in the robot's frame on the floor.
-    pub fn in_arm_base(&self, wrist: &Pose, height: f64) -> Pose {
+    pub(crate) fn in_arm_base(&self, wrist: &Pose, height: f64) -> Pose {
         let mut base = self.lowest;
         base.translation.vector += self.rise * height;
         base.inv_mul(wrist)
     }
 
     /// All heights (m) that are tried, in their order.
-    pub fn heights(&self) -> Vec<f64> {
+    pub(crate) fn heights(&self) -> Vec<f64> {
         torso_heights(self.current, self.limits)
     }
 
     /// The reach with the torso at `height` (m), or why there is none; `wrist` is given in
     /// the robot's frame on the floor.
-    pub fn reach_at(&self, wrist: &Pose, height: f64) -> Result<Reach, Unreachable> {
+    pub(crate) fn reach_at(&self, wrist: &Pose, height: f64) -> Result<Reach, Unreachable> {
         let wrist = self.in_arm_base(wrist, height);
         let arm = self.arm.kinematics.nearest(&wrist, &self.seed)?;
         Ok(Reach { torso: height, arm })
@@ -111,7 +111,7 @@ impl<'a> TorsoSearch<'a> {
     /// The reach whose height is nearest to the current one; `wrist` is given in the
     /// robot's frame on the floor. When no height will do, the reason is that of the
     /// height that comes nearest to it.
-    pub fn reach(&self, wrist: &Pose) -> Result<Reach, Unreachable> {
+    pub(crate) fn reach(&self, wrist: &Pose) -> Result<Reach, Unreachable> {
         let mut nearest: Option<Unreachable> = None;
         for height in self.heights() {
             match self.reach_at(wrist, height) {

@@ -12,46 +12,46 @@ use crate::spatial::{PlacedShape, Pose, trig};
 
 /// A link of one [`KinematicTree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct LinkId(usize);
+pub(crate) struct LinkId(usize);
 
 impl LinkId {
     /// Place of the link in [`KinematicTree::links`].
-    pub fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         self.0
     }
 }
 
 /// A joint of one [`KinematicTree`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct JointId(usize);
+pub(crate) struct JointId(usize);
 
 impl JointId {
     /// Place of the joint in [`KinematicTree::joints`].
-    pub fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         self.0
     }
 }
 
 /// A rigid part, or a mere frame when it has neither shapes nor mass.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Link {
+pub(crate) struct Link {
     /// Name, unique in the tree.
-    pub name: String,
+    pub(crate) name: String,
     /// The joint that carries the link; `None` for the root.
-    pub parent_joint: Option<JointId>,
+    pub(crate) parent_joint: Option<JointId>,
     /// The joints that the link carries, in the order of the file.
-    pub children: Vec<JointId>,
+    pub(crate) children: Vec<JointId>,
     /// Solids that touch things, in the link's frame.
-    pub collisions: Vec<PlacedShape>,
+    pub(crate) collisions: Vec<PlacedShape>,
     /// Solids that are seen, in the link's frame.
-    pub visuals: Vec<PlacedShape>,
+    pub(crate) visuals: Vec<PlacedShape>,
     /// Mass (kg), 0 for a mere frame.
-    pub mass: f64,
+    pub(crate) mass: f64,
 }
 
 /// How a joint lets its child move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum JointKind {
+pub(crate) enum JointKind {
     /// Not at all.
     Fixed,
     /// Turns about the axis within limits (rad).
@@ -64,74 +64,74 @@ pub enum JointKind {
 
 /// A closed range of joint positions (rad or m), `lower <= upper`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
+pub(crate) struct Limits {
     /// Least position.
-    pub lower: f64,
+    pub(crate) lower: f64,
     /// Greatest position.
-    pub upper: f64,
+    pub(crate) upper: f64,
 }
 
 impl Limits {
     /// Whether the position lies in the range.
-    pub fn contains(&self, position: f64) -> bool {
+    pub(crate) fn contains(&self, position: f64) -> bool {
         (self.lower..=self.upper).contains(&position)
     }
 
     /// The position of the range that is nearest to the given one.
-    pub fn clamp(&self, position: f64) -> f64 {
+    pub(crate) fn clamp(&self, position: f64) -> f64 {
         position.max(self.lower).min(self.upper)
     }
 
     /// How far the position lies outside of the range; 0 inside.
-    pub fn excess(&self, position: f64) -> f64 {
+    pub(crate) fn excess(&self, position: f64) -> f64 {
         (self.lower - position).max(position - self.upper).max(0.0)
     }
 }
 
 /// A joint that follows another one: `multiplier * position of the other + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mimic {
+pub(crate) struct Mimic {
     /// The joint that is followed; itself no follower.
-    pub joint: JointId,
+    pub(crate) joint: JointId,
     /// Factor on the other joint's position.
-    pub multiplier: f64,
+    pub(crate) multiplier: f64,
     /// Position (rad or m) when the other joint is at 0.
-    pub offset: f64,
+    pub(crate) offset: f64,
 }
 
 /// What connects two links.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Joint {
+pub(crate) struct Joint {
     /// Name, unique in the tree.
-    pub name: String,
+    pub(crate) name: String,
     /// How the child may move.
-    pub kind: JointKind,
+    pub(crate) kind: JointKind,
     /// The link that carries the joint.
-    pub parent: LinkId,
+    pub(crate) parent: LinkId,
     /// The link that the joint carries.
-    pub child: LinkId,
+    pub(crate) child: LinkId,
     /// Pose of the child in the frame of the parent when the joint is at 0.
-    pub origin: Pose,
+    pub(crate) origin: Pose,
     /// Direction, in the child's frame, that the joint turns about or slides along.
-    pub axis: Unit<Vector3<f64>>,
+    pub(crate) axis: Unit<Vector3<f64>>,
     /// Range of positions; `None` for fixed and continuous joints.
-    pub limits: Option<Limits>,
+    pub(crate) limits: Option<Limits>,
     /// Narrower range of the safety controller, where the URDF gives one.
-    pub soft_limits: Option<Limits>,
+    pub(crate) soft_limits: Option<Limits>,
     /// Greatest speed (rad/s or m/s) that the URDF gives.
-    pub max_velocity: Option<f64>,
+    pub(crate) max_velocity: Option<f64>,
     /// Set when the joint follows another one.
-    pub mimic: Option<Mimic>,
+    pub(crate) mimic: Option<Mimic>,
 }
 
 impl Joint {
     /// Whether the joint can move on its own: neither fixed nor following another one.
-    pub fn is_actuated(&self) -> bool {
+    pub(crate) fn is_actuated(&self) -> bool {
         self.kind != JointKind::Fixed && self.mimic.is_none()
     }
 
     /// Pose of the child in the frame of the parent when the joint is at `position` (rad or m).
-    pub fn pose_at(&self, position: f64) -> Pose {
+    pub(crate) fn pose_at(&self, position: f64) -> Pose {
         match self.kind {
             JointKind::Fixed => self.origin,
             JointKind::Revolute | JointKind::Continuous => {
@@ -156,30 +156,30 @@ fn turn(axis: &Unit<Vector3<f64>>, angle: f64) -> UnitQuaternion<f64> {
 
 /// A link as it is handed to [`KinematicTree::assemble`]: joints are attached there.
 pub(super) struct LinkPart {
-    pub name: String,
-    pub collisions: Vec<PlacedShape>,
-    pub visuals: Vec<PlacedShape>,
-    pub mass: f64,
+    pub(crate) name: String,
+    pub(crate) collisions: Vec<PlacedShape>,
+    pub(crate) visuals: Vec<PlacedShape>,
+    pub(crate) mass: f64,
 }
 
 /// A joint as it is handed to [`KinematicTree::assemble`]: links and masters are indices.
 pub(super) struct JointPart {
-    pub name: String,
-    pub kind: JointKind,
-    pub parent: usize,
-    pub child: usize,
-    pub origin: Pose,
-    pub axis: Unit<Vector3<f64>>,
-    pub limits: Option<Limits>,
-    pub soft_limits: Option<Limits>,
-    pub max_velocity: Option<f64>,
+    pub(crate) name: String,
+    pub(crate) kind: JointKind,
+    pub(crate) parent: usize,
+    pub(crate) child: usize,
+    pub(crate) origin: Pose,
+    pub(crate) axis: Unit<Vector3<f64>>,
+    pub(crate) limits: Option<Limits>,
+    pub(crate) soft_limits: Option<Limits>,
+    pub(crate) max_velocity: Option<f64>,
     /// Index of the joint that is followed, multiplier, offset.
-    pub mimic: Option<(usize, f64, f64)>,
+    pub(crate) mimic: Option<(usize, f64, f64)>,
 }
 
 /// Links and joints that hang together in one tree.
 #[derive(Clone, Debug, PartialEq)]
-pub struct KinematicTree {
+pub(crate) struct KinematicTree {
     name: String,
     links: Vec<Link>,
     joints: Vec<Joint>,
@@ -190,56 +190,56 @@ pub struct KinematicTree {
 
 impl KinematicTree {
     /// Name that the URDF gives to the whole.
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
     /// The link without a parent.
-    pub fn root(&self) -> LinkId {
+    pub(crate) fn root(&self) -> LinkId {
         self.root
     }
 
     /// All links in the order of the file.
-    pub fn links(&self) -> impl ExactSizeIterator<Item = (LinkId, &Link)> {
+    pub(crate) fn links(&self) -> impl ExactSizeIterator<Item = (LinkId, &Link)> {
         self.links.iter().enumerate().map(|(i, l)| (LinkId(i), l))
     }
 
     /// All joints in the order of the file.
-    pub fn joints(&self) -> impl ExactSizeIterator<Item = (JointId, &Joint)> {
+    pub(crate) fn joints(&self) -> impl ExactSizeIterator<Item = (JointId, &Joint)> {
         self.joints.iter().enumerate().map(|(i, j)| (JointId(i), j))
     }
 
     /// The link with that id, which must come from this tree.
-    pub fn link(&self, id: LinkId) -> &Link {
+    pub(crate) fn link(&self, id: LinkId) -> &Link {
         // Ids are only made by a tree for its own links, and links are never removed.
         &self.links[id.0]
     }
 
     /// The joint with that id, which must come from this tree.
-    pub fn joint(&self, id: JointId) -> &Joint {
+    pub(crate) fn joint(&self, id: JointId) -> &Joint {
         // As for links.
         &self.joints[id.0]
     }
 
     /// The link of that name.
-    pub fn link_named(&self, name: &str) -> Option<LinkId> {
+    pub(crate) fn link_named(&self, name: &str) -> Option<LinkId> {
         self.links.iter().position(|l| l.name == name).map(LinkId)
     }
 
     /// The joint of that name.
-    pub fn joint_named(&self, name: &str) -> Option<JointId> {
+    pub(crate) fn joint_named(&self, name: &str) -> Option<JointId> {
         self.joints.iter().position(|j| j.name == name).map(JointId)
     }
 
     /// The link or joint name that is nearest to a mistyped one.
-    pub fn closest_name(&self, wanted: &str) -> Option<&str> {
+    pub(crate) fn closest_name(&self, wanted: &str) -> Option<&str> {
         let links = self.links.iter().map(|l| l.name.as_str());
         let joints = self.joints.iter().map(|j| j.name.as_str());
         closest_name(wanted, links.chain(joints))
     }
 
     /// The joints from the link up to the root, nearest first.
-    pub fn ancestors(&self, link: LinkId) -> impl Iterator<Item = JointId> {
+    pub(crate) fn ancestors(&self, link: LinkId) -> impl Iterator<Item = JointId> {
         let mut next = self.link(link).parent_joint;
         std::iter::from_fn(move || {
             let joint = next?;
@@ -249,7 +249,7 @@ impl KinematicTree {
     }
 
     /// Whether `link` is `carrier` or hangs on it.
-    pub fn carries(&self, carrier: LinkId, link: LinkId) -> bool {
+    pub(crate) fn carries(&self, carrier: LinkId, link: LinkId) -> bool {
         link == carrier
             || self
                 .ancestors(link)
@@ -257,12 +257,12 @@ impl KinematicTree {
     }
 
     /// Every joint at zero.
-    pub fn zero_positions(&self) -> JointPositions {
+    pub(crate) fn zero_positions(&self) -> JointPositions {
         JointPositions::zero(self.joints.len())
     }
 
     /// Where the joint stands (rad or m): its own entry, or what the joint that it follows makes of it.
-    pub fn position(&self, q: &JointPositions, joint: JointId) -> f64 {
+    pub(crate) fn position(&self, q: &JointPositions, joint: JointId) -> f64 {
         match self.joint(joint).mimic {
             Some(m) => m.multiplier * q.get(m.joint) + m.offset,
             None => q.get(joint),
@@ -270,7 +270,7 @@ impl KinematicTree {
     }
 
     /// Poses of all links, at [`LinkId::index`] in `out`, in the frame in which `root` is given.
-    pub fn forward_kinematics(&self, root: &Pose, q: &JointPositions, out: &mut Vec<Pose>) {
+    pub(crate) fn forward_kinematics(&self, root: &Pose, q: &JointPositions, out: &mut Vec<Pose>) {
         out.clear();
         out.resize(self.links.len(), *root);
         for &id in &self.order {
@@ -284,14 +284,19 @@ impl KinematicTree {
     }
 
     /// Pose of one link, in the frame in which `root` is given.
-    pub fn link_pose(&self, link: LinkId, root: &Pose, q: &JointPositions) -> Pose {
+    pub(crate) fn link_pose(&self, link: LinkId, root: &Pose, q: &JointPositions) -> Pose {
         root * self
             .relative_pose(self.root, link, q)
             .unwrap_or_else(Pose::identity)
     }
 
     /// Pose of `link` in the frame of `base`, or `None` when `link` does not hang on `base`.
-    pub fn relative_pose(&self, base: LinkId, link: LinkId, q: &JointPositions) -> Option<Pose> {
+    pub(crate) fn relative_pose(
+        &self,
+        base: LinkId,
+        link: LinkId,
+        q: &JointPositions,
+    ) -> Option<Pose> {
         let mut pose = Pose::identity();
         let mut at = link;
         while at != base {

@@ -8,15 +8,15 @@ use super::elbow_curve::ElbowCurve;
 
 /// A joint that would have to leave its limits.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LimitViolation {
+pub(crate) struct LimitViolation {
     /// Name of the joint.
-    pub joint: String,
+    pub(crate) joint: String,
     /// Where it would have to be (rad).
-    pub position: f64,
+    pub(crate) position: f64,
     /// Where it may be (rad).
-    pub limits: Limits,
+    pub(crate) limits: Limits,
     /// How far (rad) the position is outside of the limits.
-    pub excess: f64,
+    pub(crate) excess: f64,
 }
 
 impl fmt::Display for LimitViolation {
@@ -32,7 +32,7 @@ impl fmt::Display for LimitViolation {
 
 /// Proof that a pose of the wrist is unreachable, and what comes nearest.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Unreachable {
+pub(crate) enum Unreachable {
     /// The arm is too short, or cannot fold tightly enough.
     OutOfReach {
         /// Distance (m) of the wrist from the nearest place that the arm's lengths reach.
@@ -50,7 +50,7 @@ pub enum Unreachable {
 impl Unreachable {
     /// A measure of how bad it is: being out of reach is worse than broken limits, more
     /// metres or radians are worse than fewer.
-    pub fn badness(&self) -> f64 {
+    pub(crate) fn badness(&self) -> f64 {
         match self {
             Self::OutOfReach { missing } => 10.0 + missing,
             Self::Limits { violations, .. } => violations.first().map_or(0.0, |v| v.excess),

@@ -16,7 +16,7 @@ use crate::spatial::{PlacedShape, Pose, Shape};
 
 impl KinematicTree {
     /// Reads the text of a URDF; `file_name` is only used in errors.
-    pub fn from_urdf(text: &str, file_name: &str) -> Result<Self, UrdfError> {
+    pub(crate) fn from_urdf(text: &str, file_name: &str) -> Result<Self, UrdfError> {
         let place = |(offset, problem): (usize, UrdfProblem)| UrdfError {
             place: Place::at(file_name, text, offset),
             problem: Box::new(problem),

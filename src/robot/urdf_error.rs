@@ -7,25 +7,25 @@ use thiserror::Error;
 /// The first thing that is wrong with a URDF.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{place}: {problem}")]
-pub struct UrdfError {
+pub(crate) struct UrdfError {
     /// Where it is.
-    pub place: Place,
+    pub(crate) place: Place,
     /// What it is.
-    pub problem: Box<UrdfProblem>,
+    pub(crate) problem: Box<UrdfProblem>,
 }
 
 /// A place in a file; line and column count from 1, columns in characters.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub(crate) struct Place {
     /// Name of the file as it was given.
-    pub file: String,
+    pub(crate) file: String,
     /// Line and column, where they are known.
-    pub line_column: Option<(usize, usize)>,
+    pub(crate) line_column: Option<(usize, usize)>,
 }
 
 impl Place {
     /// The place of the byte `offset` of `text`.
-    pub fn at(file: &str, text: &str, offset: usize) -> Self {
+    pub(crate) fn at(file: &str, text: &str, offset: usize) -> Self {
         let before = text.get(..offset).unwrap_or(text);
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
         let line = before.matches('\n').count() + 1;
@@ -48,7 +48,7 @@ impl fmt::Display for Place {
 
 /// What is wrong with a URDF.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum UrdfProblem {
+pub(crate) enum UrdfProblem {
     /// A comment, tag or attribute does not end.
     #[error("this {0} has no end; expected `{1}` before the end of the file")]
     Unterminated(&'static str, &'static str),

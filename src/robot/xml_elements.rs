@@ -8,26 +8,26 @@ use super::urdf_error::UrdfProblem;
 
 /// An attribute of an element.
 pub(super) struct Attribute<'a> {
-    pub name: &'a str,
+    pub(crate) name: &'a str,
     /// As written, without the quotes.
-    pub value: &'a str,
+    pub(crate) value: &'a str,
     /// Byte offset of the value.
-    pub offset: usize,
+    pub(crate) offset: usize,
 }
 
 /// An element.
 pub(super) struct Element<'a> {
-    pub name: &'a str,
+    pub(crate) name: &'a str,
     /// Byte offset of its `<`.
-    pub offset: usize,
-    pub attributes: Vec<Attribute<'a>>,
+    pub(crate) offset: usize,
+    pub(crate) attributes: Vec<Attribute<'a>>,
     /// Index of the element around it.
-    pub parent: Option<usize>,
+    pub(crate) parent: Option<usize>,
 }
 
 impl<'a> Element<'a> {
     /// The attribute of that name.
-    pub fn attribute(&self, name: &str) -> Option<&Attribute<'a>> {
+    pub(crate) fn attribute(&self, name: &str) -> Option<&Attribute<'a>> {
         self.attributes.iter().find(|a| a.name == name)
     }
 }

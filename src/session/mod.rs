@@ -6,13 +6,13 @@ mod assist;
 mod check;
 mod console;
 mod converse;
-pub mod dialogue;
+pub(crate) mod dialogue;
 mod live_host;
 mod options;
 mod plans;
 mod printing;
 mod record;
-pub mod simulation;
+pub(crate) mod simulation;
 mod text;
 
 use std::path::Path;
@@ -33,7 +33,8 @@ use simulation::Simulation;
 use printing::on_one_line;
 
 pub use options::{SessionError, SessionOptions};
-pub use simulation::{Filming, LogLevel, WatchError};
+pub use simulation::LogLevel;
+pub(crate) use simulation::{Filming, WatchError};
 
 /// A session.
 pub struct Session {
@@ -77,13 +78,13 @@ impl Session {
 
     /// Bytes of the Rust stack that the compiler may use: a thread with a large stack can
     /// compile forms that are nested more deeply.
-    pub fn set_stack_budget(&mut self, bytes: usize) {
+    pub(crate) fn set_stack_budget(&mut self, bytes: usize) {
         self.image.stack_budget = bytes;
     }
 
     /// The examples of all builtins and operators, with their names, in order of
     /// installation.
-    pub fn examples(&self) -> Vec<(String, &'static str)> {
+    pub(crate) fn examples(&self) -> Vec<(String, &'static str)> {
         let image = &self.image;
         let builtins = image.builtins.iter().map(|(sym, b)| (sym, b.examples));
         let operators = image.operators.iter().map(|(sym, o)| (sym, o.examples));
@@ -98,7 +99,7 @@ impl Session {
     }
 
     /// The reference manual in Markdown.
-    pub fn reference(&self) -> String {
+    pub(crate) fn reference(&self) -> String {
         manual::markdown(&manual::Sources {
             image: &self.image,
             objects: self.simulation.object_types(),
@@ -107,27 +108,27 @@ impl Session {
     }
 
     /// The robot in its world.
-    pub fn simulation(&self) -> &Simulation {
+    pub(crate) fn simulation(&self) -> &Simulation {
         &self.simulation
     }
 
     /// The robot in its world, to be looked at while it moves.
-    pub fn simulation_mut(&mut self) -> &mut Simulation {
+    pub(crate) fn simulation_mut(&mut self) -> &mut Simulation {
         &mut self.simulation
     }
 
     /// Opens the live view, unless it is open; returns the page's address.
-    pub fn open_view(&mut self) -> Result<String, WatchError> {
+    pub(crate) fn open_view(&mut self) -> Result<String, WatchError> {
         self.simulation.open_view(&self.image)
     }
 
     /// Records from here on what happens into an MCAP file.
-    pub fn begin_recording(&mut self, path: &Path) -> Result<(), WatchError> {
+    pub(crate) fn begin_recording(&mut self, path: &Path) -> Result<(), WatchError> {
         self.simulation.begin_recording(&self.image, path)
     }
 
     /// Ends the recording, if there is one, and tells what went wrong with it.
-    pub fn end_recording(&mut self) -> Result<(), WatchError> {
+    pub(crate) fn end_recording(&mut self) -> Result<(), WatchError> {
         self.simulation.end_recording()
     }
 

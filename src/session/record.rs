@@ -23,7 +23,7 @@ struct Entry {
 
 impl Record {
     /// An input at the top is about to be evaluated.
-    pub fn begin(&self, prompt: String, source_name: &str, input: &str) {
+    pub(crate) fn begin(&self, prompt: String, source_name: &str, input: &str) {
         let mut screen = Screen::new(Vec::new());
         screen.begin_input(source_name, input);
         self.0.borrow_mut().push(Entry {
@@ -36,7 +36,7 @@ impl Record {
 
     /// Something has happened. Where a person decides how a condition goes on, a replay
     /// aborts: that is what is recorded.
-    pub fn note(&self, event: &Event) {
+    pub(crate) fn note(&self, event: &Event) {
         let mut entries = self.0.borrow_mut();
         let Some(entry) = entries.last_mut().filter(|entry| !entry.is_over) else {
             return;

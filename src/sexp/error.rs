@@ -5,20 +5,20 @@ use thiserror::Error;
 /// The first thing that is wrong with a data file.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{file}:{line}:{column}: {problem}")]
-pub struct DataError {
+pub(crate) struct DataError {
     /// Name of the file as it was given.
-    pub file: String,
+    pub(crate) file: String,
     /// Line, from 1.
-    pub line: usize,
+    pub(crate) line: usize,
     /// Column in bytes, from 1.
-    pub column: usize,
+    pub(crate) column: usize,
     /// What is wrong.
-    pub problem: Box<DataProblem>,
+    pub(crate) problem: Box<DataProblem>,
 }
 
 /// What is wrong with a data file.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum DataProblem {
+pub(crate) enum DataProblem {
     /// The text is not a row of s-expressions.
     #[error("{0}")]
     Syntax(String),

@@ -8,14 +8,14 @@ use super::{DataError, DataProblem, Node};
 
 /// The values of a data file.
 #[derive(Clone, Debug)]
-pub struct DataFile {
+pub(crate) struct DataFile {
     name: String,
     values: Vec<Datum>,
 }
 
 impl DataFile {
     /// Reads a text; `file_name` is only used in errors.
-    pub fn read(text: &str, file_name: &str) -> Result<Self, DataError> {
+    pub(crate) fn read(text: &str, file_name: &str) -> Result<Self, DataError> {
         let options = Options::new().with_keyword_syntax(KeywordSyntax::ColonPrefix);
         // From a reader, not from the string: that counts lines as it goes, while the
         // string's parser counts them anew from the start for every single value.
@@ -43,14 +43,14 @@ impl DataFile {
     }
 
     /// The values in their order.
-    pub fn nodes(&self) -> impl Iterator<Item = Node<'_>> {
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = Node<'_>> {
         self.values
             .iter()
             .map(|d| Node::new(d.as_ref(), &self.name))
     }
 
     /// An error about the file as a whole.
-    pub fn error(&self, problem: DataProblem) -> DataError {
+    pub(crate) fn error(&self, problem: DataProblem) -> DataError {
         DataError {
             file: self.name.clone(),
             line: 1,

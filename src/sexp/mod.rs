@@ -9,7 +9,7 @@ mod file;
 mod node;
 mod record;
 
-pub use error::{DataError, DataProblem};
-pub use file::DataFile;
-pub use node::Node;
-pub use record::Record;
+pub(crate) use error::{DataError, DataProblem};
+pub(crate) use file::DataFile;
+pub(crate) use node::Node;
+pub(crate) use record::Record;

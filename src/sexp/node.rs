@@ -6,7 +6,7 @@ use super::{DataError, DataProblem, Record};
 
 /// A value and its place.
 #[derive(Clone, Copy, Debug)]
-pub struct Node<'a> {
+pub(crate) struct Node<'a> {
     datum: Ref<'a>,
     file: &'a str,
 }
@@ -17,7 +17,7 @@ impl<'a> Node<'a> {
     }
 
     /// An error about this value.
-    pub fn error(&self, problem: DataProblem) -> DataError {
+    pub(crate) fn error(&self, problem: DataProblem) -> DataError {
         let start = self.datum.span().start();
         DataError {
             file: self.file.to_owned(),
@@ -28,7 +28,7 @@ impl<'a> Node<'a> {
     }
 
     /// The error that another kind of value was expected.
-    pub fn expected(&self, expected: &str) -> DataError {
+    pub(crate) fn expected(&self, expected: &str) -> DataError {
         self.error(DataProblem::Unexpected {
             expected: expected.to_owned(),
             found: self.datum.value().to_string(),
@@ -36,7 +36,7 @@ impl<'a> Node<'a> {
     }
 
     /// The error that there is no such `kind` of thing; `closest` is the nearest known name.
-    pub fn unknown(&self, kind: &str, name: &str, closest: Option<&str>) -> DataError {
+    pub(crate) fn unknown(&self, kind: &str, name: &str, closest: Option<&str>) -> DataError {
         self.error(DataProblem::UnknownName {
             kind: kind.to_owned(),
             name: name.to_owned(),
@@ -45,37 +45,37 @@ impl<'a> Node<'a> {
     }
 
     /// The name of a symbol.
-    pub fn symbol(&self) -> Result<&'a str, DataError> {
+    pub(crate) fn symbol(&self) -> Result<&'a str, DataError> {
         let value = self.datum.value();
         value.as_symbol().ok_or_else(|| self.expected("a name"))
     }
 
     /// The name of a keyword without its colon.
-    pub fn as_keyword(&self) -> Option<&'a str> {
+    pub(crate) fn as_keyword(&self) -> Option<&'a str> {
         self.datum.value().as_keyword()
     }
 
     /// A finite number.
-    pub fn number(&self) -> Result<f64, DataError> {
+    pub(crate) fn number(&self) -> Result<f64, DataError> {
         let number = self.datum.value().as_f64().filter(|n| n.is_finite());
         number.ok_or_else(|| self.expected("a number"))
     }
 
     /// A finite number above zero.
-    pub fn positive(&self) -> Result<f64, DataError> {
+    pub(crate) fn positive(&self) -> Result<f64, DataError> {
         let number = self.number().ok().filter(|n| *n > 0.0);
         number.ok_or_else(|| self.expected("a number above 0"))
     }
 
     /// A whole number above zero.
-    pub fn count(&self) -> Result<usize, DataError> {
+    pub(crate) fn count(&self) -> Result<usize, DataError> {
         let count = self.datum.value().as_u64().filter(|n| *n > 0);
         let count = count.and_then(|n| usize::try_from(n).ok());
         count.ok_or_else(|| self.expected("a whole number above 0"))
     }
 
     /// The elements of a list.
-    pub fn list(&self) -> Result<Vec<Node<'a>>, DataError> {
+    pub(crate) fn list(&self) -> Result<Vec<Node<'a>>, DataError> {
         if !self.datum.value().is_list() {
             return Err(self.expected("a list"));
         }
@@ -85,7 +85,7 @@ impl<'a> Node<'a> {
     }
 
     /// A list of exactly `N` finite numbers.
-    pub fn numbers<const N: usize>(&self) -> Result<[f64; N], DataError> {
+    pub(crate) fn numbers<const N: usize>(&self) -> Result<[f64; N], DataError> {
         let wrong = || self.expected(&format!("a list of {N} numbers"));
         let items = self.list().map_err(|_| wrong())?;
         let numbers: Vec<f64> = items.iter().map(Node::number).collect::<Result<_, _>>()?;
@@ -93,17 +93,17 @@ impl<'a> Node<'a> {
     }
 
     /// A list of names.
-    pub fn symbols(&self) -> Result<Vec<&'a str>, DataError> {
+    pub(crate) fn symbols(&self) -> Result<Vec<&'a str>, DataError> {
         self.list()?.iter().map(Node::symbol).collect()
     }
 
     /// A record whose keys are all among `keys`.
-    pub fn record(&self, keys: &[&str]) -> Result<Record<'a>, DataError> {
+    pub(crate) fn record(&self, keys: &[&str]) -> Result<Record<'a>, DataError> {
         Record::read(*self, keys)
     }
 
     /// The head of a record: the symbol that its list begins with.
-    pub fn head(&self) -> Result<&'a str, DataError> {
+    pub(crate) fn head(&self) -> Result<&'a str, DataError> {
         let wrong = || self.expected("a record (name … :key value …)");
         let items = self.list().map_err(|_| wrong())?;
         let head = items.first().ok_or_else(wrong)?;

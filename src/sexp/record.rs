@@ -5,7 +5,7 @@ use crate::closest_name::closest_name;
 
 /// A list that begins with a name, goes on with values and ends with keys and their values.
 #[derive(Clone, Debug)]
-pub struct Record<'a> {
+pub(crate) struct Record<'a> {
     node: Node<'a>,
     head: &'a str,
     things: Vec<Node<'a>>,
@@ -52,22 +52,22 @@ impl<'a> Record<'a> {
     }
 
     /// The record as a value.
-    pub fn node(&self) -> &Node<'a> {
+    pub(crate) fn node(&self) -> &Node<'a> {
         &self.node
     }
 
     /// The name that the record begins with.
-    pub fn head(&self) -> &'a str {
+    pub(crate) fn head(&self) -> &'a str {
         self.head
     }
 
     /// The values before the first key.
-    pub fn things(&self) -> &[Node<'a>] {
+    pub(crate) fn things(&self) -> &[Node<'a>] {
         &self.things
     }
 
     /// The one value before the first key; `what` says what it would be.
-    pub fn thing(&self, what: &str) -> Result<Node<'a>, DataError> {
+    pub(crate) fn thing(&self, what: &str) -> Result<Node<'a>, DataError> {
         match self.things.as_slice() {
             [thing] => Ok(*thing),
             _ => Err(self.node.error(DataProblem::Invalid(format!(
@@ -78,13 +78,13 @@ impl<'a> Record<'a> {
     }
 
     /// The value of a key that may be missing.
-    pub fn optional(&self, key: &str) -> Option<Node<'a>> {
+    pub(crate) fn optional(&self, key: &str) -> Option<Node<'a>> {
         let field = self.fields.iter().find(|(k, _)| *k == key);
         field.map(|(_, value)| *value)
     }
 
     /// The value of a key that must be there.
-    pub fn required(&self, key: &str) -> Result<Node<'a>, DataError> {
+    pub(crate) fn required(&self, key: &str) -> Result<Node<'a>, DataError> {
         self.optional(key).ok_or_else(|| {
             self.node.error(DataProblem::MissingKey {
                 record: self.head.to_owned(),

@@ -4,9 +4,9 @@
 //! Lengths are metres, angles radians, quaternions x y z w. Nothing here knows of
 //! robots, worlds or the plan language.
 
-pub mod pose;
-pub mod shape;
-pub mod trig;
+pub(crate) mod pose;
+pub(crate) mod shape;
+pub(crate) mod trig;
 
 pub use pose::Pose;
-pub use shape::{PlacedShape, Shape};
+pub(crate) use shape::{PlacedShape, Shape};

@@ -4,7 +4,7 @@ use super::Pose;
 
 /// A convex solid in its own frame.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub(crate) enum Shape {
     /// A box centred on the origin; full edge lengths (m) along x, y, z.
     Box {
         /// Edge lengths (m).
@@ -31,11 +31,11 @@ pub enum Shape {
 
 /// A shape with its place in the frame of the link or object that it belongs to.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlacedShape {
+pub(crate) struct PlacedShape {
     /// The solid.
-    pub shape: Shape,
+    pub(crate) shape: Shape,
     /// Pose of the solid's frame in the frame of its owner.
-    pub pose: Pose,
+    pub(crate) pose: Pose,
     /// Linear colour, red green blue alpha in 0..1, when the source gives one.
-    pub color: Option<[f32; 4]>,
+    pub(crate) color: Option<[f32; 4]>,
 }

@@ -2,7 +2,7 @@
 
 /// Tells tasks and motions of a session apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum TaskId {
+pub(crate) enum TaskId {
     /// A task of a plan, by its number.
     Task(u64),
     /// A motion that a task waits for, by its number.
@@ -11,7 +11,7 @@ pub enum TaskId {
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Happening {
+pub(crate) enum Happening {
     /// Text was printed; not necessarily whole lines.
     Output(String),
     /// A condition that nobody handled ended an evaluation; its report.
@@ -22,22 +22,22 @@ pub enum Happening {
 
 /// What became of a task.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TaskNews {
+pub(crate) struct TaskNews {
     /// Which task.
-    pub id: TaskId,
+    pub(crate) id: TaskId,
     /// The task that started it; none if the prompt did.
-    pub parent: Option<TaskId>,
+    pub(crate) parent: Option<TaskId>,
     /// How people call it.
-    pub name: String,
+    pub(crate) name: String,
     /// How it is now.
-    pub state: TaskState,
+    pub(crate) state: TaskState,
     /// Why it failed; empty otherwise.
-    pub failure: String,
+    pub(crate) failure: String,
 }
 
 /// How a task is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TaskState {
+pub(crate) enum TaskState {
     /// It runs or waits.
     Running,
     /// It holds still.
@@ -52,7 +52,7 @@ pub enum TaskState {
 
 impl TaskState {
     /// All states.
-    pub const ALL: [Self; 5] = [
+    pub(crate) const ALL: [Self; 5] = [
         Self::Running,
         Self::Suspended,
         Self::Succeeded,
@@ -61,7 +61,7 @@ impl TaskState {
     ];
 
     /// Name of the state.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Running => "running",
             Self::Suspended => "suspended",
@@ -72,7 +72,7 @@ impl TaskState {
     }
 
     /// The state of that name.
-    pub fn named(name: &str) -> Option<Self> {
+    pub(crate) fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|state| state.name() == name)
     }
 }

@@ -6,17 +6,17 @@
 //! changes the world, and no result depends on whether anybody follows.
 
 mod happening;
-pub mod live;
+pub(crate) mod live;
 mod moment;
 mod node;
 mod path;
-pub mod recording;
+pub(crate) mod recording;
 mod witness;
 
-pub use happening::{Happening, TaskId, TaskNews, TaskState};
-pub use moment::{Hit, Hold, Moment, Path, Placed};
-pub use node::{Kind, Node, Vertex, VisualMesh};
-pub use witness::Witness;
+pub(crate) use happening::{Happening, TaskId, TaskNews, TaskState};
+pub(crate) use moment::{Hit, Hold, Moment, Path, Placed};
+pub(crate) use node::{Kind, Node, Vertex, VisualMesh};
+pub(crate) use witness::Witness;
 
 use crate::motion::PlannedWay;
 use crate::spatial::Pose;
@@ -24,20 +24,20 @@ use crate::world::{CollisionHit, World};
 
 /// The world as it is now, with what is shown beside it.
 #[derive(Clone, Copy)]
-pub struct Seen<'a> {
+pub(crate) struct Seen<'a> {
     /// Simulated time (s) since the session began.
-    pub time: f64,
+    pub(crate) time: f64,
     /// The world.
-    pub world: &'a World,
+    pub(crate) world: &'a World,
     /// Coordinate axes that somebody wants to see: where, and how long (m).
-    pub axes: Option<(Pose, f64)>,
+    pub(crate) axes: Option<(Pose, f64)>,
     /// The ways of motions under way, each with a number that tells it from others.
-    pub ways: &'a [(u64, PlannedWay<'a>)],
+    pub(crate) ways: &'a [(u64, PlannedWay<'a>)],
 }
 
 /// Why somebody is told of the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
+pub(crate) enum Cause {
     /// A step of the world has passed.
     Step,
     /// Time passes while nothing moves, as slowly as somebody wants to see it.
@@ -49,7 +49,7 @@ pub enum Cause {
 }
 
 /// Somebody who follows a session. Must return soon: the session waits.
-pub trait Follower {
+pub(crate) trait Follower {
     /// The world has changed, or may have.
     fn see(&mut self, seen: &Seen<'_>, cause: Cause);
 

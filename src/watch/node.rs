@@ -9,7 +9,7 @@ use crate::picture::scene::{Finish, Scene};
 
 /// What sort of thing a node is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A link of the robot.
     Robot,
     /// A link of the kitchen.
@@ -20,10 +20,10 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Self; 3] = [Self::Robot, Self::Furniture, Self::Object];
+    pub(crate) const ALL: [Self; 3] = [Self::Robot, Self::Furniture, Self::Object];
 
     /// Name of the kind.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Robot => "robot",
             Self::Furniture => "furniture",
@@ -34,46 +34,46 @@ impl Kind {
 
 /// A thing that has a place. Never changes once it is known.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Node {
+pub(crate) struct Node {
     /// Its number, counted from zero in the order in which nodes became known.
-    pub id: u32,
+    pub(crate) id: u32,
     /// Name; that of an object is unique among those that are in the world together.
-    pub name: String,
+    pub(crate) name: String,
     /// What sort of thing it is.
-    pub kind: Kind,
+    pub(crate) kind: Kind,
     /// Type of an object in the object library, else empty.
-    pub type_name: String,
+    pub(crate) type_name: String,
     /// Where it always is, if it cannot move.
-    pub still: Option<Placed>,
+    pub(crate) still: Option<Placed>,
     /// How it looks, in its own frame; empty for a mere frame. Nodes that look the same share it.
-    pub mesh: Arc<VisualMesh>,
+    pub(crate) mesh: Arc<VisualMesh>,
 }
 
 /// A corner of what is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertex {
+pub(crate) struct Vertex {
     /// Where (m).
-    pub at: [f32; 3],
+    pub(crate) at: [f32; 3],
     /// Unit normal.
-    pub normal: [f32; 3],
+    pub(crate) normal: [f32; 3],
     /// Linear colour, red green blue alpha in 0..1.
-    pub color: [f32; 4],
+    pub(crate) color: [f32; 4],
     /// How clearly it reflects the lamp, 0..1.
-    pub gloss: f32,
+    pub(crate) gloss: f32,
 }
 
 /// A surface with colours.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct VisualMesh {
+pub(crate) struct VisualMesh {
     /// Corners.
-    pub vertices: Vec<Vertex>,
+    pub(crate) vertices: Vec<Vertex>,
     /// Triangles as places in `vertices`, counter-clockwise seen from outside.
-    pub triangles: Vec<[u32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 impl VisualMesh {
     /// All bodies of a scene as one surface.
-    pub fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let mut mesh = Self::default();
         for body in &scene.bodies {
             // A surface of four milliard corners does not fit into memory.

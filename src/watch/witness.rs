@@ -22,7 +22,7 @@ const HIT_SECONDS: f64 = 2.5;
 type ObjectKey = (String, String, [u32; 4]);
 
 /// Makes moments of one world, and knows the nodes in them.
-pub struct Witness {
+pub(crate) struct Witness {
     nodes: Vec<Arc<Node>>,
     /// Nodes of links, by the links' places in their trees.
     robot: IndexMap<usize, u32>,
@@ -42,7 +42,7 @@ pub struct Witness {
 
 impl Witness {
     /// A witness of the world, whose robot and kitchen become nodes.
-    pub fn new(world: &World) -> Self {
+    pub(crate) fn new(world: &World) -> Self {
         let mut witness = Self {
             nodes: Vec::new(),
             robot: IndexMap::new(),
@@ -91,12 +91,12 @@ impl Witness {
     }
 
     /// All nodes that are known, in order of their numbers.
-    pub fn nodes(&self) -> &[Arc<Node>] {
+    pub(crate) fn nodes(&self) -> &[Arc<Node>] {
         &self.nodes
     }
 
     /// The node of a link of the robot, by the link's name.
-    pub fn node_named(&self, link: &str) -> Option<u32> {
+    pub(crate) fn node_named(&self, link: &str) -> Option<u32> {
         let robot = self.robot_links.iter().map(|(_, node)| *node);
         let named = |node: &u32| {
             self.nodes
@@ -112,12 +112,12 @@ impl Witness {
     }
 
     /// The robot's actuated joints, in the order of [`Moment::joints`].
-    pub fn joints(&self) -> &[JointId] {
+    pub(crate) fn joints(&self) -> &[JointId] {
         &self.joints
     }
 
     /// The world as it is now. Objects that have not been seen before become nodes.
-    pub fn look(&mut self, seen: &Seen<'_>) -> Moment {
+    pub(crate) fn look(&mut self, seen: &Seen<'_>) -> Moment {
         let world = seen.world;
         let mut placed: Vec<Placed> = Vec::with_capacity(self.nodes.len());
         let links = self.robot_links.iter();
@@ -168,7 +168,7 @@ impl Witness {
     }
 
     /// Remembers what stopped a motion at that time (s).
-    pub fn collide(&mut self, time: f64, hit: &CollisionHit) {
+    pub(crate) fn collide(&mut self, time: f64, hit: &CollisionHit) {
         let bodies = [&hit.moving, &hit.other];
         let nodes = bodies.iter().filter_map(|body| self.body_node(body));
         let p = hit.point;

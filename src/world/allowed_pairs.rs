@@ -8,45 +8,49 @@ use super::body_name::BodyName;
 /// An object that is attached to a gripper needs no entry for that gripper: the two are
 /// expected to touch.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct AllowedPairs {
+pub(crate) struct AllowedPairs {
     pairs: Vec<(BodyName, BodyName)>,
 }
 
 impl AllowedPairs {
     /// No pair may touch.
-    pub fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self::default()
     }
 
     /// Also allows the two to touch, in either order.
     #[must_use]
-    pub fn and(mut self, a: BodyName, b: BodyName) -> Self {
+    pub(crate) fn and(mut self, a: BodyName, b: BodyName) -> Self {
         self.pairs.push((a, b));
         self
     }
 
     /// Also allows each of the bodies to touch `other`.
     #[must_use]
-    pub fn and_all(mut self, bodies: impl IntoIterator<Item = BodyName>, other: &BodyName) -> Self {
+    pub(crate) fn and_all(
+        mut self,
+        bodies: impl IntoIterator<Item = BodyName>,
+        other: &BodyName,
+    ) -> Self {
         self.pairs
             .extend(bodies.into_iter().map(|b| (b, other.clone())));
         self
     }
 
     /// Whether the two may touch.
-    pub fn allow(&self, a: &BodyName, b: &BodyName) -> bool {
+    pub(crate) fn allow(&self, a: &BodyName, b: &BodyName) -> bool {
         self.pairs
             .iter()
             .any(|(x, y)| (x == a && y == b) || (x == b && y == a))
     }
 
     /// Whether no pair is allowed.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.pairs.is_empty()
     }
 
     /// All pairs, as they were added.
-    pub fn iter(&self) -> impl Iterator<Item = &(BodyName, BodyName)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &(BodyName, BodyName)> {
         self.pairs.iter()
     }
 }

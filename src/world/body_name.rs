@@ -7,11 +7,11 @@ use crate::robot::LinkId;
 
 /// A link with its name.
 #[derive(Clone, Debug)]
-pub struct LinkName {
+pub(crate) struct LinkName {
     /// The link in its tree.
-    pub id: LinkId,
+    pub(crate) id: LinkId,
     /// The name that the URDF gives to it.
-    pub name: Arc<str>,
+    pub(crate) name: Arc<str>,
 }
 
 impl PartialEq for LinkName {
@@ -24,7 +24,7 @@ impl Eq for LinkName {}
 
 /// Anything in the world that can be touched.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum BodyName {
+pub(crate) enum BodyName {
     /// A link of the robot.
     Robot(LinkName),
     /// A link of the kitchen.
@@ -37,7 +37,7 @@ pub enum BodyName {
 
 impl BodyName {
     /// The name of the object, if it is one.
-    pub fn object(&self) -> Option<&str> {
+    pub(crate) fn object(&self) -> Option<&str> {
         match self {
             Self::Object(name) => Some(name),
             _ => None,
@@ -45,7 +45,7 @@ impl BodyName {
     }
 
     /// The robot's link, if it is one.
-    pub fn robot_link(&self) -> Option<LinkId> {
+    pub(crate) fn robot_link(&self) -> Option<LinkId> {
         match self {
             Self::Robot(link) => Some(link.id),
             _ => None,

@@ -24,32 +24,32 @@ use crate::spatial::Pose;
 
 /// Two bodies that are nearer to each other than a query allows.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CollisionHit {
+pub(crate) struct CollisionHit {
     /// The robot's link, or the object that the robot holds.
-    pub moving: BodyName,
+    pub(crate) moving: BodyName,
     /// The other body.
-    pub other: BodyName,
+    pub(crate) other: BodyName,
     /// How far the two overlap (m); negative for a gap that is smaller than asked for.
-    pub depth: f64,
+    pub(crate) depth: f64,
     /// A point of the overlap, or between the two, in the map frame (m).
-    pub point: Point3<f64>,
+    pub(crate) point: Point3<f64>,
 }
 
 /// The two bodies that are nearest to each other.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Clearance {
+pub(crate) struct Clearance {
     /// The robot's link, or the object that the robot holds.
-    pub moving: BodyName,
+    pub(crate) moving: BodyName,
     /// The other body.
-    pub other: BodyName,
+    pub(crate) other: BodyName,
     /// The gap between the two (m); negative when they overlap.
-    pub distance: f64,
+    pub(crate) distance: f64,
 }
 
 /// Judges configurations of the robot in one state of the world.
 ///
 /// Making one costs a few microseconds, a query about as much: keep it for a whole search.
-pub struct CollisionChecker<'w> {
+pub(crate) struct CollisionChecker<'w> {
     surroundings: Surroundings<'w>,
     poses: Vec<Pose>,
     scratch: Scratch,
@@ -67,7 +67,7 @@ impl<'w> CollisionChecker<'w> {
     /// Whether nothing but allowed pairs is nearer than `margin` (m).
     ///
     /// With a negative margin, overlaps of up to that depth pass.
-    pub fn is_free(
+    pub(crate) fn is_free(
         &mut self,
         robot: &RobotConfiguration,
         allowed: &AllowedPairs,
@@ -79,7 +79,12 @@ impl<'w> CollisionChecker<'w> {
     }
 
     /// As [`Self::is_free`], for the poses of all links as forward kinematics gives them.
-    pub fn is_free_at(&mut self, link_poses: &[Pose], allowed: &AllowedPairs, margin: f64) -> bool {
+    pub(crate) fn is_free_at(
+        &mut self,
+        link_poses: &[Pose],
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> bool {
         let mut free = true;
         self.search(link_poses, allowed, Wanted::Whether, margin, |_, _| {
             free = false;
@@ -90,7 +95,7 @@ impl<'w> CollisionChecker<'w> {
 
     /// Some pair that is nearer than `margin` (m) and not allowed, the first one found in a
     /// fixed order; `None` when there is none.
-    pub fn first_hit(
+    pub(crate) fn first_hit(
         &mut self,
         robot: &RobotConfiguration,
         allowed: &AllowedPairs,
@@ -102,7 +107,7 @@ impl<'w> CollisionChecker<'w> {
     }
 
     /// As [`Self::first_hit`], for the poses of all links as forward kinematics gives them.
-    pub fn first_hit_at(
+    pub(crate) fn first_hit_at(
         &mut self,
         link_poses: &[Pose],
         allowed: &AllowedPairs,
@@ -117,7 +122,7 @@ impl<'w> CollisionChecker<'w> {
     }
 
     /// Every pair of bodies that is nearer than `margin` (m) and not allowed, the deepest first.
-    pub fn all_hits(
+    pub(crate) fn all_hits(
         &mut self,
         robot: &RobotConfiguration,
         allowed: &AllowedPairs,
@@ -143,7 +148,7 @@ impl<'w> CollisionChecker<'w> {
 
     /// The pair with the smallest gap among those nearer than `reach` (m) and not allowed. Pairs
     /// of the robot with itself do not count: how close those are is a matter of posture.
-    pub fn clearance(
+    pub(crate) fn clearance(
         &mut self,
         robot: &RobotConfiguration,
         allowed: &AllowedPairs,

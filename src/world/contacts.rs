@@ -10,34 +10,34 @@ use crate::spatial::pose::{angle_between, distance_between};
 
 /// The force that one body exerts on another.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ContactForce {
+pub(crate) struct ContactForce {
     /// The other body.
-    pub body: BodyName,
+    pub(crate) body: BodyName,
     /// Sum of the normal forces (N), averaged over the last step.
-    pub force: f64,
+    pub(crate) force: f64,
 }
 
 /// How far a held object lags behind the link that carries it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WeldError {
+pub(crate) struct WeldError {
     /// Distance (m) between where the object is and where it was gripped.
-    pub distance: f64,
+    pub(crate) distance: f64,
     /// Angle (rad) between the two orientations.
-    pub angle: f64,
+    pub(crate) angle: f64,
     /// Force (N) that the hold exerts.
-    pub force: f64,
+    pub(crate) force: f64,
 }
 
 impl World {
     /// What presses on the object, in a fixed order.
-    pub fn object_contacts(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
+    pub(crate) fn object_contacts(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
         let body = self.object(name)?.body;
         Ok(self.forces_on(body, |_| true))
     }
 
     /// Sum of the forces (N) on the object by anything but the robot: its support and what it
     /// bumps into.
-    pub fn support_force(&self, name: &str) -> Result<f64, WorldError> {
+    pub(crate) fn support_force(&self, name: &str) -> Result<f64, WorldError> {
         let mut sum = 0.0;
         self.physics
             .visit_contacts(self.object(name)?.body, |contact| {
@@ -49,7 +49,7 @@ impl World {
     }
 
     /// What carries or stops the object, the robot excepted.
-    pub fn supports(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
+    pub(crate) fn supports(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
         let mut forces = self.object_contacts(name)?;
         forces.retain(|f| f.body.robot_link().is_none());
         Ok(forces)
@@ -57,7 +57,7 @@ impl World {
 
     /// What each of the two fingers of a hand touches: first the one that closes from the
     /// left, then the one from the right.
-    pub fn finger_contacts(&self, side: Side) -> [Vec<ContactForce>; 2] {
+    pub(crate) fn finger_contacts(&self, side: Side) -> [Vec<ContactForce>; 2] {
         let [left, right] = &self.models.description.arm(side).gripper.fingers;
         [left, right].map(|finger| {
             let mut forces: Vec<ContactForce> = Vec::new();
@@ -75,7 +75,7 @@ impl World {
     }
 
     /// How far the held object lags behind its hold; `None` when nothing holds it.
-    pub fn weld_error(&self, name: &str) -> Result<Option<WeldError>, WorldError> {
+    pub(crate) fn weld_error(&self, name: &str) -> Result<Option<WeldError>, WorldError> {
         let object = self.object(name)?;
         let Some(attachment) = object.attachment else {
             return Ok(None);

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 /// An order that cannot be carried out; nothing was changed.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum WorldError {
+pub(crate) enum WorldError {
     /// There is no object of that name.
     #[error("there is no object named {name}{}", suggestion(.closest))]
     UnknownObject {

@@ -15,7 +15,7 @@ use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
 use crate::spatial::Pose;
 
 /// The text of the built-in library, `world/grasps.sexp`.
-pub const GRASPS: &str = include_str!("../../world/grasps.sexp");
+pub(crate) const GRASPS: &str = include_str!("../../world/grasps.sexp");
 
 /// How far the rows of a rotation may be from unit length and right angles; hand-written
 /// matrices such as those with 0.707 are within.
@@ -23,36 +23,36 @@ const ROTATION_SLACK: f64 = 0.01;
 
 /// One way to grasp objects of one type with one arm; lengths in m, along the object's axes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct GraspDefinition {
+pub(crate) struct GraspDefinition {
     /// Place of the hand in the object's frame.
-    pub translation: [f64; 3],
+    pub(crate) translation: [f64; 3],
     /// Orientation of the hand in the object's frame: the rows of the matrix as written.
-    pub rotation: [[f64; 3]; 3],
+    pub(crate) rotation: [[f64; 3]; 3],
     /// First pregrasp, relative to `translation`.
-    pub pregrasp: [f64; 3],
+    pub(crate) pregrasp: [f64; 3],
     /// Second pregrasp, relative to `translation`.
-    pub second_pregrasp: [f64; 3],
+    pub(crate) second_pregrasp: [f64; 3],
     /// First lift.
-    pub lift: Lift,
+    pub(crate) lift: Lift,
     /// Second lift.
-    pub second_lift: Lift,
+    pub(crate) second_lift: Lift,
 }
 
 /// How the hand leaves with what it has grasped. CRAM has had two ways to say it; both
 /// together add up.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lift {
+pub(crate) struct Lift {
     /// Place of the hand relative to that of the grasp, along the object's axes (m). For an
     /// object that lies on its side this does not lead upwards.
-    pub offset: [f64; 3],
+    pub(crate) offset: [f64; 3],
     /// Then hand and object are moved by this in the frame of the robot's base, whatever
     /// the orientation of the object.
-    pub in_base: Pose,
+    pub(crate) in_base: Pose,
 }
 
 impl Lift {
     /// Along the object's axes only (m).
-    pub fn along_object(offset: [f64; 3]) -> Self {
+    pub(crate) fn along_object(offset: [f64; 3]) -> Self {
         Self {
             offset,
             in_base: Pose::identity(),
@@ -62,17 +62,17 @@ impl Lift {
 
 /// Where the robot's tool goes for a grasp, in the frame of the robot's base.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ToolPoses {
+pub(crate) struct ToolPoses {
     /// The tool comes here first.
-    pub pregrasp: Pose,
+    pub(crate) pregrasp: Pose,
     /// Then here.
-    pub second_pregrasp: Pose,
+    pub(crate) second_pregrasp: Pose,
     /// Here the gripper closes.
-    pub grasp: Pose,
+    pub(crate) grasp: Pose,
     /// The tool leaves to here.
-    pub lift: Pose,
+    pub(crate) lift: Pose,
     /// Then to here.
-    pub second_lift: Pose,
+    pub(crate) second_lift: Pose,
 }
 
 /// A matrix that is no rotation, by its rows.
@@ -81,11 +81,11 @@ pub struct ToolPoses {
     "{0:?} is not a rotation: its rows must have length 1, be at right angles to each other \
      and make a right-handed frame"
 )]
-pub struct NotARotation(pub [[f64; 3]; 3]);
+pub(crate) struct NotARotation(pub(crate) [[f64; 3]; 3]);
 
 impl GraspDefinition {
     /// Orientation of the hand in the object's frame; small flaws of the matrix are evened out.
-    pub fn orientation(&self) -> Result<UnitQuaternion<f64>, NotARotation> {
+    pub(crate) fn orientation(&self) -> Result<UnitQuaternion<f64>, NotARotation> {
         let matrix = Matrix3::from(self.rotation).transpose();
         let flaw = (matrix * matrix.transpose() - Matrix3::identity()).amax();
         // Not a number is a flaw too.
@@ -104,7 +104,7 @@ impl GraspDefinition {
 
     /// The five poses of the tool for an object at `object`, all in the frame of the robot's
     /// base; `tool_axes` is the tool's orientation in the hand's frame.
-    pub fn tool_poses(
+    pub(crate) fn tool_poses(
         &self,
         object: &Pose,
         tool_axes: &UnitQuaternion<f64>,
@@ -127,16 +127,16 @@ impl GraspDefinition {
 
 /// How hard to grip and how wide to open before.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grip {
+pub(crate) struct Grip {
     /// Effort (N).
-    pub effort: f64,
+    pub(crate) effort: f64,
     /// Opening (m).
-    pub opening: f64,
+    pub(crate) opening: f64,
 }
 
 /// All that is known of grasping.
 #[derive(Clone, Debug, PartialEq)]
-pub struct GraspLibrary {
+pub(crate) struct GraspLibrary {
     rotations: IndexMap<String, [[f64; 3]; 3]>,
     default_grip: Grip,
     grips: IndexMap<String, Grip>,
@@ -169,7 +169,7 @@ const RECORDS: &[(&str, &[&str])] = &[
 
 impl GraspLibrary {
     /// Reads a library; `file_name` is only used in errors.
-    pub fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
+    pub(crate) fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
         let file = DataFile::read(text, file_name)?;
         let mut default_grip = None;
         let mut library = Self {
@@ -208,30 +208,35 @@ impl GraspLibrary {
     }
 
     /// The grasps of a type in the order in which they are tried; none for an unknown type.
-    pub fn grasps(&self, object_type: &str) -> &[String] {
+    pub(crate) fn grasps(&self, object_type: &str) -> &[String] {
         self.order.get(object_type).map_or(&[], Vec::as_slice)
     }
 
     /// The grasp of that name for objects of that type with that arm.
-    pub fn get(&self, object_type: &str, arm: Side, grasp: &str) -> Option<&GraspDefinition> {
+    pub(crate) fn get(
+        &self,
+        object_type: &str,
+        arm: Side,
+        grasp: &str,
+    ) -> Option<&GraspDefinition> {
         let key = (object_type.to_owned(), arm, grasp.to_owned());
         self.grasps.get(&key)
     }
 
     /// Effort and opening for a type.
-    pub fn grip(&self, object_type: &str) -> Grip {
+    pub(crate) fn grip(&self, object_type: &str) -> Grip {
         let grip = self.grips.get(object_type).copied();
         grip.unwrap_or(self.default_grip)
     }
 
     /// The rows of the rotation of that name.
-    pub fn rotation(&self, name: &str) -> Option<[[f64; 3]; 3]> {
+    pub(crate) fn rotation(&self, name: &str) -> Option<[[f64; 3]; 3]> {
         self.rotations.get(name).copied()
     }
 
     /// Adds a grasp, or overrides the one that the type has under that name for that arm. A
     /// new name comes last in the order in which grasps are tried.
-    pub fn define(
+    pub(crate) fn define(
         &mut self,
         object_type: &str,
         arm: Side,

@@ -8,7 +8,7 @@ use crate::robot::LinkId;
 impl World {
     /// Welds the object softly to the robot's link, where it is now. An object that was
     /// attached elsewhere is let go there.
-    pub fn attach(&mut self, name: &str, link: LinkId) -> Result<(), WorldError> {
+    pub(crate) fn attach(&mut self, name: &str, link: LinkId) -> Result<(), WorldError> {
         self.detach(name)?;
         let body = self.object(name)?.body;
         let Some((carrier, root)) = self.body_of_link(link) else {
@@ -26,7 +26,7 @@ impl World {
     }
 
     /// Lets go of the object. Returns the link that held it.
-    pub fn detach(&mut self, name: &str) -> Result<Option<LinkId>, WorldError> {
+    pub(crate) fn detach(&mut self, name: &str) -> Result<Option<LinkId>, WorldError> {
         self.object(name)?;
         let Some(object) = self.state.objects.get_mut(name) else {
             return Ok(None);

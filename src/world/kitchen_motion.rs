@@ -11,24 +11,28 @@ use crate::spatial::Pose;
 
 impl World {
     /// Pose of a link of the kitchen in the map frame.
-    pub fn furniture_pose(&self, link: LinkId) -> Pose {
+    pub(crate) fn furniture_pose(&self, link: LinkId) -> Pose {
         pose_of(&self.state.kitchen_poses, link)
     }
 
     /// Positions of all joints of the kitchen (rad or m).
-    pub fn kitchen_joints(&self) -> &JointPositions {
+    pub(crate) fn kitchen_joints(&self) -> &JointPositions {
         &self.state.kitchen
     }
 
     /// Position of a joint of the kitchen (rad or m).
-    pub fn kitchen_joint(&self, name: &str) -> Result<f64, WorldError> {
+    pub(crate) fn kitchen_joint(&self, name: &str) -> Result<f64, WorldError> {
         let joint = self.moving_kitchen_joint(name)?;
         Ok(self.models.kitchen.position(&self.state.kitchen, joint))
     }
 
     /// Makes a drawer or door move to the position (rad or m) during the next step, taking
     /// along what is in it. The position is brought into the joint's limits and returned.
-    pub fn set_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
+    pub(crate) fn set_kitchen_joint(
+        &mut self,
+        name: &str,
+        position: f64,
+    ) -> Result<f64, WorldError> {
         let position = self.change_kitchen_joint(name, position)?;
         self.state.kitchen_moves = true;
         Ok(position)
@@ -36,7 +40,11 @@ impl World {
 
     /// Puts a drawer or door at the position (rad or m) at once; what is in it stays behind.
     /// The position is brought into the joint's limits and returned.
-    pub fn teleport_kitchen_joint(&mut self, name: &str, position: f64) -> Result<f64, WorldError> {
+    pub(crate) fn teleport_kitchen_joint(
+        &mut self,
+        name: &str,
+        position: f64,
+    ) -> Result<f64, WorldError> {
         let position = self.change_kitchen_joint(name, position)?;
         self.state.kitchen_moves = false;
         for (body, group) in self

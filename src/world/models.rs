@@ -14,15 +14,15 @@ use crate::sexp::DataError;
 use thiserror::Error;
 
 /// The models that worlds are built from; shared by a world and its copies.
-pub struct Models {
+pub(crate) struct Models {
     /// The robot's body.
-    pub robot: KinematicTree,
+    pub(crate) robot: KinematicTree,
     /// What the robot's links and joints are for.
-    pub description: RobotDescription,
+    pub(crate) description: RobotDescription,
     /// The furniture.
-    pub kitchen: KinematicTree,
+    pub(crate) kitchen: KinematicTree,
     /// The kinds of objects that can be spawned.
-    pub objects: ObjectLibrary,
+    pub(crate) objects: ObjectLibrary,
     pub(crate) robot_geometry: TreeGeometry,
     pub(crate) kitchen_geometry: TreeGeometry,
     /// Pairs of places in the robot's solid links that must not touch.
@@ -46,7 +46,7 @@ pub(crate) enum Footing {
 
 /// A file about the world that cannot be read.
 #[derive(Clone, Debug, PartialEq, Error)]
-pub enum ModelsError {
+pub(crate) enum ModelsError {
     /// It is a tree of links and joints.
     #[error(transparent)]
     Urdf(#[from] UrdfError),
@@ -57,7 +57,7 @@ pub enum ModelsError {
 
 impl Models {
     /// The PR2 in the kitchen, which are built in.
-    pub fn pr2_in_kitchen() -> Result<Self, ModelsError> {
+    pub(crate) fn pr2_in_kitchen() -> Result<Self, ModelsError> {
         let robot = KinematicTree::from_urdf(PR2_URDF, "pr2.urdf")?;
         let description = RobotDescription::from_sexp(PR2_DESCRIPTION, "pr2.sexp", &robot)?;
         let kitchen = KinematicTree::from_urdf(KITCHEN_URDF, "kitchen.urdf")?;
@@ -66,7 +66,7 @@ impl Models {
     }
 
     /// Prepares the models; the description must be one of that robot.
-    pub fn new(
+    pub(crate) fn new(
         robot: KinematicTree,
         description: RobotDescription,
         kitchen: KinematicTree,
@@ -122,13 +122,13 @@ impl Models {
     }
 
     /// The name of a link of the robot; the floor for a link of another tree.
-    pub fn robot_body(&self, link: LinkId) -> BodyName {
+    pub(crate) fn robot_body(&self, link: LinkId) -> BodyName {
         let name = self.robot_geometry.names.get(link.index());
         name.map_or(BodyName::Floor, |name| BodyName::Robot(name.clone()))
     }
 
     /// The name of a link of the kitchen; the floor for a link of another tree.
-    pub fn furniture_body(&self, link: LinkId) -> BodyName {
+    pub(crate) fn furniture_body(&self, link: LinkId) -> BodyName {
         let name = self.kitchen_geometry.names.get(link.index());
         name.map_or(BodyName::Floor, |name| BodyName::Furniture(name.clone()))
     }

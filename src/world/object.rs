@@ -12,17 +12,17 @@ use crate::spatial::{PlacedShape, Pose};
 
 /// A hold of an object by a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Attachment {
+pub(crate) struct Attachment {
     /// The link that carries the object.
-    pub link: LinkId,
+    pub(crate) link: LinkId,
     /// Pose of the object in the link's frame when the hold was made.
-    pub at: Pose,
+    pub(crate) at: Pose,
     pub(crate) weld: WeldHandle,
 }
 
 /// An object of the world.
 #[derive(Clone)]
-pub struct Object {
+pub(crate) struct Object {
     pub(crate) name: String,
     pub(crate) type_name: String,
     pub(crate) color: [f32; 4],
@@ -37,37 +37,37 @@ pub struct Object {
 
 impl Object {
     /// Name, unique in the world.
-    pub fn name(&self) -> &str {
+    pub(crate) fn name(&self) -> &str {
         &self.name
     }
 
     /// Name of its type in the object library.
-    pub fn type_name(&self) -> &str {
+    pub(crate) fn type_name(&self) -> &str {
         &self.type_name
     }
 
     /// Colour, red green blue alpha in 0..1.
-    pub fn color(&self) -> [f32; 4] {
+    pub(crate) fn color(&self) -> [f32; 4] {
         self.color
     }
 
     /// Mass (kg).
-    pub fn mass(&self) -> f64 {
+    pub(crate) fn mass(&self) -> f64 {
         self.mass
     }
 
     /// Its shapes in its own frame.
-    pub fn shapes(&self) -> &[PlacedShape] {
+    pub(crate) fn shapes(&self) -> &[PlacedShape] {
         &self.shapes
     }
 
     /// The hold on it, if a link carries it.
-    pub fn attachment(&self) -> Option<&Attachment> {
+    pub(crate) fn attachment(&self) -> Option<&Attachment> {
         self.attachment.as_ref()
     }
 
     /// The key of its parts.
-    pub fn key(&self) -> PartKey {
+    pub(crate) fn key(&self) -> PartKey {
         PartKey::Object(self.number)
     }
 }

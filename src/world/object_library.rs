@@ -12,24 +12,24 @@ use crate::spatial::pose::from_xyz_rpy;
 use crate::spatial::{PlacedShape, Shape};
 
 /// The text of the built-in library, `world/objects.sexp`.
-pub const OBJECTS: &str = include_str!("../../world/objects.sexp");
+pub(crate) const OBJECTS: &str = include_str!("../../world/objects.sexp");
 
 /// One kind of object.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ObjectType {
+pub(crate) struct ObjectType {
     /// Name of the type, such as `bottle`.
-    pub name: String,
+    pub(crate) name: String,
     /// Its solids, in the object's frame; never empty.
-    pub shapes: Vec<PlacedShape>,
+    pub(crate) shapes: Vec<PlacedShape>,
     /// Mass (kg).
-    pub mass: f64,
+    pub(crate) mass: f64,
     /// Linear colour, red green blue alpha in 0..1.
-    pub color: [f32; 4],
+    pub(crate) color: [f32; 4],
 }
 
 /// The kinds of objects, in the order of the file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ObjectLibrary {
+pub(crate) struct ObjectLibrary {
     objects: IndexMap<String, ObjectType>,
     /// Names of the listed types, in their order.
     available: Vec<String>,
@@ -46,7 +46,7 @@ const RECORDS: &[(&str, &[&str])] = &[
 
 impl ObjectLibrary {
     /// Reads a library; `file_name` is only used in errors.
-    pub fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
+    pub(crate) fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
         let file = DataFile::read(text, file_name)?;
         let mut library = Self {
             objects: IndexMap::new(),
@@ -78,34 +78,34 @@ impl ObjectLibrary {
     }
 
     /// The types that are listed to the user, in their order.
-    pub fn types(&self) -> impl ExactSizeIterator<Item = &ObjectType> {
+    pub(crate) fn types(&self) -> impl ExactSizeIterator<Item = &ObjectType> {
         // The reader has checked that every listed name is an object.
         self.available.iter().map(|name| &self.objects[name])
     }
 
     /// The type of that name, listed or not.
-    pub fn get(&self, name: &str) -> Option<&ObjectType> {
+    pub(crate) fn get(&self, name: &str) -> Option<&ObjectType> {
         self.objects.get(name)
     }
 
     /// The name that is nearest to a mistyped one.
-    pub fn closest_name(&self, wanted: &str) -> Option<&str> {
+    pub(crate) fn closest_name(&self, wanted: &str) -> Option<&str> {
         closest_name(wanted, self.objects.keys().map(String::as_str))
     }
 
     /// The type itself, then the type that it is a kind of, and so on.
-    pub fn lineage<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
+    pub(crate) fn lineage<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
         let parent = |name: &&'a str| self.kind_of.get(*name).map(String::as_str);
         std::iter::successors(Some(name), parent)
     }
 
     /// Whether the type is `other` or a kind of it.
-    pub fn is_kind_of(&self, name: &str, other: &str) -> bool {
+    pub(crate) fn is_kind_of(&self, name: &str, other: &str) -> bool {
         self.lineage(name).any(|n| n == other)
     }
 
     /// The direct kinds of a type, in the order of the file.
-    pub fn kinds<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
+    pub(crate) fn kinds<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
         let kinds = self.kind_of.iter().filter(move |(_, of)| *of == name);
         kinds.map(|(kind, _)| kind.as_str())
     }

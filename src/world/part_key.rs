@@ -4,7 +4,7 @@ use crate::robot::LinkId;
 
 /// The owner of a primitive. Links are counted as in their tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum PartKey {
+pub(crate) enum PartKey {
     /// The floor.
     Floor,
     /// A link of the kitchen, by its place in the tree.

@@ -9,7 +9,7 @@ impl World {
     /// The deepest overlap, deeper than `tolerance` (m), of the robot or of an object in its
     /// hand with anything, where they are now. Allowed pairs and a hand with what it holds do
     /// not count.
-    pub fn deepest_penetration(
+    pub(crate) fn deepest_penetration(
         &self,
         allowed: &AllowedPairs,
         tolerance: f64,

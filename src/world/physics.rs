@@ -33,10 +33,10 @@ use super::solid::{Solid, from_parry, from_parry_vector, to_parry};
 use crate::spatial::Pose;
 
 /// Simulated time of one step (s).
-pub const STEP_SECONDS: f64 = 1.0 / 240.0;
+pub(crate) const STEP_SECONDS: f64 = 1.0 / 240.0;
 
 /// Acceleration of free fall (m/s²), towards -z.
-pub const GRAVITY: f64 = 9.81;
+pub(crate) const GRAVITY: f64 = 9.81;
 
 /// Parts into which the solver divides a step.
 const SOLVER_ITERATIONS: usize = 4;

@@ -5,9 +5,9 @@ use crate::spatial::Pose;
 
 /// Everything that decides where the robot's links are.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RobotConfiguration {
+pub(crate) struct RobotConfiguration {
     /// Pose of the robot's root link in the map frame.
-    pub base: Pose,
+    pub(crate) base: Pose,
     /// Position of every joint (rad or m).
-    pub joints: JointPositions,
+    pub(crate) joints: JointPositions,
 }

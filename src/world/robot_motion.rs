@@ -7,13 +7,13 @@ use crate::spatial::Pose;
 
 impl World {
     /// Where the robot stands and how its joints are set.
-    pub fn robot_configuration(&self) -> &RobotConfiguration {
+    pub(crate) fn robot_configuration(&self) -> &RobotConfiguration {
         &self.state.robot
     }
 
     /// Makes the robot move to the configuration during the next step. Meant for one tick of
     /// a smooth motion: the way there is not checked.
-    pub fn set_robot_configuration(&mut self, configuration: &RobotConfiguration) {
+    pub(crate) fn set_robot_configuration(&mut self, configuration: &RobotConfiguration) {
         if self.state.robot != *configuration {
             self.place_robot_links(configuration);
             self.state.robot_moves = true;
@@ -22,7 +22,7 @@ impl World {
 
     /// Puts the robot into the configuration at once, with what it holds. An edit of the
     /// world, not a motion.
-    pub fn teleport_robot(&mut self, configuration: &RobotConfiguration) {
+    pub(crate) fn teleport_robot(&mut self, configuration: &RobotConfiguration) {
         self.place_robot_links(configuration);
         self.state.robot_moves = false;
         for (body, group) in self
@@ -51,12 +51,12 @@ impl World {
     }
 
     /// Pose of a link of the robot in the map frame.
-    pub fn link_pose(&self, link: LinkId) -> Pose {
+    pub(crate) fn link_pose(&self, link: LinkId) -> Pose {
         pose_of(&self.state.robot_poses, link)
     }
 
     /// Poses of all links of the robot in the map frame, at [`LinkId::index`].
-    pub fn link_poses(&self) -> &[Pose] {
+    pub(crate) fn link_poses(&self) -> &[Pose] {
         &self.state.robot_poses
     }
 }

@@ -32,7 +32,7 @@ use crate::spatial::Pose;
 ///
 /// A clone is a world of its own that goes on from the same state with the same bits.
 #[derive(Clone)]
-pub struct World {
+pub(crate) struct World {
     pub(super) models: Arc<Models>,
     pub(super) physics: Physics,
     pub(super) state: State,
@@ -57,7 +57,7 @@ pub(super) struct State {
 
 impl World {
     /// A world without objects, the kitchen closed and the robot as given.
-    pub fn new(models: Arc<Models>, robot: RobotConfiguration) -> Self {
+    pub(crate) fn new(models: Arc<Models>, robot: RobotConfiguration) -> Self {
         let mut physics = Physics::new();
         physics.add_floor(PartKey::Floor.code());
 
@@ -125,13 +125,13 @@ impl World {
     }
 
     /// The models that the world is built from.
-    pub fn models(&self) -> &Arc<Models> {
+    pub(crate) fn models(&self) -> &Arc<Models> {
         &self.models
     }
 
     /// Lets one physics step pass: robot and kitchen move to where they were set, objects
     /// fall, slide and are carried.
-    pub fn step(&mut self) {
+    pub(crate) fn step(&mut self) {
         if self.state.robot_moves {
             for (body, group) in self
                 .robot_bodies
@@ -170,7 +170,7 @@ impl World {
 
     /// Lets time pass until every object is at rest, at most `seconds` (s). Returns whether
     /// all came to rest.
-    pub fn settle(&mut self, seconds: f64) -> bool {
+    pub(crate) fn settle(&mut self, seconds: f64) -> bool {
         let mut quiet = 0;
         let mut left = steps_in(seconds);
         while left > 0 {
@@ -185,7 +185,7 @@ impl World {
     }
 
     /// Whether no object moves faster than 2 mm/s or turns faster than 0.02 rad/s.
-    pub fn is_at_rest(&self) -> bool {
+    pub(crate) fn is_at_rest(&self) -> bool {
         self.state.objects.values().all(|object| {
             let (linear, angular) = self.physics.velocity(object.body);
             linear.norm() < REST_SPEED && angular.norm() < REST_TURN
@@ -193,23 +193,23 @@ impl World {
     }
 
     /// Number of steps since the world began.
-    pub fn steps(&self) -> u64 {
+    pub(crate) fn steps(&self) -> u64 {
         self.state.steps
     }
 
     /// Simulated time since the world began (s).
-    pub fn time(&self) -> f64 {
+    pub(crate) fn time(&self) -> f64 {
         // Exact for any number of steps that can be simulated.
         self.state.steps as f64 * STEP_SECONDS
     }
 
     /// All objects in the order in which they appeared.
-    pub fn objects(&self) -> impl ExactSizeIterator<Item = &Object> {
+    pub(crate) fn objects(&self) -> impl ExactSizeIterator<Item = &Object> {
         self.state.objects.values()
     }
 
     /// The object of that name.
-    pub fn object(&self, name: &str) -> Result<&Object, WorldError> {
+    pub(crate) fn object(&self, name: &str) -> Result<&Object, WorldError> {
         self.state
             .objects
             .get(name)
@@ -221,13 +221,13 @@ impl World {
     }
 
     /// Pose of the object in the map frame.
-    pub fn object_pose(&self, name: &str) -> Result<Pose, WorldError> {
+    pub(crate) fn object_pose(&self, name: &str) -> Result<Pose, WorldError> {
         Ok(self.physics.pose(self.object(name)?.body))
     }
 
     /// Keeps all objects of now from falling asleep, which makes every step cost what it costs
     /// while things move. For measurements.
-    pub fn keep_objects_awake(&mut self) {
+    pub(crate) fn keep_objects_awake(&mut self) {
         for object in self.state.objects.values() {
             self.physics.keep_awake(object.body);
         }
@@ -244,7 +244,7 @@ impl World {
     }
 
     /// A judge of robot configurations for the world as it is now.
-    pub fn collision_checker(&self) -> CollisionChecker<'_> {
+    pub(crate) fn collision_checker(&self) -> CollisionChecker<'_> {
         let mut lying = Vec::new();
         let mut held = Vec::new();
         for object in self.state.objects.values() {
@@ -280,7 +280,7 @@ impl World {
     }
 
     /// A hash of the bits of the whole state.
-    pub fn hash(&self) -> u64 {
+    pub(crate) fn hash(&self) -> u64 {
         let mut hasher = Hasher::default();
         self.physics.hash_into(&mut hasher);
         hasher.integer(self.state.steps);

@@ -7,21 +7,21 @@ use crate::spatial::{PlacedShape, Pose, Shape};
 
 /// A shape where it is now.
 #[derive(Clone, Copy, Debug)]
-pub struct SceneShape<'w> {
+pub(crate) struct SceneShape<'w> {
     /// The body that it belongs to.
-    pub key: PartKey,
+    pub(crate) key: PartKey,
     /// The solid.
-    pub shape: &'w Shape,
+    pub(crate) shape: &'w Shape,
     /// Pose of the solid's frame in the map frame.
-    pub pose: Pose,
+    pub(crate) pose: Pose,
     /// Colour, red green blue alpha in 0..1, when it has one of its own.
-    pub color: Option<[f32; 4]>,
+    pub(crate) color: Option<[f32; 4]>,
 }
 
 impl World {
     /// The shapes that touch things: first the kitchen's, then the robot's, then those of the
     /// objects. The floor, which is endless, is left out.
-    pub fn shapes(&self) -> Vec<SceneShape<'_>> {
+    pub(crate) fn shapes(&self) -> Vec<SceneShape<'_>> {
         let mut found = Vec::new();
         add_tree(
             &mut found,

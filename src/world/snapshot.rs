@@ -6,14 +6,14 @@ use super::scene::{State, World};
 /// The whole state of a world at one moment. A world that goes back to it goes on with the
 /// same bits as before.
 #[derive(Clone)]
-pub struct Snapshot {
+pub(crate) struct Snapshot {
     physics: Sets,
     state: State,
 }
 
 impl World {
     /// The state now.
-    pub fn snapshot(&self) -> Snapshot {
+    pub(crate) fn snapshot(&self) -> Snapshot {
         Snapshot {
             physics: self.physics.save(),
             state: self.state.clone(),
@@ -21,7 +21,7 @@ impl World {
     }
 
     /// Goes back to a state of this world, or of one that was cloned from it.
-    pub fn restore(&mut self, snapshot: &Snapshot) {
+    pub(crate) fn restore(&mut self, snapshot: &Snapshot) {
         self.physics.load(&snapshot.physics);
         self.state.clone_from(&snapshot.state);
     }

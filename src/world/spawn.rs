@@ -57,19 +57,19 @@ const TOUCH: f64 = 1e-6;
 
 /// What became of an order to put an object somewhere.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SpawnReport {
+pub(crate) struct SpawnReport {
     /// Whether the object is new; otherwise it was only moved.
-    pub is_new: bool,
+    pub(crate) is_new: bool,
     /// Where the object is now, in the map frame.
-    pub pose: Pose,
+    pub(crate) pose: Pose,
     /// How much higher (m) that is than asked for; negative when it was set down.
-    pub lifted: f64,
+    pub(crate) lifted: f64,
     /// How far (m) to the side that is.
-    pub shifted: f64,
+    pub(crate) shifted: f64,
     /// What the object would have overlapped where it was asked for.
-    pub blocked_by: Option<BodyName>,
+    pub(crate) blocked_by: Option<BodyName>,
     /// What the object was set down on; `None` when it is left to fall.
-    pub support: Option<BodyName>,
+    pub(crate) support: Option<BodyName>,
 }
 
 /// A body near the place of a new object.
@@ -84,7 +84,7 @@ impl World {
     /// Puts a new object of a type of the library at the pose, with the type's colour and mass
     /// (kg) unless others are given, or moves the object that has the name already (its type,
     /// colour and mass stay then).
-    pub fn spawn(
+    pub(crate) fn spawn(
         &mut self,
         name: &str,
         type_name: &str,
@@ -109,7 +109,7 @@ impl World {
     }
 
     /// As [`World::spawn`], for an object that need not be in the library.
-    pub fn spawn_kind(
+    pub(crate) fn spawn_kind(
         &mut self,
         name: &str,
         kind: &ObjectType,
@@ -164,7 +164,11 @@ impl World {
     }
 
     /// Puts the object somewhere else, let go and at rest.
-    pub fn move_object(&mut self, name: &str, pose: &Pose) -> Result<SpawnReport, WorldError> {
+    pub(crate) fn move_object(
+        &mut self,
+        name: &str,
+        pose: &Pose,
+    ) -> Result<SpawnReport, WorldError> {
         check_finite(name, pose)?;
         self.detach(name)?;
         let object = self.object(name)?;
@@ -176,7 +180,7 @@ impl World {
     }
 
     /// Takes the object out of the world.
-    pub fn remove(&mut self, name: &str) -> Result<(), WorldError> {
+    pub(crate) fn remove(&mut self, name: &str) -> Result<(), WorldError> {
         self.detach(name)?;
         // The line above has found it. Later objects keep their order.
         if let Some(object) = self.state.objects.shift_remove(name) {
@@ -186,7 +190,7 @@ impl World {
     }
 
     /// Takes all objects out of the world.
-    pub fn remove_all(&mut self) {
+    pub(crate) fn remove_all(&mut self) {
         for (_, object) in std::mem::take(&mut self.state.objects) {
             self.physics.remove_body(object.body);
         }
@@ -294,7 +298,7 @@ impl World {
     }
 
     /// The name of the body that has the key.
-    pub fn body_name(&self, key: PartKey) -> Option<BodyName> {
+    pub(crate) fn body_name(&self, key: PartKey) -> Option<BodyName> {
         Some(match key {
             PartKey::Floor => BodyName::Floor,
             PartKey::Robot(i) => BodyName::Robot(self.models.robot_geometry.name(i)?.clone()),

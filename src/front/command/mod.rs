@@ -32,7 +32,7 @@ use arguments::{Arguments, Command, WatchArguments};
 use failure::{CommandError, Status};
 use paint::Paint;
 
-pub use open::open_default;
+pub(crate) use open::open_default;
 
 /// Bytes of the stack on which commands run: the compiler follows the nesting of forms.
 const STACK_BYTES: usize = 64 << 20;

@@ -45,7 +45,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
 }
 
 /// A fresh evaluator as a command line without options has it.
-pub fn open_default() -> Result<Box<dyn Evaluate>, String> {
+pub(crate) fn open_default() -> Result<Box<dyn Evaluate>, String> {
     let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;
     open(&arguments.options).map_err(|error| error.to_string())
 }

@@ -20,17 +20,17 @@ const INTRODUCTION: &str = include_str!("introduction.md");
 const DIFFERENCES: &str = include_str!("differences.md");
 
 /// What the manual is made from.
-pub struct Sources<'a> {
+pub(crate) struct Sources<'a> {
     /// The language, all layers installed.
-    pub image: &'a Image,
+    pub(crate) image: &'a Image,
     /// The types of objects.
-    pub objects: &'a ObjectLibrary,
+    pub(crate) objects: &'a ObjectLibrary,
     /// How they are grasped.
-    pub grasps: &'a GraspLibrary,
+    pub(crate) grasps: &'a GraspLibrary,
 }
 
 /// The whole manual.
-pub fn markdown(sources: &Sources<'_>) -> String {
+pub(crate) fn markdown(sources: &Sources<'_>) -> String {
     let mut to = String::new();
     let packages = entries::packages(sources.image);
     to.push_str(INTRODUCTION);

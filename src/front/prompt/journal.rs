@@ -22,29 +22,29 @@ const EXTENSION: &str = "journal";
 
 /// How a session was begun.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
-pub struct Beginning {
+pub(crate) struct Beginning {
     /// Seed of everything random.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// A kitchen in place of the built-in one.
-    pub world: Option<PathBuf>,
+    pub(crate) world: Option<PathBuf>,
     /// A robot in place of the built-in one.
-    pub robot: Option<PathBuf>,
+    pub(crate) robot: Option<PathBuf>,
 }
 
 /// An input of an earlier session.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Recorded {
+pub(crate) struct Recorded {
     /// What was typed.
-    pub text: String,
+    pub(crate) text: String,
     /// Where its evaluation was interrupted.
-    pub interrupted_at: Option<u64>,
+    pub(crate) interrupted_at: Option<u64>,
     /// Did a condition stop its evaluation, rather than end it?
-    pub stops: bool,
+    pub(crate) stops: bool,
 }
 
 /// Why a journal cannot be read.
 #[derive(Debug, Error)]
-pub enum JournalError {
+pub(crate) enum JournalError {
     /// There is none.
     #[error("there is no journal of an earlier session{}", .0.as_ref().map(|d| format!(" in {}", d.display())).unwrap_or_default())]
     None(Option<PathBuf>),
@@ -63,18 +63,18 @@ pub enum JournalError {
 
 /// A journal that was read.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Earlier {
+pub(crate) struct Earlier {
     /// The file.
-    pub path: PathBuf,
+    pub(crate) path: PathBuf,
     /// How the session was begun.
-    pub beginning: Beginning,
+    pub(crate) beginning: Beginning,
     /// What was typed, in order.
-    pub inputs: Vec<Recorded>,
+    pub(crate) inputs: Vec<Recorded>,
 }
 
 impl Earlier {
     /// Reads a journal; the newest one unless a file is named.
-    pub fn read(path: Option<&Path>) -> Result<Earlier, JournalError> {
+    pub(crate) fn read(path: Option<&Path>) -> Result<Earlier, JournalError> {
         let path = match path {
             Some(path) => path.to_owned(),
             None => newest().ok_or_else(|| JournalError::None(directory()))?,
@@ -125,13 +125,13 @@ impl Earlier {
 
 /// A journal that is being written.
 #[derive(Debug)]
-pub struct Journal {
+pub(crate) struct Journal {
     file: File,
 }
 
 impl Journal {
     /// A new journal in the state directory; none where there is no place for it.
-    pub fn begin(beginning: &Beginning) -> Option<Journal> {
+    pub(crate) fn begin(beginning: &Beginning) -> Option<Journal> {
         let directory = directory()?;
         fs::create_dir_all(&directory).ok()?;
         forget_old(&directory);
@@ -141,7 +141,7 @@ impl Journal {
     }
 
     /// A new journal in a file.
-    pub fn create(path: &Path, beginning: &Beginning) -> io::Result<Journal> {
+    pub(crate) fn create(path: &Path, beginning: &Beginning) -> io::Result<Journal> {
         let mut text = format!("{FIRST_LINE}\n");
         text.push_str(&record("seed", &beginning.seed.to_string()));
         for (word, file) in [("world", &beginning.world), ("robot", &beginning.robot)] {
@@ -157,7 +157,7 @@ impl Journal {
     }
 
     /// Goes on with an earlier journal.
-    pub fn go_on(path: &Path) -> io::Result<Journal> {
+    pub(crate) fn go_on(path: &Path) -> io::Result<Journal> {
         let text = fs::read_to_string(path)?;
         let mut journal = Journal {
             file: fs::OpenOptions::new().append(true).open(path)?,
@@ -172,13 +172,13 @@ impl Journal {
     }
 
     /// Notes an input; it is on disk when this returns.
-    pub fn input(&mut self, text: &str, stops: bool) -> io::Result<()> {
+    pub(crate) fn input(&mut self, text: &str, stops: bool) -> io::Result<()> {
         let word = if stops { "input" } else { "pasted" };
         self.write(&record(word, text))
     }
 
     /// Notes where the last input was interrupted.
-    pub fn interrupted(&mut self, at: u64) -> io::Result<()> {
+    pub(crate) fn interrupted(&mut self, at: u64) -> io::Result<()> {
         self.write(&record("interrupted", &at.to_string()))
     }
 

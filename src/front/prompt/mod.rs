@@ -31,11 +31,11 @@ use assist::Shared;
 use editor::LineEditor;
 use pasted::Inputs;
 
-pub use journal::{Beginning, Earlier, Journal, JournalError, Recorded};
+pub(crate) use journal::{Beginning, Earlier, Journal, JournalError, Recorded};
 
 /// Why the prompt cannot be used.
 #[derive(Debug, Error)]
-pub enum ReplError {
+pub(crate) enum ReplError {
     /// Standard output takes no more.
     #[error("cannot write: {0}")]
     Write(#[from] io::Error),
@@ -60,22 +60,25 @@ const SOON: Duration = Duration::from_millis(90);
 
 /// How the prompt begins.
 #[derive(Debug, Default)]
-pub struct ReplOptions {
+pub(crate) struct ReplOptions {
     /// Are there colours?
-    pub is_colored: bool,
+    pub(crate) is_colored: bool,
     /// Where inputs are noted before they are evaluated.
-    pub journal: Option<Journal>,
+    pub(crate) journal: Option<Journal>,
     /// Inputs of an earlier session that are evaluated again first.
-    pub resume: Vec<Recorded>,
+    pub(crate) resume: Vec<Recorded>,
     /// What is told before the first prompt.
-    pub remark: Option<String>,
+    pub(crate) remark: Option<String>,
     /// Inputs that were evaluated before the prompt.
-    pub inputs_before: usize,
+    pub(crate) inputs_before: usize,
 }
 
 /// Reads and evaluates inputs until the user or the program leaves; returns the exit
 /// status.
-pub fn run(evaluator: impl Converse + 'static, options: ReplOptions) -> Result<u8, ReplError> {
+pub(crate) fn run(
+    evaluator: impl Converse + 'static,
+    options: ReplOptions,
+) -> Result<u8, ReplError> {
     let interrupt = evaluator.interrupt_handle();
     let handle = Arc::clone(&interrupt);
     let is_evaluating = Arc::new(AtomicBool::new(false));

@@ -8,7 +8,7 @@ use super::verdict::{Difference, Verdict};
 /// ones. Wildcards that still stand for what they are beside are kept.
 ///
 /// `verdicts` are those of the entries, in order.
-pub fn blessed(transcript: &Transcript, verdicts: &[Verdict]) -> String {
+pub(crate) fn blessed(transcript: &Transcript, verdicts: &[Verdict]) -> String {
     let mut lines: Vec<&str> = Vec::new();
     let mut next = 0;
     for (entry, verdict) in transcript.entries.iter().zip(verdicts) {

@@ -18,7 +18,7 @@ mod pattern;
 mod replay;
 mod verdict;
 
-pub use bless::blessed;
-pub use parse::{Entry, Transcript};
-pub use replay::{replay, replay_all, replay_first};
-pub use verdict::{Difference, Verdict};
+pub(crate) use bless::blessed;
+pub(crate) use parse::{Entry, Transcript};
+pub(crate) use replay::{replay, replay_all, replay_first};
+pub(crate) use verdict::{Difference, Verdict};

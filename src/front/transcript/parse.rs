@@ -8,31 +8,31 @@ use crate::session::dialogue::prompt_line::{PromptLine, prompt_line};
 
 /// A file of inputs with the output that is expected for each.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Transcript {
+pub(crate) struct Transcript {
     /// The name of the file, as it was given.
-    pub name: String,
+    pub(crate) name: String,
     /// All lines of the file.
     pub(crate) lines: Vec<String>,
     /// The inputs, in order.
-    pub entries: Vec<Entry>,
+    pub(crate) entries: Vec<Entry>,
 }
 
 /// An input and the output that is expected for it.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Entry {
+pub(crate) struct Entry {
     /// Line of the prompt, from one.
-    pub line: usize,
+    pub(crate) line: usize,
     /// The text after the prompt, up to and with the line on which it is whole.
-    pub input: String,
+    pub(crate) input: String,
     /// The expected lines, without blanks at their ends and without blank last lines.
-    pub expected: Vec<String>,
+    pub(crate) expected: Vec<String>,
     /// Where in the file's lines (from zero) the expected ones are.
     pub(crate) expected_at: Range<usize>,
 }
 
 impl Transcript {
     /// Reads a transcript; where `name` ends in `.md`, one that is held by Markdown.
-    pub fn parse(name: &str, text: &str) -> Self {
+    pub(crate) fn parse(name: &str, text: &str) -> Self {
         let lines: Vec<String> = text.lines().map(str::to_owned).collect();
         let is_markdown = name.to_ascii_lowercase().ends_with(".md");
         let blocks = if is_markdown {

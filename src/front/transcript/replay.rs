@@ -14,12 +14,12 @@ use crate::session::dialogue::{Evaluate, Outcome, Screen};
 /// Runs the inputs of a transcript one after the other.
 ///
 /// When an input leaves the evaluator, the ones after it put out nothing.
-pub fn replay(transcript: &Transcript, evaluator: &mut impl Evaluate) -> Vec<Verdict> {
+pub(crate) fn replay(transcript: &Transcript, evaluator: &mut impl Evaluate) -> Vec<Verdict> {
     replay_first(transcript, transcript.entries.len(), evaluator)
 }
 
 /// As [`replay`], but only the first `count` inputs.
-pub fn replay_first(
+pub(crate) fn replay_first(
     transcript: &Transcript,
     count: usize,
     evaluator: &mut impl Evaluate,
@@ -63,7 +63,7 @@ const STACK_BYTES: usize = 64 << 20;
 ///
 /// `tell` gets the transcript and the verdicts of its entries in order, or why there is no
 /// evaluator; no further transcript is begun once it returns false.
-pub fn replay_all<V, E>(
+pub(crate) fn replay_all<V, E>(
     transcripts: &[Transcript],
     jobs: NonZeroUsize,
     open: impl Fn() -> Result<V, E> + Sync,

@@ -6,7 +6,7 @@ use super::parse::{Entry, without_blank_end};
 
 /// Whether an entry's output is as expected.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Verdict {
+pub(crate) enum Verdict {
     /// As expected.
     Passed,
     /// Not as expected.
@@ -15,15 +15,15 @@ pub enum Verdict {
 
 /// How an output differs from the expected one.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Difference {
+pub(crate) struct Difference {
     /// Line of the entry's prompt in its file, from one.
-    pub entry_line: usize,
+    pub(crate) entry_line: usize,
     /// Line of the first difference in its file, from one.
-    pub line: usize,
+    pub(crate) line: usize,
     /// The first line of the input.
-    pub input: String,
+    pub(crate) input: String,
     /// What was put out, without blanks at the ends of lines and blank last lines.
-    pub actual: Vec<String>,
+    pub(crate) actual: Vec<String>,
     pub(crate) expected: Vec<String>,
     pub(crate) rows: Vec<Row>,
     /// The line of the first expected line, from one.
@@ -35,7 +35,7 @@ const NO_VALUE: &str = "; No value";
 
 impl Verdict {
     /// Compares the output of an entry with what it expects.
-    pub fn of(entry: &Entry, output: &str) -> Self {
+    pub(crate) fn of(entry: &Entry, output: &str) -> Self {
         let mut actual = without_blank_end(output.lines());
         // That a form has no value may be said or left out.
         if entry.expected.last().map(String::as_str) != Some(NO_VALUE) {
@@ -63,14 +63,14 @@ impl Verdict {
     }
 
     /// The output is as expected.
-    pub fn passed(&self) -> bool {
+    pub(crate) fn passed(&self) -> bool {
         *self == Verdict::Passed
     }
 }
 
 impl Difference {
     /// The difference as a unified diff, whose line numbers are those of the file.
-    pub fn unified(&self) -> Vec<String> {
+    pub(crate) fn unified(&self) -> Vec<String> {
         unified(self)
     }
 }

@@ -22,7 +22,7 @@ use crate::lisp::vm::step::Step;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Makes the package and installs its functions and macros.
-pub fn install(image: &mut Image) {
+pub(crate) fn install(image: &mut Image) {
     let package = match image.packages.find("ALEXANDRIA") {
         Some(package) => package,
         None => match image.packages.make("ALEXANDRIA", &["ALEXANDRIA.1.0.0"]) {
@@ -477,7 +477,7 @@ fn mean(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Functions.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "COMPOSE",
         "function &rest more",

@@ -307,7 +307,7 @@ const fn operator(
 }
 
 /// Macros.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     operator(
         "IF-LET",
         "bindings then &optional else",

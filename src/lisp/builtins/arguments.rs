@@ -10,7 +10,7 @@ use crate::lisp::value::raise::Raise;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "CHECK-ARGUMENTS",
         "list least most context lambda-list",

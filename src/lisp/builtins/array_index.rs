@@ -6,12 +6,12 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// "Invalid index 5 for (SIMPLE-VECTOR 2), should be a non-negative integer below 2."
-pub fn invalid(array: &Value, index: &Value, bound: usize) -> Box<Raise> {
+pub(crate) fn invalid(array: &Value, index: &Value, bound: usize) -> Box<Raise> {
     invalid_on_axis(array, index, None, bound)
 }
 
 /// The same for one of several dimensions.
-pub fn invalid_on_axis(
+pub(crate) fn invalid_on_axis(
     array: &Value,
     index: &Value,
     axis: Option<usize>,

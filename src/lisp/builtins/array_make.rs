@@ -24,21 +24,21 @@ type Outcome = Result<Value, Box<Raise>>;
 const MAX_RANK: usize = 128;
 
 /// Keyword arguments of `make-array` and `adjust-array`.
-pub struct Options {
+pub(crate) struct Options {
     /// The value of all elements.
-    pub element: Option<Value>,
+    pub(crate) element: Option<Value>,
     /// Nested sequences of the elements.
-    pub contents: Option<Value>,
+    pub(crate) contents: Option<Value>,
     /// The type of the elements, as it is stored.
-    pub element_type: Sym,
+    pub(crate) element_type: Sym,
     /// May the array be adjusted?
-    pub adjustable: bool,
+    pub(crate) adjustable: bool,
     fill_pointer: Option<Value>,
 }
 
 impl Options {
     /// From keyword arguments.
-    pub fn parse(image: &Image, args: &[Value]) -> Result<Options, Box<Raise>> {
+    pub(crate) fn parse(image: &Image, args: &[Value]) -> Result<Options, Box<Raise>> {
         let [
             element,
             contents,
@@ -80,7 +80,7 @@ impl Options {
     }
 
     /// The fill pointer of a vector of a size, if it is to have one.
-    pub fn fill_pointer(&self, size: usize) -> Result<Option<usize>, Box<Raise>> {
+    pub(crate) fn fill_pointer(&self, size: usize) -> Result<Option<usize>, Box<Raise>> {
         match &self.fill_pointer {
             None | Some(Value::Symbol(known::NIL)) => Ok(None),
             Some(Value::Symbol(known::T)) => Ok(Some(size)),
@@ -98,7 +98,7 @@ impl Options {
 }
 
 /// The dimensions that an argument says: an integer or a list of integers.
-pub fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
+pub(crate) fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
     let shape: Vec<usize> = if value.is_list() {
         list_items(value)?
             .iter()
@@ -125,7 +125,7 @@ pub fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
 }
 
 /// The elements of nested sequences in row-major order; the shape must fit.
-pub fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Raise>> {
+pub(crate) fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Raise>> {
     let mut level = vec![contents.clone()];
     for size in shape {
         let mut next = Vec::new();
@@ -145,7 +145,7 @@ pub fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, Box<Rais
 }
 
 /// What elements hold that nothing was said about.
-pub fn filler(element_type: Sym) -> Value {
+pub(crate) fn filler(element_type: Sym) -> Value {
     match element_type {
         known::CHARACTER => default_element(Kind::Str),
         other => default_element(Kind::Vector(other)),
@@ -153,7 +153,7 @@ pub fn filler(element_type: Sym) -> Value {
 }
 
 /// A vector or string of items.
-pub fn vector(
+pub(crate) fn vector(
     element_type: Sym,
     items: Vec<Value>,
     fill_pointer: Option<usize>,
@@ -211,12 +211,12 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// A vector of the kind that fits an element type, for callers in Rust.
-pub fn vector_of(image: &Image, element_type: &Value, items: Vec<Value>) -> Outcome {
+pub(crate) fn vector_of(image: &Image, element_type: &Value, items: Vec<Value>) -> Outcome {
     vector_kind(image, element_type).make(items)
 }
 
 /// Making arrays.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "MAKE-ARRAY",
     "dimensions &key element-type initial-element initial-contents adjustable fill-pointer",
     "An array; the dimensions are a list of sizes, or one size for a vector.",

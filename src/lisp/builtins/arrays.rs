@@ -16,7 +16,7 @@ use crate::lisp::value::symbol::Sym;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Sizes of an array's dimensions; a fill pointer does not count.
-pub fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
+pub(crate) fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
     match array {
         Value::Vector(v) => Ok(vec![v.items.borrow().len()]),
         Value::Str(s) => Ok(vec![s.capacity()]),
@@ -26,7 +26,7 @@ pub fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
 }
 
 /// The element type that an array has.
-pub fn element_type(array: &Value) -> Result<Sym, Box<Raise>> {
+pub(crate) fn element_type(array: &Value) -> Result<Sym, Box<Raise>> {
     match array {
         Value::Vector(v) => Ok(v.element_type),
         Value::Str(_) => Ok(known::CHARACTER),
@@ -152,7 +152,7 @@ fn set_bit(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// `(array bit)`.
-pub fn bit_array_type() -> Value {
+pub(crate) fn bit_array_type() -> Value {
     Value::list([known::ARRAY.into(), known::BIT.into()])
 }
 
@@ -342,7 +342,7 @@ fn kept_items(array: &Value, old: &[usize], new: &[usize], filler: Value) -> Vec
 }
 
 /// Arrays.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "AREF",
         "array &rest subscripts",
@@ -486,7 +486,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     pure(
         "AREF",
         "value array &rest subscripts",

@@ -85,7 +85,7 @@ macro_rules! operations {
             combine(args, |$a, $b| $result)
         })*
         /// Logical operations on bit arrays.
-        pub static TABLE: &[Builtin] = &[
+        pub(crate) static TABLE: &[Builtin] = &[
             pure("BIT-NOT", "bits &optional result", "The inverse of all bits.", &["(bit-not #*1100) => #*0011"], bit_not),
             $(pure($name, "bits-1 bits-2 &optional result", $doc, &[$example], $function),)*
         ];

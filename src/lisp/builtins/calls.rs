@@ -24,7 +24,7 @@ use crate::lisp::vm::step::{Resume, Step};
 const DIRECT_CALLS: u32 = 1000;
 
 /// Arguments of a call.
-pub enum Args {
+pub(crate) enum Args {
     /// One argument.
     One([Value; 1]),
     /// Two arguments.
@@ -63,21 +63,21 @@ struct Exchange {
 }
 
 /// What an asynchronous builtin calls functions with.
-pub struct Calls(Rc<Exchange>);
+pub(crate) struct Calls(Rc<Exchange>);
 
 impl Calls {
     /// Calls a function with one argument; the primary value.
-    pub fn call1(&self, function: &Value, a: Value) -> Call<'_> {
+    pub(crate) fn call1(&self, function: &Value, a: Value) -> Call<'_> {
         self.call(function, Args::One([a]))
     }
 
     /// Calls a function with two arguments; the primary value.
-    pub fn call2(&self, function: &Value, a: Value, b: Value) -> Call<'_> {
+    pub(crate) fn call2(&self, function: &Value, a: Value, b: Value) -> Call<'_> {
         self.call(function, Args::Two([a, b]))
     }
 
     /// Calls a function; the primary value.
-    pub fn call(&self, function: &Value, args: Args) -> Call<'_> {
+    pub(crate) fn call(&self, function: &Value, args: Args) -> Call<'_> {
         let function = function.clone();
         Call {
             exchange: &self.0,
@@ -87,7 +87,7 @@ impl Calls {
 }
 
 /// A call under way.
-pub struct Call<'a> {
+pub(crate) struct Call<'a> {
     exchange: &'a Exchange,
     request: Option<Request>,
 }
@@ -110,7 +110,7 @@ impl Future for Call<'_> {
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Runs an asynchronous builtin until it returns or needs the machine for a call.
-pub fn run<F>(
+pub(crate) fn run<F>(
     machine: &mut Machine<'_>,
     name: &'static str,
     body: impl FnOnce(Calls) -> F,
@@ -194,7 +194,7 @@ fn call_directly(image: &mut Image, function: &Value, args: &[Value]) -> Option<
 }
 
 /// The function that a function designator means, if it means one.
-pub fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option<&'a Rc<Function>> {
+pub(crate) fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option<&'a Rc<Function>> {
     match designator {
         Value::Function(function) => Some(function),
         Value::Symbol(sym) => image.function(*sym),
@@ -204,7 +204,7 @@ pub fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option<&'a Rc
 
 /// Checks that a value designates a function, and replaces a symbol by the function that
 /// it names.
-pub fn callable(image: &Image, designator: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn callable(image: &Image, designator: &Value) -> Result<Value, Box<Raise>> {
     match designator {
         Value::Function(_) => Ok(designator.clone()),
         Value::Symbol(sym) => match &image.symbol(*sym).function {
@@ -223,7 +223,7 @@ pub fn callable(image: &Image, designator: &Value) -> Result<Value, Box<Raise>> 
 }
 
 /// The builtin that a function value is, by name.
-pub fn builtin_name(function: &Value) -> Option<crate::lisp::Sym> {
+pub(crate) fn builtin_name(function: &Value) -> Option<crate::lisp::Sym> {
     match function {
         Value::Function(f) => match &f.body {
             Body::Native(native) => Some(native.name),

@@ -83,7 +83,7 @@ fn letter_name(c: char) -> Option<String> {
 }
 
 /// The upper-case form, where that is one character.
-pub fn upcase(c: char) -> char {
+pub(crate) fn upcase(c: char) -> char {
     let mut upper = c.to_uppercase();
     match (upper.next(), upper.next()) {
         // A letter has an upper case only if it comes back as itself.
@@ -93,7 +93,7 @@ pub fn upcase(c: char) -> char {
 }
 
 /// The lower-case form, where that is one character.
-pub fn downcase(c: char) -> char {
+pub(crate) fn downcase(c: char) -> char {
     match single_lower(c) {
         Some(l) if l.to_uppercase().eq([c]) => l,
         _ => c,
@@ -109,7 +109,7 @@ fn single_lower(c: char) -> Option<char> {
 }
 
 /// The weight of a character as a digit.
-pub fn digit_weight(c: char, radix: u32) -> Option<u32> {
+pub(crate) fn digit_weight(c: char, radix: u32) -> Option<u32> {
     c.to_digit(radix)
 }
 
@@ -199,7 +199,7 @@ fn both_case_p(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Is a character one that prints as itself?
-pub fn is_graphic(c: char) -> bool {
+pub(crate) fn is_graphic(c: char) -> bool {
     !c.is_control()
 }
 
@@ -254,7 +254,7 @@ macro_rules! comparisons {
             compare(args, $fold, $all_pairs, |a, b| a $op b)
         })*
         /// Comparison of characters.
-        pub static COMPARISONS: &[Builtin] = &[
+        pub(crate) static COMPARISONS: &[Builtin] = &[
             $(pure($name, "character &rest more", $doc, &[$example], $function),)*
         ];
     };
@@ -276,7 +276,7 @@ comparisons! {
 }
 
 /// Characters.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "CHARACTERP",
         "object",

@@ -12,7 +12,7 @@ use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "MAKE-CONDITION",
         "type &rest initargs",

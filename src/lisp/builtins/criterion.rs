@@ -10,11 +10,11 @@ use crate::lisp::value::raise::Raise;
 
 /// A function that is applied to elements before they are looked at; none is the identity.
 #[derive(Clone)]
-pub struct Key(Option<Value>);
+pub(crate) struct Key(Option<Value>);
 
 impl Key {
     /// From the value of a `:key` argument.
-    pub fn new(image: &Image, key: Option<Value>) -> Result<Key, Box<Raise>> {
+    pub(crate) fn new(image: &Image, key: Option<Value>) -> Result<Key, Box<Raise>> {
         let Some(key) = key.filter(Value::is_true) else {
             return Ok(Key(None));
         };
@@ -24,12 +24,12 @@ impl Key {
     }
 
     /// Is this the identity?
-    pub fn is_identity(&self) -> bool {
+    pub(crate) fn is_identity(&self) -> bool {
         self.0.is_none()
     }
 
     /// What is looked at for an element.
-    pub async fn of(&self, calls: &Calls, element: Value) -> Value {
+    pub(crate) async fn of(&self, calls: &Calls, element: Value) -> Value {
         match &self.0 {
             None => element,
             Some(key) => calls.call1(key, element).await,
@@ -39,7 +39,7 @@ impl Key {
 
 /// How two values are compared.
 #[derive(Clone)]
-pub enum Test {
+pub(crate) enum Test {
     /// By identity.
     Eq,
     /// By `eql`.
@@ -56,7 +56,7 @@ pub enum Test {
 
 impl Test {
     /// From the values of `:test` and `:test-not` arguments.
-    pub fn new(
+    pub(crate) fn new(
         image: &Image,
         test: Option<Value>,
         test_not: Option<Value>,
@@ -79,7 +79,7 @@ impl Test {
     }
 
     /// The comparison, where it needs no call.
-    pub fn direct(&self) -> Option<fn(&Value, &Value) -> bool> {
+    pub(crate) fn direct(&self) -> Option<fn(&Value, &Value) -> bool> {
         match self {
             Test::Eq => Some(Value::is_eq),
             Test::Eql => Some(Value::is_eql),
@@ -90,7 +90,7 @@ impl Test {
     }
 
     /// Do two values match? The function gets them in this order.
-    pub async fn matches(&self, calls: &Calls, a: &Value, b: &Value) -> bool {
+    pub(crate) async fn matches(&self, calls: &Calls, a: &Value, b: &Value) -> bool {
         match self {
             Test::Eq => a.is_eq(b),
             Test::Eql => a.is_eql(b),
@@ -103,7 +103,7 @@ impl Test {
 }
 
 /// A condition on elements.
-pub struct Criterion {
+pub(crate) struct Criterion {
     kind: Kind,
     key: Key,
 }
@@ -115,7 +115,7 @@ enum Kind {
 
 impl Criterion {
     /// Elements that match an item.
-    pub fn item(item: Value, test: Test, key: Key) -> Criterion {
+    pub(crate) fn item(item: Value, test: Test, key: Key) -> Criterion {
         Criterion {
             kind: Kind::Item { item, test },
             key,
@@ -123,7 +123,7 @@ impl Criterion {
     }
 
     /// Elements for which a predicate returns true, or false if `expected` is false.
-    pub fn predicate(
+    pub(crate) fn predicate(
         image: &Image,
         predicate: &Value,
         expected: bool,
@@ -139,7 +139,7 @@ impl Criterion {
     }
 
     /// Does an element satisfy the condition?
-    pub async fn accepts(&self, calls: &Calls, element: &Value) -> bool {
+    pub(crate) async fn accepts(&self, calls: &Calls, element: &Value) -> bool {
         let looked_at = self.key.of(calls, element.clone()).await;
         match &self.kind {
             Kind::Item { item, test } => test.matches(calls, item, &looked_at).await,

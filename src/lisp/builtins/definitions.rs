@@ -13,7 +13,7 @@ use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "DEFINE-FUNCTION",
         "name function",
@@ -87,7 +87,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "PROCLAIM",
     "specifier",
     "A global declaration.",

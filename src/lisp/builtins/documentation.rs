@@ -12,7 +12,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "DOCUMENTATION",
     "object doc-type",
     "The documentation of an object: of a name as FUNCTION, VARIABLE, TYPE or STRUCTURE, or of a function, class or method.",
@@ -24,7 +24,7 @@ pub static TABLE: &[Builtin] = &[pure(
 )];
 
 /// What `setf` of the functions here calls: the new value comes first.
-pub static SETTERS: &[Builtin] = &[pure(
+pub(crate) static SETTERS: &[Builtin] = &[pure(
     "DOCUMENTATION",
     "text object doc-type",
     "Gives a name a documentation.",

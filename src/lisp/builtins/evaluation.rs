@@ -16,7 +16,7 @@ use crate::lisp::vm::step::{Resume, Step};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "EVAL",
         "form",
@@ -191,7 +191,7 @@ fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
 }
 
 /// Evaluates a form at top level.
-pub fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
+pub(crate) fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
     let (form, _) = compile::macroexpand(machine.image, form)?;
     if let Value::Cons(cons) = &form {
         match cons.car().as_symbol() {

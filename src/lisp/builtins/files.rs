@@ -168,7 +168,7 @@ fn rename_file(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Files.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "OPEN",
         "path &key direction if-exists if-does-not-exist element-type external-format",

@@ -124,7 +124,7 @@ fn vector_pop(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Vectors with fill pointers.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "ARRAY-HAS-FILL-POINTER-P",
         "array",
@@ -163,7 +163,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[pure(
+pub(crate) static SETTERS: &[Builtin] = &[pure(
     "FILL-POINTER",
     "value vector",
     "Sets the number of active elements.",

@@ -12,7 +12,7 @@ use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[control(
+pub(crate) static TABLE: &[Builtin] = &[control(
     "FORMAT",
     "destination control &rest arguments",
     "Writes the arguments as the control string says: to a string that it returns (NIL), to standard output (T), to a stream, or to the end of a string with a fill pointer.",
@@ -25,7 +25,7 @@ pub static TABLE: &[Builtin] = &[control(
 )];
 
 /// Macros of package `COMMON-LISP`.
-pub static OPERATORS: &[Operator] = &[Operator {
+pub(crate) static OPERATORS: &[Operator] = &[Operator {
     name: "FORMATTER",
     lambda_list: "control",
     doc: "A function that writes its arguments to a stream as the control string says.",

@@ -6,27 +6,27 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 
 /// The symbol of a name in `COMMON-LISP`.
-pub fn cl(image: &mut Image, name: &str) -> Value {
+pub(crate) fn cl(image: &mut Image, name: &str) -> Value {
     image.intern(PackageTable::CL, name).into()
 }
 
 /// The symbol of a name in `SYSTEM`.
-pub fn system(image: &mut Image, name: &str) -> Value {
+pub(crate) fn system(image: &mut Image, name: &str) -> Value {
     image.intern(PackageTable::SYSTEM, name).into()
 }
 
 /// `(quote value)`.
-pub fn quoted(value: Value) -> Value {
+pub(crate) fn quoted(value: Value) -> Value {
     Value::list([known::QUOTE.into(), value])
 }
 
 /// `(function name)`.
-pub fn function(name: impl Into<Value>) -> Value {
+pub(crate) fn function(name: impl Into<Value>) -> Value {
     Value::list([known::FUNCTION.into(), name.into()])
 }
 
 /// `(let bindings declarations… body…)`.
-pub fn let_form(
+pub(crate) fn let_form(
     bindings: Vec<Value>,
     declarations: Vec<Value>,
     body: impl IntoIterator<Item = Value>,
@@ -39,12 +39,12 @@ pub fn let_form(
 }
 
 /// `(variable value)`.
-pub fn binding(variable: &Value, value: Value) -> Value {
+pub(crate) fn binding(variable: &Value, value: Value) -> Value {
     Value::list([variable.clone(), value])
 }
 
 /// Splits the declarations off a body.
-pub fn split_declarations(body: Vec<Value>) -> (Vec<Value>, Vec<Value>) {
+pub(crate) fn split_declarations(body: Vec<Value>) -> (Vec<Value>, Vec<Value>) {
     let is_declaration = |form: &Value| {
         form.as_cons()
             .is_some_and(|c| c.car().as_symbol() == Some(known::DECLARE))
@@ -56,6 +56,6 @@ pub fn split_declarations(body: Vec<Value>) -> (Vec<Value>, Vec<Value>) {
 }
 
 /// `(progn forms…)`.
-pub fn progn(forms: Vec<Value>) -> Value {
+pub(crate) fn progn(forms: Vec<Value>) -> Value {
     Value::cons(known::PROGN.into(), Value::list(forms))
 }

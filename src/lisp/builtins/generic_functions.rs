@@ -20,7 +20,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "NO-APPLICABLE-METHOD",
         "generic-function &rest arguments",
@@ -105,7 +105,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of the package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%ADD-METHOD",
         "name qualifiers specializers lambda-list takes-next documentation function",
@@ -144,7 +144,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "DEFGENERIC",
         lambda_list: "name lambda-list &rest options",

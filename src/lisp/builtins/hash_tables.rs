@@ -19,7 +19,7 @@ use crate::lisp::vm::step::Step;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The hash table that a value is.
-pub fn table(value: &Value) -> Result<&Rc<HashTable>, Box<Raise>> {
+pub(crate) fn table(value: &Value) -> Result<&Rc<HashTable>, Box<Raise>> {
     match value {
         Value::Hash(table) => Ok(table),
         _ => Err(Raise::type_error(value, known::HASH_TABLE)),
@@ -228,7 +228,12 @@ fn with_iterator(image: &mut Image, form: &Value) -> Outcome {
 }
 
 /// Binds the state of an iterator, and a local macro that takes its next entry.
-pub fn iterator_form(image: &mut Image, name: &Value, start: Value, body: Vec<Value>) -> Value {
+pub(crate) fn iterator_form(
+    image: &mut Image,
+    name: &Value,
+    start: Value,
+    body: Vec<Value>,
+) -> Value {
     let state: Value = image.gensym("ITERATOR").into();
     let next = Value::list([known::ITERATOR_NEXT.into(), state.clone()]);
     let macro_body = Value::list([known::QUOTE.into(), next]);
@@ -244,7 +249,7 @@ pub fn iterator_form(image: &mut Image, name: &Value, start: Value, body: Vec<Va
 }
 
 /// Hash tables.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "MAKE-HASH-TABLE",
         "&key test size rehash-size rehash-threshold",
@@ -334,7 +339,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// What the expansions of macros call; in `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%HASH-ITERATOR",
         "table",
@@ -373,7 +378,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// The same under the names of `ALEXANDRIA`.
-pub static ALEXANDRIA_TABLE: &[Builtin] = &[
+pub(crate) static ALEXANDRIA_TABLE: &[Builtin] = &[
     pure(
         "HASH-TABLE-KEYS",
         "table",
@@ -398,7 +403,7 @@ pub static ALEXANDRIA_TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[pure(
+pub(crate) static SETTERS: &[Builtin] = &[pure(
     "GETHASH",
     "value key table &optional default",
     "Sets the value of a key.",
@@ -407,7 +412,7 @@ pub static SETTERS: &[Builtin] = &[pure(
 )];
 
 /// Macros over hash tables.
-pub static OPERATORS: &[Operator] = &[Operator {
+pub(crate) static OPERATORS: &[Operator] = &[Operator {
     name: "WITH-HASH-TABLE-ITERATOR",
     lambda_list: "(name table) &body body",
     doc: "Evaluates the body; in it `(name)` returns `T` and key and value of the next entry, or `NIL`.",

@@ -20,7 +20,7 @@ use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "DESCRIBE",
         "object &optional stream",
@@ -94,13 +94,13 @@ pub(crate) fn of_symbol(image: &Image, sym: Sym) -> String {
 /// What is known about a symbol's function or operator.
 pub(crate) struct Signature {
     /// What it is.
-    pub kind: &'static str,
+    pub(crate) kind: &'static str,
     /// The lambda list, without its parentheses, in lower case.
-    pub lambda_list: String,
+    pub(crate) lambda_list: String,
     /// The documentation.
-    pub doc: Option<String>,
+    pub(crate) doc: Option<String>,
     /// Examples of calls.
-    pub examples: &'static [&'static str],
+    pub(crate) examples: &'static [&'static str],
 }
 
 impl Signature {

@@ -8,7 +8,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::VariableKind;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "CONSTANTP",
         "form &optional environment",

@@ -8,7 +8,7 @@ use crate::lisp::value::symbol::Sym;
 
 /// The values of the keyword arguments `names` in `args`, which holds nothing but keyword
 /// arguments; the first of several counts.
-pub fn parse<const N: usize>(
+pub(crate) fn parse<const N: usize>(
     image: &Image,
     args: &[Value],
     names: [Sym; N],
@@ -50,6 +50,6 @@ pub fn parse<const N: usize>(
 
 /// The optional arguments of a builtin by position: the value, none if it is not given or
 /// `NIL`.
-pub fn optional(args: &[Value], index: usize) -> Option<&Value> {
+pub(crate) fn optional(args: &[Value], index: usize) -> Option<&Value> {
     args.get(index).filter(|value| value.is_true())
 }

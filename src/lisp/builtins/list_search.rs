@@ -152,7 +152,7 @@ fn pairlis(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Searching in lists.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "MEMBER",
         "item list &key key test test-not",

@@ -237,7 +237,7 @@ fn subsetp(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rais
 const LAMBDA_LIST: &str = "list-1 list-2 &key key test test-not";
 
 /// Lists as sets. The names that begin with `n` may reuse their arguments but do not.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "ADJOIN",
         "item list &key key test test-not",

@@ -21,11 +21,11 @@ const MOST_PAIRS: usize = 10_000_000;
 
 /// Counts the pairs of a tree that is walked.
 #[derive(Default)]
-pub struct PairCount(usize);
+pub(crate) struct PairCount(usize);
 
 impl PairCount {
     /// One more pair; an error if there are so many that the tree must be circular.
-    pub fn add_one(&mut self) -> Result<(), Box<Raise>> {
+    pub(crate) fn add_one(&mut self) -> Result<(), Box<Raise>> {
         self.0 += 1;
         if self.0 <= MOST_PAIRS {
             return Ok(());
@@ -249,7 +249,7 @@ fn tree_equal(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<R
 }
 
 /// Trees of pairs.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "SUBST",
         "new old tree &key key test test-not",

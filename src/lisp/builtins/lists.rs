@@ -16,7 +16,7 @@ type Outcome = Result<Value, Box<Raise>>;
 
 /// The longest list that `make-list` makes, and the largest array: more does not fit in
 /// memory.
-pub const MAX_LENGTH: usize = 1 << 25;
+pub(crate) const MAX_LENGTH: usize = 1 << 25;
 
 fn list(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(args.iter().cloned()))
@@ -36,7 +36,7 @@ fn make_list(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// A number of elements that fits in memory.
-pub fn size(value: &Value) -> Result<usize, Box<Raise>> {
+pub(crate) fn size(value: &Value) -> Result<usize, Box<Raise>> {
     let size = sequence::index(value)?;
     if size > MAX_LENGTH {
         return Err(Raise::new(
@@ -66,7 +66,7 @@ fn nconc(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Joins lists by changing the last pair of each; the last one may be anything.
-pub fn nconc_all(lists: &[Value]) -> Outcome {
+pub(crate) fn nconc_all(lists: &[Value]) -> Outcome {
     let mut result = Value::NIL;
     let mut last: Option<Rc<Cons>> = None;
     for (i, list) in lists.iter().enumerate() {
@@ -89,7 +89,7 @@ pub fn nconc_all(lists: &[Value]) -> Outcome {
 }
 
 /// The last pair of a list that may be dotted.
-pub fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
+pub(crate) fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
     let mut rounds = Rounds::default();
     let mut rest = list.clone();
     let mut last = None;
@@ -117,7 +117,7 @@ fn nreconc(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Turns the links of a proper list round, in front of `tail`.
-pub fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
+pub(crate) fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
     let mut conses = sequence::conses(list)?;
     conses.reverse();
     Ok(sequence::relink(&conses, tail))
@@ -243,7 +243,7 @@ fn is_null(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Making, copying and joining lists.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "LIST",
         "&rest elements",

@@ -14,7 +14,7 @@ use crate::lisp::vm::step::{Resume, Step};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[control(
+pub(crate) static TABLE: &[Builtin] = &[control(
     "LOAD",
     "file &key verbose print if-does-not-exist external-format",
     "Evaluates all forms of a file; T. A file that another file loads is looked for beside that one first.",
@@ -23,13 +23,13 @@ pub static TABLE: &[Builtin] = &[control(
 )];
 
 /// A file of which some forms have been evaluated.
-pub struct Loading {
+pub(crate) struct Loading {
     reader: Reader,
 }
 
 impl Loading {
     /// The step that evaluates all forms of a text, which places call by a name.
-    pub fn start(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
+    pub(crate) fn start(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
         let source = machine.image.sources.add(name, text);
         let reader = Reader::new(machine.image, source);
         // The file may choose its package; the caller's is in force again afterwards.

@@ -11,7 +11,7 @@ use crate::lisp::value::raise::Raise;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "+",
         "&rest numbers",
@@ -400,7 +400,7 @@ fn divide_to_float(args: &[Value], rounding: Rounding) -> Outcome {
 }
 
 /// Constants of numbers, and the variable `*random-state*`.
-pub fn define_constants(image: &mut Image) {
+pub(crate) fn define_constants(image: &mut Image) {
     use crate::lisp::value::package::PackageTable;
     let constants: &[(&str, Value)] = &[
         (

@@ -10,7 +10,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "PRINT-OBJECT",
     "object stream",
     "Prints an object. Add methods to print instances of your classes in a form of your own.",
@@ -21,7 +21,7 @@ pub static TABLE: &[Builtin] = &[pure(
 )];
 
 /// Builtins of the package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[pure(
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[pure(
     "%IDENTITY-TEXT",
     "object",
     "The text that tells an unreadable object from others.",
@@ -30,7 +30,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[pure(
 )];
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[Operator {
+pub(crate) static OPERATORS: &[Operator] = &[Operator {
     name: "PRINT-UNREADABLE-OBJECT",
     lambda_list: "(object stream &key type identity) &body body",
     doc: "Writes #<…> around what the body writes, with the type and the identity of the object if asked for.",

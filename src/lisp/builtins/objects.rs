@@ -15,7 +15,7 @@ use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "MAKE-INSTANCE",
         "class &rest initargs",
@@ -162,7 +162,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of the package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     control(
         "SET-SLOT-VALUE",
         "value object slot-name",
@@ -187,7 +187,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "DEFCLASS",
         lambda_list: "name (&rest superclasses) (&rest slots) &rest options",
@@ -225,7 +225,7 @@ pub static OPERATORS: &[Operator] = &[
 ];
 
 /// What `setf` of the functions here calls: the new value comes first.
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     control(
         "SLOT-VALUE",
         "value object slot-name",

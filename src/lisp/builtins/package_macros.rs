@@ -310,7 +310,7 @@ fn package_iterator(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What the expansions call; in `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%DEFINE-PACKAGE",
         "name options",
@@ -344,7 +344,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Macros over packages.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "DEFPACKAGE",
         lambda_list: "name &rest options",

@@ -18,12 +18,12 @@ use crate::lisp::value::symbol::Sym;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// A package error with a text.
-pub fn package_error(report: impl Into<String>, package: &Value) -> Box<Raise> {
+pub(crate) fn package_error(report: impl Into<String>, package: &Value) -> Box<Raise> {
     Raise::new(known::SIMPLE_PACKAGE_ERROR, report).with(known::K_PACKAGE, package.clone())
 }
 
 /// The package that a designator means, if there is one.
-pub fn find(image: &Image, designator: &Value) -> Result<Option<PackageId>, Box<Raise>> {
+pub(crate) fn find(image: &Image, designator: &Value) -> Result<Option<PackageId>, Box<Raise>> {
     match designator {
         Value::Package(id) => Ok(Some(*id)),
         other => Ok(image
@@ -33,7 +33,7 @@ pub fn find(image: &Image, designator: &Value) -> Result<Option<PackageId>, Box<
 }
 
 /// The package that a designator means.
-pub fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Raise>> {
+pub(crate) fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Raise>> {
     match find(image, designator)? {
         Some(id) if !image.packages.is_deleted(id) => Ok(id),
         _ => {
@@ -50,7 +50,10 @@ pub fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Ra
 }
 
 /// The package that an optional argument means, by default the current one.
-pub fn or_current(image: &Image, designator: Option<&Value>) -> Result<PackageId, Box<Raise>> {
+pub(crate) fn or_current(
+    image: &Image,
+    designator: Option<&Value>,
+) -> Result<PackageId, Box<Raise>> {
     match designator {
         None | Some(Value::Symbol(known::NIL)) => Ok(image.current_package()),
         Some(designator) => designated(image, designator),
@@ -58,7 +61,7 @@ pub fn or_current(image: &Image, designator: Option<&Value>) -> Result<PackageId
 }
 
 /// `:EXTERNAL`, `:INTERNAL`, `:INHERITED` or `NIL`.
-pub fn status(access: Option<Access>) -> Value {
+pub(crate) fn status(access: Option<Access>) -> Value {
     match access {
         Some(Access::External) => known::K_EXTERNAL.into(),
         Some(Access::Internal) => known::K_INTERNAL.into(),
@@ -68,7 +71,7 @@ pub fn status(access: Option<Access>) -> Value {
 }
 
 /// The items of a list, or the one item that is not a list.
-pub fn one_or_more(value: &Value) -> Result<Vec<Value>, Box<Raise>> {
+pub(crate) fn one_or_more(value: &Value) -> Result<Vec<Value>, Box<Raise>> {
     if value.is_list() {
         list_items(value)
     } else {
@@ -78,7 +81,7 @@ pub fn one_or_more(value: &Value) -> Result<Vec<Value>, Box<Raise>> {
 
 /// The symbols accessible in a package, those present first, then the inherited ones, by
 /// name.
-pub fn accessible(image: &Image, package: PackageId) -> Vec<Sym> {
+pub(crate) fn accessible(image: &Image, package: PackageId) -> Vec<Sym> {
     let this = image.packages.get(package);
     let mut found: Vec<Sym> = this.symbols.values().map(|(sym, _)| *sym).collect();
     let mut inherited: BTreeMap<&str, Sym> = BTreeMap::new();
@@ -174,7 +177,11 @@ fn names(image: &Image, list: Option<&Value>) -> Result<Vec<String>, Box<Raise>>
 }
 
 /// Makes a package.
-pub fn make(image: &mut Image, name: &str, nicknames: &[String]) -> Result<PackageId, Box<Raise>> {
+pub(crate) fn make(
+    image: &mut Image,
+    name: &str,
+    nicknames: &[String],
+) -> Result<PackageId, Box<Raise>> {
     let short: Vec<&str> = nicknames.iter().map(String::as_str).collect();
     image.packages.make(name, &short).ok_or_else(|| {
         let taken = std::iter::once(name)
@@ -258,7 +265,11 @@ fn delete_package(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Lets a package use another, unless two different symbols would get the same name.
-pub fn use_one(image: &mut Image, package: PackageId, used: PackageId) -> Result<(), Box<Raise>> {
+pub(crate) fn use_one(
+    image: &mut Image,
+    package: PackageId,
+    used: PackageId,
+) -> Result<(), Box<Raise>> {
     let shadowing = &image.packages.get(package).shadowing;
     let conflict = image
         .packages
@@ -308,7 +319,11 @@ fn unuse_package(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Makes a symbol present in a package, unless the package has another of its name.
-pub fn import_one(image: &mut Image, package: PackageId, sym: Sym) -> Result<(), Box<Raise>> {
+pub(crate) fn import_one(
+    image: &mut Image,
+    package: PackageId,
+    sym: Sym,
+) -> Result<(), Box<Raise>> {
     let found = image.packages.find_symbol(package, image.name(sym));
     if let Some((other, _)) = found
         && other != sym
@@ -377,7 +392,7 @@ fn unexport(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Makes a name refer to a symbol of the package itself, whatever it would inherit.
-pub fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
+pub(crate) fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
     let present = image
         .packages
         .get(package)
@@ -411,7 +426,7 @@ fn shadow(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Packages.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "PACKAGEP",
         "object",

@@ -194,7 +194,7 @@ fn endp(_: &mut Image, args: &[Value]) -> Outcome {
 
 /// Access to pairs and list elements.
 #[rustfmt::skip]
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure("CAR", "list", "The car of a list.", &["(car '(x)) => X"], cxr::<0b10>),
     pure("CDR", "list", "The cdr of a list.", &["(cdr '(1 . x)) => X"], cxr::<0b11>),
     pure("CAAR", "list", "The car of the car of a list.", &["(caar '((x))) => X"], cxr::<0b100>),
@@ -249,7 +249,7 @@ pub static TABLE: &[Builtin] = &[
 
 /// The same places for `setf`; the new value is the first argument.
 #[rustfmt::skip]
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     pure("CAR", "value list", "Replaces the car of a list.", &[], set_cxr::<0b10>),
     pure("CDR", "value list", "Replaces the cdr of a list.", &[], set_cxr::<0b11>),
     pure("CAAR", "value list", "Replaces the car of the car of a list.", &[], set_cxr::<0b100>),

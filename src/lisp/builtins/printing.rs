@@ -18,7 +18,7 @@ use crate::lisp::vm::step::{Resume, Step};
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "PRINT",
         "object &optional stream",
@@ -129,7 +129,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[control(
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
     "WRITE-UNREADABLE",
     "object stream type identity body",
     "Writes #<…> with the object's type, what the body writes, and a made-up address.",
@@ -138,7 +138,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[control(
 )];
 
 /// Macros of package `COMMON-LISP`.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "PRINT-UNREADABLE-OBJECT",
         lambda_list: "(object stream &key type identity) &body body",

@@ -108,7 +108,7 @@ fn get_properties(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// The symbol that a value is.
-pub fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
+pub(crate) fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
     value
         .as_symbol()
         .ok_or_else(|| Raise::type_error(value, known::SYMBOL))
@@ -144,7 +144,7 @@ fn set_symbol_plist(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Property lists.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "GETF",
         "plist indicator &optional default",
@@ -186,7 +186,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// What `setf` and `remf` of `getf` are made of; in `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "PUTF",
         "plist indicator value",
@@ -204,7 +204,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     pure(
         "GET",
         "value symbol indicator &optional default",

@@ -19,7 +19,7 @@ use crate::lisp::vm::step::{Resume, Step};
 type Outcome = Result<Value, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "READ",
         "&optional stream eof-error-p eof-value recursive-p",
@@ -115,7 +115,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Gives `*readtable*` its value.
-pub fn define_variables(image: &mut Image) {
+pub(crate) fn define_variables(image: &mut Image) {
     image.define_special(known::V_READTABLE, Value::foreign(Readtable::default()));
 }
 

@@ -8,7 +8,7 @@ use crate::lisp::loop_macro;
 use crate::lisp::value::package::PackageTable;
 
 /// Functions of package `COMMON-LISP`.
-pub static FUNCTIONS: &[&[Builtin]] = &[
+pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
     characters::COMPARISONS,
     characters::TABLE,
     conditions::TABLE,
@@ -58,7 +58,7 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
 ];
 
 /// Functions of package `SYSTEM`: what macros expand into.
-pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
+pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
     generic_functions::SYSTEM_TABLE,
@@ -76,7 +76,7 @@ pub static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.
-pub static SETTERS: &[&[Builtin]] = &[
+pub(crate) static SETTERS: &[&[Builtin]] = &[
     pairs::SETTERS,
     property_lists::SETTERS,
     sequence_access::SETTERS,
@@ -90,7 +90,7 @@ pub static SETTERS: &[&[Builtin]] = &[
 ];
 
 /// Special operators and macros of package `COMMON-LISP`.
-pub static OPERATORS: &[&[Operator]] = &[
+pub(crate) static OPERATORS: &[&[Operator]] = &[
     compile::SPECIAL_FORMS,
     compile::OPERATORS,
     types::OPERATORS,
@@ -107,10 +107,11 @@ pub static OPERATORS: &[&[Operator]] = &[
 ];
 
 /// Special operators and macros of package `SYSTEM`.
-pub static SYSTEM_OPERATORS: &[&[Operator]] = &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];
+pub(crate) static SYSTEM_OPERATORS: &[&[Operator]] =
+    &[compile::SYSTEM_FORMS, compile::SYSTEM_OPERATORS];
 
 /// Installs everything in an image.
-pub fn install(image: &mut Image) {
+pub(crate) fn install(image: &mut Image) {
     for table in FUNCTIONS {
         image.install(PackageTable::CL, table);
     }

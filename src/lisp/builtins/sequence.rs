@@ -12,7 +12,7 @@ use crate::lisp::value::{Rounds, Value};
 
 /// A sequence.
 #[derive(Clone)]
-pub enum Sequence {
+pub(crate) enum Sequence {
     /// A list, possibly dotted or circular, which is found out while walking it.
     List(Value),
     /// A one-dimensional array.
@@ -23,7 +23,7 @@ pub enum Sequence {
 
 impl Sequence {
     /// The sequence that a value is.
-    pub fn of(value: &Value) -> Result<Sequence, Box<Raise>> {
+    pub(crate) fn of(value: &Value) -> Result<Sequence, Box<Raise>> {
         match value {
             Value::Symbol(known::NIL) | Value::Cons(_) => Ok(Sequence::List(value.clone())),
             Value::Vector(vector) => Ok(Sequence::Vector(vector.clone())),
@@ -33,7 +33,7 @@ impl Sequence {
     }
 
     /// The value that the sequence is.
-    pub fn value(&self) -> Value {
+    pub(crate) fn value(&self) -> Value {
         match self {
             Sequence::List(list) => list.clone(),
             Sequence::Vector(vector) => Value::Vector(vector.clone()),
@@ -42,7 +42,7 @@ impl Sequence {
     }
 
     /// Number of elements.
-    pub fn len(&self) -> Result<usize, Box<Raise>> {
+    pub(crate) fn len(&self) -> Result<usize, Box<Raise>> {
         match self {
             Sequence::List(list) => list_length(list),
             Sequence::Vector(vector) => Ok(vector.len()),
@@ -51,7 +51,7 @@ impl Sequence {
     }
 
     /// Is there no element?
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         match self {
             Sequence::List(list) => list.is_nil(),
             Sequence::Vector(vector) => vector.is_empty(),
@@ -60,7 +60,7 @@ impl Sequence {
     }
 
     /// Walks the elements from `start` to `end` (`None`: to the end).
-    pub fn walk(&self, bounds: Bounds) -> Walk {
+    pub(crate) fn walk(&self, bounds: Bounds) -> Walk {
         let state = match self {
             Sequence::List(list) => State::List(ListWalk::new(list.clone())),
             Sequence::Vector(vector) => State::Vector(vector.clone()),
@@ -76,7 +76,7 @@ impl Sequence {
     }
 
     /// The elements within bounds.
-    pub fn items(&self, bounds: Bounds) -> Result<Vec<Value>, Box<Raise>> {
+    pub(crate) fn items(&self, bounds: Bounds) -> Result<Vec<Value>, Box<Raise>> {
         let mut items = Vec::new();
         let mut walk = self.walk(bounds);
         while let Some(item) = walk.next()? {
@@ -86,7 +86,7 @@ impl Sequence {
     }
 
     /// All elements.
-    pub fn all(&self) -> Result<Vec<Value>, Box<Raise>> {
+    pub(crate) fn all(&self) -> Result<Vec<Value>, Box<Raise>> {
         match self {
             Sequence::Vector(vector) => Ok(vector.to_vec()),
             _ => self.items(Bounds::ALL),
@@ -94,7 +94,7 @@ impl Sequence {
     }
 
     /// The kind of the sequence.
-    pub fn kind(&self) -> Kind {
+    pub(crate) fn kind(&self) -> Kind {
         match self {
             Sequence::List(_) => Kind::List,
             Sequence::Vector(vector) => Kind::Vector(vector.element_type),
@@ -103,7 +103,7 @@ impl Sequence {
     }
 
     /// Replaces all elements of a sequence by as many others.
-    pub fn set_all(&self, items: &[Value]) -> Result<(), Box<Raise>> {
+    pub(crate) fn set_all(&self, items: &[Value]) -> Result<(), Box<Raise>> {
         match self {
             Sequence::List(list) => {
                 for (cons, item) in conses(list)?.iter().zip(items) {
@@ -121,7 +121,7 @@ impl Sequence {
     }
 
     /// Replaces the element at an index that is within the sequence.
-    pub fn set(&self, index: usize, value: Value) -> Result<(), Box<Raise>> {
+    pub(crate) fn set(&self, index: usize, value: Value) -> Result<(), Box<Raise>> {
         let length = match self {
             Sequence::List(list) => {
                 let mut rest = list.clone();
@@ -153,7 +153,7 @@ impl Sequence {
     }
 
     /// The element at an index.
-    pub fn get(&self, index: usize) -> Result<Value, Box<Raise>> {
+    pub(crate) fn get(&self, index: usize) -> Result<Value, Box<Raise>> {
         let found = match self {
             Sequence::List(list) => {
                 let mut walk = ListWalk::new(list.clone());
@@ -194,7 +194,7 @@ impl Sequence {
 }
 
 /// "The index 5 is too large for a list of length 2."
-pub fn index_too_large(index: usize, what: &str, length: usize) -> Box<Raise> {
+pub(crate) fn index_too_large(index: usize, what: &str, length: usize) -> Box<Raise> {
     Raise::new(
         known::TYPE_ERROR,
         format!("The index {index} is too large for a {what} of length {length}."),
@@ -211,12 +211,12 @@ pub fn index_too_large(index: usize, what: &str, length: usize) -> Box<Raise> {
 }
 
 /// What a vector with this element type stores for a value.
-pub fn element(vector: &Vector, value: Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn element(vector: &Vector, value: Value) -> Result<Value, Box<Raise>> {
     checked_element(vector.element_type, value)
 }
 
 /// Checks that a value may stand in an array of an element type.
-pub fn checked_element(element_type: Sym, value: Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn checked_element(element_type: Sym, value: Value) -> Result<Value, Box<Raise>> {
     let fits = match element_type {
         known::BIT => matches!(value, Value::Int(0 | 1)),
         known::DOUBLE_FLOAT => matches!(value, Value::Double(_)),
@@ -233,7 +233,7 @@ pub fn checked_element(element_type: Sym, value: Value) -> Result<Value, Box<Rai
 }
 
 /// The character that a value is.
-pub fn character(value: &Value) -> Result<char, Box<Raise>> {
+pub(crate) fn character(value: &Value) -> Result<char, Box<Raise>> {
     match value {
         Value::Char(c) => Ok(*c),
         _ => Err(Raise::type_error(value, known::CHARACTER)),
@@ -241,13 +241,13 @@ pub fn character(value: &Value) -> Result<char, Box<Raise>> {
 }
 
 /// The text of characters.
-pub fn text_of(items: &[Value]) -> Result<String, Box<Raise>> {
+pub(crate) fn text_of(items: &[Value]) -> Result<String, Box<Raise>> {
     items.iter().map(character).collect()
 }
 
 /// The kind of sequence that a result is to be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A list.
     List,
     /// A vector with an element type.
@@ -258,7 +258,7 @@ pub enum Kind {
 
 impl Kind {
     /// A fresh sequence of this kind.
-    pub fn make(self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
+    pub(crate) fn make(self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
         match self {
             Kind::List => Ok(Value::list(items)),
             Kind::Str => Ok(Value::string(text_of(&items)?)),
@@ -277,22 +277,22 @@ impl Kind {
 
 /// Bounds of a part of a sequence.
 #[derive(Clone, Copy, Debug)]
-pub struct Bounds {
+pub(crate) struct Bounds {
     /// Index of the first element.
-    pub start: usize,
+    pub(crate) start: usize,
     /// Index after the last element; none means the sequence's end.
-    pub end: Option<usize>,
+    pub(crate) end: Option<usize>,
 }
 
 impl Bounds {
     /// The whole sequence.
-    pub const ALL: Bounds = Bounds {
+    pub(crate) const ALL: Bounds = Bounds {
         start: 0,
         end: None,
     };
 
     /// Checks `:start` and `:end` arguments against a sequence.
-    pub fn new(
+    pub(crate) fn new(
         sequence: &Sequence,
         start: Option<&Value>,
         end: Option<&Value>,
@@ -320,7 +320,7 @@ impl Bounds {
     }
 
     /// Index after the last element, for a sequence of a length.
-    pub fn end_of(self, length: usize) -> usize {
+    pub(crate) fn end_of(self, length: usize) -> usize {
         self.end.unwrap_or(length)
     }
 }
@@ -366,7 +366,7 @@ fn bad_bounds(start: Option<&Value>, end: Option<&Value>, length: usize) -> Box<
 }
 
 /// A non-negative integer that can be an index or a count.
-pub fn index(value: &Value) -> Result<usize, Box<Raise>> {
+pub(crate) fn index(value: &Value) -> Result<usize, Box<Raise>> {
     match value {
         Value::Int(n) => {
             usize::try_from(*n).map_err(|_| Raise::type_error(value, known::UNSIGNED_BYTE))
@@ -377,7 +377,7 @@ pub fn index(value: &Value) -> Result<usize, Box<Raise>> {
 }
 
 /// Walks elements one by one.
-pub struct Walk {
+pub(crate) struct Walk {
     state: State,
     index: usize,
     end: Option<usize>,
@@ -401,7 +401,7 @@ impl Walk {
 
     /// The next element.
     #[expect(clippy::should_implement_trait)]
-    pub fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
+    pub(crate) fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
         if self.end.is_some_and(|end| self.index >= end) {
             return Ok(None);
         }
@@ -416,7 +416,7 @@ impl Walk {
     }
 
     /// What is left of a list.
-    pub fn rest(&self) -> Value {
+    pub(crate) fn rest(&self) -> Value {
         match &self.state {
             State::List(walk) => walk.rest.clone(),
             _ => Value::NIL,
@@ -426,15 +426,15 @@ impl Walk {
 
 /// Walks a list that must be proper: a dotted or circular one is an error when its end, or
 /// the second round, is reached.
-pub struct ListWalk {
+pub(crate) struct ListWalk {
     /// What has not been visited yet.
-    pub rest: Value,
+    pub(crate) rest: Value,
     rounds: Rounds,
 }
 
 impl ListWalk {
     /// A walk over a list.
-    pub fn new(list: Value) -> ListWalk {
+    pub(crate) fn new(list: Value) -> ListWalk {
         ListWalk {
             rest: list,
             rounds: Rounds::default(),
@@ -442,7 +442,7 @@ impl ListWalk {
     }
 
     /// The next pair.
-    pub fn next_cons(&mut self) -> Result<Option<Rc<Cons>>, Box<Raise>> {
+    pub(crate) fn next_cons(&mut self) -> Result<Option<Rc<Cons>>, Box<Raise>> {
         let cons = match &self.rest {
             Value::Cons(cons) => cons.clone(),
             Value::Symbol(known::NIL) => return Ok(None),
@@ -457,20 +457,20 @@ impl ListWalk {
 
     /// The next element.
     #[expect(clippy::should_implement_trait)]
-    pub fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
+    pub(crate) fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
         Ok(self.next_cons()?.map(|cons| cons.car()))
     }
 }
 
 /// A list has no end where it needs one.
-pub fn circular(list: &Value) -> Box<Raise> {
+pub(crate) fn circular(list: &Value) -> Box<Raise> {
     Raise::new(known::TYPE_ERROR, "The list is circular.")
         .with(known::K_DATUM, list.clone())
         .with(known::K_EXPECTED_TYPE, known::LIST.into())
 }
 
 /// Length of a proper list.
-pub fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
+pub(crate) fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
     let mut walk = ListWalk::new(list.clone());
     let mut count = 0;
     while walk.next_cons()?.is_some() {
@@ -480,7 +480,7 @@ pub fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
 }
 
 /// The pairs of a proper list.
-pub fn conses(list: &Value) -> Result<Vec<Rc<Cons>>, Box<Raise>> {
+pub(crate) fn conses(list: &Value) -> Result<Vec<Rc<Cons>>, Box<Raise>> {
     let mut walk = ListWalk::new(list.clone());
     let mut conses = Vec::new();
     while let Some(cons) = walk.next_cons()? {
@@ -490,7 +490,7 @@ pub fn conses(list: &Value) -> Result<Vec<Rc<Cons>>, Box<Raise>> {
 }
 
 /// The elements of a proper list.
-pub fn list_items(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
+pub(crate) fn list_items(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
     let mut walk = ListWalk::new(list.clone());
     let mut items = Vec::new();
     while let Some(item) = walk.next()? {
@@ -500,7 +500,7 @@ pub fn list_items(list: &Value) -> Result<Vec<Value>, Box<Raise>> {
 }
 
 /// Links pairs into a list that ends in `tail`.
-pub fn relink(conses: &[Rc<Cons>], tail: Value) -> Value {
+pub(crate) fn relink(conses: &[Rc<Cons>], tail: Value) -> Value {
     let mut rest = tail;
     for cons in conses.iter().rev() {
         cons.set_cdr(rest);
@@ -511,19 +511,19 @@ pub fn relink(conses: &[Rc<Cons>], tail: Value) -> Value {
 
 /// Builds a list from its front.
 #[derive(Default)]
-pub struct ListBuilder {
+pub(crate) struct ListBuilder {
     head: Option<Value>,
     last: Option<Rc<Cons>>,
 }
 
 impl ListBuilder {
     /// An empty list.
-    pub fn new() -> ListBuilder {
+    pub(crate) fn new() -> ListBuilder {
         ListBuilder::default()
     }
 
     /// Adds an element at the end.
-    pub fn push(&mut self, item: Value) {
+    pub(crate) fn push(&mut self, item: Value) {
         let cons = Rc::new(Cons::new(item, Value::NIL));
         match self.last.replace(cons.clone()) {
             Some(last) => last.set_cdr(Value::Cons(cons)),
@@ -532,7 +532,7 @@ impl ListBuilder {
     }
 
     /// The list, ending in `tail`.
-    pub fn finish_with(self, tail: Value) -> Value {
+    pub(crate) fn finish_with(self, tail: Value) -> Value {
         match (self.head, self.last) {
             (Some(head), Some(last)) => {
                 last.set_cdr(tail);
@@ -543,7 +543,7 @@ impl ListBuilder {
     }
 
     /// The list.
-    pub fn finish(self) -> Value {
+    pub(crate) fn finish(self) -> Value {
         self.finish_with(Value::NIL)
     }
 }

@@ -170,7 +170,7 @@ fn make_sequence(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What a sequence holds that was made without elements.
-pub fn default_element(kind: Kind) -> Value {
+pub(crate) fn default_element(kind: Kind) -> Value {
     match kind {
         Kind::List => Value::NIL,
         Kind::Str => Value::Char('\0'),
@@ -185,7 +185,7 @@ fn vector(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Parts of sequences.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "LENGTH",
         "sequence",
@@ -275,7 +275,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     pure(
         "ELT",
         "value sequence index",

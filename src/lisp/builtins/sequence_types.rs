@@ -11,9 +11,9 @@ use crate::lisp::value::symbol::Sym;
 
 /// A kind of sequence, and the length if the type says one.
 #[derive(Clone)]
-pub struct SequenceType {
+pub(crate) struct SequenceType {
     /// The kind.
-    pub kind: Kind,
+    pub(crate) kind: Kind,
     /// The length, with the type specifier as the user wrote it.
     length: Option<usize>,
     specifier: Value,
@@ -21,7 +21,7 @@ pub struct SequenceType {
 
 impl SequenceType {
     /// What a type specifier means, if it names a kind of sequence.
-    pub fn of(image: &Image, specifier: &Value) -> Option<SequenceType> {
+    pub(crate) fn of(image: &Image, specifier: &Value) -> Option<SequenceType> {
         let mut parts = specifier.iter_list();
         let (name, first, second) = match specifier {
             Value::Symbol(sym) => (*sym, None, None),
@@ -59,7 +59,7 @@ impl SequenceType {
     }
 
     /// What a type specifier means; an error if it is no kind of sequence.
-    pub fn new(image: &Image, specifier: &Value) -> Result<SequenceType, Box<Raise>> {
+    pub(crate) fn new(image: &Image, specifier: &Value) -> Result<SequenceType, Box<Raise>> {
         SequenceType::of(image, specifier).ok_or_else(|| {
             Raise::new(
                 known::SIMPLE_TYPE_ERROR,
@@ -74,13 +74,13 @@ impl SequenceType {
     }
 
     /// A fresh sequence of this type.
-    pub fn make(&self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
+    pub(crate) fn make(&self, items: Vec<Value>) -> Result<Value, Box<Raise>> {
         self.check_length(items.len())?;
         self.kind.make(items)
     }
 
     /// Checks that a sequence of this type can have a length.
-    pub fn check_length(&self, length: usize) -> Result<(), Box<Raise>> {
+    pub(crate) fn check_length(&self, length: usize) -> Result<(), Box<Raise>> {
         match self.length {
             Some(expected) if expected != length => Err(Raise::new(
                 known::SIMPLE_TYPE_ERROR,
@@ -96,7 +96,7 @@ impl SequenceType {
 }
 
 /// The kind of vector that holds elements of a type.
-pub fn vector_kind(image: &Image, element_type: &Value) -> Kind {
+pub(crate) fn vector_kind(image: &Image, element_type: &Value) -> Kind {
     match upgraded(image, element_type) {
         known::CHARACTER => Kind::Str,
         other => Kind::Vector(other),
@@ -104,7 +104,7 @@ pub fn vector_kind(image: &Image, element_type: &Value) -> Kind {
 }
 
 /// The element type that an array made for elements of a type really has.
-pub fn upgraded(image: &Image, element_type: &Value) -> Sym {
+pub(crate) fn upgraded(image: &Image, element_type: &Value) -> Sym {
     match element_type {
         Value::Symbol(known::CHARACTER | known::BASE_CHAR | known::STANDARD_CHAR) => {
             known::CHARACTER

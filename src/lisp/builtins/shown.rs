@@ -5,6 +5,6 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 
 /// A value as `prin1` prints it.
-pub fn shown(image: &Image, value: &Value) -> String {
+pub(crate) fn shown(image: &Image, value: &Value) -> String {
     print::to_string(image, value, true)
 }

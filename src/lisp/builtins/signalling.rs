@@ -16,7 +16,7 @@ use crate::lisp::vm::step::{Resume, Step};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "SIGNAL",
         "datum &rest arguments",
@@ -125,7 +125,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     control(
         "THROW-VALUES",
         "tag &rest values",
@@ -218,7 +218,7 @@ impl Resume for SignalNext {
 }
 
 /// Makes the condition that arguments designate and signals it.
-pub fn signal_with(
+pub(crate) fn signal_with(
     machine: &mut Machine<'_>,
     args: Vec<Value>,
     default: Sym,

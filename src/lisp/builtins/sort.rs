@@ -182,7 +182,7 @@ fn merge(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
 }
 
 /// Sorting.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "SORT",
         "sequence predicate &key key",

@@ -109,7 +109,7 @@ fn with_open_file(image: &mut Image, form: &Value) -> Outcome {
 }
 
 /// Macros that open and close streams.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "WITH-OUTPUT-TO-STRING",
         lambda_list: "(variable &optional string) &body body",

@@ -159,7 +159,7 @@ fn clear_input(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What reading at the end gives: the end-of-file value, or an error.
-pub fn at_end(
+pub(crate) fn at_end(
     image: &Image,
     stream: Option<&Value>,
     error: Option<&Value>,
@@ -323,7 +323,7 @@ fn second_component(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Streams.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "STREAMP",
         "object",
@@ -600,7 +600,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// What expansions call; in `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[pure(
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[pure(
     "%MAKE-FILL-POINTER-STREAM",
     "string",
     "A stream that appends to a string with a fill pointer.",

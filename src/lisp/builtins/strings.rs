@@ -17,7 +17,7 @@ use crate::lisp::value::string::LispString;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The text that a string designator means: a string, a symbol's name or a character.
-pub fn designated(image: &Image, value: &Value) -> Result<String, Box<Raise>> {
+pub(crate) fn designated(image: &Image, value: &Value) -> Result<String, Box<Raise>> {
     match value {
         Value::Str(s) => Ok(s.text()),
         Value::Symbol(s) => Ok(image.name(*s).to_owned()),
@@ -35,7 +35,7 @@ pub fn designated(image: &Image, value: &Value) -> Result<String, Box<Raise>> {
 }
 
 /// The string that a value is.
-pub fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {
+pub(crate) fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {
     match value {
         Value::Str(s) => Ok(s),
         _ => Err(Raise::type_error(value, known::STRING)),
@@ -187,7 +187,7 @@ fn string_right_trim(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Strings.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "STRINGP",
         "object",
@@ -296,7 +296,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     pure(
         "CHAR",
         "value string index",

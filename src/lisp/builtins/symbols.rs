@@ -253,7 +253,7 @@ fn unintern(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// Symbols.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "SYMBOLP",
         "object",
@@ -406,7 +406,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places for `setf`; the new value is the first argument.
-pub static SETTERS: &[Builtin] = &[
+pub(crate) static SETTERS: &[Builtin] = &[
     pure(
         "SYMBOL-VALUE",
         "value symbol",

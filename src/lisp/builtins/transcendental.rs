@@ -4,7 +4,7 @@ use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::value::number;
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "EXPT",
         "base power",

@@ -14,7 +14,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "TYPEP",
         "object type &optional environment",
@@ -62,7 +62,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of the package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[pure(
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[pure(
     "%DEFINE-TYPE",
     "name expander",
     "Defines a type whose specifiers the expander turns, from the list of their arguments, into others.",
@@ -71,7 +71,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[pure(
 )];
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[Operator {
+pub(crate) static OPERATORS: &[Operator] = &[Operator {
     name: "DEFTYPE",
     lambda_list: "name lambda-list &body body",
     doc: "Defines a type by what its specifiers stand for.",

@@ -28,16 +28,16 @@ pub(super) type Compiled<T> = Result<T, Box<Raise>>;
 /// The compiler at work on one top-level form.
 pub(super) struct Compiler<'a> {
     /// The image that the form belongs to.
-    pub image: &'a mut Image,
+    pub(crate) image: &'a mut Image,
     functions: Vec<FunctionContext>,
     current: usize,
     stack_base: usize,
     /// The place of the innermost form with one.
-    pub place: Place,
+    pub(crate) place: Place,
 }
 
 impl<'a> Compiler<'a> {
-    pub fn new(image: &'a mut Image) -> Compiler<'a> {
+    pub(crate) fn new(image: &'a mut Image) -> Compiler<'a> {
         let marker = 0u8;
         Compiler {
             stack_base: std::ptr::from_ref(&marker).addr(),
@@ -49,7 +49,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Compiles a form as the body of a function without parameters.
-    pub fn compile_toplevel(mut self, form: &Value) -> Compiled<Rc<Code>> {
+    pub(crate) fn compile_toplevel(mut self, form: &Value) -> Compiled<Rc<Code>> {
         let id = self.enter_function();
         let body = self.analyze(form, &Scope::default())?;
         let free = self.leave_function(id);
@@ -68,7 +68,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Starts a function; returns its number.
-    pub fn enter_function(&mut self) -> usize {
+    pub(crate) fn enter_function(&mut self) -> usize {
         let id = self.functions.len();
         self.functions.push(FunctionContext {
             outer: (id > 0).then_some(self.current),
@@ -80,7 +80,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Ends the function and returns its free variables.
-    pub fn leave_function(&mut self, id: usize) -> Vec<Rc<Var>> {
+    pub(crate) fn leave_function(&mut self, id: usize) -> Vec<Rc<Var>> {
         let context = &self.functions[id];
         self.current = context.outer.unwrap_or(0);
         context.free.take()
@@ -91,17 +91,17 @@ impl<'a> Compiler<'a> {
     }
 
     /// Number of the function that is being compiled.
-    pub fn function_id(&self) -> usize {
+    pub(crate) fn function_id(&self) -> usize {
         self.current
     }
 
     /// Number of open dynamic entries in the current function.
-    pub fn dynamic_depth(&self) -> usize {
+    pub(crate) fn dynamic_depth(&self) -> usize {
         self.function().dynamic.borrow().len()
     }
 
     /// Must leaving for `depth` run cleanup code?
-    pub fn crosses_cleanup(&self, depth: usize) -> bool {
+    pub(crate) fn crosses_cleanup(&self, depth: usize) -> bool {
         let dynamic = self.function().dynamic.borrow();
         dynamic
             .iter()
@@ -110,7 +110,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses something inside a dynamic entry.
-    pub fn inside<R>(
+    pub(crate) fn inside<R>(
         &mut self,
         kind: DynamicKind,
         count: usize,
@@ -127,17 +127,17 @@ impl<'a> Compiler<'a> {
     }
 
     /// Notes that a dynamic entry is open from here on.
-    pub fn open_dynamic(&self, kind: DynamicKind) {
+    pub(crate) fn open_dynamic(&self, kind: DynamicKind) {
         self.function().dynamic.borrow_mut().push(kind);
     }
 
     /// Notes that only the outermost `depth` dynamic entries are still open.
-    pub fn close_dynamic(&self, depth: usize) {
+    pub(crate) fn close_dynamic(&self, depth: usize) {
         self.function().dynamic.borrow_mut().truncate(depth);
     }
 
     /// A new variable of the current function.
-    pub fn new_var(&self, name: Sym) -> Rc<Var> {
+    pub(crate) fn new_var(&self, name: Sym) -> Rc<Var> {
         Rc::new(Var {
             name,
             owner: self.current,
@@ -149,7 +149,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Notes a reference to a variable from the current function.
-    pub fn refer(&self, var: &Rc<Var>) {
+    pub(crate) fn refer(&self, var: &Rc<Var>) {
         var.used.set(true);
         if var.owner == self.current {
             return;
@@ -170,12 +170,12 @@ impl<'a> Compiler<'a> {
     }
 
     /// Is the name bound dynamically wherever it is bound?
-    pub fn is_special(&self, name: Sym) -> bool {
+    pub(crate) fn is_special(&self, name: Sym) -> bool {
         self.image.symbol(name).kind == VariableKind::Special
     }
 
     /// Checks that a name can be bound as a variable.
-    pub fn check_bindable(&self, name: &Value) -> Compiled<Sym> {
+    pub(crate) fn check_bindable(&self, name: &Value) -> Compiled<Sym> {
         let Some(sym) = name.as_symbol() else {
             let shown = crate::lisp::print::to_string(self.image, name, true);
             return Err(self.program_error(format!(
@@ -197,12 +197,12 @@ impl<'a> Compiler<'a> {
     }
 
     /// A program error at the current place.
-    pub fn program_error(&self, text: impl Into<String>) -> Box<Raise> {
+    pub(crate) fn program_error(&self, text: impl Into<String>) -> Box<Raise> {
         Raise::program(text).at(self.place)
     }
 
     /// Analyses a form.
-    pub fn analyze(&mut self, form: &Value, scope: &Scope) -> Compiled<Node> {
+    pub(crate) fn analyze(&mut self, form: &Value, scope: &Scope) -> Compiled<Node> {
         let marker = 0u8;
         let used = self.stack_base.abs_diff(std::ptr::from_ref(&marker).addr());
         if used > self.image.stack_budget {
@@ -353,7 +353,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Runs a macro function on a form.
-    pub fn expand_with(
+    pub(crate) fn expand_with(
         &mut self,
         function: &Rc<Function>,
         form: &Value,
@@ -367,7 +367,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses the elements of a list.
-    pub fn analyze_list(&mut self, forms: &Value, scope: &Scope) -> Compiled<Vec<Node>> {
+    pub(crate) fn analyze_list(&mut self, forms: &Value, scope: &Scope) -> Compiled<Vec<Node>> {
         let Some(forms) = forms.list_to_vec() else {
             return Err(self.program_error("a call's arguments must be a proper list"));
         };
@@ -375,7 +375,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Analyses forms as a `progn`.
-    pub fn analyze_progn(&mut self, forms: &Value, scope: &Scope) -> Compiled<Node> {
+    pub(crate) fn analyze_progn(&mut self, forms: &Value, scope: &Scope) -> Compiled<Node> {
         let mut nodes = self.analyze_list(forms, scope)?;
         Ok(match nodes.len() {
             0 => Node::NIL,
@@ -385,7 +385,12 @@ impl<'a> Compiler<'a> {
     }
 
     /// Binds a name: the binding, and the scope in which it is visible.
-    pub fn bind(&mut self, name: Sym, declared_special: bool, scope: &Scope) -> (Binding, Scope) {
+    pub(crate) fn bind(
+        &mut self,
+        name: Sym,
+        declared_special: bool,
+        scope: &Scope,
+    ) -> (Binding, Scope) {
         if declared_special || self.is_special(name) {
             let scope = scope.with(Entry::Variable(name, VariableMeaning::Special));
             (Binding::Special(name), scope)

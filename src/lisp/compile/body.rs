@@ -14,11 +14,11 @@ use crate::lisp::vm::code::Parameters;
 /// A body without its declarations and documentation.
 pub(super) struct Body {
     /// The forms.
-    pub forms: Value,
+    pub(crate) forms: Value,
     /// Names declared special.
-    pub specials: Vec<Sym>,
+    pub(crate) specials: Vec<Sym>,
     /// The documentation string.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
 }
 
 /// Takes declarations, and a documentation string if one may stand there, off a body.
@@ -58,7 +58,12 @@ fn declared_special(specifiers: &Value) -> Vec<Sym> {
 
 impl Compiler<'_> {
     /// Analyses a body in a scope where its free special declarations hold.
-    pub fn analyze_body(&mut self, body: &Body, bound: &[Sym], scope: &Scope) -> Compiled<Node> {
+    pub(crate) fn analyze_body(
+        &mut self,
+        body: &Body,
+        bound: &[Sym],
+        scope: &Scope,
+    ) -> Compiled<Node> {
         let mut scope = scope.clone();
         for name in body.specials.iter().filter(|s| !bound.contains(s)) {
             scope = scope.with(Entry::Variable(*name, VariableMeaning::Special));
@@ -68,7 +73,7 @@ impl Compiler<'_> {
 
     /// Analyses `(lambda-list body…)` as a function. With a block name, the body stands in
     /// a block of that name.
-    pub fn analyze_lambda(
+    pub(crate) fn analyze_lambda(
         &mut self,
         name: Value,
         lambda_list: &Value,
@@ -221,7 +226,7 @@ impl Compiler<'_> {
     }
 
     /// A new block of the current function.
-    pub fn new_block(&mut self, name: Sym) -> Rc<Block> {
+    pub(crate) fn new_block(&mut self, name: Sym) -> Rc<Block> {
         Rc::new(Block {
             name,
             owner: self.function_id(),
@@ -243,11 +248,11 @@ struct Parts {
 /// A body's declarations and the forms after them.
 pub(super) struct Split {
     /// The `declare` forms.
-    pub declarations: Vec<Value>,
+    pub(crate) declarations: Vec<Value>,
     /// The forms.
-    pub forms: Value,
+    pub(crate) forms: Value,
     /// The documentation string.
-    pub doc: Option<Value>,
+    pub(crate) doc: Option<Value>,
 }
 
 /// Separates the declarations and the documentation of a body from its forms.

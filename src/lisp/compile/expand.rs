@@ -9,12 +9,12 @@ use crate::lisp::value::symbol::FunctionCell;
 use crate::lisp::vm::machine;
 
 /// Expands a form once with global macros; `None` if it is no macro call.
-pub fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, Box<Raise>> {
+pub(crate) fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, Box<Raise>> {
     macroexpand_1_in(image, form, &Value::NIL)
 }
 
 /// Expands a form once with the macros of an environment, as a macro function gets it.
-pub fn macroexpand_1_in(
+pub(crate) fn macroexpand_1_in(
     image: &mut Image,
     form: &Value,
     environment: &Value,
@@ -48,12 +48,12 @@ pub fn macroexpand_1_in(
 }
 
 /// Expands a form until it is no macro call; was it one?
-pub fn macroexpand(image: &mut Image, form: &Value) -> Result<(Value, bool), Box<Raise>> {
+pub(crate) fn macroexpand(image: &mut Image, form: &Value) -> Result<(Value, bool), Box<Raise>> {
     macroexpand_in(image, form, &Value::NIL)
 }
 
 /// Expands a form until it is no macro call, with the macros of an environment; was it one?
-pub fn macroexpand_in(
+pub(crate) fn macroexpand_in(
     image: &mut Image,
     form: &Value,
     environment: &Value,

@@ -9,45 +9,45 @@ use crate::lisp::value::symbol::Sym;
 
 /// An optional parameter.
 #[derive(Clone)]
-pub struct Optional {
+pub(crate) struct Optional {
     /// Its name, or a pattern in a destructuring lambda list.
-    pub pattern: Value,
+    pub(crate) pattern: Value,
     /// The form of its default.
-    pub default: Value,
+    pub(crate) default: Value,
     /// The variable that tells whether it was supplied.
-    pub supplied: Option<Sym>,
+    pub(crate) supplied: Option<Sym>,
 }
 
 /// A keyword parameter.
 #[derive(Clone)]
-pub struct Key {
+pub(crate) struct Key {
     /// The keyword (or other symbol) that names it in a call.
-    pub keyword: Sym,
+    pub(crate) keyword: Sym,
     /// The parameter.
-    pub parameter: Optional,
+    pub(crate) parameter: Optional,
 }
 
 /// A lambda list.
 #[derive(Clone, Default)]
-pub struct LambdaList {
+pub(crate) struct LambdaList {
     /// `&whole`.
-    pub whole: Option<Value>,
+    pub(crate) whole: Option<Value>,
     /// `&environment`.
-    pub environment: Option<Sym>,
+    pub(crate) environment: Option<Sym>,
     /// Required parameters: names, or patterns.
-    pub required: Vec<Value>,
+    pub(crate) required: Vec<Value>,
     /// Optional parameters.
-    pub optional: Vec<Optional>,
+    pub(crate) optional: Vec<Optional>,
     /// `&rest` or `&body`, or a dotted tail.
-    pub rest: Option<Value>,
+    pub(crate) rest: Option<Value>,
     /// Is there a `&key`?
-    pub has_keys: bool,
+    pub(crate) has_keys: bool,
     /// Keyword parameters.
-    pub keys: Vec<Key>,
+    pub(crate) keys: Vec<Key>,
     /// `&allow-other-keys`.
-    pub allow_other_keys: bool,
+    pub(crate) allow_other_keys: bool,
     /// `&aux` variables and their forms.
-    pub aux: Vec<(Sym, Value)>,
+    pub(crate) aux: Vec<(Sym, Value)>,
 }
 
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -64,7 +64,7 @@ enum Section {
 impl LambdaList {
     /// Parses a lambda list. `destructuring` allows patterns, `&whole`, `&environment` and
     /// a dotted tail.
-    pub fn parse(
+    pub(crate) fn parse(
         image: &mut Image,
         list: &Value,
         destructuring: bool,

@@ -8,18 +8,18 @@ mod analyze;
 mod body;
 mod control_macros;
 mod define_macros;
-pub mod destructure;
+pub(crate) mod destructure;
 mod emit;
 mod environment;
 mod expand;
 pub(crate) mod form;
-pub mod lambda_list;
+pub(crate) mod lambda_list;
 mod node;
-pub mod notes;
+pub(crate) mod notes;
 mod operators;
 mod quasiquote;
 mod scope;
-pub mod setf;
+pub(crate) mod setf;
 mod special_forms;
 
 use std::rc::Rc;
@@ -30,17 +30,17 @@ use super::value::function::Function;
 use super::value::raise::Raise;
 use super::vm::code::Code;
 
-pub use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};
-pub use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
-pub use quasiquote::expand_quasiquote;
+pub(crate) use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};
+pub(crate) use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
+pub(crate) use quasiquote::expand_quasiquote;
 
 /// Compiles a form at top level into the code of a function without parameters.
-pub fn compile_form(image: &mut Image, form: &Value) -> Result<Rc<Code>, Box<Raise>> {
+pub(crate) fn compile_form(image: &mut Image, form: &Value) -> Result<Rc<Code>, Box<Raise>> {
     analyze::Compiler::new(image).compile_toplevel(form)
 }
 
 /// Compiles a `lambda` expression into a function without free variables.
-pub fn compile_lambda(image: &mut Image, form: &Value) -> Result<Rc<Function>, Box<Raise>> {
+pub(crate) fn compile_lambda(image: &mut Image, form: &Value) -> Result<Rc<Function>, Box<Raise>> {
     let code = compile_form(image, form)?;
     // The code of `(lambda …)` at top level makes exactly that one closure.
     match code.inner.first() {

@@ -9,7 +9,7 @@ use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::code::Parameters;
 
 /// What a call calls.
-pub enum Target {
+pub(crate) enum Target {
     /// A global function.
     Global(Sym),
     /// A function that an expression computes.
@@ -17,7 +17,7 @@ pub enum Target {
 }
 
 /// One variable that a form binds.
-pub enum Binding {
+pub(crate) enum Binding {
     /// A lexical variable.
     Lexical(Rc<Var>),
     /// A dynamic binding.
@@ -25,17 +25,17 @@ pub enum Binding {
 }
 
 /// An optional or key parameter.
-pub struct Default {
+pub(crate) struct Default {
     /// The parameter's own variable: the slot that the machine fills.
-    pub var: Rc<Var>,
+    pub(crate) var: Rc<Var>,
     /// The value if it is not supplied.
-    pub init: Node,
+    pub(crate) init: Node,
     /// The variable that tells whether it was supplied.
-    pub supplied: Option<Binding>,
+    pub(crate) supplied: Option<Binding>,
 }
 
 /// What happens at the start of a function, in order.
-pub enum Prologue {
+pub(crate) enum Prologue {
     /// An optional or key parameter gets its default.
     Default(Default),
     /// A parameter that is declared special is bound to its slot's value.
@@ -45,29 +45,29 @@ pub enum Prologue {
 }
 
 /// A function expression.
-pub struct LambdaNode {
+pub(crate) struct LambdaNode {
     /// Name for backtraces and printing.
-    pub name: Value,
+    pub(crate) name: Value,
     /// The parameters as the machine fills them.
-    pub parameters: Parameters,
+    pub(crate) parameters: Parameters,
     /// Variables of the parameter slots.
-    pub slots: Vec<Rc<Var>>,
+    pub(crate) slots: Vec<Rc<Var>>,
     /// Defaults and auxiliary variables.
-    pub prologue: Vec<Prologue>,
+    pub(crate) prologue: Vec<Prologue>,
     /// The body.
-    pub body: Node,
+    pub(crate) body: Node,
     /// Free variables, in the order of the closure's captures.
-    pub free: Vec<Rc<Var>>,
+    pub(crate) free: Vec<Rc<Var>>,
     /// The number of the function.
-    pub id: usize,
+    pub(crate) id: usize,
     /// The lambda list as written.
-    pub lambda_list: Value,
+    pub(crate) lambda_list: Value,
     /// The documentation string.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
 }
 
 /// A piece of program.
-pub enum Node {
+pub(crate) enum Node {
     /// A constant.
     Const(Value),
     /// The value of a lexical variable.
@@ -142,5 +142,5 @@ pub enum Node {
 
 impl Node {
     /// The constant `NIL`.
-    pub const NIL: Node = Node::Const(Value::NIL);
+    pub(crate) const NIL: Node = Node::Const(Value::NIL);
 }

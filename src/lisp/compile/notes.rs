@@ -10,16 +10,16 @@ use crate::lisp::value::symbol::Sym;
 
 /// Something that was noticed.
 #[derive(Clone)]
-pub struct Note {
+pub(crate) struct Note {
     /// The innermost form with a place.
-    pub place: Place,
+    pub(crate) place: Place,
     /// What it is.
-    pub kind: NoteKind,
+    pub(crate) kind: NoteKind,
 }
 
 /// What was noticed.
 #[derive(Clone)]
-pub enum NoteKind {
+pub(crate) enum NoteKind {
     /// A global function is called with so many arguments, or only named.
     Function(Sym, Option<usize>),
     /// A name is read as a global variable, and the bound name that is nearest to it.

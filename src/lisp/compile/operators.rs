@@ -36,7 +36,7 @@ const fn macro_(
 }
 
 /// Special operators of package `COMMON-LISP`.
-pub static SPECIAL_FORMS: &[Operator] = &[
+pub(crate) static SPECIAL_FORMS: &[Operator] = &[
     special(
         "QUOTE",
         "object",
@@ -226,7 +226,7 @@ pub static SPECIAL_FORMS: &[Operator] = &[
 ];
 
 /// Special operators of package `SYSTEM`.
-pub static SYSTEM_FORMS: &[Operator] = &[
+pub(crate) static SYSTEM_FORMS: &[Operator] = &[
     special(
         "NAMED-LAMBDA",
         "name lambda-list &body body",
@@ -242,7 +242,7 @@ pub static SYSTEM_FORMS: &[Operator] = &[
 ];
 
 /// Macros of package `SYSTEM`.
-pub static SYSTEM_OPERATORS: &[Operator] = &[macro_(
+pub(crate) static SYSTEM_OPERATORS: &[Operator] = &[macro_(
     "QUASIQUOTE",
     "template",
     "A template: what the reader makes of a backquote.",
@@ -251,7 +251,7 @@ pub static SYSTEM_OPERATORS: &[Operator] = &[macro_(
 )];
 
 /// Macros of package `COMMON-LISP`.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     macro_(
         "THROW",
         "tag form",

@@ -6,7 +6,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
 /// The form that builds the template of `(quasiquote template)`.
-pub fn expand_quasiquote(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_quasiquote(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
     let template = form.cdr_or_nil().car_or_nil();
     template_form(image, &template, 1)
 }

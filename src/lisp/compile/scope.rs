@@ -9,31 +9,31 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::symbol::Sym;
 
 /// A lexical variable (or local function, or identity of a block).
-pub struct Var {
+pub(crate) struct Var {
     /// Its name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// The function that binds it.
-    pub owner: usize,
+    pub(crate) owner: usize,
     /// Does an inner function refer to it?
-    pub captured: Cell<bool>,
+    pub(crate) captured: Cell<bool>,
     /// Is it ever assigned after its binding?
-    pub assigned: Cell<bool>,
+    pub(crate) assigned: Cell<bool>,
     /// Its slot in the owner's frame, once code is emitted.
-    pub slot: Cell<u32>,
+    pub(crate) slot: Cell<u32>,
     /// Has the program read it?
-    pub used: Cell<bool>,
+    pub(crate) used: Cell<bool>,
 }
 
 impl Var {
     /// Must the variable live in a box?
-    pub fn is_boxed(&self) -> bool {
+    pub(crate) fn is_boxed(&self) -> bool {
         self.captured.get() && self.assigned.get()
     }
 }
 
 /// What a name in variable position means.
 #[derive(Clone)]
-pub enum VariableMeaning {
+pub(crate) enum VariableMeaning {
     /// A lexical variable.
     Lexical(Rc<Var>),
     /// A dynamic variable, declared so in this scope.
@@ -44,7 +44,7 @@ pub enum VariableMeaning {
 
 /// What a name in function position means.
 #[derive(Clone)]
-pub enum FunctionMeaning {
+pub(crate) enum FunctionMeaning {
     /// A local function: a variable that holds it.
     Local(Rc<Var>),
     /// A local macro.
@@ -53,7 +53,7 @@ pub enum FunctionMeaning {
 
 /// Kinds of dynamic entries that are open while code of one function runs.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum DynamicKind {
+pub(crate) enum DynamicKind {
     /// A binding, handlers, restarts or catch: undone by dropping it.
     Plain,
     /// Cleanup code that must run.
@@ -61,37 +61,37 @@ pub enum DynamicKind {
 }
 
 /// A block.
-pub struct Block {
+pub(crate) struct Block {
     /// Its name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// The function it is in.
-    pub owner: usize,
+    pub(crate) owner: usize,
     /// Open dynamic entries outside it, in that function.
-    pub depth: usize,
+    pub(crate) depth: usize,
     /// The variable that holds its identity.
-    pub identity: Rc<Var>,
+    pub(crate) identity: Rc<Var>,
     /// Must it be left by unwinding?
-    pub dynamic: Cell<bool>,
+    pub(crate) dynamic: Cell<bool>,
     /// Is it ever left by `return-from`?
-    pub used: Cell<bool>,
+    pub(crate) used: Cell<bool>,
 }
 
 /// A tagbody.
-pub struct Tagbody {
+pub(crate) struct Tagbody {
     /// The tags: symbols or integers.
-    pub tags: Vec<Value>,
+    pub(crate) tags: Vec<Value>,
     /// The function it is in.
-    pub owner: usize,
+    pub(crate) owner: usize,
     /// Open dynamic entries outside it, in that function.
-    pub depth: usize,
+    pub(crate) depth: usize,
     /// The variable that holds its identity.
-    pub identity: Rc<Var>,
+    pub(crate) identity: Rc<Var>,
     /// Must its tags be reached by unwinding?
-    pub dynamic: Cell<bool>,
+    pub(crate) dynamic: Cell<bool>,
 }
 
 /// One link of the chain of scopes, innermost first.
-pub enum Entry {
+pub(crate) enum Entry {
     /// A name in variable position.
     Variable(Sym, VariableMeaning),
     /// A name in function position; the flag tells `(setf name)` from `name`.
@@ -104,7 +104,7 @@ pub enum Entry {
 
 /// An immutable chain of scopes.
 #[derive(Clone, Default)]
-pub struct Scope(Option<Rc<Link>>);
+pub(crate) struct Scope(Option<Rc<Link>>);
 
 struct Link {
     entry: Entry,
@@ -125,7 +125,7 @@ impl Drop for Link {
 
 impl Scope {
     /// The scope with one more entry.
-    pub fn with(&self, entry: Entry) -> Scope {
+    pub(crate) fn with(&self, entry: Entry) -> Scope {
         Scope(Some(Rc::new(Link {
             entry,
             outer: self.clone(),
@@ -142,7 +142,7 @@ impl Scope {
     }
 
     /// The meaning of a variable name, if it is not global.
-    pub fn variable(&self, name: Sym) -> Option<&VariableMeaning> {
+    pub(crate) fn variable(&self, name: Sym) -> Option<&VariableMeaning> {
         self.entries().find_map(|e| match e {
             Entry::Variable(n, meaning) if *n == name => Some(meaning),
             _ => None,
@@ -150,7 +150,7 @@ impl Scope {
     }
 
     /// The names of lexical variables, innermost first.
-    pub fn variables(&self) -> impl Iterator<Item = Sym> {
+    pub(crate) fn variables(&self) -> impl Iterator<Item = Sym> {
         self.entries().filter_map(|e| match e {
             Entry::Variable(name, VariableMeaning::Lexical(_)) => Some(*name),
             _ => None,
@@ -158,7 +158,7 @@ impl Scope {
     }
 
     /// The meaning of a function name, if it is not global.
-    pub fn function(&self, name: Sym, is_setf: bool) -> Option<&FunctionMeaning> {
+    pub(crate) fn function(&self, name: Sym, is_setf: bool) -> Option<&FunctionMeaning> {
         self.entries().find_map(|e| match e {
             Entry::Function(n, s, meaning) if *n == name && *s == is_setf => Some(meaning),
             _ => None,
@@ -166,7 +166,7 @@ impl Scope {
     }
 
     /// The innermost block of that name.
-    pub fn block(&self, name: Sym) -> Option<&Rc<Block>> {
+    pub(crate) fn block(&self, name: Sym) -> Option<&Rc<Block>> {
         self.entries().find_map(|e| match e {
             Entry::Block(b) if b.name == name => Some(b),
             _ => None,
@@ -174,7 +174,7 @@ impl Scope {
     }
 
     /// The innermost tagbody with that tag, and the tag's number.
-    pub fn tag(&self, tag: &Value) -> Option<(&Rc<Tagbody>, usize)> {
+    pub(crate) fn tag(&self, tag: &Value) -> Option<(&Rc<Tagbody>, usize)> {
         self.entries().find_map(|e| match e {
             Entry::Tagbody(t) => {
                 let index = t.tags.iter().position(|other| other.is_eql(tag))?;
@@ -186,11 +186,11 @@ impl Scope {
 }
 
 /// A function that is being compiled.
-pub struct FunctionContext {
+pub(crate) struct FunctionContext {
     /// The number of the function around it.
-    pub outer: Option<usize>,
+    pub(crate) outer: Option<usize>,
     /// Variables of outer functions that it refers to, in order of first use.
-    pub free: RefCell<Vec<Rc<Var>>>,
+    pub(crate) free: RefCell<Vec<Rc<Var>>>,
     /// Dynamic entries that are open at this point.
-    pub dynamic: RefCell<Vec<DynamicKind>>,
+    pub(crate) dynamic: RefCell<Vec<DynamicKind>>,
 }

@@ -11,7 +11,7 @@ use crate::lisp::vm::machine;
 /// How `setf` of a form with a certain operator is carried out, where no function
 /// `(setf name)` does it.
 #[derive(Clone)]
-pub enum SetfExpander {
+pub(crate) enum SetfExpander {
     /// `(defsetf access update)`: the update function takes the arguments, then the value.
     Update(Sym),
     /// `(defsetf access lambda-list (store…) body…)`: a function of the store variables
@@ -24,21 +24,21 @@ pub enum SetfExpander {
 
 /// A place taken apart: evaluate `values` into `temps` in order, bind `stores` to the new
 /// values, evaluate `setter`; `getter` reads the place.
-pub struct Expansion {
+pub(crate) struct Expansion {
     /// Variables for the place's subforms.
-    pub temps: Vec<Value>,
+    pub(crate) temps: Vec<Value>,
     /// The subforms.
-    pub values: Vec<Value>,
+    pub(crate) values: Vec<Value>,
     /// Variables for the new values.
-    pub stores: Vec<Value>,
+    pub(crate) stores: Vec<Value>,
     /// The form that stores.
-    pub setter: Value,
+    pub(crate) setter: Value,
     /// The form that reads.
-    pub getter: Value,
+    pub(crate) getter: Value,
 }
 
 /// Takes a place apart.
-pub fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
+pub(crate) fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
     let cons = match place {
         Value::Symbol(_) => {
             let store = gensym(image, "NEW");
@@ -409,7 +409,7 @@ fn pairs(expanded: &Expansion) -> impl Iterator<Item = Value> + '_ {
 /// A form that replaces a place's value by a function of it: `new_value` gets the form that
 /// reads the place and returns the form of the new value. `before` are evaluated first,
 /// with their variables bound.
-pub fn modify(
+pub(crate) fn modify(
     image: &mut Image,
     place: &Value,
     before: Vec<(Value, Value)>,

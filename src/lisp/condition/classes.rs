@@ -147,7 +147,7 @@ const TABLE: &[Entry] = &[
 ];
 
 /// Defines all standard conditions in an image.
-pub fn define(image: &mut Image) {
+pub(crate) fn define(image: &mut Image) {
     for entry in TABLE {
         let name = image.class_symbol(entry.name);
         let superclasses = entry

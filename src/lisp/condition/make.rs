@@ -12,18 +12,18 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// A condition object some of whose slots still wait for their initial values.
-pub struct Draft {
+pub(crate) struct Draft {
     /// The condition.
-    pub condition: Rc<Instance>,
+    pub(crate) condition: Rc<Instance>,
     /// Positions of slots whose value is that of the function.
-    pub pending: Vec<(usize, Rc<Function>)>,
+    pub(crate) pending: Vec<(usize, Rc<Function>)>,
 }
 
 /// The condition that an error in Rust code stands for.
 ///
 /// An explicit report is kept in the condition, so that [`report`] finds it; a
 /// `SIMPLE-CONDITION` also gets it as its format control.
-pub fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
+pub(crate) fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
     let (class, text, initargs) = match raise {
         Raise::Condition(condition) => return Ok(condition.clone()),
         Raise::Make {
@@ -54,7 +54,7 @@ pub fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
 /// A condition of a class with initargs (keywords and values in turn); initargs that the
 /// class does not know are ignored. Initial values that must be computed by a function are
 /// left to the caller.
-pub fn draft(image: &Image, class: Sym, initargs: &[Value]) -> Result<Draft, Box<Raise>> {
+pub(crate) fn draft(image: &Image, class: Sym, initargs: &[Value]) -> Result<Draft, Box<Raise>> {
     let class = condition_class(image, class)?;
     if !initargs.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
@@ -68,12 +68,16 @@ pub fn draft(image: &Image, class: Sym, initargs: &[Value]) -> Result<Draft, Box
 
 /// Like [`draft`] when nothing must be computed; slots with computed initial values stay
 /// unbound.
-pub fn make_condition(image: &Image, class: Sym, initargs: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn make_condition(
+    image: &Image,
+    class: Sym,
+    initargs: &[Value],
+) -> Result<Value, Box<Raise>> {
     Ok(Value::Instance(draft(image, class, initargs)?.condition))
 }
 
 /// The text that a condition brings along itself: that of an error in Rust code.
-pub fn report(condition: &Value) -> Option<String> {
+pub(crate) fn report(condition: &Value) -> Option<String> {
     match condition {
         Value::Instance(instance) => instance.slot(known::REPORT)?.as_text(),
         _ => None,

@@ -8,7 +8,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine;
 
 /// Is the condition of the type?
-pub fn is_of_type(
+pub(crate) fn is_of_type(
     image: &mut Image,
     condition: &Value,
     specifier: &Value,

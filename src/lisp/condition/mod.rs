@@ -1,8 +1,8 @@
 //! Conditions: the standard classes, making objects of them, and their texts.
 
-pub mod classes;
-pub mod make;
-pub mod matching;
+pub(crate) mod classes;
+pub(crate) mod make;
+pub(crate) mod matching;
 
-pub use make::{Draft, draft, make, make_condition, report};
-pub use matching::is_of_type;
+pub(crate) use make::{Draft, draft, make, make_condition, report};
+pub(crate) use matching::is_of_type;

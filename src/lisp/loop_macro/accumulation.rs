@@ -10,7 +10,7 @@ use crate::lisp::value::raise::Raise;
 
 /// How a clause adds to a result.
 #[derive(Clone, Copy)]
-pub enum Adding {
+pub(crate) enum Adding {
     /// An element at the end of a list.
     Collect,
     /// The elements of a list, copied.
@@ -29,7 +29,7 @@ pub enum Adding {
 
 impl Adding {
     /// What a word of a clause means.
-    pub fn named(word: &str) -> Option<Adding> {
+    pub(crate) fn named(word: &str) -> Option<Adding> {
         Some(match word {
             "COLLECT" | "COLLECTING" => Adding::Collect,
             "APPEND" | "APPENDING" => Adding::Append,
@@ -52,7 +52,7 @@ impl Adding {
 }
 
 /// Reads what follows the form of an accumulation, and writes the form that adds.
-pub fn parse(
+pub(crate) fn parse(
     parser: &mut Parser<'_>,
     plan: &mut Plan,
     word: &str,

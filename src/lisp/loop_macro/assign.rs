@@ -12,7 +12,7 @@ const MAX_VARIABLES: usize = 10_000;
 /// Reads a variable or tree of variables, and a type if one follows.
 ///
 /// Returns the tree and the type.
-pub fn variable(
+pub(crate) fn variable(
     parser: &mut Parser<'_>,
     plan: &mut Plan,
     clause: &str,
@@ -43,7 +43,10 @@ pub fn variable(
 }
 
 /// Reads a type: after `of-type`, or one of the simple types that stand alone.
-pub fn variable_type(parser: &mut Parser<'_>, clause: &str) -> Result<Option<Value>, Box<Raise>> {
+pub(crate) fn variable_type(
+    parser: &mut Parser<'_>,
+    clause: &str,
+) -> Result<Option<Value>, Box<Raise>> {
     if parser.accept(&["OF-TYPE"]) {
         return parser.form(&format!("OF-TYPE in {clause}")).map(Some);
     }
@@ -54,7 +57,7 @@ pub fn variable_type(parser: &mut Parser<'_>, clause: &str) -> Result<Option<Val
 }
 
 /// What a variable holds that no value was given for.
-pub fn default_value(of_type: Option<&Value>) -> Value {
+pub(crate) fn default_value(of_type: Option<&Value>) -> Value {
     match of_type {
         Some(Value::Symbol(
             known::FIXNUM
@@ -92,7 +95,7 @@ fn leaves(tree: &Value) -> Result<Vec<Value>, Box<Raise>> {
 }
 
 /// Each variable of a tree with the form that takes its value out of a variable.
-pub fn parts(tree: &Value, whole: &Value) -> Vec<Assignment> {
+pub(crate) fn parts(tree: &Value, whole: &Value) -> Vec<Assignment> {
     let mut found = Vec::new();
     let mut pending = vec![(tree.clone(), whole.clone())];
     while let Some((part, form)) = pending.pop() {

@@ -3,26 +3,26 @@
 use crate::lisp::value::Value;
 
 /// A variable, or a tree of variables, and the form whose value it gets.
-pub type Assignment = (Value, Value);
+pub(crate) type Assignment = (Value, Value);
 
 /// What happens when the variables of some `for` clauses take their next values: tests
 /// that end the loop, assignments, tests, assignments. Each set of assignments is made at
 /// once.
 #[derive(Clone, Default)]
-pub struct Step {
+pub(crate) struct Step {
     /// Forms that end the loop when they are true, before anything is assigned.
-    pub tests: Vec<Value>,
+    pub(crate) tests: Vec<Value>,
     /// What the user's variables get.
-    pub sets: Vec<Assignment>,
+    pub(crate) sets: Vec<Assignment>,
     /// Forms that end the loop when they are true, with the new values.
-    pub tests_after: Vec<Value>,
+    pub(crate) tests_after: Vec<Value>,
     /// What hidden variables get.
-    pub advances: Vec<Assignment>,
+    pub(crate) advances: Vec<Assignment>,
 }
 
 impl Step {
     /// Adds what another clause, joined by `and`, does at the same time.
-    pub fn join(&mut self, other: Step) {
+    pub(crate) fn join(&mut self, other: Step) {
         self.tests.extend(other.tests);
         self.sets.extend(other.sets);
         self.tests_after.extend(other.tests_after);
@@ -32,7 +32,7 @@ impl Step {
 
 /// What an accumulation builds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Building {
+pub(crate) enum Building {
     /// A list.
     List,
     /// A sum or a count.
@@ -42,44 +42,44 @@ pub enum Building {
 }
 
 /// A result that clauses accumulate.
-pub struct Accumulator {
+pub(crate) struct Accumulator {
     /// The variable after `into`; none for the loop's own result.
-    pub into: Option<Value>,
+    pub(crate) into: Option<Value>,
     /// What is built.
-    pub building: Building,
+    pub(crate) building: Building,
     /// The variable that holds the result: `into`, or a hidden one.
-    pub variable: Value,
+    pub(crate) variable: Value,
     /// For lists, the pair in front of the list, which hides in a variable of its own.
-    pub front: Value,
+    pub(crate) front: Value,
     /// For lists, the variable that holds the last pair; else a scratch variable.
-    pub tail: Value,
+    pub(crate) tail: Value,
 }
 
 /// A whole loop.
 #[derive(Default)]
-pub struct Plan {
+pub(crate) struct Plan {
     /// The name of the block.
-    pub name: Value,
+    pub(crate) name: Value,
     /// Bindings, group by group; those of a group are made at once.
-    pub bindings: Vec<Vec<Assignment>>,
+    pub(crate) bindings: Vec<Vec<Assignment>>,
     /// Hidden variables that start as `NIL`.
-    pub scratch: Vec<Value>,
+    pub(crate) scratch: Vec<Value>,
     /// What happens before the first iteration, clause group by clause group.
-    pub first: Vec<Step>,
+    pub(crate) first: Vec<Step>,
     /// What happens before each other iteration.
-    pub next: Vec<Step>,
+    pub(crate) next: Vec<Step>,
     /// Forms before everything else.
-    pub initially: Vec<Value>,
+    pub(crate) initially: Vec<Value>,
     /// The body.
-    pub body: Vec<Value>,
+    pub(crate) body: Vec<Value>,
     /// Forms after the last iteration.
-    pub finally: Vec<Value>,
+    pub(crate) finally: Vec<Value>,
     /// Results that are accumulated.
-    pub accumulators: Vec<Accumulator>,
+    pub(crate) accumulators: Vec<Accumulator>,
     /// Does the loop return true if nothing ended it (`always`, `never`)?
-    pub default_true: bool,
+    pub(crate) default_true: bool,
     /// The tag at the loop's end.
-    pub end_tag: Value,
+    pub(crate) end_tag: Value,
     /// All variables of `for` and `with` clauses.
-    pub variables: Vec<Value>,
+    pub(crate) variables: Vec<Value>,
 }

@@ -17,17 +17,17 @@ use crate::lisp::value::raise::Raise;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The symbol of a name in `COMMON-LISP`.
-pub fn common(image: &mut Image, name: &str) -> Value {
+pub(crate) fn common(image: &mut Image, name: &str) -> Value {
     image.intern(PackageTable::CL, name).into()
 }
 
 /// The symbol of a name in `SYSTEM`.
-pub fn system(image: &mut Image, name: &str) -> Value {
+pub(crate) fn system(image: &mut Image, name: &str) -> Value {
     image.intern(PackageTable::SYSTEM, name).into()
 }
 
 /// Checks that a step is a positive number.
-pub fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
+pub(crate) fn check_positive(step: &Value) -> Result<(), Box<Raise>> {
     let positive = number::compare(step, &Value::Int(0)).ok().flatten();
     if positive == Some(std::cmp::Ordering::Greater) {
         Ok(())
@@ -88,7 +88,7 @@ fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 /// What loops call; in `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "EXTEND-LIST",
         "last-pair element",

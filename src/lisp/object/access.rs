@@ -13,7 +13,7 @@ use crate::lisp::vm::step::Step;
 
 /// What is done with a slot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Access {
+pub(crate) enum Access {
     /// Its value is read.
     Read,
     /// A value is stored.
@@ -37,7 +37,7 @@ impl Access {
 }
 
 /// The value of a slot.
-pub fn slot_value(
+pub(crate) fn slot_value(
     machine: &mut Machine<'_>,
     object: &Value,
     name: &Value,
@@ -59,7 +59,7 @@ pub fn slot_value(
 
 /// Stores a value in a slot and returns it. `again` is the function that does the same,
 /// called once more after an update of the instance.
-pub fn set_slot_value(
+pub(crate) fn set_slot_value(
     machine: &mut Machine<'_>,
     value: Value,
     object: &Value,
@@ -80,7 +80,7 @@ pub fn set_slot_value(
 }
 
 /// Has the slot a value?
-pub fn slot_boundp(
+pub(crate) fn slot_boundp(
     machine: &mut Machine<'_>,
     object: &Value,
     name: &Value,
@@ -100,7 +100,7 @@ pub fn slot_boundp(
 }
 
 /// Takes a slot's value away; returns the instance.
-pub fn slot_makunbound(
+pub(crate) fn slot_makunbound(
     machine: &mut Machine<'_>,
     object: &Value,
     name: &Value,
@@ -131,7 +131,7 @@ fn unbound(image: &Image, object: &Value, slot: Sym) -> Result<Step, Box<Raise>>
 }
 
 /// The error that a slot has no value.
-pub fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
+pub(crate) fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
     Box::new(Raise::Make {
         place: crate::lisp::source::Place::NONE,
         class: known::UNBOUND_SLOT,
@@ -161,7 +161,7 @@ fn missing(
 }
 
 /// The error that there is no such slot.
-pub fn missing_slot(
+pub(crate) fn missing_slot(
     image: &Image,
     object: &Value,
     slot: Sym,
@@ -185,7 +185,7 @@ pub fn missing_slot(
 }
 
 /// Does the object have a slot of this name?
-pub fn slot_exists(object: &Value, slot: Sym) -> bool {
+pub(crate) fn slot_exists(object: &Value, slot: Sym) -> bool {
     matches!(object, Value::Instance(i) if has_slot(i, slot))
 }
 
@@ -194,7 +194,7 @@ fn has_slot(instance: &Instance, slot: Sym) -> bool {
 }
 
 /// A slot name, which is a symbol.
-pub fn slot_name(name: &Value) -> Result<Sym, Box<Raise>> {
+pub(crate) fn slot_name(name: &Value) -> Result<Sym, Box<Raise>> {
     name.as_symbol()
         .ok_or_else(|| Raise::type_error(name, Value::Symbol(known::SYMBOL)))
 }

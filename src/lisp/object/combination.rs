@@ -24,7 +24,7 @@ const BUILTIN: &[(Sym, bool)] = &[
 ];
 
 /// The combination of a name.
-pub fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box<Raise>> {
+pub(crate) fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box<Raise>> {
     let unknown = || {
         Raise::program(format!(
             "There is no method combination named {}.",
@@ -54,7 +54,7 @@ pub fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box
 }
 
 /// `(define-method-combination name :operator operator :identity-with-one-argument flag)`.
-pub fn expand_define_method_combination(
+pub(crate) fn expand_define_method_combination(
     image: &mut Image,
     whole: &Value,
 ) -> Result<Value, Box<Raise>> {
@@ -87,7 +87,7 @@ pub fn expand_define_method_combination(
 }
 
 /// The builtin behind it: `(name operator identity)`; returns the name.
-pub fn define_combination(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn define_combination(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], Value::Symbol(known::SYMBOL)));
     };

@@ -15,7 +15,7 @@ use crate::lisp::vm::step::{Resume, Step};
 
 /// How far a call has come.
 #[derive(Clone, Copy)]
-pub enum Stage {
+pub(crate) enum Stage {
     /// At the around method of this number.
     Around(usize),
     /// At the primary method of this number.
@@ -23,10 +23,14 @@ pub enum Stage {
 }
 
 /// The begin of a call.
-pub const START: Stage = Stage::Around(0);
+pub(crate) const START: Stage = Stage::Around(0);
 
 /// Runs a call from a stage on.
-pub fn run(effective: &Rc<Effective>, stage: Stage, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+pub(crate) fn run(
+    effective: &Rc<Effective>,
+    stage: Stage,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
     let (around, before, primary, after, combination) = match &effective.shape {
         Shape::Combined {
             around,
@@ -72,7 +76,7 @@ pub fn run(effective: &Rc<Effective>, stage: Stage, args: Vec<Value>) -> Result<
 }
 
 /// The error that `call-next-method` has nothing to call.
-pub fn no_next_method(image: &Image, name: &Value) -> Box<Raise> {
+pub(crate) fn no_next_method(image: &Image, name: &Value) -> Box<Raise> {
     let shown = super::qualified(image, name);
     let report = format!("There is no next method for the generic function {shown}.");
     Raise::new(known::NO_NEXT_METHOD_ERROR, report).with(known::K_METHOD, name.clone())

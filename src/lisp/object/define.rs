@@ -10,25 +10,28 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// What a definition says about a class.
-pub struct ClassDefinition {
+pub(crate) struct ClassDefinition {
     /// The name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// What its instances are.
-    pub kind: ClassKind,
+    pub(crate) kind: ClassKind,
     /// Direct superclasses in order; those of the kind are added when there is none.
-    pub superclasses: Vec<Sym>,
+    pub(crate) superclasses: Vec<Sym>,
     /// Slots of this class itself.
-    pub slots: Vec<SlotDefinition>,
+    pub(crate) slots: Vec<SlotDefinition>,
     /// Default initargs of this class itself.
-    pub default_initargs: Vec<(Sym, Initform)>,
+    pub(crate) default_initargs: Vec<(Sym, Initform)>,
     /// The documentation.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
 }
 
 impl Image {
     /// Defines a class, or redefines it: the class object stays, instances update
     /// themselves when they are next used.
-    pub fn define_class(&mut self, definition: ClassDefinition) -> Result<Rc<Class>, Box<Raise>> {
+    pub(crate) fn define_class(
+        &mut self,
+        definition: ClassDefinition,
+    ) -> Result<Rc<Class>, Box<Raise>> {
         if let Some(class) = self.classes.get(&definition.name)
             && class.kind == ClassKind::Builtin
         {
@@ -114,7 +117,7 @@ impl Image {
 }
 
 /// The error that there is no class of a name.
-pub fn no_class(image: &Image, name: Sym) -> Box<Raise> {
+pub(crate) fn no_class(image: &Image, name: Sym) -> Box<Raise> {
     let shown = super::qualified(image, &name.into());
     let report = format!("There is no class named {shown}.");
     Raise::new(known::CLASS_NOT_FOUND_ERROR, report).with(known::K_NAME, name.into())

@@ -15,7 +15,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// `(defmethod name qualifiers… lambda-list body…)`.
-pub fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let mut items = whole.iter_list();
     items.next();
     let name = items.next().unwrap_or(Value::NIL);
@@ -197,7 +197,7 @@ fn any_part(form: &Value, test: impl Fn(&Value) -> bool) -> bool {
 }
 
 /// The builtin behind `defmethod`: returns the method.
-pub fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let [
         name,
         qualifiers,
@@ -238,7 +238,7 @@ pub fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>
 }
 
 /// `(defgeneric name lambda-list options… methods…)`.
-pub fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let parts = whole.list_to_vec().unwrap_or_default();
     let [_, name, lambda_list, options @ ..] = parts.as_slice() else {
         return Err(Raise::program(
@@ -286,7 +286,10 @@ pub fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Value, Box<
 }
 
 /// The builtin behind `defgeneric`: returns the generic function.
-pub fn ensure_generic_function(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn ensure_generic_function(
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Value, Box<Raise>> {
     let [name, lambda_list, combination, doc] = args else {
         return Err(Raise::program("invalid number of arguments: 0"));
     };
@@ -326,7 +329,7 @@ pub fn ensure_generic_function(image: &mut Image, args: &[Value]) -> Result<Valu
 }
 
 /// Notes that a method was made by the `defgeneric` of its function itself.
-pub fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+pub(crate) fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     if let Some(object) = args
         .first()
         .and_then(|a| a.as_foreign::<super::method::MethodObject>())

@@ -43,7 +43,7 @@ struct Position {
 
 /// Which arguments decide, and what they decided so far.
 #[derive(Default)]
-pub struct Dispatch {
+pub(crate) struct Dispatch {
     positions: Vec<Position>,
     entries: Vec<(Key, Rc<Effective>)>,
     /// The classes whose addresses occur in keys; held so that none is reused.
@@ -52,7 +52,7 @@ pub struct Dispatch {
 
 impl Dispatch {
     /// The state for a changed set of methods.
-    pub fn for_methods(methods: &[Rc<Method>]) -> Dispatch {
+    pub(crate) fn for_methods(methods: &[Rc<Method>]) -> Dispatch {
         let mut positions: Vec<Position> = Vec::new();
         for method in methods {
             for (index, specializer) in method.specializers.iter().enumerate() {
@@ -139,7 +139,7 @@ impl Position {
 }
 
 /// Calls a generic function.
-pub fn call_generic(
+pub(crate) fn call_generic(
     machine: &mut Machine<'_>,
     function: &Rc<Function>,
     args: Vec<Value>,
@@ -278,7 +278,11 @@ fn no_applicable_method(
 }
 
 /// The error that no method of a generic function applies.
-pub fn no_applicable_method_error(image: &Image, function: Value, args: Vec<Value>) -> Box<Raise> {
+pub(crate) fn no_applicable_method_error(
+    image: &Image,
+    function: Value,
+    args: Vec<Value>,
+) -> Box<Raise> {
     let args = Value::list(args);
     let report = format!(
         "There is no applicable method for the generic function\n  {}\nwhen called with arguments\n  {}.",

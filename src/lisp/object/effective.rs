@@ -14,17 +14,17 @@ use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::Sym;
 
 /// The methods of a call in the order in which they run.
-pub struct Effective {
+pub(crate) struct Effective {
     /// The shape of the call.
-    pub shape: Shape,
+    pub(crate) shape: Shape,
     /// Keywords that some applicable method accepts; none if they need no check.
-    pub keys: Option<Vec<Sym>>,
+    pub(crate) keys: Option<Vec<Sym>>,
     /// Number of arguments before the keywords.
-    pub keys_from: usize,
+    pub(crate) keys_from: usize,
 }
 
 /// The shape of a call.
-pub enum Shape {
+pub(crate) enum Shape {
     /// No method applies.
     NotApplicable,
     /// Only a slot is read.
@@ -49,7 +49,7 @@ pub enum Shape {
 }
 
 /// Where the slot of an accessor lies in instances of the class at hand.
-pub enum SlotPlace {
+pub(crate) enum SlotPlace {
     /// At this position of the instance.
     Local(usize),
     /// In the class.
@@ -58,7 +58,7 @@ pub enum SlotPlace {
 
 impl Effective {
     /// The effective method for a call with these arguments (all required ones are there).
-    pub fn compute(
+    pub(crate) fn compute(
         image: &Image,
         generic: &GenericFunction,
         args: &[Value],
@@ -74,7 +74,7 @@ impl Effective {
 }
 
 /// The applicable methods, most specific first.
-pub fn applicable_methods(
+pub(crate) fn applicable_methods(
     image: &Image,
     generic: &GenericFunction,
     args: &[Value],

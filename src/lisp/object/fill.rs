@@ -11,7 +11,7 @@ use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 
 /// Which slots may get the value of their initform.
-pub enum Which {
+pub(crate) enum Which {
     /// All.
     All,
     /// The named ones.
@@ -20,7 +20,7 @@ pub enum Which {
 
 impl Which {
     /// From the slot names argument of `shared-initialize`: `T` or a list.
-    pub fn from_value(value: &Value) -> Which {
+    pub(crate) fn from_value(value: &Value) -> Which {
         match value {
             Value::Symbol(crate::lisp::value::known::T) => Which::All,
             list => Which::Only(list.iter_list().filter_map(|n| n.as_symbol()).collect()),
@@ -36,7 +36,7 @@ impl Which {
 }
 
 /// What happens when all slots have their values.
-pub enum Finish {
+pub(crate) enum Finish {
     /// The value is returned.
     Return(Value),
     /// The function is called.
@@ -54,7 +54,12 @@ impl Finish {
 
 /// Sets the slots that initargs (keywords and values in turn) name; slots among `which`
 /// that are still unbound get their initial values.
-pub fn fill(instance: &Rc<Instance>, which: &Which, initargs: &[Value], finish: Finish) -> Step {
+pub(crate) fn fill(
+    instance: &Rc<Instance>,
+    which: &Which,
+    initargs: &[Value],
+    finish: Finish,
+) -> Step {
     let mut pending = Vec::new();
     let class = instance.class();
     for (index, slot) in class.slots.borrow().iter().enumerate() {

@@ -8,7 +8,7 @@ use crate::lisp::value::known;
 pub(crate) use crate::lisp::compile::form::form;
 
 /// `(quote value)`; values that evaluate to themselves stay as they are.
-pub fn quote(value: impl Into<Value>) -> Value {
+pub(crate) fn quote(value: impl Into<Value>) -> Value {
     let value = value.into();
     match value {
         Value::Symbol(known::NIL | known::T) | Value::Int(_) | Value::Str(_) => value,
@@ -17,17 +17,17 @@ pub fn quote(value: impl Into<Value>) -> Value {
 }
 
 /// A body without its declarations and documentation.
-pub struct Body {
+pub(crate) struct Body {
     /// The `(declare …)` forms.
-    pub declarations: Vec<Value>,
+    pub(crate) declarations: Vec<Value>,
     /// The documentation string.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
     /// The forms.
-    pub forms: Value,
+    pub(crate) forms: Value,
 }
 
 /// Takes the declarations and the documentation string off a body.
-pub fn split_body(body: &Value) -> Body {
+pub(crate) fn split_body(body: &Value) -> Body {
     let mut split = Body {
         declarations: Vec::new(),
         doc: None,
@@ -49,12 +49,12 @@ pub fn split_body(body: &Value) -> Body {
 }
 
 /// The text of an optional documentation string as a form.
-pub fn doc_form(doc: Option<&Rc<str>>) -> Value {
+pub(crate) fn doc_form(doc: Option<&Rc<str>>) -> Value {
     doc.map_or(Value::NIL, |doc| Value::string(doc.as_ref()))
 }
 
 /// Does a form's value not depend on when or where it is evaluated? Then that value.
-pub fn constant_value(form: &Value) -> Option<Value> {
+pub(crate) fn constant_value(form: &Value) -> Option<Value> {
     match form {
         Value::Symbol(known::NIL | known::T) => Some(form.clone()),
         Value::Symbol(_) => None,

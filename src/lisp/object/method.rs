@@ -39,7 +39,7 @@ const EXTENSIBLE: &[Sym] = &[
 ];
 
 /// A method as a value.
-pub struct MethodObject(pub Rc<Method>);
+pub(crate) struct MethodObject(pub(crate) Rc<Method>);
 
 impl Foreign for MethodObject {
     fn type_symbol(&self) -> Sym {
@@ -66,7 +66,7 @@ impl Foreign for MethodObject {
 }
 
 /// The value that stands for a method: always the same one while somebody holds it.
-pub fn method_value(method: &Rc<Method>) -> Value {
+pub(crate) fn method_value(method: &Rc<Method>) -> Value {
     if let Some(object) = method.object.borrow().upgrade() {
         return Value::Foreign(object);
     }
@@ -76,7 +76,7 @@ pub fn method_value(method: &Rc<Method>) -> Value {
 }
 
 /// The function of a name: a symbol, or the list `(setf symbol)`.
-pub fn named_function(image: &Image, name: &Value) -> Option<Rc<Function>> {
+pub(crate) fn named_function(image: &Image, name: &Value) -> Option<Rc<Function>> {
     match name {
         Value::Symbol(sym) => image.function(*sym).cloned(),
         other => image.symbol(setf_name(other)?).setf_function.clone(),
@@ -84,7 +84,7 @@ pub fn named_function(image: &Image, name: &Value) -> Option<Rc<Function>> {
 }
 
 /// The symbol of `(setf symbol)`.
-pub fn setf_name(name: &Value) -> Option<Sym> {
+pub(crate) fn setf_name(name: &Value) -> Option<Sym> {
     match name.list_to_vec()?.as_slice() {
         [Value::Symbol(known::SETF), Value::Symbol(sym)] => Some(*sym),
         _ => None,
@@ -103,7 +103,7 @@ fn set_named_function(image: &mut Image, name: &Value, function: Rc<Function>) {
 }
 
 /// The generic function of a name, made with these parameters if there is none.
-pub fn ensure_generic(
+pub(crate) fn ensure_generic(
     image: &mut Image,
     name: &Value,
     parameters: &Parameters,
@@ -200,27 +200,27 @@ fn names_ordinary_function(image: &Image, name: &Value) -> Box<Raise> {
 }
 
 /// What a method definition says.
-pub struct MethodDefinition {
+pub(crate) struct MethodDefinition {
     /// The name of the generic function.
-    pub name: Value,
+    pub(crate) name: Value,
     /// Qualifiers.
-    pub qualifiers: Vec<Sym>,
+    pub(crate) qualifiers: Vec<Sym>,
     /// One per required parameter.
-    pub specializers: Vec<Specializer>,
+    pub(crate) specializers: Vec<Specializer>,
     /// The parameters.
-    pub parameters: Parameters,
+    pub(crate) parameters: Parameters,
     /// The method function.
-    pub function: Rc<Function>,
+    pub(crate) function: Rc<Function>,
     /// Does the function take the next method?
-    pub takes_next: bool,
+    pub(crate) takes_next: bool,
     /// Set for slot accessors.
-    pub accessor: Option<Accessor>,
+    pub(crate) accessor: Option<Accessor>,
     /// Documentation.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
 }
 
 /// Adds a method to the generic function of its name, made if there is none.
-pub fn define_method(
+pub(crate) fn define_method(
     image: &mut Image,
     definition: MethodDefinition,
 ) -> Result<Rc<Method>, Box<Raise>> {
@@ -238,7 +238,7 @@ pub fn define_method(
 }
 
 /// Adds a method; one with the same qualifiers and specializers is replaced.
-pub fn add_method(
+pub(crate) fn add_method(
     image: &Image,
     function: &Rc<Function>,
     method: Rc<Method>,
@@ -260,7 +260,7 @@ pub fn add_method(
 }
 
 /// Removes a method.
-pub fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
+pub(crate) fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
     generic
         .methods
         .borrow_mut()
@@ -269,7 +269,7 @@ pub fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
 }
 
 /// Forgets what calls have decided so far.
-pub fn changed(generic: &GenericFunction) {
+pub(crate) fn changed(generic: &GenericFunction) {
     let dispatch = Dispatch::for_methods(&generic.methods.borrow());
     *generic.dispatch.borrow_mut() = dispatch;
 }
@@ -336,7 +336,7 @@ fn accepts_keys(
 }
 
 /// Does a program have a method of its own, on the named function, for the value?
-pub fn user_method_applies(image: &Image, function: Sym, args: &[Value]) -> bool {
+pub(crate) fn user_method_applies(image: &Image, function: Sym, args: &[Value]) -> bool {
     image
         .function(function)
         .and_then(|f| f.as_generic())
@@ -348,14 +348,14 @@ pub fn user_method_applies(image: &Image, function: Sym, args: &[Value]) -> bool
 }
 
 /// The generic version of a standard function, if a program has added methods to it.
-pub fn extended_function(image: &Image, name: Sym) -> Option<Value> {
+pub(crate) fn extended_function(image: &Image, name: Sym) -> Option<Value> {
     let function = image.function(name)?;
     function.as_generic()?;
     Some(Value::Function(function.clone()))
 }
 
 /// A specializer from its value: a class, the name of one, or `(eql value)`.
-pub fn specializer(image: &Image, value: &Value) -> Result<Specializer, Box<Raise>> {
+pub(crate) fn specializer(image: &Image, value: &Value) -> Result<Specializer, Box<Raise>> {
     match value {
         Value::Class(class) => Ok(Specializer::Class(class.clone())),
         Value::Symbol(name) => class_named(image, *name).map(Specializer::Class),

@@ -3,26 +3,26 @@
 //! Holds true: a class keeps its identity over redefinitions; an instance is brought up to
 //! date before anything reads it; a call of a generic function never calls Lisp from Rust.
 
-pub mod access;
-pub mod builtin_classes;
-pub mod class_of;
-pub mod combination;
-pub mod combine;
-pub mod defclass;
-pub mod define;
-pub mod defmethod;
-pub mod dispatch;
-pub mod effective;
-pub mod fill;
-pub mod form;
-pub mod instance;
-pub mod method;
-pub mod parameters;
-pub mod precedence;
-pub mod slot_options;
-pub mod update;
+pub(crate) mod access;
+pub(crate) mod builtin_classes;
+pub(crate) mod class_of;
+pub(crate) mod combination;
+pub(crate) mod combine;
+pub(crate) mod defclass;
+pub(crate) mod define;
+pub(crate) mod defmethod;
+pub(crate) mod dispatch;
+pub(crate) mod effective;
+pub(crate) mod fill;
+pub(crate) mod form;
+pub(crate) mod instance;
+pub(crate) mod method;
+pub(crate) mod parameters;
+pub(crate) mod precedence;
+pub(crate) mod slot_options;
+pub(crate) mod update;
 
-pub use class_of::class_of;
+pub(crate) use class_of::class_of;
 
 use super::image::Image;
 use super::value::Value;

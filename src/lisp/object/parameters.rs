@@ -8,17 +8,17 @@ use crate::lisp::value::symbol::Sym;
 
 /// Numbers of parameters and keywords of a lambda list.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
-pub struct Parameters {
+pub(crate) struct Parameters {
     /// Number of required parameters.
-    pub required: usize,
+    pub(crate) required: usize,
     /// Number of optional parameters.
-    pub optional: usize,
+    pub(crate) optional: usize,
     /// Is there a rest parameter?
-    pub has_rest: bool,
+    pub(crate) has_rest: bool,
     /// The keywords, if there is `&key`.
-    pub keys: Option<Vec<Sym>>,
+    pub(crate) keys: Option<Vec<Sym>>,
     /// Are keywords beyond those allowed?
-    pub allows_other_keys: bool,
+    pub(crate) allows_other_keys: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -32,7 +32,7 @@ enum Section {
 
 impl Parameters {
     /// Only required parameters.
-    pub fn required(count: usize) -> Parameters {
+    pub(crate) fn required(count: usize) -> Parameters {
         Parameters {
             required: count,
             ..Parameters::default()
@@ -40,7 +40,7 @@ impl Parameters {
     }
 
     /// Required parameters and any number of further arguments.
-    pub fn required_and_rest(count: usize) -> Parameters {
+    pub(crate) fn required_and_rest(count: usize) -> Parameters {
         Parameters {
             required: count,
             has_rest: true,
@@ -49,7 +49,7 @@ impl Parameters {
     }
 
     /// Reads a lambda list whose parameters may be specialized.
-    pub fn parse(image: &mut Image, lambda_list: &Value) -> Result<Parameters, Box<Raise>> {
+    pub(crate) fn parse(image: &mut Image, lambda_list: &Value) -> Result<Parameters, Box<Raise>> {
         let mut parameters = Parameters::default();
         let mut section = Section::Required;
         for item in lambda_list.iter_list() {
@@ -80,12 +80,12 @@ impl Parameters {
     }
 
     /// May a call have more than the required and optional arguments?
-    pub fn has_more(&self) -> bool {
+    pub(crate) fn has_more(&self) -> bool {
         self.has_rest || self.keys.is_some()
     }
 
     /// Is this number of arguments acceptable?
-    pub fn accepts(&self, count: usize) -> bool {
+    pub(crate) fn accepts(&self, count: usize) -> bool {
         count >= self.required && (self.has_more() || count <= self.required + self.optional)
     }
 }

@@ -9,19 +9,19 @@ use crate::lisp::value::Value;
 
 /// A call that writes a text to a stream.
 #[derive(Clone)]
-pub struct Call {
+pub(crate) struct Call {
     /// The function.
-    pub function: Value,
+    pub(crate) function: Value,
     /// Arguments before the stream.
-    pub before: Vec<Value>,
+    pub(crate) before: Vec<Value>,
     /// Arguments after the stream.
-    pub after: Vec<Value>,
+    pub(crate) after: Vec<Value>,
     /// `*print-escape*` during the call; unchanged if none.
-    pub escape: Option<bool>,
+    pub(crate) escape: Option<bool>,
 }
 
 /// Calls that are needed, or their texts.
-pub struct Calls {
+pub(crate) struct Calls {
     /// Texts of calls made, in the order in which they are needed.
     texts: VecDeque<String>,
     /// Calls without a text.
@@ -32,7 +32,7 @@ pub struct Calls {
 
 impl Calls {
     /// No calls are possible: objects print in their default form.
-    pub fn none() -> Calls {
+    pub(crate) fn none() -> Calls {
         Calls {
             texts: VecDeque::new(),
             needed: Vec::new(),
@@ -41,7 +41,7 @@ impl Calls {
     }
 
     /// Calls are possible, and these texts came of the first ones.
-    pub fn with_texts(texts: impl IntoIterator<Item = String>) -> Calls {
+    pub(crate) fn with_texts(texts: impl IntoIterator<Item = String>) -> Calls {
         Calls {
             texts: texts.into_iter().collect(),
             needed: Vec::new(),
@@ -63,7 +63,7 @@ impl Calls {
     }
 
     /// The calls whose texts were missing.
-    pub fn into_needed(self) -> Vec<Call> {
+    pub(crate) fn into_needed(self) -> Vec<Call> {
         self.needed
     }
 }

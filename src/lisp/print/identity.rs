@@ -68,7 +68,7 @@ fn address<T>(object: &Rc<T>) -> usize {
 
 /// The numbers that objects of an image have got.
 #[derive(Default)]
-pub struct Identities {
+pub(crate) struct Identities {
     /// By address; an address may have been used again, so the object is held weakly.
     entries: HashMap<usize, (u64, Held)>,
     given: u64,
@@ -97,7 +97,7 @@ impl Identities {
 }
 
 /// The made-up address of an object, in braces: the same one whenever it is printed.
-pub fn identity(image: &Image, value: &Value) -> String {
+pub(crate) fn identity(image: &Image, value: &Value) -> String {
     let number = image.printed.borrow_mut().number(value);
     format!("{{{number:010X}}}")
 }

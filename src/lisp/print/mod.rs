@@ -10,11 +10,11 @@ mod calls;
 mod circle;
 mod document;
 mod float;
-pub mod format;
-pub mod identity;
+pub(crate) mod format;
+pub(crate) mod identity;
 mod layout;
 mod printer;
-pub mod report;
+pub(crate) mod report;
 mod settings;
 mod shape;
 mod symbol;
@@ -24,22 +24,22 @@ pub(crate) mod test_image;
 #[cfg(test)]
 mod tests;
 
-pub use calls::{Call, Calls};
-pub use identity::identity;
-pub use settings::{Case, Settings};
+pub(crate) use calls::{Call, Calls};
+pub(crate) use identity::identity;
+pub(crate) use settings::{Case, Settings};
 
 use super::image::Image;
 use super::value::Value;
 
 /// A value as `prin1` (`escape`) or `princ` print it under the current printer variables,
 /// on a line of its own. Objects that need Lisp code print in their default form.
-pub fn to_string(image: &Image, value: &Value, escape: bool) -> String {
+pub(crate) fn to_string(image: &Image, value: &Value, escape: bool) -> String {
     let settings = Settings::of(image).with_escape(escape);
     write(image, value, &settings, 0, &mut Calls::none())
 }
 
 /// A value under given settings, where the line has already so many characters.
-pub fn write(
+pub(crate) fn write(
     image: &Image,
     value: &Value,
     settings: &Settings,
@@ -51,7 +51,7 @@ pub fn write(
 
 /// Like [`write`], but a method of `print-object` for the value itself is not heard: what
 /// the method for everything prints.
-pub fn write_default(
+pub(crate) fn write_default(
     image: &Image,
     value: &Value,
     settings: &Settings,

@@ -11,7 +11,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 
 /// The `:report` function of a condition's class, inherited ones included.
-pub fn function(instance: &Instance) -> Option<Rc<Function>> {
+pub(crate) fn function(instance: &Instance) -> Option<Rc<Function>> {
     let class = instance.class();
     let own = class.report.borrow().clone();
     own.or_else(|| {
@@ -33,7 +33,7 @@ fn slot(image: &Image, instance: &Instance, name: &str) -> Option<Value> {
 }
 
 /// The report of a condition as far as no Lisp code says it.
-pub fn report(image: &Image, condition: &Value) -> String {
+pub(crate) fn report(image: &Image, condition: &Value) -> String {
     let Value::Instance(instance) = condition else {
         return to_string(image, condition, false);
     };

@@ -7,7 +7,7 @@ use crate::lisp::value::symbol::Sym;
 
 /// `*print-case*`
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Case {
+pub(crate) enum Case {
     /// `:upcase`
     Up,
     /// `:downcase`
@@ -18,37 +18,37 @@ pub enum Case {
 
 /// How values are printed.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Settings {
+pub(crate) struct Settings {
     /// `*print-escape*`: so that it can be read back?
-    pub escape: bool,
+    pub(crate) escape: bool,
     /// `*print-readably*`: no abbreviations?
-    pub readably: bool,
+    pub(crate) readably: bool,
     /// `*print-pretty*`: with line breaks?
-    pub pretty: bool,
+    pub(crate) pretty: bool,
     /// `*print-base*`: the radix of rational numbers, 2 to 36.
-    pub base: u32,
+    pub(crate) base: u32,
     /// `*print-radix*`: with the radix?
-    pub radix: bool,
+    pub(crate) radix: bool,
     /// `*print-case*`
-    pub case: Case,
+    pub(crate) case: Case,
     /// `*print-length*`: most elements of a list or vector.
-    pub length: Option<usize>,
+    pub(crate) length: Option<usize>,
     /// `*print-level*`: deepest nesting.
-    pub level: Option<usize>,
+    pub(crate) level: Option<usize>,
     /// `*print-circle*`: shared parts as `#1#`?
-    pub circle: bool,
+    pub(crate) circle: bool,
     /// `*print-gensym*`: uninterned symbols with `#:`?
-    pub gensym: bool,
+    pub(crate) gensym: bool,
     /// `*print-array*`: arrays with their elements?
-    pub array: bool,
+    pub(crate) array: bool,
     /// `*print-lines*`: most lines of a pretty-printed value.
-    pub lines: Option<usize>,
+    pub(crate) lines: Option<usize>,
     /// `*print-right-margin*`: columns of a line.
-    pub right_margin: usize,
+    pub(crate) right_margin: usize,
     /// `*print-miser-width*`
-    pub miser_width: Option<usize>,
+    pub(crate) miser_width: Option<usize>,
     /// `*read-default-float-format*`: the format whose exponent marker is `e`.
-    pub float_format: Sym,
+    pub(crate) float_format: Sym,
 }
 
 /// Columns of a line unless the program says otherwise.
@@ -63,7 +63,7 @@ fn count(image: &Image, variable: Sym) -> Option<usize> {
 
 impl Settings {
     /// The current values of the printer variables.
-    pub fn of(image: &Image) -> Settings {
+    pub(crate) fn of(image: &Image) -> Settings {
         let flag = |variable| image.special(variable).is_true();
         Settings {
             escape: flag(known::V_PRINT_ESCAPE),
@@ -95,7 +95,7 @@ impl Settings {
     }
 
     /// The settings of `prin1` (true) or `princ`.
-    pub fn with_escape(mut self, escape: bool) -> Settings {
+    pub(crate) fn with_escape(mut self, escape: bool) -> Settings {
         self.escape = escape;
         self.readably &= escape;
         self

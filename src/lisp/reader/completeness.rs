@@ -4,7 +4,7 @@ use super::lexer::{Lexer, TokenKind};
 
 /// How far a text goes towards whole forms.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Completeness {
+pub(crate) enum Completeness {
     /// Every form is closed (there may be none).
     Complete,
     /// More text is needed.
@@ -34,7 +34,7 @@ enum Open {
 }
 
 /// Tells whether a text consists of whole forms.
-pub fn is_complete(text: &str) -> Completeness {
+pub(crate) fn is_complete(text: &str) -> Completeness {
     let mut open: Vec<Open> = Vec::new();
     for token in Lexer::new(text) {
         if !token.is_closed {

@@ -9,20 +9,20 @@ use crate::lisp::value::raise::Raise;
 /// Why a text cannot be read, and where.
 #[derive(Clone, PartialEq, Debug, Error)]
 #[error("{kind}")]
-pub struct ReadError {
+pub(crate) struct ReadError {
     /// What is wrong.
-    pub kind: ReadErrorKind,
+    pub(crate) kind: ReadErrorKind,
     /// First byte of the wrong text.
-    pub start: usize,
+    pub(crate) start: usize,
     /// Byte after the wrong text.
-    pub end: usize,
+    pub(crate) end: usize,
     /// The same as a place; none if the text belongs to no registered source.
-    pub place: Place,
+    pub(crate) place: Place,
 }
 
 /// What is wrong with a text.
 #[derive(Clone, PartialEq, Debug, Error)]
-pub enum ReadErrorKind {
+pub(crate) enum ReadErrorKind {
     /// The text ends inside something.
     #[error("end of file{}", inside(what, *line))]
     EndOfFile {
@@ -214,12 +214,12 @@ fn did_you_mean(nearest: Option<&str>) -> String {
 
 impl ReadError {
     /// Would more text help?
-    pub fn is_end_of_file(&self) -> bool {
+    pub(crate) fn is_end_of_file(&self) -> bool {
         matches!(self.kind, ReadErrorKind::EndOfFile { .. })
     }
 
     /// The error as a condition: `END-OF-FILE` or `READER-ERROR`.
-    pub fn raise(&self) -> Box<Raise> {
+    pub(crate) fn raise(&self) -> Box<Raise> {
         let class = if self.is_end_of_file() {
             known::END_OF_FILE
         } else {

@@ -5,7 +5,7 @@
 
 /// What a token is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum TokenKind {
+pub(crate) enum TokenKind {
     /// `; …` up to the end of the line.
     LineComment,
     /// `#| … |#`, nested.
@@ -51,20 +51,20 @@ pub enum TokenKind {
 
 /// A token: the bytes `start..end` of the text.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Token {
+pub(crate) struct Token {
     /// What it is.
-    pub kind: TokenKind,
+    pub(crate) kind: TokenKind,
     /// First byte.
-    pub start: usize,
+    pub(crate) start: usize,
     /// Byte after the last one.
-    pub end: usize,
+    pub(crate) end: usize,
     /// Is its end there? False for a string, a comment or a `|name` that the text breaks off.
-    pub is_closed: bool,
+    pub(crate) is_closed: bool,
 }
 
 /// Splits a text into tokens.
 #[derive(Clone)]
-pub struct Lexer<'t> {
+pub(crate) struct Lexer<'t> {
     text: &'t str,
     position: usize,
     /// Further characters that end a token.
@@ -72,23 +72,23 @@ pub struct Lexer<'t> {
 }
 
 /// Is the character blank space between tokens? Pasted text may hold exotic ones.
-pub fn is_blank(c: char) -> bool {
+pub(crate) fn is_blank(c: char) -> bool {
     c.is_whitespace() || matches!(c, '\u{200B}' | '\u{FEFF}')
 }
 
 /// Does the character end a token before it?
-pub fn is_terminating(c: char) -> bool {
+pub(crate) fn is_terminating(c: char) -> bool {
     matches!(c, '"' | '\'' | '(' | ')' | ',' | ';' | '`') || is_blank(c)
 }
 
 impl<'t> Lexer<'t> {
     /// A lexer at the start of a text.
-    pub fn new(text: &'t str) -> Lexer<'t> {
+    pub(crate) fn new(text: &'t str) -> Lexer<'t> {
         Lexer::at(text, 0)
     }
 
     /// A lexer at a byte of a text; at the end if that is no character boundary.
-    pub fn at(text: &'t str, position: usize) -> Lexer<'t> {
+    pub(crate) fn at(text: &'t str, position: usize) -> Lexer<'t> {
         let position = if text.is_char_boundary(position) {
             position
         } else {
@@ -102,7 +102,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// Lets further characters end a token.
-    pub fn with_terminators(self, terminators: &'t [char]) -> Lexer<'t> {
+    pub(crate) fn with_terminators(self, terminators: &'t [char]) -> Lexer<'t> {
         Lexer {
             terminators,
             ..self
@@ -110,12 +110,12 @@ impl<'t> Lexer<'t> {
     }
 
     /// The byte where the next token is looked for.
-    pub fn position(&self) -> usize {
+    pub(crate) fn position(&self) -> usize {
         self.position
     }
 
     /// Moves past blank space.
-    pub fn skip_blanks(&mut self) {
+    pub(crate) fn skip_blanks(&mut self) {
         while let Some(c) = self.peek() {
             if !is_blank(c) {
                 return;
@@ -125,7 +125,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// The next character.
-    pub fn peek(&self) -> Option<char> {
+    pub(crate) fn peek(&self) -> Option<char> {
         // Almost all text is ASCII; that needs no decoding.
         match self.text.as_bytes().get(self.position) {
             Some(b) if b.is_ascii() => Some(char::from(*b)),

@@ -5,24 +5,24 @@
 //! reader interns symbols and registers places; it never evaluates: `#.` hands its form to
 //! the caller and goes on with the value.
 
-pub mod char_name;
+pub(crate) mod char_name;
 mod completeness;
 mod error;
 mod feature;
 mod label;
-pub mod lexer;
+pub(crate) mod lexer;
 mod literal;
-pub mod numeric;
+pub(crate) mod numeric;
 mod parser;
-pub mod readtable;
+pub(crate) mod readtable;
 mod suggest;
 mod symbol;
 
-pub use completeness::{Completeness, is_complete};
-pub use error::{ReadError, ReadErrorKind};
-pub use lexer::{Lexer, Token, TokenKind};
-pub use parser::{Outcome, Reader, read_all};
-pub use suggest::nearest;
+pub(crate) use completeness::{Completeness, is_complete};
+pub(crate) use error::{ReadError, ReadErrorKind};
+pub(crate) use lexer::{Lexer, Token, TokenKind};
+pub(crate) use parser::{Outcome, Reader, read_all};
+pub(crate) use suggest::nearest;
 pub(crate) use symbol::upcase;
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::lisp::value::symbol::Sym;
 /// The number that a token without escapes means; `None` if it is a symbol.
 ///
 /// `radix` is `*read-base*`, `float_format` is `*read-default-float-format*`.
-pub fn parse_number(
+pub(crate) fn parse_number(
     token: &str,
     radix: u32,
     float_format: Sym,
@@ -33,7 +33,7 @@ pub fn parse_number(
 }
 
 /// The integer or ratio that a token means in a radix.
-pub fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, ReadErrorKind>> {
+pub(crate) fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, ReadErrorKind>> {
     let Some((numerator, denominator)) = token.split_once('/') else {
         return parse_integer(token, radix).map(Ok);
     };
@@ -49,7 +49,7 @@ pub fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, ReadError
 }
 
 /// The integer that a token means in a radix: an optional sign and digits.
-pub fn parse_integer(token: &str, radix: u32) -> Option<Value> {
+pub(crate) fn parse_integer(token: &str, radix: u32) -> Option<Value> {
     let digits = token.strip_prefix(['+', '-']).unwrap_or(token);
     if digits.is_empty() || !digits.chars().all(|c| c.is_digit(radix)) {
         return None;

@@ -19,7 +19,7 @@ use crate::lisp::value::symbol::{Sym, VariableKind};
 
 /// What a reader has come to.
 #[derive(Clone)]
-pub enum Outcome {
+pub(crate) enum Outcome {
     /// A whole form, and where it stands.
     Form(Value, Place),
     /// No further form.
@@ -32,7 +32,7 @@ pub enum Outcome {
 ///
 /// A form is read in the package that is current at that moment, so `in-package` between
 /// two calls takes effect.
-pub struct Reader {
+pub(crate) struct Reader {
     text: Rc<str>,
     source: Option<SourceId>,
     position: usize,
@@ -109,7 +109,10 @@ impl Kind {
 }
 
 /// Reads all forms of a source in the current package.
-pub fn read_all(image: &mut Image, source: SourceId) -> Result<Vec<(Value, Place)>, ReadError> {
+pub(crate) fn read_all(
+    image: &mut Image,
+    source: SourceId,
+) -> Result<Vec<(Value, Place)>, ReadError> {
     let mut reader = Reader::new(image, source);
     let mut forms = Vec::new();
     while let Some(form) = reader.next_form(image)? {
@@ -120,7 +123,7 @@ pub fn read_all(image: &mut Image, source: SourceId) -> Result<Vec<(Value, Place
 
 impl Reader {
     /// A reader at the start of a registered source; an unknown source reads as empty.
-    pub fn new(image: &Image, source: SourceId) -> Reader {
+    pub(crate) fn new(image: &Image, source: SourceId) -> Reader {
         let text = image
             .sources
             .get(source)
@@ -129,7 +132,7 @@ impl Reader {
     }
 
     /// A reader at the start of a text that belongs to no source: forms get no places.
-    pub fn of_text(text: impl Into<Rc<str>>) -> Reader {
+    pub(crate) fn of_text(text: impl Into<Rc<str>>) -> Reader {
         Reader::make(text.into(), None)
     }
 
@@ -150,33 +153,33 @@ impl Reader {
     }
 
     /// Goes on at a byte of the text.
-    pub fn at(self, position: usize) -> Reader {
+    pub(crate) fn at(self, position: usize) -> Reader {
         Reader { position, ..self }
     }
 
     /// The byte up to which the text has been read.
-    pub fn position(&self) -> usize {
+    pub(crate) fn position(&self) -> usize {
         self.position
     }
 
     /// The text.
-    pub fn text(&self) -> &Rc<str> {
+    pub(crate) fn text(&self) -> &Rc<str> {
         &self.text
     }
 
     /// The text that has not been read.
-    pub fn rest(&self) -> &str {
+    pub(crate) fn rest(&self) -> &str {
         self.text.get(self.position..).unwrap_or("")
     }
 
     /// Lets a further character end tokens.
-    pub fn with_terminator(mut self, c: char) -> Reader {
+    pub(crate) fn with_terminator(mut self, c: char) -> Reader {
         self.terminator = Some(c);
         self
     }
 
     /// Moves past one blank character, as `read` does after a form.
-    pub fn skip_one_blank(&mut self) {
+    pub(crate) fn skip_one_blank(&mut self) {
         if let Some(c) = self
             .text
             .get(self.position..)
@@ -189,7 +192,10 @@ impl Reader {
 
     /// The next form and its place; `None` at the end. `#.` of anything but a constant is
     /// an error here: use [`Reader::next`] where evaluation is possible.
-    pub fn next_form(&mut self, image: &mut Image) -> Result<Option<(Value, Place)>, ReadError> {
+    pub(crate) fn next_form(
+        &mut self,
+        image: &mut Image,
+    ) -> Result<Option<(Value, Place)>, ReadError> {
         match self.next(image)? {
             Outcome::Form(value, place) => Ok(Some((value, place))),
             Outcome::End => Ok(None),
@@ -202,7 +208,7 @@ impl Reader {
 
     /// Reads up to the end of the next form, or to something that must be evaluated.
     /// After an error the reader stands behind the wrong text, outside all forms.
-    pub fn next(&mut self, image: &mut Image) -> Result<Outcome, ReadError> {
+    pub(crate) fn next(&mut self, image: &mut Image) -> Result<Outcome, ReadError> {
         let text = self.text.clone();
         let readtable = image.special(known::V_READTABLE).clone();
         let readtable = readtable.as_foreign::<Readtable>();
@@ -260,7 +266,7 @@ impl Reader {
     }
 
     /// Hands over the value of the form to evaluate and reads on.
-    pub fn supply(&mut self, image: &mut Image, value: Value) -> Result<Outcome, ReadError> {
+    pub(crate) fn supply(&mut self, image: &mut Image, value: Value) -> Result<Outcome, ReadError> {
         let mut value = value;
         if let Some(stream) = self.macro_input.take() {
             if let StreamKind::StringInput { position, .. } = &*stream.kind.borrow() {

@@ -11,13 +11,13 @@ use crate::lisp::value::symbol::Sym;
 
 /// What a program has changed of the standard syntax.
 #[derive(Default, Clone)]
-pub struct Readtable {
+pub(crate) struct Readtable {
     /// Functions of stream and character, with whether the character may stand inside a
     /// token.
-    pub macros: RefCell<BTreeMap<char, (Value, bool)>>,
+    pub(crate) macros: RefCell<BTreeMap<char, (Value, bool)>>,
     /// Functions of stream, sub-character and number, by dispatching character and
     /// sub-character (in upper case).
-    pub dispatch: RefCell<BTreeMap<(char, char), Value>>,
+    pub(crate) dispatch: RefCell<BTreeMap<(char, char), Value>>,
 }
 
 impl Readtable {

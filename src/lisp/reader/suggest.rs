@@ -2,7 +2,10 @@
 
 /// The candidate with the smallest edit distance to `name` (letters without case), if that
 /// is at most a third of its length; of several, the first.
-pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(
+    name: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
     let wanted: Vec<char> = name.chars().flat_map(char::to_uppercase).collect();
     let mut limit = (wanted.len() / 3).clamp(1, 3) + 1;
     let mut best = None;

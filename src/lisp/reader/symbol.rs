@@ -9,13 +9,13 @@ use crate::lisp::value::symbol::Sym;
 /// A token split at its package marker, escapes resolved and letters upcased.
 pub(crate) struct Name {
     /// What stands before the marker; none without a marker.
-    pub package: Option<String>,
+    pub(crate) package: Option<String>,
     /// What stands behind the marker.
-    pub name: String,
+    pub(crate) name: String,
     /// Is the marker `::`?
-    pub is_internal: bool,
+    pub(crate) is_internal: bool,
     /// Was any character escaped? Then the token is no number.
-    pub is_escaped: bool,
+    pub(crate) is_escaped: bool,
 }
 
 /// Upcases as the reader does: only letters that have exactly one upper-case form.

@@ -26,7 +26,7 @@ fn wrong_type(value: &Value, class: &Class) -> Box<Raise> {
 }
 
 /// Defines the reader of a slot and, unless it is read-only, its writer.
-pub fn define(
+pub(crate) fn define(
     image: &mut Image,
     class: &Rc<Class>,
     index: usize,
@@ -78,7 +78,7 @@ fn is_inherited(image: &Image, class: &Rc<Class>, accessor: Sym) -> bool {
 }
 
 /// Defines the function that recognises structures of a class.
-pub fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
+pub(crate) fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
     let of = class.clone();
     let function = Function::made(predicate, (1, Some(1)), move |_, args| {
         Ok(Value::bool(instance_of(&args[0], &of).is_some()))
@@ -87,7 +87,7 @@ pub fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
 }
 
 /// Defines the function that copies structures of a class.
-pub fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
+pub(crate) fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
     let of = class.clone();
     let function = Function::made(copier, (1, Some(1)), move |_, args| {
         if instance_of(&args[0], &of).is_none() {

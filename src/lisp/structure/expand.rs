@@ -14,7 +14,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// `(defstruct name-and-options [documentation] slots…)`.
-pub fn expand_defstruct(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
+pub(crate) fn expand_defstruct(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let definition = StructureDefinition::read(image, whole)?;
     if definition.representation != Representation::Instance {
         return typed::expand(image, &definition);

@@ -11,16 +11,16 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// One constructor.
-pub struct Constructor {
+pub(crate) struct Constructor {
     /// Its name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// Its lambda list; keywords for all slots if none.
-    pub lambda_list: Option<Value>,
+    pub(crate) lambda_list: Option<Value>,
 }
 
 /// How the slots of a structure are stored.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Representation {
+pub(crate) enum Representation {
     /// In an instance of a class of their own.
     Instance,
     /// In a list.
@@ -30,33 +30,33 @@ pub enum Representation {
 }
 
 /// A structure definition.
-pub struct StructureDefinition {
+pub(crate) struct StructureDefinition {
     /// The name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// The prefix of the accessors.
-    pub conc_name: String,
+    pub(crate) conc_name: String,
     /// The constructors.
-    pub constructors: Vec<Constructor>,
+    pub(crate) constructors: Vec<Constructor>,
     /// The function that copies a structure.
-    pub copier: Option<Sym>,
+    pub(crate) copier: Option<Sym>,
     /// The function that recognises one.
-    pub predicate: Option<Sym>,
+    pub(crate) predicate: Option<Sym>,
     /// The structure included, and new defaults of its slots.
-    pub include: Option<(Sym, Vec<StructureSlot>)>,
+    pub(crate) include: Option<(Sym, Vec<StructureSlot>)>,
     /// A function of structure and stream that prints.
-    pub print_object: Option<Value>,
+    pub(crate) print_object: Option<Value>,
     /// A function of structure, stream and depth that prints.
-    pub print_function: Option<Value>,
+    pub(crate) print_function: Option<Value>,
     /// How the slots are stored.
-    pub representation: Representation,
+    pub(crate) representation: Representation,
     /// Does a list or vector begin with the structure's name?
-    pub is_named: bool,
+    pub(crate) is_named: bool,
     /// Unused elements of a list or vector before the name.
-    pub initial_offset: usize,
+    pub(crate) initial_offset: usize,
     /// The slots, without included ones.
-    pub slots: Vec<StructureSlot>,
+    pub(crate) slots: Vec<StructureSlot>,
     /// The documentation.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
 }
 
 /// Which options have been given.
@@ -71,7 +71,10 @@ struct Given {
 
 impl StructureDefinition {
     /// Reads `(defstruct name-and-options [documentation] slots…)`.
-    pub fn read(image: &mut Image, whole: &Value) -> Result<StructureDefinition, Box<Raise>> {
+    pub(crate) fn read(
+        image: &mut Image,
+        whole: &Value,
+    ) -> Result<StructureDefinition, Box<Raise>> {
         let parts = whole.list_to_vec().unwrap_or_default();
         let [_, head, rest @ ..] = parts.as_slice() else {
             return Err(Raise::program("DEFSTRUCT takes a name and slots."));
@@ -227,7 +230,7 @@ impl StructureDefinition {
     }
 
     /// The name of the accessor of a slot.
-    pub fn accessor(&self, image: &mut Image, slot: Sym) -> Sym {
+    pub(crate) fn accessor(&self, image: &mut Image, slot: Sym) -> Sym {
         let name = format!("{}{}", self.conc_name, image.name(slot));
         let package = image.current_package();
         image.intern(package, &name)

@@ -8,10 +8,10 @@ use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::{Resume, Step};
 
 /// An operation that may stop for a call.
-pub type Operation = fn(&mut Image, &[Value], &mut Answers) -> Result<Value, Stop>;
+pub(crate) type Operation = fn(&mut Image, &[Value], &mut Answers) -> Result<Value, Stop>;
 
 /// Runs an operation, making the calls that it asks for.
-pub fn run(
+pub(crate) fn run(
     machine: &mut Machine<'_>,
     name: &'static str,
     operation: Operation,

@@ -13,7 +13,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// Converts a value to a type.
-pub fn coerce(
+pub(crate) fn coerce(
     image: &Image,
     value: &Value,
     specifier: &Value,

@@ -4,21 +4,21 @@
 //! needs the value of a call stops with the call ([`Stop::Call`]) and is begun again with
 //! the answer; answers are kept in order, so nothing is called twice.
 
-pub mod asking;
-pub mod coerce;
-pub mod parse;
-pub mod specifier;
-pub mod subtype;
-pub mod test;
-pub mod type_of;
+pub(crate) mod asking;
+pub(crate) mod coerce;
+pub(crate) mod parse;
+pub(crate) mod specifier;
+pub(crate) mod subtype;
+pub(crate) mod test;
+pub(crate) mod type_of;
 
 #[cfg(test)]
 mod tests;
 
-pub use parse::parse;
-pub use specifier::{Answers, Stop, Type};
-pub use test::{TypeCheck, typep, typep_with};
-pub use type_of::type_of;
+pub(crate) use parse::parse;
+pub(crate) use specifier::{Answers, Stop, Type};
+pub(crate) use test::{TypeCheck, typep, typep_with};
+pub(crate) use type_of::type_of;
 
 use std::cmp::Ordering;
 

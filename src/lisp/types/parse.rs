@@ -16,7 +16,7 @@ const MAX_DEPTH: usize = 200;
 const FIXNUM_LIMIT: i64 = 1 << 62;
 
 /// Reads a specifier.
-pub fn parse(image: &Image, specifier: &Value, answers: &mut Answers) -> Result<Type, Stop> {
+pub(crate) fn parse(image: &Image, specifier: &Value, answers: &mut Answers) -> Result<Type, Stop> {
     Parser {
         image,
         answers,
@@ -230,7 +230,7 @@ fn is_star(value: &Value) -> bool {
 }
 
 /// The element type that an array made for elements of a type really has.
-pub fn upgraded(image: &Image, element: &Value) -> Sym {
+pub(crate) fn upgraded(image: &Image, element: &Value) -> Sym {
     sequence_types::upgraded(image, element)
 }
 
@@ -325,7 +325,7 @@ fn unknown(image: &Image, specifier: &Value) -> Stop {
 }
 
 /// Is the symbol the name of a class that types alone describe?
-pub fn is_plain_class(image: &Image, name: Sym) -> bool {
+pub(crate) fn is_plain_class(image: &Image, name: Sym) -> bool {
     image
         .class(name)
         .is_some_and(|class| class.kind != ClassKind::Builtin)

@@ -9,7 +9,7 @@ use crate::lisp::value::symbol::Sym;
 
 /// A set of values.
 #[derive(Clone)]
-pub enum Type {
+pub(crate) enum Type {
     /// Everything.
     Any,
     /// Nothing.
@@ -49,7 +49,7 @@ pub enum Type {
 
 /// How a real number is represented.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum RealKind {
+pub(crate) enum RealKind {
     /// Integers.
     Integer,
     /// Ratios.
@@ -62,7 +62,7 @@ pub enum RealKind {
 
 /// A bound of a range.
 #[derive(Clone)]
-pub enum Bound {
+pub(crate) enum Bound {
     /// There is none.
     None,
     /// The number itself belongs to the range.
@@ -73,7 +73,7 @@ pub enum Bound {
 
 /// A set of characters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum CharacterKind {
+pub(crate) enum CharacterKind {
     /// The 96 characters of the standard.
     Standard,
     /// Characters of ASCII.
@@ -83,7 +83,7 @@ pub enum CharacterKind {
 }
 
 /// Why an operation on types stops early.
-pub enum Stop {
+pub(crate) enum Stop {
     /// A function must be called; the operation is begun again with its value.
     Call {
         /// The function.
@@ -105,20 +105,20 @@ impl From<Box<Raise>> for Stop {
 
 /// Values of the calls made so far, in the order in which an operation asks for them.
 #[derive(Clone, Default)]
-pub struct Answers {
+pub(crate) struct Answers {
     given: Vec<Value>,
     used: usize,
 }
 
 impl Answers {
     /// Adds the value of the call that the operation stopped at, and begins anew.
-    pub fn add(&mut self, value: Value) {
+    pub(crate) fn add(&mut self, value: Value) {
         self.given.push(value);
         self.used = 0;
     }
 
     /// The value of a call: known, or a reason to stop.
-    pub fn ask(&mut self, function: &Value, args: Vec<Value>) -> Result<Value, Stop> {
+    pub(crate) fn ask(&mut self, function: &Value, args: Vec<Value>) -> Result<Value, Stop> {
         match self.given.get(self.used) {
             Some(value) => {
                 self.used += 1;

@@ -10,7 +10,7 @@ use crate::lisp::value::known;
 
 /// An answer that may be out of reach.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Verdict {
+pub(crate) enum Verdict {
     /// Certainly.
     Yes,
     /// Certainly not.
@@ -54,7 +54,7 @@ impl Verdict {
 }
 
 /// Is `a` a subset of `b`?
-pub fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
+pub(crate) fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
     match (a, b) {
         (Type::Nothing, _) | (_, Type::Any) => Yes,
         (Type::Or(parts), _) => Verdict::all(parts.iter().map(|p| is_subset(image, p, b))),

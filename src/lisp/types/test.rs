@@ -12,7 +12,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// Whether a value is of a type, as far as it can be told without calling a function.
-pub enum TypeCheck {
+pub(crate) enum TypeCheck {
     /// It is.
     Yes,
     /// It is not.
@@ -27,7 +27,11 @@ pub enum TypeCheck {
 }
 
 /// Is the value of the type?
-pub fn typep(image: &Image, value: &Value, specifier: &Value) -> Result<TypeCheck, Box<Raise>> {
+pub(crate) fn typep(
+    image: &Image,
+    value: &Value,
+    specifier: &Value,
+) -> Result<TypeCheck, Box<Raise>> {
     match typep_with(image, value, specifier, &mut Answers::default()) {
         Ok(true) => Ok(TypeCheck::Yes),
         Ok(false) => Ok(TypeCheck::No),
@@ -37,7 +41,7 @@ pub fn typep(image: &Image, value: &Value, specifier: &Value) -> Result<TypeChec
 }
 
 /// Like [`typep`], with the values of the calls that were needed before.
-pub fn typep_with(
+pub(crate) fn typep_with(
     image: &Image,
     value: &Value,
     specifier: &Value,
@@ -83,7 +87,7 @@ fn quickly(image: &Image, value: &Value, name: Sym) -> Option<bool> {
 }
 
 /// Is the value in the set?
-pub fn contains(
+pub(crate) fn contains(
     image: &Image,
     set: &Type,
     value: &Value,
@@ -204,7 +208,7 @@ fn is_character(value: &Value, kind: CharacterKind) -> bool {
 }
 
 /// Is the character one of the 96 of the standard?
-pub fn is_standard_char(c: char) -> bool {
+pub(crate) fn is_standard_char(c: char) -> bool {
     c == '\n' || matches!(c, ' '..='~')
 }
 

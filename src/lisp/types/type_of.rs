@@ -13,7 +13,7 @@ use crate::lisp::value::symbol::Sym;
 const LARGEST_FIXNUM: i64 = 0x3fff_ffff_ffff_ffff;
 
 /// The type of a value as a specifier, in SBCL's words.
-pub fn type_of(image: &Image, value: &Value) -> Value {
+pub(crate) fn type_of(image: &Image, value: &Value) -> Value {
     match value {
         Value::Symbol(known::T) => known::BOOLEAN.into(),
         Value::Int(0 | 1) => known::BIT.into(),

@@ -6,20 +6,20 @@ use super::Value;
 use super::symbol::{Sym, known};
 
 /// A one-dimensional array.
-pub struct Vector {
+pub(crate) struct Vector {
     /// All elements, those beyond the fill pointer included.
-    pub items: RefCell<Vec<Value>>,
+    pub(crate) items: RefCell<Vec<Value>>,
     /// Number of active elements, if the vector has a fill pointer.
-    pub fill_pointer: Cell<Option<usize>>,
+    pub(crate) fill_pointer: Cell<Option<usize>>,
     /// May the vector grow?
-    pub adjustable: bool,
+    pub(crate) adjustable: bool,
     /// `T`, or the element type the vector was made with (`BIT`, `DOUBLE-FLOAT`, …).
-    pub element_type: Sym,
+    pub(crate) element_type: Sym,
 }
 
 impl Vector {
     /// A simple vector.
-    pub fn simple(items: Vec<Value>) -> Vector {
+    pub(crate) fn simple(items: Vec<Value>) -> Vector {
         Vector {
             items: RefCell::new(items),
             fill_pointer: Cell::new(None),
@@ -29,24 +29,24 @@ impl Vector {
     }
 
     /// Number of active elements.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.fill_pointer
             .get()
             .unwrap_or_else(|| self.items.borrow().len())
     }
 
     /// Has the vector no active element?
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// The element at an index, whether or not the fill pointer covers it.
-    pub fn get(&self, index: usize) -> Option<Value> {
+    pub(crate) fn get(&self, index: usize) -> Option<Value> {
         self.items.borrow().get(index).cloned()
     }
 
     /// Replaces the element at an index; false if there is none.
-    pub fn set(&self, index: usize, value: Value) -> bool {
+    pub(crate) fn set(&self, index: usize, value: Value) -> bool {
         match self.items.borrow_mut().get_mut(index) {
             Some(item) => {
                 *item = value;
@@ -57,18 +57,18 @@ impl Vector {
     }
 
     /// A copy of the active elements.
-    pub fn to_vec(&self) -> Vec<Value> {
+    pub(crate) fn to_vec(&self) -> Vec<Value> {
         let items = self.items.borrow();
         items.iter().take(self.len()).cloned().collect()
     }
 }
 
 /// An array whose rank is not one.
-pub struct Array {
+pub(crate) struct Array {
     /// Size of each dimension.
-    pub dimensions: Vec<usize>,
+    pub(crate) dimensions: Vec<usize>,
     /// The elements, the last index running fastest.
-    pub items: RefCell<Vec<Value>>,
+    pub(crate) items: RefCell<Vec<Value>>,
     /// `T`, or the element type the array was made with.
-    pub element_type: Sym,
+    pub(crate) element_type: Sym,
 }

@@ -11,7 +11,7 @@ use super::symbol::Sym;
 
 /// What instances of a class are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum ClassKind {
+pub(crate) enum ClassKind {
     /// Values that are not instances: numbers, conses, functions, …
     Builtin,
     /// Objects of `defclass`.
@@ -24,7 +24,7 @@ pub enum ClassKind {
 
 /// Where the initial value of a slot comes from.
 #[derive(Clone)]
-pub enum Initform {
+pub(crate) enum Initform {
     /// A constant.
     Value(Value),
     /// A function of no arguments that computes it.
@@ -33,24 +33,24 @@ pub enum Initform {
 
 /// A slot as a class defines it.
 #[derive(Clone)]
-pub struct SlotDefinition {
+pub(crate) struct SlotDefinition {
     /// The slot's name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// Keywords that initialise it.
-    pub initargs: Vec<Sym>,
+    pub(crate) initargs: Vec<Sym>,
     /// Its initial value, if any.
-    pub initform: Option<Initform>,
+    pub(crate) initform: Option<Initform>,
     /// The shared place, for a slot with `:allocation :class`.
-    pub shared: Option<Rc<Slot>>,
+    pub(crate) shared: Option<Rc<Slot>>,
     /// The declared type, `T` if none.
-    pub slot_type: Value,
+    pub(crate) slot_type: Value,
     /// The documentation.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
 }
 
 impl SlotDefinition {
     /// A slot with nothing but a name.
-    pub fn new(name: Sym) -> SlotDefinition {
+    pub(crate) fn new(name: Sym) -> SlotDefinition {
         SlotDefinition {
             name,
             initargs: Vec::new(),
@@ -64,68 +64,68 @@ impl SlotDefinition {
 
 /// A slot of a structure as `defstruct` defines it, kept for structures that include it.
 #[derive(Clone)]
-pub struct StructureSlot {
+pub(crate) struct StructureSlot {
     /// The slot's name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// The form of its initial value.
-    pub initform: Value,
+    pub(crate) initform: Value,
     /// The declared type, `T` if none.
-    pub slot_type: Value,
+    pub(crate) slot_type: Value,
     /// May the slot not be assigned?
-    pub read_only: bool,
+    pub(crate) read_only: bool,
 }
 
 /// What `defstruct` knows about a structure beyond its class.
 #[derive(Clone, Default)]
-pub struct StructureLayout {
+pub(crate) struct StructureLayout {
     /// All slots, included ones first.
-    pub slots: Vec<StructureSlot>,
+    pub(crate) slots: Vec<StructureSlot>,
     /// Name of the constructor with keyword arguments, if there is one.
-    pub constructor: Option<Sym>,
+    pub(crate) constructor: Option<Sym>,
     /// The prefix of the accessors.
-    pub conc_name: Rc<str>,
+    pub(crate) conc_name: Rc<str>,
 }
 
 /// A class.
-pub struct Class {
+pub(crate) struct Class {
     /// The name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// What its instances are.
-    pub kind: ClassKind,
+    pub(crate) kind: ClassKind,
     /// Direct superclasses, as in the definition.
-    pub direct_superclasses: RefCell<Vec<Rc<Class>>>,
+    pub(crate) direct_superclasses: RefCell<Vec<Rc<Class>>>,
     /// Direct subclasses, in order of definition.
-    pub direct_subclasses: RefCell<Vec<Rc<Class>>>,
+    pub(crate) direct_subclasses: RefCell<Vec<Rc<Class>>>,
     /// This class and all its superclasses, most specific first; empty while a superclass
     /// is not defined yet.
-    pub precedence: RefCell<Vec<Rc<Class>>>,
+    pub(crate) precedence: RefCell<Vec<Rc<Class>>>,
     /// Slots defined by this class itself.
-    pub direct_slots: RefCell<Vec<SlotDefinition>>,
+    pub(crate) direct_slots: RefCell<Vec<SlotDefinition>>,
     /// All slots, inherited ones first; the order is that of an instance's slot values.
-    pub slots: RefCell<Vec<SlotDefinition>>,
+    pub(crate) slots: RefCell<Vec<SlotDefinition>>,
     /// `:default-initargs` of this class itself.
-    pub direct_default_initargs: RefCell<Vec<(Sym, Initform)>>,
+    pub(crate) direct_default_initargs: RefCell<Vec<(Sym, Initform)>>,
     /// `:default-initargs` of this class and its superclasses, most specific first.
-    pub default_initargs: RefCell<Vec<(Sym, Initform)>>,
+    pub(crate) default_initargs: RefCell<Vec<(Sym, Initform)>>,
     /// The methods that read and write its slots; a redefinition replaces them.
-    pub accessors: RefCell<Vec<Rc<Method>>>,
+    pub(crate) accessors: RefCell<Vec<Rc<Method>>>,
     /// The report of a condition class: a function of condition and stream.
-    pub report: RefCell<Option<Rc<Function>>>,
+    pub(crate) report: RefCell<Option<Rc<Function>>>,
     /// What `defstruct` remembers of a structure.
-    pub structure: RefCell<Option<Rc<StructureLayout>>>,
+    pub(crate) structure: RefCell<Option<Rc<StructureLayout>>>,
     /// The documentation.
-    pub doc: RefCell<Option<Rc<str>>>,
+    pub(crate) doc: RefCell<Option<Rc<str>>>,
     /// Counts redefinitions, so that instances know when to update.
-    pub generation: Cell<u32>,
+    pub(crate) generation: Cell<u32>,
     /// Names of all slots in each generation before the current one.
-    pub old_layouts: RefCell<Vec<Vec<Sym>>>,
+    pub(crate) old_layouts: RefCell<Vec<Vec<Sym>>>,
     /// False while the class is only named as a superclass.
-    pub is_defined: Cell<bool>,
+    pub(crate) is_defined: Cell<bool>,
 }
 
 impl Class {
     /// A class without superclasses or slots; the image completes it.
-    pub fn new(name: Sym, kind: ClassKind) -> Class {
+    pub(crate) fn new(name: Sym, kind: ClassKind) -> Class {
         Class {
             name,
             kind,
@@ -147,30 +147,30 @@ impl Class {
     }
 
     /// Is this class the named one, or a subclass of it?
-    pub fn is_subclass_of(&self, name: Sym) -> bool {
+    pub(crate) fn is_subclass_of(&self, name: Sym) -> bool {
         self.name == name || self.precedence.borrow().iter().any(|c| c.name == name)
     }
 
     /// Position of a slot in an instance.
     #[inline]
-    pub fn slot_index(&self, name: Sym) -> Option<usize> {
+    pub(crate) fn slot_index(&self, name: Sym) -> Option<usize> {
         self.slots.borrow().iter().position(|s| s.name == name)
     }
 }
 
 /// An instance of a standard class, a structure or a condition.
-pub struct Instance {
+pub(crate) struct Instance {
     /// Its class.
-    pub class: RefCell<Rc<Class>>,
+    pub(crate) class: RefCell<Rc<Class>>,
     /// Slot values in the order of the class's slots; `Unbound` where none.
-    pub slots: RefCell<Vec<Value>>,
+    pub(crate) slots: RefCell<Vec<Value>>,
     /// The class's generation when the slots were laid out.
-    pub generation: Cell<u32>,
+    pub(crate) generation: Cell<u32>,
 }
 
 impl Instance {
     /// An instance whose slots are all unbound.
-    pub fn new(class: Rc<Class>) -> Instance {
+    pub(crate) fn new(class: Rc<Class>) -> Instance {
         let count = class.slots.borrow().len();
         Instance {
             generation: Cell::new(class.generation.get()),
@@ -180,7 +180,7 @@ impl Instance {
     }
 
     /// An instance with the given slot values, in the order of the class's slots.
-    pub fn with_slots(class: Rc<Class>, slots: Vec<Value>) -> Instance {
+    pub(crate) fn with_slots(class: Rc<Class>, slots: Vec<Value>) -> Instance {
         Instance {
             generation: Cell::new(class.generation.get()),
             slots: RefCell::new(slots),
@@ -189,22 +189,22 @@ impl Instance {
     }
 
     /// The instance's class.
-    pub fn class(&self) -> Rc<Class> {
+    pub(crate) fn class(&self) -> Rc<Class> {
         self.class.borrow().clone()
     }
 
     /// Is the instance of the named class or a subclass?
-    pub fn is_a(&self, name: Sym) -> bool {
+    pub(crate) fn is_a(&self, name: Sym) -> bool {
         self.class.borrow().is_subclass_of(name)
     }
 
     /// Was the class redefined since the slots were laid out?
-    pub fn is_obsolete(&self) -> bool {
+    pub(crate) fn is_obsolete(&self) -> bool {
         self.generation.get() != self.class.borrow().generation.get()
     }
 
     /// The value of a slot; `None` if there is no such slot, `Unbound` if it has no value.
-    pub fn slot(&self, name: Sym) -> Option<Value> {
+    pub(crate) fn slot(&self, name: Sym) -> Option<Value> {
         let class = self.class.borrow();
         let index = class.slot_index(name)?;
         if let Some(shared) = &class.slots.borrow()[index].shared {
@@ -214,7 +214,7 @@ impl Instance {
     }
 
     /// Sets a slot; false if there is no such slot.
-    pub fn set_slot(&self, name: Sym, value: Value) -> bool {
+    pub(crate) fn set_slot(&self, name: Sym, value: Value) -> bool {
         let class = self.class.borrow();
         let Some(index) = class.slot_index(name) else {
             return false;

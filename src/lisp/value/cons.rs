@@ -8,7 +8,7 @@ use super::slot::Slot;
 use crate::lisp::source::Place;
 
 /// A pair of two values, and where the reader found it.
-pub struct Cons {
+pub(crate) struct Cons {
     car: Slot,
     cdr: Slot,
     place: Cell<Place>,
@@ -17,7 +17,7 @@ pub struct Cons {
 impl Cons {
     /// A pair that no source text stands behind.
     #[inline]
-    pub fn new(car: Value, cdr: Value) -> Cons {
+    pub(crate) fn new(car: Value, cdr: Value) -> Cons {
         Cons {
             car: Slot::new(car),
             cdr: Slot::new(cdr),
@@ -27,35 +27,35 @@ impl Cons {
 
     /// The first half.
     #[inline]
-    pub fn car(&self) -> Value {
+    pub(crate) fn car(&self) -> Value {
         self.car.get()
     }
 
     /// The second half.
     #[inline]
-    pub fn cdr(&self) -> Value {
+    pub(crate) fn cdr(&self) -> Value {
         self.cdr.get()
     }
 
     /// Replaces the first half.
     #[inline]
-    pub fn set_car(&self, value: Value) {
+    pub(crate) fn set_car(&self, value: Value) {
         self.car.set(value);
     }
 
     /// Replaces the second half.
     #[inline]
-    pub fn set_cdr(&self, value: Value) {
+    pub(crate) fn set_cdr(&self, value: Value) {
         self.cdr.set(value);
     }
 
     /// Where the list that starts with this pair stands in the source.
-    pub fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         self.place.get()
     }
 
     /// Records where the list that starts with this pair stands in the source.
-    pub fn set_place(&self, place: Place) {
+    pub(crate) fn set_place(&self, place: Place) {
         self.place.set(place);
     }
 }

@@ -8,13 +8,13 @@ use super::array::Vector;
 use super::hash_table::HashTest;
 
 /// `equal`: same structure of pairs and strings, `eql` leaves.
-pub fn equal(a: &Value, b: &Value) -> bool {
+pub(crate) fn equal(a: &Value, b: &Value) -> bool {
     same(a, b, false)
 }
 
 /// `equalp`: like `equal`, but numbers by value, letters without case, arrays, structures
 /// and hash tables by their elements.
-pub fn equalp(a: &Value, b: &Value) -> bool {
+pub(crate) fn equalp(a: &Value, b: &Value) -> bool {
     same(a, b, true)
 }
 
@@ -104,7 +104,7 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
 }
 
 /// Feeds a key into a hasher so that keys that are equal under `test` hash alike.
-pub fn hash<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
+pub(crate) fn hash<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
     // Keys of deep structure are told apart by their first few leaves only.
     let mut budget = 64;
     let mut pending = vec![value.clone()];

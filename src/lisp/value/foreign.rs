@@ -7,7 +7,7 @@ use super::symbol::Sym;
 use crate::lisp::image::Image;
 
 /// A value whose behaviour another layer defines.
-pub trait Foreign: Any {
+pub(crate) trait Foreign: Any {
     /// The symbol that `type-of` returns.
     fn type_symbol(&self) -> Sym;
 
@@ -22,26 +22,26 @@ pub trait Foreign: Any {
 }
 
 /// Owner of a foreign value.
-pub struct ForeignBox {
+pub(crate) struct ForeignBox {
     object: Box<dyn Foreign>,
 }
 
 impl ForeignBox {
     /// Wraps an object.
-    pub fn new(object: impl Foreign) -> ForeignBox {
+    pub(crate) fn new(object: impl Foreign) -> ForeignBox {
         ForeignBox {
             object: Box::new(object),
         }
     }
 
     /// The object, if it is of type `T`.
-    pub fn downcast_ref<T: 'static>(&self) -> Option<&T> {
+    pub(crate) fn downcast_ref<T: 'static>(&self) -> Option<&T> {
         let any: &dyn Any = self.object.as_ref();
         any.downcast_ref::<T>()
     }
 
     /// The object's behaviour.
-    pub fn object(&self) -> &dyn Foreign {
+    pub(crate) fn object(&self) -> &dyn Foreign {
         self.object.as_ref()
     }
 }

@@ -12,13 +12,13 @@ use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
 /// A function object.
-pub struct Function {
+pub(crate) struct Function {
     /// What the function does.
-    pub body: Body,
+    pub(crate) body: Body,
 }
 
 /// What a function does when it is called.
-pub enum Body {
+pub(crate) enum Body {
     /// Compiled code with the values of its free variables.
     Closure {
         /// The compiled code.
@@ -33,29 +33,30 @@ pub enum Body {
 }
 
 /// A builtin that returns at once and calls no Lisp function.
-pub type PureFn = fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>;
+pub(crate) type PureFn = fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>;
 /// A builtin that may call functions, wait, or unwind.
-pub type ControlFn = fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>>;
+pub(crate) type ControlFn = fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>>;
 /// A pure builtin with data of its own (a structure's accessor, a constant function).
-pub type MadeFn = Rc<dyn Fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>>;
+pub(crate) type MadeFn = Rc<dyn Fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>>;
 /// A control builtin with data of its own.
-pub type MadeControlFn = Rc<dyn Fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>>>;
+pub(crate) type MadeControlFn =
+    Rc<dyn Fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>>>;
 
 /// A function written in Rust.
-pub struct Native {
+pub(crate) struct Native {
     /// Its name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// Fewest arguments.
-    pub min: u16,
+    pub(crate) min: u16,
     /// Most arguments; none if there is no limit.
-    pub max: Option<u16>,
+    pub(crate) max: Option<u16>,
     /// The Rust function.
-    pub call: NativeCall,
+    pub(crate) call: NativeCall,
 }
 
 /// The Rust side of a builtin.
 #[derive(Clone)]
-pub enum NativeCall {
+pub(crate) enum NativeCall {
     /// Returns at once.
     Pure(PureFn),
     /// May call, wait or unwind.
@@ -68,14 +69,14 @@ pub enum NativeCall {
 
 impl Function {
     /// A closure over `captured`.
-    pub fn closure(code: Rc<Code>, captured: Vec<Value>) -> Function {
+    pub(crate) fn closure(code: Rc<Code>, captured: Vec<Value>) -> Function {
         Function {
             body: Body::Closure { code, captured },
         }
     }
 
     /// A builtin.
-    pub fn native(name: Sym, min: u16, max: Option<u16>, call: NativeCall) -> Function {
+    pub(crate) fn native(name: Sym, min: u16, max: Option<u16>, call: NativeCall) -> Function {
         Function {
             body: Body::Native(Native {
                 name,
@@ -87,7 +88,7 @@ impl Function {
     }
 
     /// A builtin as a value: a pure function with data of its own.
-    pub fn made(
+    pub(crate) fn made(
         name: Sym,
         arity: (u16, Option<u16>),
         call: impl Fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>> + 'static,
@@ -101,7 +102,7 @@ impl Function {
     }
 
     /// A builtin as a value: a control function with data of its own.
-    pub fn made_control(
+    pub(crate) fn made_control(
         name: Sym,
         arity: (u16, Option<u16>),
         call: impl Fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>> + 'static,
@@ -115,7 +116,7 @@ impl Function {
     }
 
     /// The generic function, if this is one.
-    pub fn as_generic(&self) -> Option<&GenericFunction> {
+    pub(crate) fn as_generic(&self) -> Option<&GenericFunction> {
         match &self.body {
             Body::Generic(g) => Some(g),
             _ => None,

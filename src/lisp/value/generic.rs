@@ -13,7 +13,7 @@ use crate::lisp::object::parameters::Parameters;
 
 /// What an argument must be for a method to apply.
 #[derive(Clone)]
-pub enum Specializer {
+pub(crate) enum Specializer {
     /// An instance of the class or of a subclass.
     Class(Rc<Class>),
     /// `eql` to the value.
@@ -22,7 +22,7 @@ pub enum Specializer {
 
 impl Specializer {
     /// Do both accept the same values?
-    pub fn is_same(&self, other: &Specializer) -> bool {
+    pub(crate) fn is_same(&self, other: &Specializer) -> bool {
         match (self, other) {
             (Specializer::Class(a), Specializer::Class(b)) => Rc::ptr_eq(a, b),
             (Specializer::Eql(a), Specializer::Eql(b)) => a.is_eql(b),
@@ -33,32 +33,32 @@ impl Specializer {
 
 /// How a generic function combines its methods.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Combination {
+pub(crate) struct Combination {
     /// The name, which is also the qualifier of methods unless it is `STANDARD`.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// The operator that the values of all methods are given to.
-    pub operator: Sym,
+    pub(crate) operator: Sym,
     /// Is the value of a single method the value of the call?
-    pub is_identity: bool,
+    pub(crate) is_identity: bool,
 }
 
 impl Combination {
     /// Before, after and around methods, `call-next-method`.
-    pub const STANDARD: Combination = Combination {
+    pub(crate) const STANDARD: Combination = Combination {
         name: known::STANDARD,
         operator: known::STANDARD,
         is_identity: true,
     };
 
     /// Is this the standard one?
-    pub fn is_standard(self) -> bool {
+    pub(crate) fn is_standard(self) -> bool {
         self.name == known::STANDARD
     }
 }
 
 /// A method that only reads or writes a slot of its instance.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Accessor {
+pub(crate) enum Accessor {
     /// Returns the value of the slot of the first argument.
     Reader(Sym),
     /// Stores the first argument in the slot of the second.
@@ -66,55 +66,55 @@ pub enum Accessor {
 }
 
 /// A method.
-pub struct Method {
+pub(crate) struct Method {
     /// The name of its generic function: a symbol, or the list `(setf name)`.
-    pub name: Value,
+    pub(crate) name: Value,
     /// Qualifiers as written: none, `:before`, `+`, …
-    pub qualifiers: Vec<Sym>,
+    pub(crate) qualifiers: Vec<Sym>,
     /// One per required argument.
-    pub specializers: Vec<Specializer>,
+    pub(crate) specializers: Vec<Specializer>,
     /// The parameters, required ones included.
-    pub parameters: Parameters,
+    pub(crate) parameters: Parameters,
     /// The method function. It takes the arguments of the call, after a function that
     /// calls the next method (or `NIL`) if `takes_next`.
-    pub function: Rc<Function>,
+    pub(crate) function: Rc<Function>,
     /// Does the function take the next method?
-    pub takes_next: bool,
+    pub(crate) takes_next: bool,
     /// Set if the method is a slot's reader or writer: such a call needs no function.
-    pub accessor: Option<Accessor>,
+    pub(crate) accessor: Option<Accessor>,
     /// Was the method made by the implementation?
-    pub is_builtin: bool,
+    pub(crate) is_builtin: bool,
     /// Documentation.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
     /// The value that stands for the method, while somebody holds it.
-    pub object: RefCell<Weak<ForeignBox>>,
+    pub(crate) object: RefCell<Weak<ForeignBox>>,
 }
 
 /// A generic function.
-pub struct GenericFunction {
+pub(crate) struct GenericFunction {
     /// Its name: a symbol, or the list `(setf name)`.
-    pub name: Value,
+    pub(crate) name: Value,
     /// The parameters that every method must agree with.
-    pub parameters: RefCell<Parameters>,
+    pub(crate) parameters: RefCell<Parameters>,
     /// Did a `defgeneric` fix the parameters?
-    pub is_declared: Cell<bool>,
+    pub(crate) is_declared: Cell<bool>,
     /// The methods in order of definition.
-    pub methods: RefCell<Vec<Rc<Method>>>,
+    pub(crate) methods: RefCell<Vec<Rc<Method>>>,
     /// Methods that the `defgeneric` itself made; evaluating it again replaces them.
-    pub own_methods: RefCell<Vec<Rc<Method>>>,
+    pub(crate) own_methods: RefCell<Vec<Rc<Method>>>,
     /// Documentation.
-    pub doc: RefCell<Option<Rc<str>>>,
+    pub(crate) doc: RefCell<Option<Rc<str>>>,
     /// How the values of methods are combined.
-    pub combination: Cell<Combination>,
+    pub(crate) combination: Cell<Combination>,
     /// Does the combination run the most specific method last?
-    pub most_specific_last: Cell<bool>,
+    pub(crate) most_specific_last: Cell<bool>,
     /// Which arguments decide, and what they decided so far.
-    pub dispatch: RefCell<Dispatch>,
+    pub(crate) dispatch: RefCell<Dispatch>,
 }
 
 impl GenericFunction {
     /// A generic function without methods, with the standard combination.
-    pub fn new(name: Value, parameters: Parameters) -> GenericFunction {
+    pub(crate) fn new(name: Value, parameters: Parameters) -> GenericFunction {
         GenericFunction {
             name,
             parameters: RefCell::new(parameters),

@@ -10,7 +10,7 @@ use super::equality;
 
 /// The equality by which a table finds its keys.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum HashTest {
+pub(crate) enum HashTest {
     /// Identity.
     Eq,
     /// `eql`.
@@ -23,11 +23,11 @@ pub enum HashTest {
 
 /// A key under the equality of its table.
 #[derive(Clone)]
-pub struct HashKey {
+pub(crate) struct HashKey {
     /// The key.
-    pub value: Value,
+    pub(crate) value: Value,
     /// The table's test.
-    pub test: HashTest,
+    pub(crate) test: HashTest,
 }
 
 impl PartialEq for HashKey {
@@ -50,20 +50,20 @@ impl Hash for HashKey {
 }
 
 /// A hash table.
-pub struct HashTable {
+pub(crate) struct HashTable {
     /// How keys are compared.
-    pub test: HashTest,
+    pub(crate) test: HashTest,
     /// Where each key's entry stands.
     index: RefCell<HashMap<HashKey, usize>>,
     /// Entries in order of insertion; removed ones leave a gap.
     entries: RefCell<Vec<Option<(Value, Value)>>>,
     /// The size that the table was made for.
-    pub size: Cell<usize>,
+    pub(crate) size: Cell<usize>,
 }
 
 impl HashTable {
     /// An empty table.
-    pub fn new(test: HashTest) -> HashTable {
+    pub(crate) fn new(test: HashTest) -> HashTable {
         HashTable {
             test,
             index: RefCell::default(),
@@ -83,24 +83,24 @@ impl HashTable {
     // appears empty.
 
     /// Number of entries.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.index.try_borrow().map_or(0, |index| index.len())
     }
 
     /// Is there no entry?
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// The value of a key.
-    pub fn get(&self, key: &Value) -> Option<Value> {
+    pub(crate) fn get(&self, key: &Value) -> Option<Value> {
         let place = *self.index.try_borrow().ok()?.get(&self.key(key))?;
         let entries = self.entries.try_borrow().ok()?;
         entries.get(place)?.as_ref().map(|(_, value)| value.clone())
     }
 
     /// Sets the value of a key.
-    pub fn insert(&self, key: Value, value: Value) {
+    pub(crate) fn insert(&self, key: Value, value: Value) {
         let mut index = self.index.borrow_mut();
         let mut entries = self.entries.borrow_mut();
         let place = *index.entry(self.key(&key)).or_insert(entries.len());
@@ -112,7 +112,7 @@ impl HashTable {
     }
 
     /// Removes a key, keeping the order of the others; was it there?
-    pub fn remove(&self, key: &Value) -> bool {
+    pub(crate) fn remove(&self, key: &Value) -> bool {
         let mut index = self.index.borrow_mut();
         let Some(place) = index.remove(&self.key(key)) else {
             return false;
@@ -136,13 +136,13 @@ impl HashTable {
     }
 
     /// Removes all entries.
-    pub fn clear(&self) {
+    pub(crate) fn clear(&self) {
         self.index.take();
         self.entries.take();
     }
 
     /// The entries in order of insertion.
-    pub fn pairs(&self) -> Vec<(Value, Value)> {
+    pub(crate) fn pairs(&self) -> Vec<(Value, Value)> {
         self.entries.try_borrow().map_or_else(
             |_| Vec::new(),
             |entries| entries.iter().flatten().cloned().collect(),

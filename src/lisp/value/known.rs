@@ -10,7 +10,7 @@ macro_rules! known {
         enum Index { $($($id,)*)* }
         $($(
             #[doc = concat!("The symbol `", $name, "`.")]
-            pub const $id: Sym = Sym(Index::$id as u32);
+            pub(crate) const $id: Sym = Sym(Index::$id as u32);
         )*)*
         /// Package and name of every known symbol, in table order.
         const TABLE: &[(PackageId, &str)] = &[$($((PackageTable::$package, $name),)*)*];

@@ -3,21 +3,21 @@
 //! A value is sixteen bytes: immediate or a counted reference. Identity (`eq`) is the
 //! identity of the reference; nothing shows an address to the user.
 
-pub mod array;
-pub mod class;
-pub mod cons;
-pub mod equality;
-pub mod foreign;
-pub mod function;
-pub mod generic;
-pub mod hash_table;
-pub mod known;
-pub mod number;
-pub mod package;
-pub mod raise;
-pub mod slot;
-pub mod string;
-pub mod symbol;
+pub(crate) mod array;
+pub(crate) mod class;
+pub(crate) mod cons;
+pub(crate) mod equality;
+pub(crate) mod foreign;
+pub(crate) mod function;
+pub(crate) mod generic;
+pub(crate) mod hash_table;
+pub(crate) mod known;
+pub(crate) mod number;
+pub(crate) mod package;
+pub(crate) mod raise;
+pub(crate) mod slot;
+pub(crate) mod string;
+pub(crate) mod symbol;
 
 use std::rc::Rc;
 
@@ -38,7 +38,7 @@ use super::stream::Stream;
 
 /// A Lisp value.
 #[derive(Clone, Default)]
-pub enum Value {
+pub(crate) enum Value {
     /// A symbol; `NIL` and `T` are symbols too.
     Symbol(Sym),
     /// An integer that fits 64 bits.
@@ -86,47 +86,47 @@ pub enum Value {
 
 impl Value {
     /// The empty list and falsehood.
-    pub const NIL: Value = Value::Symbol(known::NIL);
+    pub(crate) const NIL: Value = Value::Symbol(known::NIL);
     /// Truth.
-    pub const T: Value = Value::Symbol(known::T);
+    pub(crate) const T: Value = Value::Symbol(known::T);
 
     /// `T` or `NIL`.
     #[inline]
-    pub fn bool(b: bool) -> Value {
+    pub(crate) fn bool(b: bool) -> Value {
         if b { Value::T } else { Value::NIL }
     }
 
     /// Is this `NIL`?
     #[inline]
-    pub fn is_nil(&self) -> bool {
+    pub(crate) fn is_nil(&self) -> bool {
         matches!(self, Value::Symbol(known::NIL))
     }
 
     /// Is this anything but `NIL`?
     #[inline]
-    pub fn is_true(&self) -> bool {
+    pub(crate) fn is_true(&self) -> bool {
         !self.is_nil()
     }
 
     /// Is this the internal marker for "no value"?
     #[inline]
-    pub fn is_unbound(&self) -> bool {
+    pub(crate) fn is_unbound(&self) -> bool {
         matches!(self, Value::Unbound)
     }
 
     /// A fresh string.
-    pub fn string(text: impl Into<String>) -> Value {
+    pub(crate) fn string(text: impl Into<String>) -> Value {
         Value::Str(Rc::new(LispString::new(text.into())))
     }
 
     /// A fresh pair.
     #[inline]
-    pub fn cons(car: Value, cdr: Value) -> Value {
+    pub(crate) fn cons(car: Value, cdr: Value) -> Value {
         Value::Cons(Rc::new(Cons::new(car, cdr)))
     }
 
     /// A fresh list of the items.
-    pub fn list<I>(items: I) -> Value
+    pub(crate) fn list<I>(items: I) -> Value
     where
         I: IntoIterator<Item = Value>,
         I::IntoIter: DoubleEndedIterator,
@@ -135,7 +135,7 @@ impl Value {
     }
 
     /// A fresh list of the items that ends in `tail`.
-    pub fn list_with_tail<I>(items: I, tail: Value) -> Value
+    pub(crate) fn list_with_tail<I>(items: I, tail: Value) -> Value
     where
         I: IntoIterator<Item = Value>,
         I::IntoIter: DoubleEndedIterator,
@@ -147,17 +147,17 @@ impl Value {
     }
 
     /// A fresh simple vector.
-    pub fn vector(items: Vec<Value>) -> Value {
+    pub(crate) fn vector(items: Vec<Value>) -> Value {
         Value::Vector(Rc::new(Vector::simple(items)))
     }
 
     /// A value of a higher layer.
-    pub fn foreign(object: impl crate::lisp::value::foreign::Foreign) -> Value {
+    pub(crate) fn foreign(object: impl crate::lisp::value::foreign::Foreign) -> Value {
         Value::Foreign(Rc::new(ForeignBox::new(object)))
     }
 
     /// The multiple values; exactly one value is itself.
-    pub fn values(mut items: Vec<Value>) -> Value {
+    pub(crate) fn values(mut items: Vec<Value>) -> Value {
         match items.len() {
             1 => items.pop().unwrap_or(Value::NIL),
             _ => Value::Multiple(Rc::new(items)),
@@ -166,7 +166,7 @@ impl Value {
 
     /// The first of possibly several values (`NIL` when there is none).
     #[inline]
-    pub fn primary(self) -> Value {
+    pub(crate) fn primary(self) -> Value {
         match self {
             Value::Multiple(values) => values.first().cloned().unwrap_or(Value::NIL),
             single => single,
@@ -174,7 +174,7 @@ impl Value {
     }
 
     /// All values of a call's result.
-    pub fn into_values(self) -> Vec<Value> {
+    pub(crate) fn into_values(self) -> Vec<Value> {
         match self {
             Value::Multiple(values) => values.as_ref().clone(),
             single => vec![single],
@@ -183,7 +183,7 @@ impl Value {
 
     /// The symbol, if this is one.
     #[inline]
-    pub fn as_symbol(&self) -> Option<Sym> {
+    pub(crate) fn as_symbol(&self) -> Option<Sym> {
         match self {
             Value::Symbol(s) => Some(*s),
             _ => None,
@@ -192,7 +192,7 @@ impl Value {
 
     /// The pair, if this is one.
     #[inline]
-    pub fn as_cons(&self) -> Option<&Rc<Cons>> {
+    pub(crate) fn as_cons(&self) -> Option<&Rc<Cons>> {
         match self {
             Value::Cons(c) => Some(c),
             _ => None,
@@ -200,7 +200,7 @@ impl Value {
     }
 
     /// The text of a string, if this is one.
-    pub fn as_text(&self) -> Option<String> {
+    pub(crate) fn as_text(&self) -> Option<String> {
         match self {
             Value::Str(s) => Some(s.text()),
             _ => None,
@@ -208,7 +208,7 @@ impl Value {
     }
 
     /// The object of a higher layer, if this is one of type `T`.
-    pub fn as_foreign<T: 'static>(&self) -> Option<&T> {
+    pub(crate) fn as_foreign<T: 'static>(&self) -> Option<&T> {
         match self {
             Value::Foreign(f) => f.downcast_ref::<T>(),
             _ => None,
@@ -216,13 +216,13 @@ impl Value {
     }
 
     /// Is this a list: a pair or `NIL`?
-    pub fn is_list(&self) -> bool {
+    pub(crate) fn is_list(&self) -> bool {
         self.is_nil() || matches!(self, Value::Cons(_))
     }
 
     /// Identity: the same object. Numbers and characters are identical when `eql`, except
     /// that bignums, ratios and floats are compared by `eql` alone.
-    pub fn is_eq(&self, other: &Value) -> bool {
+    pub(crate) fn is_eq(&self, other: &Value) -> bool {
         match (self, other) {
             (Value::Symbol(a), Value::Symbol(b)) => a == b,
             (Value::Int(a), Value::Int(b)) => a == b,
@@ -249,7 +249,7 @@ impl Value {
     }
 
     /// `eql`: identical, or numbers of one type and value.
-    pub fn is_eql(&self, other: &Value) -> bool {
+    pub(crate) fn is_eql(&self, other: &Value) -> bool {
         match (self, other) {
             (Value::Big(a), Value::Big(b)) => a == b,
             (Value::Ratio(a), Value::Ratio(b)) => a == b,
@@ -264,7 +264,7 @@ impl Value {
 
     /// Iterates over the elements of a list; stops at the first tail that is not a pair, and
     /// after a few rounds of a circular list.
-    pub fn iter_list(&self) -> ListIter {
+    pub(crate) fn iter_list(&self) -> ListIter {
         ListIter {
             rest: self.clone(),
             rounds: Rounds::default(),
@@ -272,26 +272,26 @@ impl Value {
     }
 
     /// The elements of a proper list, or `None` if the list is dotted or no list.
-    pub fn list_to_vec(&self) -> Option<Vec<Value>> {
+    pub(crate) fn list_to_vec(&self) -> Option<Vec<Value>> {
         let mut iter = self.iter_list();
         let items: Vec<Value> = iter.by_ref().collect();
         iter.rest.is_nil().then_some(items)
     }
 
     /// Car of a pair; `NIL` of anything else.
-    pub fn car_or_nil(&self) -> Value {
+    pub(crate) fn car_or_nil(&self) -> Value {
         self.as_cons().map_or(Value::NIL, |c| c.car())
     }
 
     /// Cdr of a pair; `NIL` of anything else.
-    pub fn cdr_or_nil(&self) -> Value {
+    pub(crate) fn cdr_or_nil(&self) -> Value {
         self.as_cons().map_or(Value::NIL, |c| c.cdr())
     }
 }
 
 /// Notices that a walk along a list goes round in a circle, after a few rounds (Brent's
 /// algorithm).
-pub struct Rounds {
+pub(crate) struct Rounds {
     /// A pair visited before: the list is circular when it comes again.
     mark: Option<Value>,
     steps: usize,
@@ -310,7 +310,7 @@ impl Default for Rounds {
 
 impl Rounds {
     /// To be asked for each pair of the list in turn.
-    pub fn is_closed_by(&mut self, pair: &Value) -> bool {
+    pub(crate) fn is_closed_by(&mut self, pair: &Value) -> bool {
         if self.mark.as_ref().is_some_and(|mark| mark.is_eq(pair)) {
             return true;
         }
@@ -324,10 +324,10 @@ impl Rounds {
 }
 
 /// Iterator over the elements of a list.
-pub struct ListIter {
+pub(crate) struct ListIter {
     /// What has not been visited yet; at the end, the list's tail: a pair if the list is
     /// circular.
-    pub rest: Value,
+    pub(crate) rest: Value,
     rounds: Rounds,
 }
 

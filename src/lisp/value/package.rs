@@ -7,11 +7,11 @@ use super::symbol::{Sym, SymbolTable};
 
 /// A package of an image.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct PackageId(pub(crate) u16);
+pub(crate) struct PackageId(pub(crate) u16);
 
 /// How a name is accessible in a package.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Access {
+pub(crate) enum Access {
     /// Present and exported.
     External,
     /// Present, not exported.
@@ -22,40 +22,40 @@ pub enum Access {
 
 /// One package.
 #[derive(Default)]
-pub struct Package {
+pub(crate) struct Package {
     /// The name.
-    pub name: Rc<str>,
+    pub(crate) name: Rc<str>,
     /// Other names.
-    pub nicknames: Vec<Rc<str>>,
+    pub(crate) nicknames: Vec<Rc<str>>,
     /// Symbols present in the package, by name; the flag tells whether it is exported.
-    pub symbols: BTreeMap<Rc<str>, (Sym, bool)>,
+    pub(crate) symbols: BTreeMap<Rc<str>, (Sym, bool)>,
     /// Packages whose external symbols are inherited, in order.
-    pub uses: Vec<PackageId>,
+    pub(crate) uses: Vec<PackageId>,
     /// Names that the package shadows.
-    pub shadowing: Vec<Rc<str>>,
+    pub(crate) shadowing: Vec<Rc<str>>,
     /// A sentence about the package.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
 }
 
 /// All packages of an image.
 #[derive(Default)]
-pub struct PackageTable {
+pub(crate) struct PackageTable {
     packages: Vec<Package>,
     by_name: BTreeMap<Rc<str>, PackageId>,
 }
 
 impl PackageTable {
     /// `COMMON-LISP`.
-    pub const CL: PackageId = PackageId(0);
+    pub(crate) const CL: PackageId = PackageId(0);
     /// `KEYWORD`.
-    pub const KEYWORD: PackageId = PackageId(1);
+    pub(crate) const KEYWORD: PackageId = PackageId(1);
     /// `SYSTEM`: what the implementation itself needs names for.
-    pub const SYSTEM: PackageId = PackageId(3);
+    pub(crate) const SYSTEM: PackageId = PackageId(3);
     /// `COMMON-LISP-USER`.
-    pub const USER: PackageId = PackageId(2);
+    pub(crate) const USER: PackageId = PackageId(2);
 
     /// Makes a package; `None` if a name is taken.
-    pub fn make(&mut self, name: &str, nicknames: &[&str]) -> Option<PackageId> {
+    pub(crate) fn make(&mut self, name: &str, nicknames: &[&str]) -> Option<PackageId> {
         if self.find(name).is_some() || nicknames.iter().any(|n| self.find(n).is_some()) {
             return None;
         }
@@ -73,7 +73,7 @@ impl PackageTable {
     }
 
     /// Gives a package another name, unless that name is taken.
-    pub fn add_nickname(&mut self, id: PackageId, nickname: &str) {
+    pub(crate) fn add_nickname(&mut self, id: PackageId, nickname: &str) {
         let nickname: Rc<str> = nickname.into();
         if !self.by_name.contains_key(&nickname) {
             self.by_name.insert(nickname.clone(), id);
@@ -82,37 +82,37 @@ impl PackageTable {
     }
 
     /// The package of that name or nickname.
-    pub fn find(&self, name: &str) -> Option<PackageId> {
+    pub(crate) fn find(&self, name: &str) -> Option<PackageId> {
         self.by_name.get(name).copied()
     }
 
     /// Forgets a package's names, so that it can no longer be found.
-    pub fn delete(&mut self, id: PackageId) {
+    pub(crate) fn delete(&mut self, id: PackageId) {
         self.by_name.retain(|_, found| *found != id);
     }
 
     /// The package.
-    pub fn get(&self, id: PackageId) -> &Package {
+    pub(crate) fn get(&self, id: PackageId) -> &Package {
         &self.packages[usize::from(id.0)]
     }
 
     /// The package, to be changed.
-    pub fn get_mut(&mut self, id: PackageId) -> &mut Package {
+    pub(crate) fn get_mut(&mut self, id: PackageId) -> &mut Package {
         &mut self.packages[usize::from(id.0)]
     }
 
     /// All names and nicknames with their packages, by name.
-    pub fn names(&self) -> impl Iterator<Item = (&str, PackageId)> {
+    pub(crate) fn names(&self) -> impl Iterator<Item = (&str, PackageId)> {
         self.by_name.iter().map(|(name, id)| (name.as_ref(), *id))
     }
 
     /// All packages, in order of creation.
-    pub fn ids(&self) -> impl Iterator<Item = PackageId> + use<> {
+    pub(crate) fn ids(&self) -> impl Iterator<Item = PackageId> + use<> {
         (0..self.packages.len()).filter_map(|i| u16::try_from(i).ok().map(PackageId))
     }
 
     /// The symbol accessible under a name in a package.
-    pub fn find_symbol(&self, package: PackageId, name: &str) -> Option<(Sym, Access)> {
+    pub(crate) fn find_symbol(&self, package: PackageId, name: &str) -> Option<(Sym, Access)> {
         let this = self.get(package);
         if let Some((sym, external)) = this.symbols.get(name) {
             let access = if *external {
@@ -130,7 +130,12 @@ impl PackageTable {
 
     /// The symbol accessible under a name, made and made present if there is none.
     /// A new symbol in `KEYWORD` is exported and is its own value.
-    pub fn intern(&mut self, symbols: &mut SymbolTable, package: PackageId, name: &str) -> Sym {
+    pub(crate) fn intern(
+        &mut self,
+        symbols: &mut SymbolTable,
+        package: PackageId,
+        name: &str,
+    ) -> Sym {
         if let Some((sym, _)) = self.find_symbol(package, name) {
             return sym;
         }
@@ -150,7 +155,7 @@ impl PackageTable {
     }
 
     /// Makes a symbol present in a package (`import`), keeping its home.
-    pub fn import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+    pub(crate) fn import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
         let name = symbols.get(sym).name.clone();
         let data = symbols.get_mut(sym);
         if data.package.is_none() {
@@ -163,7 +168,7 @@ impl PackageTable {
     }
 
     /// Exports a symbol from a package, making it present first.
-    pub fn export(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+    pub(crate) fn export(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
         self.import(symbols, package, sym);
         let name = symbols.get(sym).name.clone();
         if let Some(entry) = self.get_mut(package).symbols.get_mut(&name) {
@@ -172,7 +177,7 @@ impl PackageTable {
     }
 
     /// Lets a package inherit the external symbols of another.
-    pub fn use_package(&mut self, package: PackageId, used: PackageId) {
+    pub(crate) fn use_package(&mut self, package: PackageId, used: PackageId) {
         let uses = &mut self.get_mut(package).uses;
         if package != used && !uses.contains(&used) {
             uses.push(used);
@@ -180,12 +185,12 @@ impl PackageTable {
     }
 
     /// Takes a package out of those that another uses.
-    pub fn unuse_package(&mut self, package: PackageId, used: PackageId) {
+    pub(crate) fn unuse_package(&mut self, package: PackageId, used: PackageId) {
         self.get_mut(package).uses.retain(|id| *id != used);
     }
 
     /// Makes an exported symbol internal again.
-    pub fn unexport(&mut self, symbols: &SymbolTable, package: PackageId, sym: Sym) {
+    pub(crate) fn unexport(&mut self, symbols: &SymbolTable, package: PackageId, sym: Sym) {
         let name = symbols.get(sym).name.clone();
         if let Some(entry) = self.get_mut(package).symbols.get_mut(&name)
             && entry.0 == sym
@@ -195,7 +200,12 @@ impl PackageTable {
     }
 
     /// Takes a symbol out of a package; was it present?
-    pub fn unintern(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) -> bool {
+    pub(crate) fn unintern(
+        &mut self,
+        symbols: &mut SymbolTable,
+        package: PackageId,
+        sym: Sym,
+    ) -> bool {
         let name = symbols.get(sym).name.clone();
         let this = self.get_mut(package);
         if this.symbols.get(&name).is_none_or(|(s, _)| *s != sym) {
@@ -211,7 +221,12 @@ impl PackageTable {
     }
 
     /// Makes a symbol present in place of any other of its name, and shadowing.
-    pub fn shadowing_import(&mut self, symbols: &mut SymbolTable, package: PackageId, sym: Sym) {
+    pub(crate) fn shadowing_import(
+        &mut self,
+        symbols: &mut SymbolTable,
+        package: PackageId,
+        sym: Sym,
+    ) {
         let name = symbols.get(sym).name.clone();
         self.get_mut(package).symbols.remove(&name);
         self.import(symbols, package, sym);
@@ -222,7 +237,7 @@ impl PackageTable {
     }
 
     /// Gives a package a new name and nicknames; false if one is taken.
-    pub fn rename(&mut self, id: PackageId, name: &str, nicknames: &[Rc<str>]) -> bool {
+    pub(crate) fn rename(&mut self, id: PackageId, name: &str, nicknames: &[Rc<str>]) -> bool {
         let taken = |n: &str| self.find(n).is_some_and(|found| found != id);
         if taken(name) || nicknames.iter().any(|n| taken(n)) {
             return false;
@@ -239,7 +254,7 @@ impl PackageTable {
     }
 
     /// Has the package been deleted?
-    pub fn is_deleted(&self, id: PackageId) -> bool {
+    pub(crate) fn is_deleted(&self, id: PackageId) -> bool {
         self.find(&self.get(id).name) != Some(id)
     }
 }

@@ -7,7 +7,7 @@ use crate::lisp::source::Place;
 
 /// A condition that is to be signalled as by `error`.
 #[derive(Clone)]
-pub enum Raise {
+pub(crate) enum Raise {
     /// A condition object that exists already.
     Condition(Value),
     /// A condition still to be made.
@@ -25,7 +25,7 @@ pub enum Raise {
 
 impl Raise {
     /// A condition of a class with a report.
-    pub fn new(class: Sym, report: impl Into<String>) -> Box<Raise> {
+    pub(crate) fn new(class: Sym, report: impl Into<String>) -> Box<Raise> {
         Box::new(Raise::Make {
             class,
             report: Some(report.into()),
@@ -35,7 +35,7 @@ impl Raise {
     }
 
     /// Adds the value of an initarg (a keyword) to a condition still to be made.
-    pub fn with(mut self: Box<Self>, initarg: Sym, value: Value) -> Box<Raise> {
+    pub(crate) fn with(mut self: Box<Self>, initarg: Sym, value: Value) -> Box<Raise> {
         if let Raise::Make { initargs, .. } = self.as_mut() {
             initargs.push((initarg, value));
         }
@@ -43,7 +43,7 @@ impl Raise {
     }
 
     /// The error with the place of the form it is about, unless it has one.
-    pub fn at(mut self: Box<Self>, here: Place) -> Box<Raise> {
+    pub(crate) fn at(mut self: Box<Self>, here: Place) -> Box<Raise> {
         if let Raise::Make { place, .. } = self.as_mut()
             && !place.is_some()
         {
@@ -53,7 +53,7 @@ impl Raise {
     }
 
     /// The place of the form that the error is about, if it is about a form.
-    pub fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         match self {
             Raise::Make { place, .. } => *place,
             Raise::Condition(_) => Place::NONE,
@@ -61,17 +61,17 @@ impl Raise {
     }
 
     /// A `SIMPLE-ERROR` with a text.
-    pub fn simple(report: impl Into<String>) -> Box<Raise> {
+    pub(crate) fn simple(report: impl Into<String>) -> Box<Raise> {
         Raise::new(known::SIMPLE_ERROR, report)
     }
 
     /// A `SIMPLE-PROGRAM-ERROR` with a text: a wrong form or a wrong call.
-    pub fn program(report: impl Into<String>) -> Box<Raise> {
+    pub(crate) fn program(report: impl Into<String>) -> Box<Raise> {
         Raise::new(known::SIMPLE_PROGRAM_ERROR, report)
     }
 
     /// A `TYPE-ERROR`: `datum` is not of type `expected` (a type specifier).
-    pub fn type_error(datum: &Value, expected: impl Into<Value>) -> Box<Raise> {
+    pub(crate) fn type_error(datum: &Value, expected: impl Into<Value>) -> Box<Raise> {
         Box::new(Raise::Make {
             class: known::TYPE_ERROR,
             report: None,
@@ -84,7 +84,7 @@ impl Raise {
     }
 
     /// An `UNBOUND-VARIABLE` error.
-    pub fn unbound_variable(name: Sym) -> Box<Raise> {
+    pub(crate) fn unbound_variable(name: Sym) -> Box<Raise> {
         Box::new(Raise::Make {
             class: known::UNBOUND_VARIABLE,
             report: None,
@@ -94,7 +94,7 @@ impl Raise {
     }
 
     /// An `UNDEFINED-FUNCTION` error; the name is a symbol or `(setf symbol)`.
-    pub fn undefined_function(name: Value) -> Box<Raise> {
+    pub(crate) fn undefined_function(name: Value) -> Box<Raise> {
         Box::new(Raise::Make {
             class: known::UNDEFINED_FUNCTION,
             report: None,
@@ -104,7 +104,7 @@ impl Raise {
     }
 
     /// A `CONTROL-ERROR` with a text.
-    pub fn control(report: impl Into<String>) -> Box<Raise> {
+    pub(crate) fn control(report: impl Into<String>) -> Box<Raise> {
         Raise::new(known::SIMPLE_CONTROL_ERROR, report)
     }
 }

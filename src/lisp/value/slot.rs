@@ -6,18 +6,18 @@ use super::Value;
 
 /// A mutable place for one value.
 #[derive(Default)]
-pub struct Slot(Cell<Value>);
+pub(crate) struct Slot(Cell<Value>);
 
 impl Slot {
     /// A place that holds `value`.
     #[inline]
-    pub fn new(value: Value) -> Slot {
+    pub(crate) fn new(value: Value) -> Slot {
         Slot(Cell::new(value))
     }
 
     /// The value.
     #[inline]
-    pub fn get(&self) -> Value {
+    pub(crate) fn get(&self) -> Value {
         let value = self.0.take();
         let copy = value.clone();
         self.0.set(value);
@@ -26,7 +26,7 @@ impl Slot {
 
     /// Looks at the value without counting a reference. `look` must not touch this slot.
     #[inline]
-    pub fn with<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
+    pub(crate) fn with<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
         let value = self.0.take();
         let result = look(&value);
         self.0.set(value);
@@ -35,13 +35,13 @@ impl Slot {
 
     /// Stores a value.
     #[inline]
-    pub fn set(&self, value: Value) {
+    pub(crate) fn set(&self, value: Value) {
         self.0.set(value);
     }
 
     /// Takes the value out and leaves "no value".
     #[inline]
-    pub fn take(&self) -> Value {
+    pub(crate) fn take(&self) -> Value {
         self.0.take()
     }
 }

@@ -6,16 +6,16 @@ use std::cell::{Cell, Ref, RefCell};
 ///
 /// Positions count characters, not bytes. Texts of ASCII characters are indexed in
 /// constant time; in other texts, walking from one position to the next is constant too.
-pub struct LispString {
+pub(crate) struct LispString {
     text: RefCell<String>,
     /// Number of characters.
     length: Cell<usize>,
     /// A position and its byte offset, where the last character was looked up.
     cursor: Cell<(usize, usize)>,
     /// Does the string have a fill pointer, that is, can characters be pushed?
-    pub has_fill_pointer: Cell<bool>,
+    pub(crate) has_fill_pointer: Cell<bool>,
     /// May the string grow beyond its capacity?
-    pub adjustable: Cell<bool>,
+    pub(crate) adjustable: Cell<bool>,
     /// How many characters there is room for, if there is a fill pointer.
     capacity: Cell<usize>,
     /// Characters beyond a fill pointer that was set back, the nearest one last.
@@ -24,7 +24,7 @@ pub struct LispString {
 
 impl LispString {
     /// A simple string.
-    pub fn new(text: String) -> LispString {
+    pub(crate) fn new(text: String) -> LispString {
         LispString {
             length: Cell::new(text.chars().count()),
             text: RefCell::new(text),
@@ -37,7 +37,7 @@ impl LispString {
     }
 
     /// A string with a fill pointer behind the text and room for `capacity` characters.
-    pub fn with_fill_pointer(text: String, capacity: usize, adjustable: bool) -> LispString {
+    pub(crate) fn with_fill_pointer(text: String, capacity: usize, adjustable: bool) -> LispString {
         let string = LispString::new(text);
         string.has_fill_pointer.set(true);
         string.adjustable.set(adjustable);
@@ -46,27 +46,27 @@ impl LispString {
     }
 
     /// A copy of the text.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         self.text.borrow().clone()
     }
 
     /// The text, borrowed; must not be held across a change of the string.
-    pub fn borrow(&self) -> Ref<'_, String> {
+    pub(crate) fn borrow(&self) -> Ref<'_, String> {
         self.text.borrow()
     }
 
     /// Number of characters.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.length.get()
     }
 
     /// Is the string empty?
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.length.get() == 0
     }
 
     /// How many characters there is room for.
-    pub fn capacity(&self) -> usize {
+    pub(crate) fn capacity(&self) -> usize {
         self.capacity.get().max(self.len())
     }
 
@@ -96,13 +96,13 @@ impl LispString {
     }
 
     /// The character at a position.
-    pub fn char_at(&self, index: usize) -> Option<char> {
+    pub(crate) fn char_at(&self, index: usize) -> Option<char> {
         let offset = self.offset(index)?;
         self.text.borrow().get(offset..)?.chars().next()
     }
 
     /// The characters from `start` to `end` (none: to the end).
-    pub fn slice(&self, start: usize, end: Option<usize>) -> String {
+    pub(crate) fn slice(&self, start: usize, end: Option<usize>) -> String {
         let length = self.length.get();
         let start = self.offset(start.min(length)).unwrap_or(0);
         let end = self.offset(end.unwrap_or(length).min(length));
@@ -113,7 +113,7 @@ impl LispString {
     }
 
     /// Replaces the character at a position; false if there is none.
-    pub fn set_char(&self, index: usize, c: char) -> bool {
+    pub(crate) fn set_char(&self, index: usize, c: char) -> bool {
         if index >= self.length.get() {
             return false;
         }
@@ -122,7 +122,7 @@ impl LispString {
     }
 
     /// Replaces as many characters from `start` on as `new` has, but none beyond the end.
-    pub fn overwrite(&self, start: usize, new: &str) {
+    pub(crate) fn overwrite(&self, start: usize, new: &str) {
         let count = new.chars().count();
         let end = start.saturating_add(count).min(self.length.get());
         let (Some(from), Some(to)) = (self.offset(start), self.offset(end)) else {
@@ -139,21 +139,21 @@ impl LispString {
     }
 
     /// Replaces the whole text.
-    pub fn set_text(&self, text: String) {
+    pub(crate) fn set_text(&self, text: String) {
         self.length.set(text.chars().count());
         self.cursor.set((0, 0));
         *self.text.borrow_mut() = text;
     }
 
     /// Appends a character.
-    pub fn push(&self, c: char) {
+    pub(crate) fn push(&self, c: char) {
         self.length.set(self.length.get() + 1);
         self.text.borrow_mut().push(c);
         self.beyond.borrow_mut().pop();
     }
 
     /// Removes and returns the last character.
-    pub fn pop(&self) -> Option<char> {
+    pub(crate) fn pop(&self) -> Option<char> {
         let c = self.text.borrow_mut().pop()?;
         self.length.set(self.length.get().saturating_sub(1));
         self.cursor.set((0, 0));
@@ -163,7 +163,7 @@ impl LispString {
 
     /// Moves the fill pointer; characters behind it come back when it returns. False if
     /// there is not so much room.
-    pub fn set_fill_pointer(&self, count: usize) -> bool {
+    pub(crate) fn set_fill_pointer(&self, count: usize) -> bool {
         if count > self.capacity() {
             return false;
         }

@@ -9,15 +9,15 @@ use super::Value;
 use super::function::Function;
 use super::package::PackageId;
 
-pub use super::known;
+pub(crate) use super::known;
 
 /// A symbol of an image.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct Sym(pub(crate) u32);
+pub(crate) struct Sym(pub(crate) u32);
 
 /// What a symbol means in function position.
 #[derive(Clone, Default)]
-pub enum FunctionCell {
+pub(crate) enum FunctionCell {
     /// Nothing.
     #[default]
     Unbound,
@@ -31,7 +31,7 @@ pub enum FunctionCell {
 
 /// How a symbol behaves as a variable.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub enum VariableKind {
+pub(crate) enum VariableKind {
     /// Bindings are lexical.
     #[default]
     Lexical,
@@ -43,44 +43,44 @@ pub enum VariableKind {
 
 /// What an image knows about a symbol.
 #[derive(Default)]
-pub struct SymbolData {
+pub(crate) struct SymbolData {
     /// The name.
-    pub name: Rc<str>,
+    pub(crate) name: Rc<str>,
     /// The home package; none if uninterned.
-    pub package: Option<PackageId>,
+    pub(crate) package: Option<PackageId>,
     /// The global value.
-    pub value: Value,
+    pub(crate) value: Value,
     /// How the symbol is bound as a variable.
-    pub kind: VariableKind,
+    pub(crate) kind: VariableKind,
     /// How many dynamic bindings are alive in all fibers.
-    pub bindings: u32,
+    pub(crate) bindings: u32,
     /// The global function.
-    pub function: FunctionCell,
+    pub(crate) function: FunctionCell,
     /// The function of `(setf (name …) …)`.
-    pub setf_function: Option<Rc<Function>>,
+    pub(crate) setf_function: Option<Rc<Function>>,
     /// The property list.
-    pub plist: Value,
+    pub(crate) plist: Value,
     /// Expansion of a global symbol macro.
-    pub symbol_macro: Option<Value>,
+    pub(crate) symbol_macro: Option<Value>,
     /// Documentation as a variable, if any.
-    pub variable_doc: Option<Rc<str>>,
+    pub(crate) variable_doc: Option<Rc<str>>,
 }
 
 /// All symbols of an image.
-pub struct SymbolTable {
+pub(crate) struct SymbolTable {
     entries: Vec<SymbolData>,
 }
 
 impl SymbolTable {
     /// An empty table.
-    pub fn new() -> SymbolTable {
+    pub(crate) fn new() -> SymbolTable {
         SymbolTable {
             entries: Vec::with_capacity(4096),
         }
     }
 
     /// Adds a symbol that belongs to no package yet.
-    pub fn make(&mut self, name: Rc<str>) -> Sym {
+    pub(crate) fn make(&mut self, name: Rc<str>) -> Sym {
         // More than four billion symbols do not fit in memory.
         let index = u32::try_from(self.entries.len()).unwrap_or(u32::MAX);
         self.entries.push(SymbolData {
@@ -93,28 +93,28 @@ impl SymbolTable {
 
     /// The symbol's data.
     #[inline]
-    pub fn get(&self, sym: Sym) -> &SymbolData {
+    pub(crate) fn get(&self, sym: Sym) -> &SymbolData {
         &self.entries[sym.0 as usize]
     }
 
     /// The symbol's data, to be changed.
     #[inline]
-    pub fn get_mut(&mut self, sym: Sym) -> &mut SymbolData {
+    pub(crate) fn get_mut(&mut self, sym: Sym) -> &mut SymbolData {
         &mut self.entries[sym.0 as usize]
     }
 
     /// Number of symbols.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.entries.len()
     }
 
     /// Is there no symbol?
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.entries.is_empty()
     }
 
     /// All symbols, in order of creation.
-    pub fn iter(&self) -> impl Iterator<Item = (Sym, &SymbolData)> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (Sym, &SymbolData)> {
         self.entries
             .iter()
             .enumerate()

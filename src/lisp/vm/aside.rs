@@ -18,7 +18,7 @@ use crate::lisp::value::symbol::Sym;
 
 /// How an evaluation on top of a stopped fiber stands.
 #[derive(Clone, Default)]
-pub enum AsideState {
+pub(crate) enum AsideState {
     /// It is under way.
     #[default]
     Running,
@@ -32,7 +32,7 @@ pub enum AsideState {
 
 /// An evaluation on top of a stopped fiber.
 #[derive(Clone)]
-pub struct Aside {
+pub(crate) struct Aside {
     state: Rc<RefCell<AsideState>>,
     tag: Value,
 }
@@ -51,7 +51,7 @@ impl Foreign for Tag {
 
 impl Aside {
     /// An evaluation that has not begun.
-    pub fn new() -> Aside {
+    pub(crate) fn new() -> Aside {
         Aside {
             state: Rc::default(),
             tag: Value::foreign(Tag),
@@ -59,18 +59,18 @@ impl Aside {
     }
 
     /// How it stands.
-    pub fn state(&self) -> AsideState {
+    pub(crate) fn state(&self) -> AsideState {
         self.state.borrow().clone()
     }
 
     /// The tag of a `catch` that the function must establish around its work.
-    pub fn tag(&self) -> Value {
+    pub(crate) fn tag(&self) -> Value {
         self.tag.clone()
     }
 
     /// The function that calls another one aside, on a fiber that has stopped at
     /// `condition`. It must be called once.
-    pub fn call(&self, condition: Value, function: Value, args: Vec<Value>) -> Value {
+    pub(crate) fn call(&self, condition: Value, function: Value, args: Vec<Value>) -> Value {
         let state = self.state.clone();
         let call = move |machine: &mut Machine<'_>, _| {
             machine.fiber.dynamic.push(Dynamic::HandlerMask(0));
@@ -87,7 +87,7 @@ impl Aside {
     }
 
     /// The function that ends the evaluation from further in, wherever it is.
-    pub fn leave(&self) -> Value {
+    pub(crate) fn leave(&self) -> Value {
         let (state, tag) = (self.state.clone(), self.tag.clone());
         let call = move |machine: &mut Machine<'_>, _| {
             *state.borrow_mut() = AsideState::Ended;

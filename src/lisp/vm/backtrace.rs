@@ -8,33 +8,33 @@ use crate::lisp::value::function::Body;
 use crate::lisp::value::symbol::Sym;
 
 /// A frame as people see it.
-pub struct FrameView {
+pub(crate) struct FrameView {
     /// Its index in the fiber, outermost first.
-    pub index: usize,
+    pub(crate) index: usize,
     /// What was called: a symbol, `(setf name)`, `(lambda …)`; a text for a builtin.
-    pub name: Value,
+    pub(crate) name: Value,
     /// The parameters that are known, in order.
-    pub arguments: Vec<Value>,
+    pub(crate) arguments: Vec<Value>,
     /// The place in the source of what it was doing.
-    pub place: Place,
+    pub(crate) place: Place,
     /// The action that a plan carries out, if the frame is `PERFORM`'s.
-    pub action: Option<Value>,
+    pub(crate) action: Option<Value>,
     /// How many motions had been begun before that action.
-    pub motions_before: u64,
+    pub(crate) motions_before: u64,
 }
 
 /// A variable of a frame.
-pub struct Variable {
+pub(crate) struct Variable {
     /// Its name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// Its value; unbound for a parameter that was not supplied.
-    pub value: Value,
+    pub(crate) value: Value,
     place: VariablePlace,
 }
 
 /// Where a variable lies.
 #[derive(Clone)]
-pub enum VariablePlace {
+pub(crate) enum VariablePlace {
     /// On the value stack, counted from its bottom.
     Stack(usize),
     /// In a closure that cannot be changed.
@@ -45,14 +45,14 @@ pub enum VariablePlace {
 
 impl Variable {
     /// Where it lies.
-    pub fn place(&self) -> VariablePlace {
+    pub(crate) fn place(&self) -> VariablePlace {
         self.place.clone()
     }
 }
 
 impl VariablePlace {
     /// Assigns a variable of a fiber.
-    pub fn set(&self, fiber: &mut Fiber, value: Value) {
+    pub(crate) fn set(&self, fiber: &mut Fiber, value: Value) {
         match self {
             VariablePlace::Stack(at) => {
                 if let Some(place) = fiber.stack.get_mut(*at) {
@@ -67,7 +67,7 @@ impl VariablePlace {
 
 impl Fiber {
     /// The frames, innermost first.
-    pub fn views(&self) -> Vec<FrameView> {
+    pub(crate) fn views(&self) -> Vec<FrameView> {
         let frames = self.frames.iter().enumerate().rev();
         frames
             .map(|(index, frame)| self.view(index, frame))
@@ -114,7 +114,7 @@ impl Fiber {
     }
 
     /// The variables in whose scope a frame is, each name once: the innermost.
-    pub fn variables(&self, frame: usize) -> Vec<Variable> {
+    pub(crate) fn variables(&self, frame: usize) -> Vec<Variable> {
         let Some(frame) = self.frames.get(frame) else {
             return Vec::new();
         };

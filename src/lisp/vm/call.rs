@@ -8,11 +8,11 @@ use crate::lisp::value::function::Body;
 
 /// A call that has not returned.
 #[derive(Clone)]
-pub struct Call {
+pub(crate) struct Call {
     /// The place in the source of what it was doing; none for a builtin.
-    pub place: Place,
+    pub(crate) place: Place,
     /// What a builtin is about: the action that a plan carries out.
-    pub subject: Option<Value>,
+    pub(crate) subject: Option<Value>,
 }
 
 /// Frames that are looked at.

@@ -12,7 +12,7 @@ use crate::lisp::value::symbol::Sym;
 
 /// One operation. "Push" and "pop" speak of the value stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Op {
+pub(crate) enum Op {
     /// Push a constant.
     Const(u32),
     /// Push `NIL`.
@@ -154,7 +154,7 @@ pub enum Op {
 
 /// How a closure gets the value of a free variable of its code.
 #[derive(Clone, Copy, Debug)]
-pub enum Capture {
+pub(crate) enum Capture {
     /// From a local slot of the function that makes the closure.
     Local(u32),
     /// From a free variable of that function.
@@ -163,76 +163,76 @@ pub enum Capture {
 
 /// The parameters of a function, in slot order: required, optional, rest, keys.
 #[derive(Clone, Debug, Default)]
-pub struct Parameters {
+pub(crate) struct Parameters {
     /// Number of required parameters.
-    pub required: u16,
+    pub(crate) required: u16,
     /// Number of optional parameters.
-    pub optional: u16,
+    pub(crate) optional: u16,
     /// Is there a rest parameter?
-    pub rest: bool,
+    pub(crate) rest: bool,
     /// Keywords of the key parameters.
-    pub keys: Vec<Sym>,
+    pub(crate) keys: Vec<Sym>,
     /// Does the lambda list have `&key`?
-    pub has_keys: bool,
+    pub(crate) has_keys: bool,
     /// Are other keywords allowed?
-    pub allow_other_keys: bool,
+    pub(crate) allow_other_keys: bool,
 }
 
 impl Parameters {
     /// Number of slots that they fill.
-    pub fn slots(&self) -> usize {
+    pub(crate) fn slots(&self) -> usize {
         let positional = usize::from(self.required) + usize::from(self.optional);
         positional + usize::from(self.rest) + self.keys.len()
     }
 
     /// Is every parameter required?
-    pub fn is_simple(&self) -> bool {
+    pub(crate) fn is_simple(&self) -> bool {
         self.optional == 0 && !self.rest && !self.has_keys
     }
 }
 
 /// A local variable: where its value lies, and for which operations that is so.
 #[derive(Clone, Copy, Debug)]
-pub struct Local {
+pub(crate) struct Local {
     /// Its slot, counted from the frame's base.
-    pub slot: u32,
+    pub(crate) slot: u32,
     /// Its name.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// The first operation in its scope.
-    pub from: u32,
+    pub(crate) from: u32,
     /// The first operation behind its scope.
-    pub to: u32,
+    pub(crate) to: u32,
 }
 
 /// Compiled code of one function.
-pub struct Code {
+pub(crate) struct Code {
     /// Name: a symbol, `(setf name)`, `(lambda …)` or `NIL`.
-    pub name: Value,
+    pub(crate) name: Value,
     /// The parameters.
-    pub parameters: Parameters,
+    pub(crate) parameters: Parameters,
     /// The operations.
-    pub ops: Vec<Op>,
+    pub(crate) ops: Vec<Op>,
     /// Constants.
-    pub constants: Vec<Value>,
+    pub(crate) constants: Vec<Value>,
     /// Code of the closures made here, with their captures.
-    pub inner: Vec<(Rc<Code>, Vec<Capture>)>,
+    pub(crate) inner: Vec<(Rc<Code>, Vec<Capture>)>,
     /// For each tagbody that closures jump into: where its tags are.
-    pub tags: Vec<Vec<u32>>,
+    pub(crate) tags: Vec<Vec<u32>>,
     /// Places of calls: (first operation, place), in ascending order.
-    pub places: Vec<(u32, Place)>,
+    pub(crate) places: Vec<(u32, Place)>,
     /// Local variables, for the debugger, as bound.
-    pub locals: Vec<Local>,
+    pub(crate) locals: Vec<Local>,
     /// Names of the free variables, in the order of the closure's captures.
-    pub free: Vec<Sym>,
+    pub(crate) free: Vec<Sym>,
     /// The lambda list as written.
-    pub lambda_list: Value,
+    pub(crate) lambda_list: Value,
     /// The documentation string.
-    pub doc: Option<Rc<str>>,
+    pub(crate) doc: Option<Rc<str>>,
 }
 
 impl Code {
     /// The place of the call that the operation belongs to.
-    pub fn place_at(&self, pc: usize) -> Place {
+    pub(crate) fn place_at(&self, pc: usize) -> Place {
         let pc = u32::try_from(pc).unwrap_or(u32::MAX);
         let after = self.places.partition_point(|(first, _)| *first <= pc);
         after

@@ -9,21 +9,21 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::symbol::Sym;
 
 /// A call that has not returned.
-pub struct Frame {
+pub(crate) struct Frame {
     /// What is to go on when a callee returns.
-    pub kind: FrameKind,
+    pub(crate) kind: FrameKind,
     /// Where the frame's values start on the stack.
-    pub base: usize,
+    pub(crate) base: usize,
     /// Length to which its return cuts the stack.
-    pub cut: usize,
+    pub(crate) cut: usize,
     /// Number of dynamic entries when it was entered.
-    pub dynamic: usize,
+    pub(crate) dynamic: usize,
     /// Does the caller want all values?
-    pub multi: bool,
+    pub(crate) multi: bool,
 }
 
 /// What runs in a frame.
-pub enum FrameKind {
+pub(crate) enum FrameKind {
     /// Compiled code.
     Code {
         /// The closure that was called.
@@ -41,15 +41,15 @@ pub enum FrameKind {
 }
 
 /// A handler: a type of conditions and a function.
-pub struct Handler {
+pub(crate) struct Handler {
     /// The type specifier.
-    pub condition_type: Value,
+    pub(crate) condition_type: Value,
     /// The function of one argument.
-    pub function: Value,
+    pub(crate) function: Value,
 }
 
 /// Something with dynamic extent.
-pub enum Dynamic {
+pub(crate) enum Dynamic {
     /// A binding of a special variable, with the value outside it.
     Bind(Sym, Value),
     /// The start of the bindings of a `progv`.
@@ -110,7 +110,7 @@ pub enum Dynamic {
 
 /// Where an unwinding goes.
 #[derive(Clone, Copy, Debug)]
-pub enum Target {
+pub(crate) enum Target {
     /// Out of the block or catch at this dynamic index.
     Exit(usize),
     /// To a tag of the tagbody at this dynamic index.
@@ -123,26 +123,26 @@ pub enum Target {
 }
 
 /// An unwinding that waits for cleanup code.
-pub struct Pending {
+pub(crate) struct Pending {
     /// Where it goes.
-    pub target: Target,
+    pub(crate) target: Target,
     /// The value it carries.
-    pub value: Value,
+    pub(crate) value: Value,
     /// Number of dynamic entries while the cleanup code runs.
-    pub dynamic: usize,
+    pub(crate) dynamic: usize,
 }
 
 /// A line of execution.
 #[derive(Default)]
-pub struct Fiber {
+pub(crate) struct Fiber {
     /// The value stack.
-    pub stack: Vec<Value>,
+    pub(crate) stack: Vec<Value>,
     /// The frames, innermost last.
-    pub frames: Vec<Frame>,
+    pub(crate) frames: Vec<Frame>,
     /// The dynamic entries, innermost last.
-    pub dynamic: Vec<Dynamic>,
+    pub(crate) dynamic: Vec<Dynamic>,
     /// Unwindings that wait for cleanup code, innermost last.
-    pub pending: Vec<Pending>,
+    pub(crate) pending: Vec<Pending>,
     /// Does whoever made the request that waits want all values of the answer?
     pub(super) wants_all: bool,
     /// A value that was on its way to the innermost frame when an interrupt came.
@@ -153,7 +153,7 @@ pub struct Fiber {
 
 impl Fiber {
     /// Puts the fiber's special bindings in force: it is about to run.
-    pub fn enter(&mut self, image: &mut Image) {
+    pub(crate) fn enter(&mut self, image: &mut Image) {
         if self.in_force {
             return;
         }
@@ -164,7 +164,7 @@ impl Fiber {
     }
 
     /// Takes the fiber's special bindings out of force: another fiber may run.
-    pub fn leave(&mut self, image: &mut Image) {
+    pub(crate) fn leave(&mut self, image: &mut Image) {
         if !self.in_force {
             return;
         }
@@ -175,7 +175,7 @@ impl Fiber {
     }
 
     /// Binds a special variable for the rest of the fiber's life; before it first runs.
-    pub fn bind(&mut self, sym: Sym, value: Value) {
+    pub(crate) fn bind(&mut self, sym: Sym, value: Value) {
         self.dynamic.push(Dynamic::Bind(sym, value));
     }
 }

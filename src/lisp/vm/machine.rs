@@ -23,15 +23,15 @@ use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// A fiber that runs on an image.
-pub struct Machine<'a> {
+pub(crate) struct Machine<'a> {
     /// The image.
-    pub image: &'a mut Image,
+    pub(crate) image: &'a mut Image,
     /// The fiber.
-    pub fiber: &'a mut Fiber,
+    pub(crate) fiber: &'a mut Fiber,
 }
 
 /// Why the machine stopped.
-pub enum Event {
+pub(crate) enum Event {
     /// The fiber's function returned (`Value::Multiple` unless exactly one value).
     Done(Value),
     /// A builtin made a request; `resume` with the answer.
@@ -64,19 +64,19 @@ const INTERRUPT_INTERVAL: u32 = 4096;
 
 impl<'a> Machine<'a> {
     /// A machine for a fiber.
-    pub fn new(image: &'a mut Image, fiber: &'a mut Fiber) -> Machine<'a> {
+    pub(crate) fn new(image: &'a mut Image, fiber: &'a mut Fiber) -> Machine<'a> {
         Machine { image, fiber }
     }
 
     /// Starts a call in a fiber that does nothing yet, and runs it.
-    pub fn start(&mut self, function: Value, args: Vec<Value>) -> Event {
+    pub(crate) fn start(&mut self, function: Value, args: Vec<Value>) -> Event {
         self.fiber.enter(self.image);
         let next = self.call_value(function, args, true);
         self.go_on(next)
     }
 
     /// Gives the answer to a request, or a value in place of a failed call, and goes on.
-    pub fn resume(&mut self, value: Value) -> Event {
+    pub(crate) fn resume(&mut self, value: Value) -> Event {
         self.fiber.enter(self.image);
         let value = if self.fiber.wants_all {
             value
@@ -87,7 +87,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Raises an error where a request was made, and goes on.
-    pub fn resume_with_error(&mut self, raise: Box<Raise>) -> Event {
+    pub(crate) fn resume_with_error(&mut self, raise: Box<Raise>) -> Event {
         self.fiber.enter(self.image);
         if let Raise::Condition(condition) = &*raise {
             let calls = self.calls();
@@ -99,7 +99,7 @@ impl<'a> Machine<'a> {
 
     /// Goes on with a call on top of whatever the fiber does; its value is the answer to
     /// the request, or stands in place of the failed call.
-    pub fn resume_with_call(&mut self, function: Value, args: Vec<Value>) -> Event {
+    pub(crate) fn resume_with_call(&mut self, function: Value, args: Vec<Value>) -> Event {
         self.fiber.enter(self.image);
         let multi = self.fiber.wants_all;
         let next = self.call_value(function, args, multi);
@@ -108,7 +108,12 @@ impl<'a> Machine<'a> {
 
     /// Leaves a frame and all above it, running cleanup code, and goes on with a call in its
     /// place.
-    pub fn replace_frame(&mut self, index: usize, function: Value, args: Vec<Value>) -> Event {
+    pub(crate) fn replace_frame(
+        &mut self,
+        index: usize,
+        function: Value,
+        args: Vec<Value>,
+    ) -> Event {
         self.fiber.enter(self.image);
         let call = Value::cons(function, Value::list(args));
         let next = self.unwind(super::fiber::Target::Frame(index), call);
@@ -116,14 +121,14 @@ impl<'a> Machine<'a> {
     }
 
     /// Goes on after an interrupt.
-    pub fn run(&mut self) -> Event {
+    pub(crate) fn run(&mut self) -> Event {
         self.fiber.enter(self.image);
         let undelivered = self.fiber.undelivered.take();
         self.go_on(undelivered.map_or(Next::Run, Next::Deliver))
     }
 
     /// Unwinds the whole fiber, running its cleanup code.
-    pub fn unwind_all(&mut self) -> Event {
+    pub(crate) fn unwind_all(&mut self) -> Event {
         self.fiber.enter(self.image);
         self.fiber.undelivered = None;
         let next = self.unwind(super::fiber::Target::Everything, Value::NIL);
@@ -944,7 +949,7 @@ impl<'a> Machine<'a> {
     }
 
     /// The place in the source of the call that is being carried out, innermost known first.
-    pub fn place(&self) -> Place {
+    pub(crate) fn place(&self) -> Place {
         self.fiber
             .frames
             .iter()
@@ -999,7 +1004,7 @@ fn check_keywords(image: &Image, code: &Code, more: &[Value]) -> Result<(), Box<
 
 /// Calls a function outside any plan, to the end: for macro functions and the like, which
 /// cannot wait.
-pub fn call_nested(
+pub(crate) fn call_nested(
     image: &mut Image,
     function: Value,
     args: Vec<Value>,
@@ -1008,7 +1013,7 @@ pub fn call_nested(
 }
 
 /// Like [`call_nested`], with all values.
-pub fn call_nested_values(
+pub(crate) fn call_nested_values(
     image: &mut Image,
     function: Value,
     args: Vec<Value>,

@@ -1,14 +1,14 @@
 //! The machine that runs compiled code: explicit frames, no recursion on the Rust stack.
 
-pub mod aside;
-pub mod backtrace;
-pub mod call;
-pub mod code;
-pub mod fiber;
-pub mod machine;
-pub mod restart;
-pub mod signal;
-pub mod step;
+pub(crate) mod aside;
+pub(crate) mod backtrace;
+pub(crate) mod call;
+pub(crate) mod code;
+pub(crate) mod fiber;
+pub(crate) mod machine;
+pub(crate) mod restart;
+pub(crate) mod signal;
+pub(crate) mod step;
 #[cfg(test)]
 mod tests;
 mod unwind;

@@ -11,15 +11,15 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// A restart.
-pub struct Restart {
+pub(crate) struct Restart {
     /// Its name; `NIL` for an anonymous one.
-    pub name: Sym,
+    pub(crate) name: Sym,
     /// The function that it calls.
-    pub function: Value,
+    pub(crate) function: Value,
     /// A string, or a function of a stream that describes it; `NIL` if there is none.
-    pub report: Value,
+    pub(crate) report: Value,
     /// A function that asks for the arguments; `NIL` if there is none.
-    pub interactive: Value,
+    pub(crate) interactive: Value,
 }
 
 impl Foreign for Restart {
@@ -134,7 +134,7 @@ impl Machine<'_> {
     }
 
     /// The restarts in force, innermost first.
-    pub fn restarts(&self) -> Vec<Value> {
+    pub(crate) fn restarts(&self) -> Vec<Value> {
         self.fiber
             .dynamic
             .iter()
@@ -148,7 +148,7 @@ impl Machine<'_> {
     }
 
     /// The innermost restart of a name, or the restart object itself if it is in force.
-    pub fn find_restart(&self, designator: &Value) -> Option<Value> {
+    pub(crate) fn find_restart(&self, designator: &Value) -> Option<Value> {
         self.restarts().into_iter().find(|restart| {
             restart.is_eq(designator)
                 || restart

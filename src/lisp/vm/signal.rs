@@ -13,7 +13,7 @@ use crate::lisp::value::raise::Raise;
 
 /// What happens when every handler has declined.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Declined {
+pub(crate) enum Declined {
     /// `signal`: the call returns `NIL`.
     Return,
     /// `error`: the machine stops, with the stack as it is.
@@ -59,7 +59,7 @@ impl Machine<'_> {
     }
 
     /// Remembers where a condition was signalled, unless that is known.
-    pub fn note_place(&mut self, condition: &Value, place: Place) {
+    pub(crate) fn note_place(&mut self, condition: &Value, place: Place) {
         if place.is_some() && self.image.condition_calls(condition).is_none() {
             let mut calls = self.calls();
             if calls.iter().find(|c| c.place.is_some()).map(|c| c.place) != Some(place) {
@@ -71,7 +71,11 @@ impl Machine<'_> {
     }
 
     /// The first step of signalling a condition.
-    pub fn signal(&mut self, condition: Value, declined: Declined) -> Result<Step, Box<Raise>> {
+    pub(crate) fn signal(
+        &mut self,
+        condition: Value,
+        declined: Declined,
+    ) -> Result<Step, Box<Raise>> {
         let position = self.fiber.dynamic.len();
         let signalling = Signalling {
             condition,

@@ -8,7 +8,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 
 /// The next step of a control builtin.
-pub enum Step {
+pub(crate) enum Step {
     /// Return a value (`Value::values` for several).
     Return(Value),
     /// Call a function (or a symbol that names one) and hand its primary value to `then`.
@@ -48,7 +48,7 @@ pub enum Step {
 }
 
 /// The rest of a control builtin that waits for the value of a call.
-pub trait Resume {
+pub(crate) trait Resume {
     /// Goes on with the value.
     fn resume(self: Box<Self>, machine: &mut Machine<'_>, value: Value)
     -> Result<Step, Box<Raise>>;

@@ -31,7 +31,7 @@ impl Machine<'_> {
     }
 
     /// `throw`: the step that leaves the innermost catch of the tag with a value.
-    pub fn throw(&mut self, tag: &Value, value: Value) -> Result<Step, Box<Raise>> {
+    pub(crate) fn throw(&mut self, tag: &Value, value: Value) -> Result<Step, Box<Raise>> {
         let found = self
             .fiber
             .dynamic

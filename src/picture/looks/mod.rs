@@ -27,7 +27,7 @@ const FURNITURE_BEVEL: f64 = 0.003;
 const ROBOT_BEVEL: f64 = 0.022;
 
 /// The looks of everything that a world may hold; made once, they serve any number of scenes.
-pub struct Looks {
+pub(crate) struct Looks {
     floor: Arc<Surface>,
     furniture: Vec<Dressed>,
     robot: Vec<Dressed>,
@@ -44,7 +44,7 @@ struct Dressed {
 
 impl Looks {
     /// The looks of robot, kitchen and objects.
-    pub fn of(models: &Models) -> Self {
+    pub(crate) fn of(models: &Models) -> Self {
         let kinds = models.objects.types();
         Self {
             floor: Arc::new(Surface::ground(FLOOR_HALF)),
@@ -62,7 +62,7 @@ impl Looks {
     }
 
     /// The world as it is now.
-    pub fn scene(&self, world: &World) -> Scene {
+    pub(crate) fn scene(&self, world: &World) -> Scene {
         let mut bodies = vec![Body {
             owner: Owner::new(Kind::Floor, "floor"),
             surface: self.floor.clone(),

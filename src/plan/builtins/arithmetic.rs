@@ -17,7 +17,7 @@ use crate::plan::request::Request;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "+",
         "&rest numbers",

@@ -14,7 +14,7 @@ use crate::plan::step::Result;
 use crate::plan::task::TaskRef;
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     control(
         "START",
         "name function",

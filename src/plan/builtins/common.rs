@@ -4,7 +4,7 @@ use super::arithmetic::sleep;
 use crate::lisp::builtin::{Builtin, control};
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[control(
+pub(crate) static TABLE: &[Builtin] = &[control(
     "SLEEP",
     "seconds",
     "Waits for so many simulated seconds.",

@@ -16,7 +16,7 @@ use crate::plan::state::Plan;
 use crate::plan::step::Result;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[control(
+pub(crate) static TABLE: &[Builtin] = &[control(
     "FAIL",
     "&rest failure",
     "Fails: with a text and its arguments, with the name of a condition class and initargs, with a condition object, or just so.",
@@ -27,7 +27,7 @@ pub static TABLE: &[Builtin] = &[control(
 )];
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "EXPAND-DO-RETRY",
         "counters counter body",

@@ -19,7 +19,7 @@ use crate::plan::step::{Result, call_then, request_then};
 use crate::plan::task::TaskRef;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "MAKE-FLUENT",
         "&key name value test",
@@ -107,7 +107,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Places.
-pub static SETTERS: &[Builtin] = &[control(
+pub(crate) static SETTERS: &[Builtin] = &[control(
     "VALUE",
     "new-value fluent",
     "Stores a value in a fluent.",

@@ -14,7 +14,7 @@ use crate::plan::state::{Goal, Plan};
 use crate::plan::step::Result;
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[pure(
+pub(crate) static TABLE: &[Builtin] = &[pure(
     "DESCRIBE-GOAL",
     "goal",
     "The documentation of the goal with a pattern, or NIL.",
@@ -33,7 +33,7 @@ pub static TABLE: &[Builtin] = &[pure(
 )];
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "DECLARE-GOAL",
         "name",

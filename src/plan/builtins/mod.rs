@@ -24,7 +24,7 @@ use super::state::Plan;
 use super::step::{call_then, request_then};
 
 /// Functions of package `CRAM-LANGUAGE-IMPLEMENTATION`, which `CRAM-LANGUAGE` exports, too.
-pub static FUNCTIONS: &[&[Builtin]] = &[
+pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
     failures::TABLE,
     fluents::TABLE,
     networks::TABLE,
@@ -35,10 +35,10 @@ pub static FUNCTIONS: &[&[Builtin]] = &[
 ];
 
 /// Functions of package `CRAM-LANGUAGE` itself: those that stand in for Common Lisp's.
-pub static LANGUAGE: &[&[Builtin]] = &[arithmetic::TABLE];
+pub(crate) static LANGUAGE: &[&[Builtin]] = &[arithmetic::TABLE];
 
 /// Functions of package `PLAN-SYSTEM`.
-pub static SYSTEM: &[&[Builtin]] = &[
+pub(crate) static SYSTEM: &[&[Builtin]] = &[
     combinators::SYSTEM_TABLE,
     failures::SYSTEM_TABLE,
     goals::SYSTEM_TABLE,
@@ -48,10 +48,10 @@ pub static SYSTEM: &[&[Builtin]] = &[
 ];
 
 /// What `setf` calls for places of the plan language.
-pub static SETTERS: &[&[Builtin]] = &[fluents::SETTERS];
+pub(crate) static SETTERS: &[&[Builtin]] = &[fluents::SETTERS];
 
 /// Functions of package `COMMON-LISP` that need the scheduler.
-pub static COMMON_LISP: &[Builtin] = common::TABLE;
+pub(crate) static COMMON_LISP: &[Builtin] = common::TABLE;
 
 /// A function that waits for fluents, one after the other, and then calls another one.
 pub(super) fn constrained(plan: &Plan, call: Call, constraints: Vec<Value>) -> Value {

@@ -14,7 +14,7 @@ use crate::plan::state::Plan;
 use crate::plan::step::{Result, call_then};
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "FL-AND",
         "&rest values",

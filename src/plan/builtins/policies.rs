@@ -37,7 +37,7 @@ impl Foreign for Policy {
 }
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "NAMED-POLICY",
         "name",
@@ -62,7 +62,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "MAKE-POLICY",
         "name parameters doc init check recover clean-up",

@@ -16,7 +16,7 @@ use crate::plan::step::{Result, request_then};
 use crate::plan::task::{Status, TaskRef};
 
 /// The builtins.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "STATUS",
         "task",
@@ -158,7 +158,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `PLAN-SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     control(
         "PUSH-SUSPENSION-HOOK",
         "function",

@@ -80,16 +80,16 @@ fn with_data(
 
 /// Why a designator has no meaning.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
-pub struct Unresolved {
+pub(crate) struct Unresolved {
     /// A sentence; empty if nothing is known.
-    pub reason: String,
+    pub(crate) reason: String,
     /// The name that was probably meant.
-    pub suggestion: Option<String>,
+    pub(crate) suggestion: Option<String>,
 }
 
 impl Unresolved {
     /// A reason without a suggestion.
-    pub fn new(reason: impl Into<String>) -> Unresolved {
+    pub(crate) fn new(reason: impl Into<String>) -> Unresolved {
         Unresolved {
             reason: reason.into(),
             suggestion: None,
@@ -129,7 +129,7 @@ pub(crate) fn designator_error(
 }
 
 /// The failure of a motion that no part of the robot carries out.
-pub fn no_process_module(image: &mut Image, shown: &str) -> Box<Raise> {
+pub(crate) fn no_process_module(image: &mut Image, shown: &str) -> Box<Raise> {
     let class = plan_failure(image).unwrap_or(known::SIMPLE_ERROR);
     Raise::new(
         class,

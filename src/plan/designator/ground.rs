@@ -13,7 +13,7 @@ use crate::lisp::value::raise::Raise;
 use crate::plan::pose::value::as_pose_stamped;
 
 /// Why a designator is not grounded.
-pub enum Refusal {
+pub(crate) enum Refusal {
     /// A value is of a wrong type: an error of its own.
     Error(Box<Raise>),
     /// There is no such type of action or motion.
@@ -24,7 +24,7 @@ pub enum Refusal {
 
 impl Refusal {
     /// The reason, unless it is an error.
-    pub fn reason(self) -> Result<Unresolved, Box<Raise>> {
+    pub(crate) fn reason(self) -> Result<Unresolved, Box<Raise>> {
         match self {
             Refusal::Error(raise) => Err(raise),
             Refusal::UnknownType(why) | Refusal::Incomplete(why) => Ok(why),
@@ -33,15 +33,15 @@ impl Refusal {
 }
 
 /// An action or motion whose type is known and whose keys fit.
-pub struct Grounding {
+pub(crate) struct Grounding {
     /// The row of the schema.
-    pub row: &'static TypeRow,
+    pub(crate) row: &'static TypeRow,
     /// Keys in upper case, aliases resolved, with their values; the type is not among them.
-    pub properties: Vec<(String, Value)>,
+    pub(crate) properties: Vec<(String, Value)>,
 }
 
 /// Finds the row of the schema that fits the designator.
-pub fn ground(image: &mut Image, designator: &Designator) -> Result<Grounding, Refusal> {
+pub(crate) fn ground(image: &mut Image, designator: &Designator) -> Result<Grounding, Refusal> {
     let class = designator.class;
     let kind = class.name().to_lowercase();
     let Some(type_name) = designator.type_name(image) else {
@@ -217,7 +217,7 @@ fn properties(
 }
 
 /// The call of the plan: its name in `PP-PLANS` and keyword arguments.
-pub fn plan_call(image: &mut Image, grounding: &Grounding) -> (Value, Vec<Value>) {
+pub(crate) fn plan_call(image: &mut Image, grounding: &Grounding) -> (Value, Vec<Value>) {
     let package =
         crate::plan::packages::ensure(image, "CRAM-MOBILE-PICK-PLACE-PLANS", &["PP-PLANS"]);
     let plan = image.intern(package, grounding.row.plan);

@@ -17,23 +17,23 @@ use crate::plan::packages;
 
 /// A mistake.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Mistake {
+pub(crate) struct Mistake {
     /// Where the form stands.
-    pub place: Place,
+    pub(crate) place: Place,
     /// What is wrong.
-    pub message: String,
+    pub(crate) message: String,
 }
 
 /// The search for mistakes in the forms of one text, in order: types that its fact groups
 /// ground are known afterwards.
-pub struct Lint {
+pub(crate) struct Lint {
     makers: [(Sym, Quantifier); 3],
     types: BTreeSet<String>,
 }
 
 impl Lint {
     /// A search that knows the types of the schema.
-    pub fn new(image: &mut Image) -> Lint {
+    pub(crate) fn new(image: &mut Image) -> Lint {
         let maker = |image: &mut Image, name| packages::symbol(image, "CRAM-DESIGNATORS", name);
         Lint {
             makers: [
@@ -46,7 +46,7 @@ impl Lint {
     }
 
     /// The mistakes of a form and all forms in it, in order.
-    pub fn form(&mut self, image: &Image, form: &Value) -> Vec<Mistake> {
+    pub(crate) fn form(&mut self, image: &Image, form: &Value) -> Vec<Mistake> {
         let mut mistakes = Vec::new();
         let mut pending = vec![form.clone()];
         while let Some(form) = pending.pop() {

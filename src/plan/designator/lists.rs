@@ -14,7 +14,7 @@ use crate::plan::prolog::term::is_variable_name;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Functions of package `CRAM-UTILITIES`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "VAR-VALUE",
         "variable bindings",
@@ -101,7 +101,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Macros of package `CRAM-UTILITIES`.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "WITH-VARS-BOUND",
         lambda_list: "variables bindings &body body",

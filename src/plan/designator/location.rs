@@ -34,7 +34,7 @@ const MOST_RETRIES: &str = "*LOCATION-GENERATOR-MAX-RETRIES*";
 const RETRIES: i64 = 30;
 
 /// Functions of package `CRAM-DESIGNATORS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "REGISTER-LOCATION-GENERATOR",
         "priority function &optional documentation",

@@ -3,27 +3,27 @@
 //! This folder knows their syntax, their types and keys, and how they are resolved; it
 //! moves nothing. A motion becomes a request to whoever runs the plan.
 
-pub mod access;
-pub mod check;
+pub(crate) mod access;
+pub(crate) mod check;
 mod continuation;
-pub mod failure;
-pub mod ground;
-pub mod lint;
-pub mod lists;
+pub(crate) mod failure;
+pub(crate) mod ground;
+pub(crate) mod lint;
+pub(crate) mod lists;
 mod literal;
-pub mod location;
-pub mod names;
-pub mod object;
-pub mod perform;
-pub mod reference;
-pub mod request;
-pub mod schema;
-pub mod syntax;
-pub mod value;
+pub(crate) mod location;
+pub(crate) mod names;
+pub(crate) mod object;
+pub(crate) mod perform;
+pub(crate) mod reference;
+pub(crate) mod request;
+pub(crate) mod schema;
+pub(crate) mod syntax;
+pub(crate) mod value;
 
-pub use failure::no_process_module;
-pub use request::MotionRequest;
-pub use value::current;
+pub(crate) use failure::no_process_module;
+pub(crate) use request::MotionRequest;
+pub(crate) use value::current;
 
 use super::{packages, prolog as prolog_rules};
 use crate::lisp::image::Image;
@@ -39,7 +39,7 @@ use crate::lisp::vm::machine;
 const PROCESS_MODULES: &str = include_str!("process_modules.lisp");
 
 /// Makes the packages, classes, variables, functions and macros; after the plan language.
-pub fn install(image: &mut Image) {
+pub(crate) fn install(image: &mut Image) {
     packages::install(image);
     let desig = packages::ensure(image, "CRAM-DESIGNATORS", &["DESIG"]);
     let root = image.export_symbol(desig, "DESIGNATOR");
@@ -93,14 +93,14 @@ fn evaluate(image: &mut Image, package: &str, text: &str) {
 
 /// The first value of a property, by the key's name in upper case; `None` if it is absent,
 /// `NIL`, or the value is no designator.
-pub fn property(image: &Image, designator: &Value, key: &str) -> Option<Value> {
+pub(crate) fn property(image: &Image, designator: &Value, key: &str) -> Option<Value> {
     value::as_designator(designator)?
         .property_named(image, key)
         .filter(Value::is_true)
 }
 
 /// Does a designator ask for all things that fit?
-pub fn asks_for_all(_: &Image, designator: &Value) -> bool {
+pub(crate) fn asks_for_all(_: &Image, designator: &Value) -> bool {
     value::as_designator(designator).is_some_and(value::Designator::is_all)
 }
 

@@ -10,7 +10,7 @@ use crate::lisp::value::package::PackageId;
 use crate::lisp::value::raise::Raise;
 
 /// Functions of package `ROSLISP-UTILITIES`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "ROSIFY-UNDERSCORES-LISP-NAME",
         "name",
@@ -69,7 +69,7 @@ fn package(image: &Image, designator: &Value) -> Option<PackageId> {
 }
 
 /// The text of a symbol or string.
-pub fn name_text(image: &Image, name: &Value) -> Option<String> {
+pub(crate) fn name_text(image: &Image, name: &Value) -> Option<String> {
     match name {
         Value::Symbol(sym) => Some(image.name(*sym).to_owned()),
         Value::Str(text) => Some(text.text()),
@@ -78,12 +78,12 @@ pub fn name_text(image: &Image, name: &Value) -> Option<String> {
 }
 
 /// `BOTTLE-1` as `bottle_1`.
-pub fn rosify(name: &str) -> String {
+pub(crate) fn rosify(name: &str) -> String {
     name.to_lowercase().replace('-', "_")
 }
 
 /// Any spelling of a name as `BOTTLE-1`.
-pub fn canonical(name: &str) -> String {
+pub(crate) fn canonical(name: &str) -> String {
     name.to_uppercase().replace('_', "-")
 }
 
@@ -115,7 +115,7 @@ fn uncamel(name: &str) -> String {
 }
 
 /// Do two values name the same thing?
-pub fn same_name(image: &Image, a: &Value, b: &Value) -> bool {
+pub(crate) fn same_name(image: &Image, a: &Value, b: &Value) -> bool {
     match (name_text(image, a), name_text(image, b)) {
         (Some(a), Some(b)) => canonical(&a) == canonical(&b),
         _ => false,

@@ -14,7 +14,7 @@ use crate::plan::pose::value::{pose_stamped, transform_stamped};
 use crate::spatial::Pose;
 
 /// Functions of package `CRAM-DESIGNATORS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "OBJECT-IDENTIFIER",
         "data",
@@ -32,11 +32,11 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// What the designator of a perceived object refers to.
-pub struct ObjectData {
+pub(crate) struct ObjectData {
     /// The object's name in the world.
-    pub identifier: Value,
+    pub(crate) identifier: Value,
     /// Where it was seen, in the robot's base frame.
-    pub pose: Value,
+    pub(crate) pose: Value,
     class_symbol: Sym,
 }
 
@@ -66,7 +66,7 @@ fn object_data<'a>(image: &mut Image, argument: &'a Value) -> Result<&'a ObjectD
 /// the query. `name` is the name as it was given when the object was spawned, `kind` the
 /// keyword of its type; the poses are in the frames "base_footprint" and "map". It is not
 /// equated with the query.
-pub fn perceived(
+pub(crate) fn perceived(
     image: &mut Image,
     query: &Value,
     name: Value,
@@ -120,7 +120,7 @@ fn property(image: &mut Image, key: &str, value: Value) -> Value {
 }
 
 /// One of the poses of a perceived object, by its key (`"POSE"`, `"POSE-IN-MAP"`, …).
-pub fn pose_property(image: &Image, object: &Value, key: &str) -> Option<Value> {
+pub(crate) fn pose_property(image: &Image, object: &Value, key: &str) -> Option<Value> {
     let designator = value::as_class(object, Class::Object)?;
     let poses = designator.property_named(image, "POSE")?;
     poses

@@ -23,7 +23,7 @@ use crate::lisp::vm::step::Step;
 use crate::plan::packages;
 
 /// Functions of package `CRAM-EXECUTIVE`.
-pub static TABLE: &[Builtin] = &[control(
+pub(crate) static TABLE: &[Builtin] = &[control(
     "PERFORM",
     "designator",
     "Carries out an action or motion; only inside a plan, as in (with-simulated-robot (perform (an action (type going) (target ?location)))).",

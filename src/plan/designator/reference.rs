@@ -29,7 +29,7 @@ use crate::plan::prolog::facts;
 const MOST_GROUNDINGS: usize = 64;
 
 /// Functions of package `CRAM-DESIGNATORS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "REFERENCE",
         "designator",
@@ -49,7 +49,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Functions of package `CRAM-EXECUTIVE`.
-pub static EXECUTIVE_TABLE: &[Builtin] = &[control(
+pub(crate) static EXECUTIVE_TABLE: &[Builtin] = &[control(
     "TRY-REFERENCE-DESIGNATOR",
     "designator &optional message",
     "Like REFERENCE; a plan failure if the designator stands for nothing.",

@@ -4,19 +4,19 @@ use crate::lisp::value::Value;
 
 /// A motion to carry out. The fiber that made the request is resumed with the motion's
 /// value, or with a failure.
-pub struct MotionRequest {
+pub(crate) struct MotionRequest {
     /// The motion designator.
-    pub designator: Value,
+    pub(crate) designator: Value,
     /// The motion's type in upper case, aliases resolved: `"GOING"`, `"MOVING-TCP"`, ….
-    pub motion_type: String,
+    pub(crate) motion_type: String,
     /// The properties by key name in upper case, aliases resolved; poses of location
     /// designators stay designators.
-    pub properties: Vec<(String, Value)>,
+    pub(crate) properties: Vec<(String, Value)>,
 }
 
 impl MotionRequest {
     /// The value of a property.
-    pub fn property(&self, key: &str) -> Option<&Value> {
+    pub(crate) fn property(&self, key: &str) -> Option<&Value> {
         self.properties
             .iter()
             .find(|(k, _)| k == key)

@@ -10,7 +10,7 @@ use super::value::Class;
 
 /// What kind of value a key takes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A location designator.
     Location,
     /// A location designator, or a pose, which stands for the location there.
@@ -45,46 +45,46 @@ pub enum Kind {
 
 /// One key.
 #[derive(Clone, Copy, Debug)]
-pub struct Key {
+pub(crate) struct Key {
     /// The name in upper case.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Other names for it.
-    pub aliases: &'static [&'static str],
+    pub(crate) aliases: &'static [&'static str],
     /// What it takes.
-    pub kind: Kind,
+    pub(crate) kind: Kind,
     /// Must it be there?
-    pub is_required: bool,
+    pub(crate) is_required: bool,
     /// What it means.
-    pub doc: &'static str,
+    pub(crate) doc: &'static str,
 }
 
 /// One type of action or motion.
 #[derive(Clone, Copy, Debug)]
-pub struct TypeRow {
+pub(crate) struct TypeRow {
     /// Action or motion.
-    pub class: Class,
+    pub(crate) class: Class,
     /// The type's name in upper case.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Other names for it.
-    pub aliases: &'static [&'static str],
+    pub(crate) aliases: &'static [&'static str],
     /// The plan function in package `PP-PLANS`, or the name of the motion.
-    pub plan: &'static str,
+    pub(crate) plan: &'static str,
     /// The keys that it reads.
-    pub keys: &'static [Key],
+    pub(crate) keys: &'static [Key],
     /// Of these keys at least one must be there; none if the list is empty.
-    pub one_of: &'static [&'static str],
+    pub(crate) one_of: &'static [&'static str],
     /// What it does.
-    pub doc: &'static str,
+    pub(crate) doc: &'static str,
 }
 
 impl TypeRow {
     /// Is this the type's name or another name for it?
-    pub fn is_named(&self, name: &str) -> bool {
+    pub(crate) fn is_named(&self, name: &str) -> bool {
         self.name == name || self.aliases.contains(&name)
     }
 
     /// The key of that name.
-    pub fn key(&self, name: &str) -> Option<&'static Key> {
+    pub(crate) fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys
             .iter()
             .find(|k| k.name == name || k.aliases.contains(&name))
@@ -220,7 +220,7 @@ const HAND_POSES: &[Key] = &[LEFT_POSES, RIGHT_POSES, COLLISION_MODE];
 const HANDS: &[&str] = &["LEFT-POSES", "RIGHT-POSES"];
 
 /// All types, actions first.
-pub static TYPES: &[TypeRow] = &[
+pub(crate) static TYPES: &[TypeRow] = &[
     action(
         "GOING",
         &["NAVIGATING"],
@@ -643,10 +643,10 @@ pub static TYPES: &[TypeRow] = &[
 ];
 
 /// Keys that every designator of a class takes, beside `:type`.
-pub const COMMON_KEYS: &[&str] = &["TYPE", "GOAL", "FOR", "DESCRIPTION"];
+pub(crate) const COMMON_KEYS: &[&str] = &["TYPE", "GOAL", "FOR", "DESCRIPTION"];
 
 /// Keys of object designators.
-pub static OBJECT_KEYS: &[Key] = &[
+pub(crate) static OBJECT_KEYS: &[Key] = &[
     optional("TYPE", Kind::Keyword, "the type"),
     optional("NAME", Kind::Symbol, "the name in the world"),
     optional("URDF-NAME", Kind::Symbol, "the name of a link"),
@@ -659,7 +659,7 @@ pub static OBJECT_KEYS: &[Key] = &[
 ];
 
 /// Keys of location designators.
-pub static LOCATION_KEYS: &[Key] = &[
+pub(crate) static LOCATION_KEYS: &[Key] = &[
     optional("POSE", Kind::PoseStamped, "the pose itself"),
     optional("OBJECT", Kind::Object, "the object to reach or see"),
     optional("ARM", Kind::Keyword, "the arm that is to reach"),
@@ -695,14 +695,14 @@ pub static LOCATION_KEYS: &[Key] = &[
 ];
 
 /// The rows of a type of that name or alias.
-pub fn rows(class: Class, name: &str) -> impl Iterator<Item = &'static TypeRow> {
+pub(crate) fn rows(class: Class, name: &str) -> impl Iterator<Item = &'static TypeRow> {
     TYPES
         .iter()
         .filter(move |row| row.class == class && row.is_named(name))
 }
 
 /// All type names of a class, with aliases.
-pub fn type_names(class: Class) -> impl Iterator<Item = &'static str> {
+pub(crate) fn type_names(class: Class) -> impl Iterator<Item = &'static str> {
     TYPES
         .iter()
         .filter(move |row| row.class == class)
@@ -710,14 +710,14 @@ pub fn type_names(class: Class) -> impl Iterator<Item = &'static str> {
 }
 
 /// All key names of a row, with aliases.
-pub fn key_names(row: &'static TypeRow) -> impl Iterator<Item = &'static str> {
+pub(crate) fn key_names(row: &'static TypeRow) -> impl Iterator<Item = &'static str> {
     row.keys
         .iter()
         .flat_map(|key| std::iter::once(key.name).chain(key.aliases.iter().copied()))
 }
 
 /// The name of a type that was probably meant.
-pub fn nearest_type(class: Class, name: &str) -> Option<&'static str> {
+pub(crate) fn nearest_type(class: Class, name: &str) -> Option<&'static str> {
     let mut seen = Vec::new();
     for known in type_names(class) {
         if !seen.contains(&known) {

@@ -16,7 +16,7 @@ use crate::plan::packages;
 
 /// What a designator describes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum Class {
+pub(crate) enum Class {
     /// Something to do.
     Action,
     /// An atomic movement of the robot.
@@ -31,7 +31,7 @@ pub enum Class {
 
 impl Class {
     /// All classes.
-    pub const ALL: [Class; 5] = [
+    pub(crate) const ALL: [Class; 5] = [
         Class::Action,
         Class::Motion,
         Class::Object,
@@ -40,7 +40,7 @@ impl Class {
     ];
 
     /// The name, as in `(a MOTION …)`.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Class::Action => "ACTION",
             Class::Motion => "MOTION",
@@ -51,7 +51,7 @@ impl Class {
     }
 
     /// The name of the Lisp class.
-    pub fn class_name(self) -> &'static str {
+    pub(crate) fn class_name(self) -> &'static str {
         match self {
             Class::Action => "ACTION-DESIGNATOR",
             Class::Motion => "MOTION-DESIGNATOR",
@@ -62,7 +62,7 @@ impl Class {
     }
 
     /// The class of that name, in any case of letters; `-DESIGNATOR` may follow.
-    pub fn named(name: &str) -> Option<Class> {
+    pub(crate) fn named(name: &str) -> Option<Class> {
         let name = name.to_uppercase();
         Class::ALL
             .into_iter()
@@ -72,7 +72,7 @@ impl Class {
 
 /// Is one thing described, or are all that fit?
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Quantifier {
+pub(crate) enum Quantifier {
     /// One.
     A,
     /// All.
@@ -81,7 +81,7 @@ pub enum Quantifier {
 
 impl Quantifier {
     /// As in the printed form.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Quantifier::A => "A",
             Quantifier::All => "ALL",
@@ -90,29 +90,29 @@ impl Quantifier {
 }
 
 /// A designator.
-pub struct Designator {
+pub(crate) struct Designator {
     /// What it describes.
-    pub class: Class,
+    pub(crate) class: Class,
     /// One, or all.
-    pub quantifier: Quantifier,
+    pub(crate) quantifier: Quantifier,
     /// The list of properties `((:key value…) …)`.
-    pub description: RefCell<Value>,
+    pub(crate) description: RefCell<Value>,
     /// The designator that this one was equated to, if any.
-    pub parent: RefCell<Option<Value>>,
+    pub(crate) parent: RefCell<Option<Value>>,
     /// The designator that was equated to this one, if any.
-    pub successor: RefCell<Option<Value>>,
+    pub(crate) successor: RefCell<Option<Value>>,
     /// What it refers to, once resolved.
-    pub data: RefCell<Option<Value>>,
+    pub(crate) data: RefCell<Option<Value>>,
     /// Does `data` come from perception or another effect, and not from the description?
-    pub is_effective: Cell<bool>,
+    pub(crate) is_effective: Cell<bool>,
     /// Solutions after `data`: a list, or `NIL`.
-    pub solutions: RefCell<Option<Value>>,
+    pub(crate) solutions: RefCell<Option<Value>>,
     class_symbol: Sym,
 }
 
 impl Designator {
     /// A designator with a list of properties.
-    pub fn new(
+    pub(crate) fn new(
         image: &mut Image,
         class: Class,
         quantifier: Quantifier,
@@ -132,7 +132,7 @@ impl Designator {
     }
 
     /// The properties: key and values.
-    pub fn properties(&self) -> Vec<(Value, Value)> {
+    pub(crate) fn properties(&self) -> Vec<(Value, Value)> {
         self.description
             .borrow()
             .iter_list()
@@ -141,7 +141,7 @@ impl Designator {
     }
 
     /// The first value of the first property of a key.
-    pub fn property(&self, key: Sym) -> Option<Value> {
+    pub(crate) fn property(&self, key: Sym) -> Option<Value> {
         self.properties()
             .into_iter()
             .find(|(k, _)| k.as_symbol() == Some(key))
@@ -149,7 +149,7 @@ impl Designator {
     }
 
     /// The first value of the property whose key has the name (upper case).
-    pub fn property_named(&self, image: &Image, name: &str) -> Option<Value> {
+    pub(crate) fn property_named(&self, image: &Image, name: &str) -> Option<Value> {
         self.properties()
             .into_iter()
             .find(|(k, _)| k.as_symbol().is_some_and(|s| image.name(s) == name))
@@ -157,29 +157,32 @@ impl Designator {
     }
 
     /// The type's name in upper case: the value of `:type`, if it is a symbol.
-    pub fn type_name(&self, image: &Image) -> Option<String> {
+    pub(crate) fn type_name(&self, image: &Image) -> Option<String> {
         let sym = self.property_named(image, "TYPE")?.as_symbol()?;
         Some(image.name(sym).to_owned())
     }
 
     /// Does it describe all things that fit?
-    pub fn is_all(&self) -> bool {
+    pub(crate) fn is_all(&self) -> bool {
         self.quantifier == Quantifier::All
     }
 }
 
 /// The designator, if the value is one.
-pub fn as_designator(value: &Value) -> Option<&Designator> {
+pub(crate) fn as_designator(value: &Value) -> Option<&Designator> {
     value.as_foreign::<Designator>()
 }
 
 /// The designator of a class, if the value is one.
-pub fn as_class(value: &Value, class: Class) -> Option<&Designator> {
+pub(crate) fn as_class(value: &Value, class: Class) -> Option<&Designator> {
     as_designator(value).filter(|d| d.class == class)
 }
 
 /// The designator, or a type error.
-pub fn designator<'a>(image: &mut Image, value: &'a Value) -> Result<&'a Designator, Box<Raise>> {
+pub(crate) fn designator<'a>(
+    image: &mut Image,
+    value: &'a Value,
+) -> Result<&'a Designator, Box<Raise>> {
     match as_designator(value) {
         Some(d) => Ok(d),
         None => {
@@ -190,12 +193,12 @@ pub fn designator<'a>(image: &mut Image, value: &'a Value) -> Result<&'a Designa
 }
 
 /// The newest designator of a chain.
-pub fn current(value: &Value) -> Value {
+pub(crate) fn current(value: &Value) -> Value {
     follow(value, |d| &d.successor)
 }
 
 /// The oldest designator of a chain.
-pub fn first(value: &Value) -> Value {
+pub(crate) fn first(value: &Value) -> Value {
     follow(value, |d| &d.parent)
 }
 
@@ -208,12 +211,12 @@ fn follow(value: &Value, link: fn(&Designator) -> &RefCell<Option<Value>>) -> Va
 }
 
 /// Are two designators of one chain?
-pub fn equal(a: &Value, b: &Value) -> bool {
+pub(crate) fn equal(a: &Value, b: &Value) -> bool {
     as_designator(a).is_some() && as_designator(b).is_some() && first(a).is_eq(&first(b))
 }
 
 /// Links two chains: `successor`'s follows `parent`'s. False if they are one already.
-pub fn equate(parent: &Value, successor: &Value) -> bool {
+pub(crate) fn equate(parent: &Value, successor: &Value) -> bool {
     if equal(parent, successor) {
         return false;
     }
@@ -226,7 +229,7 @@ pub fn equate(parent: &Value, successor: &Value) -> bool {
 }
 
 /// A fresh designator as a value, from keyword names and values.
-pub fn make(image: &mut Image, class: Class, properties: &[(&str, Value)]) -> Value {
+pub(crate) fn make(image: &mut Image, class: Class, properties: &[(&str, Value)]) -> Value {
     let list: Vec<Value> = properties
         .iter()
         .map(|(key, value)| Value::list([image.keyword(key).into(), value.clone()]))

@@ -36,7 +36,7 @@ pub(crate) enum Progress {
 
 impl Reading {
     /// The value of the fluent; if `fresh`, what it keeps is computed anew.
-    pub fn new(fluent: &FluentRef, peek: bool, fresh: bool) -> Reading {
+    pub(crate) fn new(fluent: &FluentRef, peek: bool, fresh: bool) -> Reading {
         let mut reading = Reading {
             stack: Vec::new(),
             peek,
@@ -73,7 +73,7 @@ impl Reading {
     }
 
     /// Goes on; `answer` is the value of the call that it stopped at.
-    pub fn advance(&mut self, image: &mut Image, answer: Option<Value>) -> Result<Progress> {
+    pub(crate) fn advance(&mut self, image: &mut Image, answer: Option<Value>) -> Result<Progress> {
         let mut incoming = answer;
         loop {
             let Some(frame) = self.stack.last_mut() else {

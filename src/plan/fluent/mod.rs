@@ -25,21 +25,21 @@ use crate::lisp::value::symbol::Sym;
 
 pub(crate) use evaluation::{read, then_read};
 pub(crate) use propagation::{Propagation, pulse, settle, store};
-pub use reference::FluentRef;
+pub(crate) use reference::FluentRef;
 
 /// A task that waits, at one of its waits.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Waiter {
+pub(crate) struct Waiter {
     /// Creation order of the task.
-    pub order: u64,
+    pub(crate) order: u64,
     /// The scheduler's entry of the task.
-    pub slot: u32,
+    pub(crate) slot: u32,
     /// Tells this wait from others.
-    pub token: u64,
+    pub(crate) token: u64,
 }
 
 /// A fluent.
-pub struct Fluent {
+pub(crate) struct Fluent {
     name: FluentName,
     kind: Kind,
     /// Greater than that of every fluent that this one depends on.
@@ -122,7 +122,7 @@ pub(crate) enum Missed {
 
 impl Fluent {
     /// The name, as it is shown.
-    pub fn name(&self, image: &Image) -> String {
+    pub(crate) fn name(&self, image: &Image) -> String {
         match &self.name {
             FluentName::Given(name) => print::to_string(image, name, false),
             FluentName::Numbered(prefix, n) => format!("{prefix}{n}"),
@@ -138,7 +138,7 @@ impl Fluent {
     }
 
     /// The value, if it can be told without computing.
-    pub fn known_value(&self) -> Option<Value> {
+    pub(crate) fn known_value(&self) -> Option<Value> {
         let value = match &self.kind {
             Kind::Value { value, .. } => value.get(),
             Kind::Net {
@@ -152,7 +152,7 @@ impl Fluent {
     }
 
     /// Does somebody store its value?
-    pub fn is_settable(&self) -> bool {
+    pub(crate) fn is_settable(&self) -> bool {
         matches!(self.kind, Kind::Value { .. })
     }
 

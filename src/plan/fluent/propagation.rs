@@ -207,7 +207,7 @@ impl Propagation {
     }
 
     /// Goes on in a fiber.
-    pub fn go_on(
+    pub(crate) fn go_on(
         mut self: Box<Self>,
         machine: &mut Machine<'_>,
         answer: Option<Value>,

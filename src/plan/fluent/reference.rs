@@ -12,7 +12,7 @@ use crate::plan::state::Plan;
 
 /// A counted reference to a fluent.
 #[derive(Clone)]
-pub struct FluentRef(Rc<ForeignBox>);
+pub(crate) struct FluentRef(Rc<ForeignBox>);
 
 impl FluentRef {
     fn make(plan: &Plan, name: FluentName, kind: Kind, rank: u32) -> FluentRef {
@@ -39,7 +39,7 @@ impl FluentRef {
     }
 
     /// A value fluent.
-    pub fn with_value(plan: &Plan, name: Value, value: Value) -> FluentRef {
+    pub(crate) fn with_value(plan: &Plan, name: Value, value: Value) -> FluentRef {
         FluentRef::value_fluent(plan, Some(name), value, Value::NIL)
     }
 
@@ -130,7 +130,7 @@ impl FluentRef {
     }
 
     /// The fluent that a value is.
-    pub fn from_value(value: &Value) -> Option<FluentRef> {
+    pub(crate) fn from_value(value: &Value) -> Option<FluentRef> {
         match value {
             Value::Foreign(object) if object.downcast_ref::<Fluent>().is_some() => {
                 Some(FluentRef(object.clone()))
@@ -140,7 +140,7 @@ impl FluentRef {
     }
 
     /// The fluent as a value.
-    pub fn value(&self) -> Value {
+    pub(crate) fn value(&self) -> Value {
         Value::Foreign(self.0.clone())
     }
 
@@ -149,7 +149,7 @@ impl FluentRef {
     /// # Panics
     ///
     /// Never: every way of making a reference checks what it refers to.
-    pub fn get(&self) -> &Fluent {
+    pub(crate) fn get(&self) -> &Fluent {
         match self.0.downcast_ref() {
             Some(fluent) => fluent,
             None => unreachable!("a fluent reference refers to a fluent"),
@@ -157,7 +157,7 @@ impl FluentRef {
     }
 
     /// Is this the same fluent?
-    pub fn is(&self, other: &FluentRef) -> bool {
+    pub(crate) fn is(&self, other: &FluentRef) -> bool {
         Rc::ptr_eq(&self.0, &other.0)
     }
 
@@ -170,7 +170,7 @@ impl FluentRef {
     }
 
     /// The symbol of the fluent's class.
-    pub fn type_symbol(&self) -> Sym {
+    pub(crate) fn type_symbol(&self) -> Sym {
         self.get().type_symbol
     }
 }

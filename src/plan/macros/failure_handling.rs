@@ -14,7 +14,7 @@ use crate::lisp::value::symbol::Sym;
 use crate::plan::state::Plan;
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     macro_(
         "WITH-FAILURE-HANDLING",
         "(&rest clauses) &body body",

@@ -12,7 +12,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     macro_(
         "DEF-CRAM-FUNCTION",
         "name lambda-list &body body",

@@ -11,7 +11,7 @@ use crate::lisp::value::symbol::Sym;
 use crate::plan::builtins::is_variable;
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     macro_(
         "DECLARE-GOAL",
         "name lambda-list &body body",

@@ -23,7 +23,7 @@ use super::state::Plan;
 pub(super) use failure_handling::{do_retry, get_counter, reset_counter};
 
 /// Macros of package `CRAM-LANGUAGE-IMPLEMENTATION`, which `CRAM-LANGUAGE` exports, too.
-pub static OPERATORS: &[&[Operator]] = &[
+pub(crate) static OPERATORS: &[&[Operator]] = &[
     combinators::OPERATORS,
     failure_handling::OPERATORS,
     functions::OPERATORS,
@@ -35,7 +35,7 @@ pub static OPERATORS: &[&[Operator]] = &[
 ];
 
 /// Macros named by keywords.
-pub static KEYWORD_OPERATORS: &[Operator] = tags::KEYWORD_OPERATORS;
+pub(crate) static KEYWORD_OPERATORS: &[Operator] = tags::KEYWORD_OPERATORS;
 
 type Expansion = Result<Value, Box<Raise>>;
 

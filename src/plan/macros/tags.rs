@@ -14,7 +14,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[macro_(
+pub(crate) static OPERATORS: &[Operator] = &[macro_(
     "WITH-TAGS",
     "&body body",
     "Runs the body, in which (:TAG NAME FORM…) runs forms in a task of that name; the names are bound to the tasks.",
@@ -29,7 +29,7 @@ pub static OPERATORS: &[Operator] = &[macro_(
 )];
 
 /// Macros named by keywords.
-pub static KEYWORD_OPERATORS: &[Operator] = &[macro_(
+pub(crate) static KEYWORD_OPERATORS: &[Operator] = &[macro_(
     "TAG",
     "name &body body",
     "Inside WITH-TAGS, runs forms in a task of that name.",

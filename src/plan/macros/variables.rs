@@ -8,7 +8,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 
 /// The macros.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     macro_(
         "DEF-CPL-PARAMETER",
         "name value &optional doc",

@@ -13,7 +13,7 @@ use crate::lisp::value::symbol::Sym;
 pub(crate) type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// A real number.
-pub fn real(value: &Value) -> Result<f64> {
+pub(crate) fn real(value: &Value) -> Result<f64> {
     number::to_f64(value).ok_or_else(|| Raise::type_error(value, known::REAL))
 }
 
@@ -53,7 +53,7 @@ fn numbers<const N: usize>(
 }
 
 /// A vector, or a list (x y z).
-pub fn vector(image: &Image, argument: &Value) -> Result<Vector3> {
+pub(crate) fn vector(image: &Image, argument: &Value) -> Result<Vector3> {
     match argument {
         Value::Cons(_) => numbers(image, argument, "a position", "x y z").map(Vector3),
         Value::Symbol(known::NIL) => Err(Raise::type_error(argument, known::VECTOR_3D)),
@@ -64,7 +64,7 @@ pub fn vector(image: &Image, argument: &Value) -> Result<Vector3> {
 }
 
 /// A quaternion, or a list (x y z w).
-pub fn quaternion(image: &Image, argument: &Value) -> Result<Quaternion> {
+pub(crate) fn quaternion(image: &Image, argument: &Value) -> Result<Quaternion> {
     match argument {
         Value::Cons(_) => numbers(image, argument, "a quaternion", "x y z w").map(Quaternion),
         other => value::as_quaternion(other)
@@ -74,7 +74,7 @@ pub fn quaternion(image: &Image, argument: &Value) -> Result<Quaternion> {
 }
 
 /// A position and an orientation written as `((x y z) (x y z w))`.
-pub fn placement_list(image: &Image, list: &Value) -> Result<Placement> {
+pub(crate) fn placement_list(image: &Image, list: &Value) -> Result<Placement> {
     let parts = list.list_to_vec().unwrap_or_default();
     let [position, orientation] = parts.as_slice() else {
         return Err(Raise::simple(format!(
@@ -103,7 +103,7 @@ fn quaternion_part(image: &Image, part: &Value) -> Result<Quaternion> {
 }
 
 /// Any pose or transform, or a list `((x y z) (x y z w))`.
-pub fn placement(image: &Image, argument: &Value) -> Result<Placement> {
+pub(crate) fn placement(image: &Image, argument: &Value) -> Result<Placement> {
     match argument {
         Value::Cons(_) => placement_list(image, argument),
         other => as_kind(other, known::POSE),
@@ -111,12 +111,12 @@ pub fn placement(image: &Image, argument: &Value) -> Result<Placement> {
 }
 
 /// Any pose or transform; the type to name in the error.
-pub fn as_kind(argument: &Value, expected: Sym) -> Result<Placement> {
+pub(crate) fn as_kind(argument: &Value, expected: Sym) -> Result<Placement> {
     value::as_placement(argument).ok_or_else(|| Raise::type_error(argument, expected))
 }
 
 /// The name of a frame: a string.
-pub fn frame(argument: &Value) -> Result<String> {
+pub(crate) fn frame(argument: &Value) -> Result<String> {
     argument
         .as_text()
         .ok_or_else(|| Raise::type_error(argument, known::STRING))

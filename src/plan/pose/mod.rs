@@ -4,14 +4,14 @@
 //! here. Lengths are metres, angles radians, quaternions x y z w. A quaternion is kept as
 //! it was given for printing and is normalised wherever it is computed with.
 
-pub mod algebra;
-pub mod argument;
-pub mod construct;
-pub mod pose_functions;
-pub mod rotation;
-pub mod stamped;
-pub mod tutorial;
-pub mod value;
+pub(crate) mod algebra;
+pub(crate) mod argument;
+pub(crate) mod construct;
+pub(crate) mod pose_functions;
+pub(crate) mod rotation;
+pub(crate) mod stamped;
+pub(crate) mod tutorial;
+pub(crate) mod value;
 
 use super::packages::{ensure, rehome};
 use crate::lisp::image::Image;
@@ -43,7 +43,7 @@ const FRAMES: &[(&str, &str)] = &[
 ];
 
 /// Makes the packages, classes, variables and functions.
-pub fn install(image: &mut Image) {
+pub(crate) fn install(image: &mut Image) {
     let plain = ensure(image, "CL-TRANSFORMS", &[]);
     let stamped = ensure(image, "CL-TRANSFORMS-STAMPED", &["CL-TF", "CL-TF2"]);
     let cram = ensure(image, "CRAM-TF", &[]);

@@ -12,7 +12,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 
 /// Functions of package `CL-TRANSFORMS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "TRANSFORM*",
         "transform &rest transforms",

@@ -16,7 +16,7 @@ use crate::lisp::value::raise::Raise;
 use crate::spatial::{pose, trig};
 
 /// Functions of package `CL-TRANSFORMS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "EULER->QUATERNION",
         "&key ax ay az",

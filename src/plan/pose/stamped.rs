@@ -15,7 +15,7 @@ use crate::lisp::value::raise::Raise;
 use crate::spatial;
 
 /// Functions of package `CL-TRANSFORMS-STAMPED`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "MAKE-POSE-STAMPED",
         "frame-id stamp origin orientation",
@@ -144,7 +144,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Functions of package `CRAM-TF`.
-pub static CRAM_TABLE: &[Builtin] = &[
+pub(crate) static CRAM_TABLE: &[Builtin] = &[
     pure(
         "POSE->LIST",
         "pose",

@@ -12,7 +12,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
 /// Functions of package `CRAM-PICK-PLACE-TUTORIAL`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "MAKE-POSE",
         "frame pose",

@@ -17,18 +17,18 @@ const SHORTEST_QUATERNION: f64 = 1e-9;
 
 /// A position or direction (m).
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Vector3(pub [f64; 3]);
+pub(crate) struct Vector3(pub(crate) [f64; 3]);
 
 /// A quaternion x y z w as it was given.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Quaternion(pub [f64; 4]);
+pub(crate) struct Quaternion(pub(crate) [f64; 4]);
 
 impl Quaternion {
     /// No rotation.
-    pub const IDENTITY: Quaternion = Quaternion([0.0, 0.0, 0.0, 1.0]);
+    pub(crate) const IDENTITY: Quaternion = Quaternion([0.0, 0.0, 0.0, 1.0]);
 
     /// As a rotation; one that is too short to be one is no rotation.
-    pub fn rotation(&self) -> UnitQuaternion<f64> {
+    pub(crate) fn rotation(&self) -> UnitQuaternion<f64> {
         let [x, y, z, w] = self.0;
         let q = Hamilton::new(w, x, y, z);
         let norm = q.norm();
@@ -40,7 +40,7 @@ impl Quaternion {
     }
 
     /// The rotation's quaternion.
-    pub fn of(rotation: &UnitQuaternion<f64>) -> Quaternion {
+    pub(crate) fn of(rotation: &UnitQuaternion<f64>) -> Quaternion {
         let q = rotation.quaternion();
         Quaternion([q.i, q.j, q.k, q.w])
     }
@@ -48,22 +48,22 @@ impl Quaternion {
 
 /// A position and a quaternion as they were given.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Placement {
+pub(crate) struct Placement {
     /// The position (m).
-    pub position: Vector3,
+    pub(crate) position: Vector3,
     /// The orientation.
-    pub orientation: Quaternion,
+    pub(crate) orientation: Quaternion,
 }
 
 impl Placement {
     /// At the origin, unrotated.
-    pub const IDENTITY: Placement = Placement {
+    pub(crate) const IDENTITY: Placement = Placement {
         position: Vector3([0.0; 3]),
         orientation: Quaternion::IDENTITY,
     };
 
     /// As a rigid transform.
-    pub fn to_pose(&self) -> spatial::Pose {
+    pub(crate) fn to_pose(&self) -> spatial::Pose {
         spatial::Pose::from_parts(
             Translation3::from(self.position.0),
             self.orientation.rotation(),
@@ -71,7 +71,7 @@ impl Placement {
     }
 
     /// The rigid transform's position and quaternion.
-    pub fn of(pose: &spatial::Pose) -> Placement {
+    pub(crate) fn of(pose: &spatial::Pose) -> Placement {
         let t = &pose.translation.vector;
         Placement {
             position: Vector3([t.x, t.y, t.z]),
@@ -82,63 +82,63 @@ impl Placement {
 
 /// A pose or transform in no frame.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Unstamped {
+pub(crate) struct Unstamped {
     /// Is it a transform, not a pose?
-    pub is_transform: bool,
+    pub(crate) is_transform: bool,
     /// Where.
-    pub placement: Placement,
+    pub(crate) placement: Placement,
 }
 
 /// A pose in a frame.
 #[derive(Clone, PartialEq, Debug)]
-pub struct PoseStamped {
+pub(crate) struct PoseStamped {
     /// The frame's name.
-    pub frame: Rc<str>,
+    pub(crate) frame: Rc<str>,
     /// When it held (s of simulated time).
-    pub stamp: f64,
+    pub(crate) stamp: f64,
     /// Where.
-    pub placement: Placement,
+    pub(crate) placement: Placement,
 }
 
 impl PoseStamped {
     /// As a rigid transform from the frame.
-    pub fn pose(&self) -> spatial::Pose {
+    pub(crate) fn pose(&self) -> spatial::Pose {
         self.placement.to_pose()
     }
 }
 
 /// A transform from a frame to a child frame.
 #[derive(Clone, PartialEq, Debug)]
-pub struct TransformStamped {
+pub(crate) struct TransformStamped {
     /// The frame's name.
-    pub frame: Rc<str>,
+    pub(crate) frame: Rc<str>,
     /// The child frame's name.
-    pub child: Rc<str>,
+    pub(crate) child: Rc<str>,
     /// When it held (s of simulated time).
-    pub stamp: f64,
+    pub(crate) stamp: f64,
     /// Where the child is in the frame.
-    pub placement: Placement,
+    pub(crate) placement: Placement,
 }
 
 impl TransformStamped {
     /// As a rigid transform.
-    pub fn pose(&self) -> spatial::Pose {
+    pub(crate) fn pose(&self) -> spatial::Pose {
         self.placement.to_pose()
     }
 }
 
 /// A 3D vector (m).
-pub fn vector(xyz: [f64; 3]) -> Value {
+pub(crate) fn vector(xyz: [f64; 3]) -> Value {
     Value::foreign(Vector3(xyz))
 }
 
 /// A quaternion x y z w.
-pub fn quaternion(xyzw: [f64; 4]) -> Value {
+pub(crate) fn quaternion(xyzw: [f64; 4]) -> Value {
     Value::foreign(Quaternion(xyzw))
 }
 
 /// A pose without a frame.
-pub fn pose(placement: Placement) -> Value {
+pub(crate) fn pose(placement: Placement) -> Value {
     Value::foreign(Unstamped {
         is_transform: false,
         placement,
@@ -146,7 +146,7 @@ pub fn pose(placement: Placement) -> Value {
 }
 
 /// A transform without frames.
-pub fn transform(placement: Placement) -> Value {
+pub(crate) fn transform(placement: Placement) -> Value {
     Value::foreign(Unstamped {
         is_transform: true,
         placement,
@@ -154,12 +154,12 @@ pub fn transform(placement: Placement) -> Value {
 }
 
 /// A pose in a frame, at time 0.
-pub fn pose_stamped(frame: &str, pose: &spatial::Pose) -> Value {
+pub(crate) fn pose_stamped(frame: &str, pose: &spatial::Pose) -> Value {
     pose_stamped_at(frame, 0.0, Placement::of(pose))
 }
 
 /// A pose in a frame at a time (s).
-pub fn pose_stamped_at(frame: &str, stamp: f64, placement: Placement) -> Value {
+pub(crate) fn pose_stamped_at(frame: &str, stamp: f64, placement: Placement) -> Value {
     Value::foreign(PoseStamped {
         frame: frame.into(),
         stamp,
@@ -168,12 +168,17 @@ pub fn pose_stamped_at(frame: &str, stamp: f64, placement: Placement) -> Value {
 }
 
 /// A transform from a frame to a child frame, at time 0.
-pub fn transform_stamped(frame: &str, child: &str, pose: &spatial::Pose) -> Value {
+pub(crate) fn transform_stamped(frame: &str, child: &str, pose: &spatial::Pose) -> Value {
     transform_stamped_at(frame, child, 0.0, Placement::of(pose))
 }
 
 /// A transform from a frame to a child frame at a time (s).
-pub fn transform_stamped_at(frame: &str, child: &str, stamp: f64, placement: Placement) -> Value {
+pub(crate) fn transform_stamped_at(
+    frame: &str,
+    child: &str,
+    stamp: f64,
+    placement: Placement,
+) -> Value {
     Value::foreign(TransformStamped {
         frame: frame.into(),
         child: child.into(),
@@ -183,17 +188,17 @@ pub fn transform_stamped_at(frame: &str, child: &str, stamp: f64, placement: Pla
 }
 
 /// The pose in a frame, if the value is one.
-pub fn as_pose_stamped(value: &Value) -> Option<PoseStamped> {
+pub(crate) fn as_pose_stamped(value: &Value) -> Option<PoseStamped> {
     value.as_foreign::<PoseStamped>().cloned()
 }
 
 /// The transform between frames, if the value is one.
-pub fn as_transform_stamped(value: &Value) -> Option<TransformStamped> {
+pub(crate) fn as_transform_stamped(value: &Value) -> Option<TransformStamped> {
     value.as_foreign::<TransformStamped>().cloned()
 }
 
 /// Position and orientation of any pose or transform.
-pub fn as_placement(value: &Value) -> Option<Placement> {
+pub(crate) fn as_placement(value: &Value) -> Option<Placement> {
     if let Some(p) = value.as_foreign::<Unstamped>() {
         return Some(p.placement);
     }
@@ -204,7 +209,7 @@ pub fn as_placement(value: &Value) -> Option<Placement> {
 }
 
 /// The frame of a stamped pose or transform.
-pub fn frame_of(value: &Value) -> Option<Rc<str>> {
+pub(crate) fn frame_of(value: &Value) -> Option<Rc<str>> {
     if let Some(p) = value.as_foreign::<PoseStamped>() {
         return Some(p.frame.clone());
     }
@@ -214,12 +219,12 @@ pub fn frame_of(value: &Value) -> Option<Rc<str>> {
 }
 
 /// The vector, if the value is one.
-pub fn as_vector(value: &Value) -> Option<[f64; 3]> {
+pub(crate) fn as_vector(value: &Value) -> Option<[f64; 3]> {
     value.as_foreign::<Vector3>().map(|v| v.0)
 }
 
 /// The quaternion, if the value is one.
-pub fn as_quaternion(value: &Value) -> Option<[f64; 4]> {
+pub(crate) fn as_quaternion(value: &Value) -> Option<[f64; 4]> {
     value.as_foreign::<Quaternion>().map(|q| q.0)
 }
 

@@ -13,7 +13,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const MOST_SOLUTIONS: usize = 100_000;
 
 /// Functions of package `CRAM-PROLOG`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "PROLOG",
         "query",
@@ -47,7 +47,7 @@ fn start(machine: &mut Machine<'_>, query: &Value, most: usize) -> Result<Step> 
 type Finish = Box<dyn FnOnce(&mut Machine<'_>, Value) -> Result<Step>>;
 
 /// The search for solutions of a query.
-pub struct Solve {
+pub(crate) struct Solve {
     engine: Engine,
     found: Vec<Value>,
     most: usize,
@@ -55,7 +55,7 @@ pub struct Solve {
 }
 
 /// A search for at most so many solutions; `finish` gets the list of their bindings.
-pub fn solve(engine: Engine, most: usize, finish: Finish) -> Box<Solve> {
+pub(crate) fn solve(engine: Engine, most: usize, finish: Finish) -> Box<Solve> {
     Box::new(Solve {
         engine,
         found: Vec::new(),
@@ -66,7 +66,7 @@ pub fn solve(engine: Engine, most: usize, finish: Finish) -> Box<Solve> {
 
 impl Solve {
     /// Starts the search.
-    pub fn go_on(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step> {
+    pub(crate) fn go_on(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step> {
         let progress = self.engine.run(machine.image)?;
         self.take(machine, progress)
     }

@@ -91,7 +91,7 @@ enum Awaited {
 }
 
 /// How far the prover got.
-pub enum Progress {
+pub(crate) enum Progress {
     /// A proof was found.
     Proved,
     /// There is no further proof.
@@ -160,7 +160,7 @@ pub(crate) enum Collection {
 }
 
 /// A prover at work on one query.
-pub struct Engine {
+pub(crate) struct Engine {
     /// The bindings so far.
     pub(crate) bindings: Bindings,
     goals: Goals,
@@ -175,7 +175,7 @@ pub struct Engine {
 
 impl Engine {
     /// A prover for a query whose variables are `?symbols`.
-    pub fn new(image: &mut Image, query: &Value) -> Result<Engine> {
+    pub(crate) fn new(image: &mut Image, query: &Value) -> Result<Engine> {
         let mut bindings = Bindings::default();
         let mut naming = Naming::default();
         let goal = bindings.rename(image, query, &mut naming)?;
@@ -198,7 +198,7 @@ impl Engine {
     }
 
     /// What a variable of the query is bound to.
-    pub fn value(&self, variable: Sym) -> Result<Option<Value>> {
+    pub(crate) fn value(&self, variable: Sym) -> Result<Option<Value>> {
         let found = self.query.variables.iter().find(|(s, _)| *s == variable);
         match found {
             Some((_, variable)) => self.shown(variable).map(Some),
@@ -207,7 +207,7 @@ impl Engine {
     }
 
     /// The bindings of the query's variables: a list of pairs, the last variable first.
-    pub fn solution(&self) -> Result<Value> {
+    pub(crate) fn solution(&self) -> Result<Value> {
         let mut pairs = Vec::new();
         for (name, variable) in self.query.variables.iter().rev() {
             let value = self.bindings.resolve(variable)?;
@@ -239,7 +239,7 @@ impl Engine {
     }
 
     /// Searches for the next proof.
-    pub fn run(&mut self, image: &mut Image) -> Result<Progress> {
+    pub(crate) fn run(&mut self, image: &mut Image) -> Result<Progress> {
         if self.is_started && self.awaited.is_none() && !self.backtrack(image)? {
             return Ok(Progress::Failed);
         }
@@ -248,7 +248,7 @@ impl Engine {
     }
 
     /// Goes on with the value of the call that was asked for.
-    pub fn deliver(&mut self, image: &mut Image, value: Value) -> Result<Progress> {
+    pub(crate) fn deliver(&mut self, image: &mut Image, value: Value) -> Result<Progress> {
         let holds = match self.awaited.take() {
             None | Some(Awaited::Nothing) => true,
             Some(Awaited::Truth) => value.is_true(),

@@ -19,23 +19,23 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// `(<- head goal…)`: the head holds if the goals do.
 #[derive(Clone)]
-pub struct Clause {
+pub(crate) struct Clause {
     /// The head: a list, or a symbol alone.
-    pub head: Value,
+    pub(crate) head: Value,
     /// The list of goals.
-    pub body: Value,
+    pub(crate) body: Value,
 }
 
 /// All fact groups of an image; the value of `prolog::*facts*`.
 #[derive(Default)]
-pub struct Facts {
+pub(crate) struct Facts {
     groups: RefCell<IndexMap<Sym, Vec<(Sym, Clause)>>>,
     handlers: RefCell<IndexMap<Sym, Value>>,
 }
 
 impl Facts {
     /// The clauses of a functor, in order of definition.
-    pub fn clauses(&self, functor: Sym) -> Vec<Clause> {
+    pub(crate) fn clauses(&self, functor: Sym) -> Vec<Clause> {
         self.groups
             .borrow()
             .values()
@@ -46,12 +46,12 @@ impl Facts {
     }
 
     /// The function of `def-prolog-handler` for a functor.
-    pub fn handler(&self, functor: Sym) -> Option<Value> {
+    pub(crate) fn handler(&self, functor: Sym) -> Option<Value> {
         self.handlers.borrow().get(&functor).cloned()
     }
 
     /// Does any group say something about the functor?
-    pub fn knows(&self, functor: Sym) -> bool {
+    pub(crate) fn knows(&self, functor: Sym) -> bool {
         let groups = self.groups.borrow();
         groups.values().flatten().any(|(name, _)| *name == functor)
     }
@@ -71,7 +71,7 @@ impl Foreign for FactsObject {
 }
 
 /// The facts of an image.
-pub fn of(image: &mut Image) -> Rc<Facts> {
+pub(crate) fn of(image: &mut Image) -> Rc<Facts> {
     let package = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
     let variable = image.intern(package, "*FACTS*");
     if let Some(object) = image.special(variable).as_foreign::<FactsObject>() {
@@ -83,7 +83,7 @@ pub fn of(image: &mut Image) -> Rc<Facts> {
 }
 
 /// Functions of package `CRAM-PROLOG` that its macros expand into.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "DEFINE-FACT-GROUP",
         "name rules",
@@ -108,7 +108,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// Macros of package `CRAM-PROLOG`.
-pub static OPERATORS: &[Operator] = &[
+pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "DEF-FACT-GROUP",
         lambda_list: "name predicates &body rules",

@@ -5,8 +5,8 @@
 //! identity. Proofs run depth first, in the order of the facts, and backtrack without
 //! recursion, so that a function that is called by a goal may wait.
 
-pub mod builtins;
-pub mod engine;
-pub mod facts;
+pub(crate) mod builtins;
+pub(crate) mod engine;
+pub(crate) mod facts;
 mod functors;
-pub mod term;
+pub(crate) mod term;

@@ -14,11 +14,11 @@ use crate::lisp::value::symbol::Sym;
 const MOST_NESTED: usize = 500;
 
 /// A variable of a proof.
-pub struct Variable {
+pub(crate) struct Variable {
     /// Its place among the bindings.
-    pub index: usize,
+    pub(crate) index: usize,
     /// The symbol it was written as.
-    pub name: Sym,
+    pub(crate) name: Sym,
 }
 
 impl Foreign for Variable {
@@ -32,7 +32,7 @@ impl Foreign for Variable {
 }
 
 /// Is this symbol a variable as plans write them?
-pub fn is_variable_name(image: &Image, value: &Value) -> bool {
+pub(crate) fn is_variable_name(image: &Image, value: &Value) -> bool {
     value
         .as_symbol()
         .is_some_and(|sym| image.name(sym).starts_with('?'))
@@ -44,28 +44,28 @@ fn too_deep() -> Box<Raise> {
 
 /// The variables of one clause or query, as they are made.
 #[derive(Default)]
-pub struct Naming {
+pub(crate) struct Naming {
     /// Symbols with their variables, in order of first appearance.
-    pub variables: Vec<(Sym, Value)>,
+    pub(crate) variables: Vec<(Sym, Value)>,
 }
 
 /// Bindings, and the order in which they were made.
 #[derive(Default)]
-pub struct Bindings {
+pub(crate) struct Bindings {
     values: Vec<Option<Value>>,
     trail: Vec<usize>,
 }
 
 /// A state of bindings to come back to.
 #[derive(Clone, Copy)]
-pub struct Mark {
+pub(crate) struct Mark {
     values: usize,
     trail: usize,
 }
 
 impl Bindings {
     /// Remembers the present state.
-    pub fn mark(&self) -> Mark {
+    pub(crate) fn mark(&self) -> Mark {
         Mark {
             values: self.values.len(),
             trail: self.trail.len(),
@@ -73,7 +73,7 @@ impl Bindings {
     }
 
     /// Goes back to a remembered state.
-    pub fn undo(&mut self, mark: Mark) {
+    pub(crate) fn undo(&mut self, mark: Mark) {
         for index in self.trail.drain(mark.trail..) {
             if let Some(slot) = self.values.get_mut(index) {
                 *slot = None;
@@ -83,14 +83,14 @@ impl Bindings {
     }
 
     /// A new unbound variable.
-    pub fn fresh(&mut self, name: Sym) -> Value {
+    pub(crate) fn fresh(&mut self, name: Sym) -> Value {
         let index = self.values.len();
         self.values.push(None);
         Value::foreign(Variable { index, name })
     }
 
     /// The term with variables in place of `?symbols`; `?_` is a new one each time.
-    pub fn rename(
+    pub(crate) fn rename(
         &mut self,
         image: &Image,
         term: &Value,
@@ -135,7 +135,7 @@ impl Bindings {
     }
 
     /// What a term stands for, its parts left as they are.
-    pub fn walk(&self, term: &Value) -> Value {
+    pub(crate) fn walk(&self, term: &Value) -> Value {
         let mut term = term.clone();
         while let Some(next) = term
             .as_foreign::<Variable>()
@@ -147,7 +147,7 @@ impl Bindings {
     }
 
     /// What a term stands for, with the variables that are unbound left in it.
-    pub fn resolve(&self, term: &Value) -> Result<Value, Box<Raise>> {
+    pub(crate) fn resolve(&self, term: &Value) -> Result<Value, Box<Raise>> {
         self.resolve_at(term, 0)
     }
 
@@ -170,7 +170,7 @@ impl Bindings {
     }
 
     /// Is there an unbound variable in the term?
-    pub fn is_ground(&self, term: &Value) -> Result<bool, Box<Raise>> {
+    pub(crate) fn is_ground(&self, term: &Value) -> Result<bool, Box<Raise>> {
         let mut pending = vec![self.resolve(term)?];
         while let Some(term) = pending.pop() {
             match &term {
@@ -194,7 +194,7 @@ impl Bindings {
 
     /// Makes two terms equal by binding variables; false if that is impossible (bindings
     /// made on the way stay and are to be undone).
-    pub fn unify(&mut self, a: &Value, b: &Value) -> bool {
+    pub(crate) fn unify(&mut self, a: &Value, b: &Value) -> bool {
         let mut pending = vec![(a.clone(), b.clone())];
         while let Some((a, b)) = pending.pop() {
             let (a, b) = (self.walk(&a), self.walk(&b));

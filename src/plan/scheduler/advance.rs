@@ -13,12 +13,12 @@ use crate::plan::state::Plan;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Alarm {
     /// In simulated seconds.
-    pub time: f64,
+    pub(crate) time: f64,
     /// Creation order of who sleeps.
-    pub order: u64,
-    pub slot: Slot,
+    pub(crate) order: u64,
+    pub(crate) slot: Slot,
     /// The wait that it belongs to.
-    pub token: u64,
+    pub(crate) token: u64,
 }
 
 impl Eq for Alarm {}

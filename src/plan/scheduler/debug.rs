@@ -17,7 +17,7 @@ use crate::plan::task::TaskId;
 impl Scheduler {
     /// From here on, a task stays where it is when a condition finds no handler in it and
     /// would find none further out either; or, as by default, it fails.
-    pub fn set_stops_in_place(&mut self, stops: bool) {
+    pub(crate) fn set_stops_in_place(&mut self, stops: bool) {
         self.stops_in_place = stops;
     }
 
@@ -33,7 +33,7 @@ impl Scheduler {
     }
 
     /// Which task or root stopped last.
-    pub fn stopped_id(&self) -> Option<TaskId> {
+    pub(crate) fn stopped_id(&self) -> Option<TaskId> {
         self.live(self.stopped()?).map(|live| live.id)
     }
 
@@ -45,7 +45,7 @@ impl Scheduler {
 
     /// The fibers of the task that stopped last and of those that wait for it, innermost
     /// first.
-    pub fn stopped_fibers(&self) -> Vec<&Fiber> {
+    pub(crate) fn stopped_fibers(&self) -> Vec<&Fiber> {
         let chain = self.stopped_chain();
         chain
             .iter()
@@ -55,13 +55,13 @@ impl Scheduler {
     }
 
     /// The fiber of the task that stopped last.
-    pub fn stopped_fiber(&mut self) -> Option<&mut Fiber> {
+    pub(crate) fn stopped_fiber(&mut self) -> Option<&mut Fiber> {
         let slot = self.stopped()?;
         self.live_mut(slot).map(|live| &mut live.fiber)
     }
 
     /// Is the host working on anything?
-    pub fn has_requests(&self) -> bool {
+    pub(crate) fn has_requests(&self) -> bool {
         !self.tickets.is_empty()
     }
 
@@ -84,7 +84,7 @@ impl Scheduler {
     /// Leaves a frame, and all that was called from it, and goes on with a call in its
     /// place. The frame is one of the `link`th of the stopped fibers; tasks that were begun
     /// from further in end first.
-    pub fn replace_frame(
+    pub(crate) fn replace_frame(
         &mut self,
         image: &mut Image,
         host: &mut dyn Host,

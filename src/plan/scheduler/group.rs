@@ -14,8 +14,8 @@ use crate::plan::task::{Status, TaskRef};
 
 /// The tasks of a form.
 pub(super) struct Group {
-    pub kind: GroupKind,
-    pub children: Vec<TaskRef>,
+    pub(crate) kind: GroupKind,
+    pub(crate) children: Vec<TaskRef>,
 }
 
 /// What has come of a group.

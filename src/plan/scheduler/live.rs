@@ -14,41 +14,41 @@ pub(super) type Slot = u32;
 
 /// A task or a root.
 pub(super) struct Live {
-    pub id: TaskId,
-    pub fiber: Fiber,
+    pub(crate) id: TaskId,
+    pub(crate) fiber: Fiber,
     /// The task; a root has none.
-    pub task: Option<TaskRef>,
-    pub parent: Option<Slot>,
+    pub(crate) task: Option<TaskRef>,
+    pub(crate) parent: Option<Slot>,
     /// Children that are alive, in order of creation.
-    pub children: Vec<Slot>,
+    pub(crate) children: Vec<Slot>,
     /// What it waits for.
-    pub wait: Wait,
+    pub(crate) wait: Wait,
     /// Tells its current wait from others.
-    pub token: u64,
+    pub(crate) token: u64,
     /// What to do when it runs next; none while it waits or is dead.
-    pub answer: Option<Answer>,
+    pub(crate) answer: Option<Answer>,
     /// Is it in the queue of the ready?
-    pub is_queued: bool,
+    pub(crate) is_queued: bool,
     /// How it will end, once that is decided.
-    pub ending: Option<Ending>,
+    pub(crate) ending: Option<Ending>,
     /// Has it begun to unwind?
-    pub is_unwinding: bool,
+    pub(crate) is_unwinding: bool,
     /// How often cleanup code has left the unwinding that called it.
-    pub escapes: u32,
+    pub(crate) escapes: u32,
     /// Is it suspended?
-    pub is_suspended: bool,
+    pub(crate) is_suspended: bool,
     /// Negative: it may not be suspended or evaporated now.
-    pub scheduling: i32,
+    pub(crate) scheduling: i32,
     /// Was it told to end, or to hold still, at a time when that was forbidden?
-    pub told: Told,
+    pub(crate) told: Told,
     /// What to call when it is suspended, innermost last.
-    pub hooks: Vec<Value>,
+    pub(crate) hooks: Vec<Value>,
     /// What the running hooks interrupt.
-    pub set_aside: Option<Box<SetAside>>,
+    pub(crate) set_aside: Option<Box<SetAside>>,
     /// When a sleep or timeout of its wait ends.
-    pub until: Option<f64>,
+    pub(crate) until: Option<f64>,
     /// Entries that wait for its end.
-    pub joiners: Vec<(Slot, u64)>,
+    pub(crate) joiners: Vec<(Slot, u64)>,
 }
 
 /// What an entry waits for.
@@ -81,9 +81,9 @@ pub(super) enum Wait {
 
 /// A wait that hooks interrupt.
 pub(super) struct SetAside {
-    pub wait: Wait,
-    pub until: Option<f64>,
-    pub answer: Option<Answer>,
+    pub(crate) wait: Wait,
+    pub(crate) until: Option<f64>,
+    pub(crate) answer: Option<Answer>,
 }
 
 /// What to do with an entry's fiber when it runs next.
@@ -126,7 +126,7 @@ pub(super) enum Told {
 }
 
 impl Live {
-    pub fn new(id: TaskId, answer: Answer) -> Live {
+    pub(crate) fn new(id: TaskId, answer: Answer) -> Live {
         Live {
             id,
             fiber: Fiber::default(),
@@ -151,7 +151,7 @@ impl Live {
     }
 
     /// May it run while it is suspended: does it run its hooks?
-    pub fn runs_hooks(&self) -> bool {
+    pub(crate) fn runs_hooks(&self) -> bool {
         self.set_aside.is_some()
     }
 }

@@ -23,9 +23,9 @@ mod run;
 mod suspension;
 
 pub(crate) use group::composite;
-pub use overview::TaskInfo;
+pub(crate) use overview::TaskInfo;
 pub(crate) use requests::outside_a_plan;
-pub use root::Evaluation;
+pub(crate) use root::Evaluation;
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
@@ -38,7 +38,7 @@ use live::{Live, Slot};
 
 /// Runs tasks on an image.
 #[derive(Default)]
-pub struct Scheduler {
+pub(crate) struct Scheduler {
     /// Tasks and roots that are alive; entries are used again.
     entries: Vec<Option<Box<Live>>>,
     free: Vec<Slot>,
@@ -70,7 +70,7 @@ pub struct Scheduler {
 
 impl Scheduler {
     /// A scheduler without tasks.
-    pub fn new() -> Scheduler {
+    pub(crate) fn new() -> Scheduler {
         Scheduler::default()
     }
 }

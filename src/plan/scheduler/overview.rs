@@ -10,29 +10,29 @@ use crate::plan::task::{Status, TaskId};
 
 /// A task that is alive.
 #[derive(Clone)]
-pub struct TaskInfo {
+pub(crate) struct TaskInfo {
     /// Which task.
-    pub id: TaskId,
+    pub(crate) id: TaskId,
     /// Its name.
-    pub name: String,
+    pub(crate) name: String,
     /// What it is doing.
-    pub status: Status,
+    pub(crate) status: Status,
     /// The task that started it; none if the prompt did.
-    pub parent: Option<TaskId>,
+    pub(crate) parent: Option<TaskId>,
     /// Its path in the task tree, innermost part first.
-    pub path: Value,
+    pub(crate) path: Value,
     /// What it waits for, in words; none if it is ready.
-    pub waits_for: Option<String>,
+    pub(crate) waits_for: Option<String>,
 }
 
 impl Scheduler {
     /// Simulated seconds since the session began.
-    pub fn now(&self, image: &Image) -> f64 {
+    pub(crate) fn now(&self, image: &Image) -> f64 {
         Plan::of(image).now()
     }
 
     /// The tasks that are alive, in order of creation.
-    pub fn tasks(&self, image: &Image) -> Vec<TaskInfo> {
+    pub(crate) fn tasks(&self, image: &Image) -> Vec<TaskInfo> {
         let mut tasks: Vec<TaskInfo> = self
             .entries
             .iter()
@@ -55,7 +55,7 @@ impl Scheduler {
     }
 
     /// The tasks that are alive and those of the last plan that have ended, as a tree.
-    pub fn task_tree(&self, image: &Image) -> String {
+    pub(crate) fn task_tree(&self, image: &Image) -> String {
         let mut tasks = self.tasks(image);
         tasks.extend(self.ended.iter().cloned());
         tasks.sort_by_key(|task| task.id);

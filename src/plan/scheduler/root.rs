@@ -12,7 +12,7 @@ use crate::plan::host::Host;
 use crate::plan::state::Plan;
 
 /// How an evaluation ended, or why it stopped.
-pub enum Evaluation {
+pub(crate) enum Evaluation {
     /// It has ended with these values.
     Values(Vec<Value>),
     /// A condition found no handler. The evaluation stays where it is until
@@ -25,12 +25,17 @@ pub enum Evaluation {
 impl Scheduler {
     /// Evaluates a form at top level, to its end. If an earlier evaluation has stopped, it
     /// stays so, and this one runs on top of it.
-    pub fn evaluate(&mut self, image: &mut Image, host: &mut dyn Host, form: &Value) -> Evaluation {
+    pub(crate) fn evaluate(
+        &mut self,
+        image: &mut Image,
+        host: &mut dyn Host,
+        form: &Value,
+    ) -> Evaluation {
         self.apply(image, host, known::EVAL.into(), vec![form.clone()])
     }
 
     /// Calls a function at top level, like [`Scheduler::evaluate`].
-    pub fn apply(
+    pub(crate) fn apply(
         &mut self,
         image: &mut Image,
         host: &mut dyn Host,
@@ -45,7 +50,7 @@ impl Scheduler {
     }
 
     /// Goes on after an interrupt.
-    pub fn go_on(&mut self, image: &mut Image, host: &mut dyn Host) -> Evaluation {
+    pub(crate) fn go_on(&mut self, image: &mut Image, host: &mut dyn Host) -> Evaluation {
         if let Some(slot) = self.interrupted.take()
             && let Some(live) = self.live_mut(slot)
         {
@@ -73,7 +78,7 @@ impl Scheduler {
 
     /// Goes on with a call on top of the evaluation that stopped last: its value stands in
     /// place of the failed call, unless it leaves that (as a restart's function does).
-    pub fn call(
+    pub(crate) fn call(
         &mut self,
         image: &mut Image,
         host: &mut dyn Host,
@@ -88,7 +93,7 @@ impl Scheduler {
 
     /// Leaves the evaluation that stopped last: its tasks end first, then its own cleanup
     /// code runs, which may take simulated time. An interrupt cuts that short.
-    pub fn abort(&mut self, image: &mut Image, host: &mut dyn Host) {
+    pub(crate) fn abort(&mut self, image: &mut Image, host: &mut dyn Host) {
         let Some(root) = self.roots.last().copied() else {
             return;
         };
@@ -119,7 +124,7 @@ impl Scheduler {
     }
 
     /// The number of evaluations that have stopped and not been left.
-    pub fn depth(&self) -> usize {
+    pub(crate) fn depth(&self) -> usize {
         self.roots.len()
     }
 

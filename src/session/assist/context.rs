@@ -6,34 +6,34 @@ use crate::lisp::reader::{Lexer, Token, TokenKind};
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Open<'t> {
     /// Its first element, if that is an atom and the cursor is behind it.
-    pub operator: Option<&'t str>,
+    pub(crate) operator: Option<&'t str>,
     /// Elements before the one at the cursor; the first one counts.
-    pub elements: usize,
+    pub(crate) elements: usize,
     /// The atom just before the one at the cursor.
-    pub last: Option<&'t str>,
+    pub(crate) last: Option<&'t str>,
     /// Lists among its elements: their first two atoms.
-    pub lists: Vec<(&'t str, Option<&'t str>)>,
+    pub(crate) lists: Vec<(&'t str, Option<&'t str>)>,
     /// The second element, if that is an atom.
-    pub second: Option<&'t str>,
+    pub(crate) second: Option<&'t str>,
     /// Is it quoted?
-    pub is_quoted: bool,
+    pub(crate) is_quoted: bool,
 }
 
 /// Where the cursor stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Context<'t> {
     /// The open lists, innermost last.
-    pub lists: Vec<Open<'t>>,
+    pub(crate) lists: Vec<Open<'t>>,
     /// The part of the atom at the cursor that is before it.
-    pub word: &'t str,
+    pub(crate) word: &'t str,
     /// Where that begins.
-    pub word_start: usize,
+    pub(crate) word_start: usize,
     /// Is the cursor in a string? Then `word` is what it holds so far.
-    pub in_string: bool,
+    pub(crate) in_string: bool,
     /// Is it in a comment?
-    pub in_comment: bool,
+    pub(crate) in_comment: bool,
     /// Does a `'` or `#'` stand before the word?
-    pub is_quoted: bool,
+    pub(crate) is_quoted: bool,
 }
 
 impl<'t> Context<'t> {

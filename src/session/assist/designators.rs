@@ -10,7 +10,7 @@ use crate::session::dialogue::Candidate;
 
 /// A designator form around the cursor.
 pub(super) struct Described<'c, 't> {
-    pub class: Class,
+    pub(crate) class: Class,
     list: &'c Open<'t>,
 }
 

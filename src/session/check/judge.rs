@@ -15,8 +15,8 @@ use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 /// whole form is wrong.
 #[derive(Debug, PartialEq)]
 pub(super) struct Mistake {
-    pub text: String,
-    pub name: Option<String>,
+    pub(crate) text: String,
+    pub(crate) name: Option<String>,
 }
 
 /// Judges a note.

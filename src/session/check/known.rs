@@ -12,17 +12,17 @@ use crate::lisp::value::symbol::Sym;
 #[derive(Default)]
 pub(in crate::session) struct KnownNames {
     /// Names of functions, macros and variables.
-    pub defined: BTreeSet<Sym>,
+    pub(crate) defined: BTreeSet<Sym>,
     /// Names in rules for designators, in upper case.
-    pub in_rules: BTreeSet<String>,
+    pub(crate) in_rules: BTreeSet<String>,
     /// Another file is loaded, or a form made at run time evaluated: anything may be
     /// defined.
-    pub is_open: bool,
+    pub(crate) is_open: bool,
 }
 
 impl KnownNames {
     /// Notes what the definitions in a form, at any depth, define.
-    pub fn note_form(&mut self, image: &Image, form: &Value) {
+    pub(crate) fn note_form(&mut self, image: &Image, form: &Value) {
         let mut pending = vec![form.clone()];
         while let Some(form) = pending.pop() {
             let Some(head) = form.as_cons().map(|cons| cons.car()) else {
@@ -40,7 +40,7 @@ impl KnownNames {
     }
 
     /// Notes what one definition defines.
-    pub fn note_definition(&mut self, image: &Image, form: &Value) {
+    pub(crate) fn note_definition(&mut self, image: &Image, form: &Value) {
         let head = form.car_or_nil().as_symbol();
         let name = form.cdr_or_nil().car_or_nil();
         let named = match &name {

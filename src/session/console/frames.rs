@@ -16,8 +16,8 @@ const MOST_ACTIONS: usize = 8;
 
 /// A frame with the number of its fiber.
 pub(super) struct Told {
-    pub link: usize,
-    pub view: FrameView,
+    pub(crate) link: usize,
+    pub(crate) view: FrameView,
 }
 
 /// Builtins that are steps of the machinery: nobody wrote a call of them.

@@ -27,7 +27,7 @@ use commands::Command;
 /// Evaluations that stand still, innermost last, and what is being asked.
 #[derive(Default)]
 pub(super) struct Console {
-    pub is_interactive: bool,
+    pub(crate) is_interactive: bool,
     levels: Vec<Level>,
     /// The form at top level that all of it began with.
     base: Option<Suspended>,
@@ -36,7 +36,7 @@ pub(super) struct Console {
     /// What is being inspected, and through what one came there.
     inspected: Vec<Value>,
     /// Where the next input is to be interrupted.
-    pub interrupt_next: Option<u64>,
+    pub(crate) interrupt_next: Option<u64>,
 }
 
 /// What the next input is.
@@ -53,9 +53,9 @@ enum Asking {
 
 /// A form whose evaluation stands still, and the text that comes after it.
 pub(super) struct Suspended {
-    pub form: Value,
-    pub place: Place,
-    pub rest: Reader,
+    pub(crate) form: Value,
+    pub(crate) place: Place,
+    pub(crate) rest: Reader,
 }
 
 /// An evaluation that stands still.
@@ -76,16 +76,16 @@ enum Cause {
 }
 
 impl Console {
-    pub fn level(&self) -> usize {
+    pub(crate) fn level(&self) -> usize {
         self.levels.len()
     }
 
-    pub fn take_draft(&mut self) -> Option<String> {
+    pub(crate) fn take_draft(&mut self) -> Option<String> {
         self.draft.take()
     }
 
     /// What a second Ctrl-C says.
-    pub fn answer_to_interrupt(&self) -> Option<&'static str> {
+    pub(crate) fn answer_to_interrupt(&self) -> Option<&'static str> {
         match self.levels.last()?.cause {
             Cause::Interrupt => Some("abort"),
             Cause::Condition(_) => None,
@@ -93,7 +93,7 @@ impl Console {
     }
 
     /// What the prompt shows behind the package's name.
-    pub fn prompt_suffix(&self) -> String {
+    pub(crate) fn prompt_suffix(&self) -> String {
         let level = match self.levels.last().map(|level| &level.cause) {
             None => String::new(),
             Some(Cause::Interrupt) => " stopped".to_owned(),

@@ -4,7 +4,7 @@
 use super::evaluate::Evaluate;
 
 /// An evaluator that a person talks to.
-pub trait Converse: Evaluate {
+pub(crate) trait Converse: Evaluate {
     /// From here on, a condition that nobody handles and an interrupt stop the evaluation
     /// where it is, and the next input tells how it goes on; or, as by default, they end it.
     fn set_interactive(&mut self, is_interactive: bool);
@@ -41,18 +41,18 @@ pub trait Converse: Evaluate {
 
 /// What could stand at a place.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
-pub struct Completions {
+pub(crate) struct Completions {
     /// First byte of the text that a candidate takes the place of, up to the cursor.
-    pub start: usize,
+    pub(crate) start: usize,
     /// In the order in which they are shown.
-    pub candidates: Vec<Candidate>,
+    pub(crate) candidates: Vec<Candidate>,
 }
 
 /// One of the texts that could stand at a place.
 #[derive(Clone, Default, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub struct Candidate {
+pub(crate) struct Candidate {
     /// The text.
-    pub text: String,
+    pub(crate) text: String,
     /// One line about it; may be empty.
-    pub doc: String,
+    pub(crate) doc: String,
 }

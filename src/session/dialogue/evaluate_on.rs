@@ -9,7 +9,7 @@ use super::{Abort, Evaluate, Event, Outcome, Screen};
 ///
 /// When nothing can be written any more, the evaluation is interrupted and the error is
 /// returned: nobody watches what the robot would do.
-pub fn evaluate_on<W: Write>(
+pub(crate) fn evaluate_on<W: Write>(
     screen: &mut Screen<W>,
     evaluator: &mut (impl Evaluate + ?Sized),
     source_name: &str,
@@ -19,7 +19,7 @@ pub fn evaluate_on<W: Write>(
 }
 
 /// As [`evaluate_on`], but a condition that nobody handled is returned, not shown.
-pub fn evaluate_keeping_abort<W: Write>(
+pub(crate) fn evaluate_keeping_abort<W: Write>(
     screen: &mut Screen<W>,
     evaluator: &mut (impl Evaluate + ?Sized),
     source_name: &str,

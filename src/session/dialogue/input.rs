@@ -3,7 +3,7 @@
 use crate::lisp::reader::{Completeness, is_complete};
 
 /// Is the text a whole input? One with too many closing parentheses is whole, and wrong.
-pub fn is_whole(text: &str) -> bool {
+pub(crate) fn is_whole(text: &str) -> bool {
     !matches!(is_complete(text), Completeness::Incomplete { .. })
 }
 

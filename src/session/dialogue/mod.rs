@@ -6,14 +6,14 @@
 //! beyond its tokens, nor where the text is finally written to.
 
 mod converse;
-pub mod evaluate;
+pub(crate) mod evaluate;
 mod evaluate_on;
 mod input;
-pub mod prompt_line;
-pub mod screen;
+pub(crate) mod prompt_line;
+pub(crate) mod screen;
 
-pub use converse::{Candidate, Completions, Converse};
+pub(crate) use converse::{Candidate, Completions, Converse};
 pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
-pub use evaluate_on::{evaluate_keeping_abort, evaluate_on};
-pub use input::is_whole;
-pub use screen::Screen;
+pub(crate) use evaluate_on::{evaluate_keeping_abort, evaluate_on};
+pub(crate) use input::is_whole;
+pub(crate) use screen::Screen;

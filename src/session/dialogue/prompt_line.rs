@@ -2,16 +2,16 @@
 
 /// A line that begins with a prompt.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct PromptLine<'a> {
+pub(crate) struct PromptLine<'a> {
     /// The name before the `>`.
-    pub name: &'a str,
+    pub(crate) name: &'a str,
     /// What follows the prompt.
-    pub input: &'a str,
+    pub(crate) input: &'a str,
 }
 
 /// Takes the prompt off a line, when there is one: an upper-case name, `>`, and a blank
 /// or the end of the line.
-pub fn prompt_line(line: &str) -> Option<PromptLine<'_>> {
+pub(crate) fn prompt_line(line: &str) -> Option<PromptLine<'_>> {
     let (name, rest) = line.split_once('>')?;
     let mut characters = name.chars();
     let is_name = characters.next().is_some_and(char::is_uppercase)

@@ -10,7 +10,7 @@ use crate::picture::{Image, InlinePictures};
 use crate::session::dialogue::evaluate::{Abort, Event, Stop};
 
 /// Turns events into text.
-pub struct Screen<W> {
+pub(crate) struct Screen<W> {
     to: W,
     at_line_start: bool,
     /// Values of forms are shown.
@@ -27,7 +27,7 @@ pub struct Screen<W> {
 
 impl<W: Write> Screen<W> {
     /// A screen that writes to `to`, the cursor being at the start of a line.
-    pub fn new(to: W) -> Self {
+    pub(crate) fn new(to: W) -> Self {
         Screen {
             to,
             at_line_start: true,
@@ -43,22 +43,22 @@ impl<W: Write> Screen<W> {
 
     /// From here on, writes to a terminal, or not: shows the progress of motions, and knows
     /// that an interrupt leaves a `^C` there.
-    pub fn set_terminal(&mut self, is_terminal: bool) {
+    pub(crate) fn set_terminal(&mut self, is_terminal: bool) {
         self.is_terminal = is_terminal;
     }
 
     /// From here on, tells the actions around a condition, or leaves them out.
-    pub fn set_detailed(&mut self, is_detailed: bool) {
+    pub(crate) fn set_detailed(&mut self, is_detailed: bool) {
         self.is_detailed = is_detailed;
     }
 
     /// From here on, shows pictures in this way, or leaves them out.
-    pub fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
+    pub(crate) fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
         self.pictures = pictures;
     }
 
     /// From here on, shows the values of forms or leaves them out.
-    pub fn set_echo(&mut self, echo: bool) {
+    pub(crate) fn set_echo(&mut self, echo: bool) {
         self.echo = echo;
     }
 
@@ -66,13 +66,13 @@ impl<W: Write> Screen<W> {
     ///
     /// An aborted evaluation names its place, when that is in another file or the input
     /// has several lines.
-    pub fn begin_input(&mut self, source_name: &str, text: &str) {
+    pub(crate) fn begin_input(&mut self, source_name: &str, text: &str) {
         source_name.clone_into(&mut self.source_name);
         self.source_has_lines = text.trim_end().contains('\n');
     }
 
     /// Shows an event.
-    pub fn show(&mut self, event: &Event) -> io::Result<()> {
+    pub(crate) fn show(&mut self, event: &Event) -> io::Result<()> {
         if let Event::Progress(line) = event {
             return self.progress(line);
         }
@@ -107,7 +107,7 @@ impl<W: Write> Screen<W> {
     }
 
     /// Ends a line that was begun.
-    pub fn fresh_line(&mut self) -> io::Result<()> {
+    pub(crate) fn fresh_line(&mut self) -> io::Result<()> {
         self.end_progress()?;
         if self.at_line_start {
             Ok(())
@@ -117,17 +117,17 @@ impl<W: Write> Screen<W> {
     }
 
     /// Hands on what has been written so far.
-    pub fn flush(&mut self) -> io::Result<()> {
+    pub(crate) fn flush(&mut self) -> io::Result<()> {
         self.to.flush()
     }
 
     /// What the screen writes to, as it is now.
-    pub fn written(&self) -> &W {
+    pub(crate) fn written(&self) -> &W {
         &self.to
     }
 
     /// What the screen writes to.
-    pub fn into_inner(self) -> W {
+    pub(crate) fn into_inner(self) -> W {
         self.to
     }
 
@@ -225,12 +225,12 @@ impl<W: Write> Screen<W> {
 }
 
 /// An interrupt as it prints.
-pub const INTERRUPT: &str = "#<INTERACTIVE-INTERRUPT>";
+pub(crate) const INTERRUPT: &str = "#<INTERACTIVE-INTERRUPT>";
 
 const INPUT_NAME: &str = "prompt[";
 
 /// The name of the `number`th input at a prompt, as the source of places.
-pub fn input_name(number: usize) -> String {
+pub(crate) fn input_name(number: usize) -> String {
     format!("{INPUT_NAME}{number}]")
 }
 

@@ -7,14 +7,14 @@ use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 
 /// A function on the world.
-pub type HostFn = fn(&mut Simulation, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
+pub(crate) type HostFn = fn(&mut Simulation, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
 
 /// The request to call a function on the world.
-pub struct HostCall {
+pub(crate) struct HostCall {
     /// The function.
-    pub call: HostFn,
+    pub(crate) call: HostFn,
     /// Its arguments.
-    pub args: Vec<Value>,
+    pub(crate) args: Vec<Value>,
 }
 
 /// The control builtin that requests a call of a [`HostFn`].

@@ -29,10 +29,10 @@ const MOST_PAIRS: usize = 6;
 
 /// A failure with the world in which it came up.
 pub(super) struct Remembered {
-    pub failure: MotionFailure,
+    pub(crate) failure: MotionFailure,
     /// Simulated time (s).
-    pub time: f64,
-    pub world: World,
+    pub(crate) time: f64,
+    pub(crate) world: World,
 }
 
 impl Simulation {

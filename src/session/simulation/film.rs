@@ -14,20 +14,20 @@ pub(super) struct Film {
 
 /// What is to be filmed.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Filming {
+pub(crate) struct Filming {
     /// From where.
-    pub view: View,
+    pub(crate) view: View,
     /// Pixels per row.
-    pub width: usize,
+    pub(crate) width: usize,
     /// Rows.
-    pub height: usize,
+    pub(crate) height: usize,
     /// Simulated time from one shot to the next (s).
-    pub every: f64,
+    pub(crate) every: f64,
 }
 
 impl Simulation {
     /// Keeps a shot every now and then from here on.
-    pub fn start_film(&mut self, wanted: Filming) -> Result<(), ViewError> {
+    pub(crate) fn start_film(&mut self, wanted: Filming) -> Result<(), ViewError> {
         // A view that there is not is told at once.
         wanted
             .view
@@ -41,7 +41,7 @@ impl Simulation {
     }
 
     /// The shots since the film was started, the last of them as everything is now.
-    pub fn end_film(&mut self) -> Vec<Shot> {
+    pub(crate) fn end_film(&mut self) -> Vec<Shot> {
         self.shoot();
         self.film.take().map_or_else(Vec::new, |film| film.shots)
     }

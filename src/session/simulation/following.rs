@@ -16,11 +16,15 @@ pub(super) struct Followers {
 
 /// Tells followers apart.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct FollowerId(u64);
+pub(crate) struct FollowerId(u64);
 
 impl Simulation {
     /// Has somebody follow the session from here on.
-    pub fn add_follower(&mut self, image: &Image, mut follower: Box<dyn Follower>) -> FollowerId {
+    pub(crate) fn add_follower(
+        &mut self,
+        image: &Image,
+        mut follower: Box<dyn Follower>,
+    ) -> FollowerId {
         Plan::of(image).keep_journal();
         let ways = self.ways();
         follower.see(&self.seen(&ways), Cause::Rest);
@@ -32,7 +36,7 @@ impl Simulation {
     }
 
     /// Lets somebody follow no longer.
-    pub fn remove_follower(&mut self, id: FollowerId) {
+    pub(crate) fn remove_follower(&mut self, id: FollowerId) {
         self.followers.all.retain(|(known, _)| *known != id);
     }
 

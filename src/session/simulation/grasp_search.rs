@@ -31,15 +31,15 @@ const MOST_GRASPS: usize = 4;
 /// An object that is to be grasped, and the arm and grasp that are asked for.
 pub(super) struct Wanted {
     /// Name of the object.
-    pub name: String,
+    pub(crate) name: String,
     /// Name of its type.
-    pub kind: String,
+    pub(crate) kind: String,
     /// Pose of the object in the map frame.
-    pub in_map: Pose,
+    pub(crate) in_map: Pose,
     /// The arm, if one is asked for.
-    pub arm: Option<Side>,
+    pub(crate) arm: Option<Side>,
     /// The grasp, if one is asked for.
-    pub grasp: Option<String>,
+    pub(crate) grasp: Option<String>,
 }
 
 impl Simulation {

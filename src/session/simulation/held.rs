@@ -7,9 +7,9 @@ use crate::robot::Side;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Held {
     /// The hand.
-    pub side: Side,
+    pub(crate) side: Side,
     /// The grasp by which it was picked up, if that is known.
-    pub grasp: Option<String>,
+    pub(crate) grasp: Option<String>,
 }
 
 impl Simulation {

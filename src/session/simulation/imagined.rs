@@ -12,21 +12,21 @@ const HIGHEST_LIFT: f64 = 0.1;
 /// How a world would differ from that of now.
 pub(super) struct Imagined<'a> {
     /// Name of the object, which no hand would hold.
-    pub object: &'a str,
+    pub(crate) object: &'a str,
     /// Where it would be, in the map frame; it would stand on what is closely below.
-    pub object_pose: Option<Pose>,
+    pub(crate) object_pose: Option<Pose>,
     /// Where the base would be, in the map frame.
-    pub base_pose: Option<Pose>,
+    pub(crate) base_pose: Option<Pose>,
     /// The hand that would be open.
-    pub side: Side,
+    pub(crate) side: Side,
     /// How wide it would be open (m).
-    pub opening: f64,
+    pub(crate) opening: f64,
 }
 
 impl Imagined<'_> {
     /// A copy of the world with these differences; none if something else is where the object
     /// would be.
-    pub fn world(&self, now: &World) -> Result<Option<World>, WorldError> {
+    pub(crate) fn world(&self, now: &World) -> Result<Option<World>, WorldError> {
         let mut world = now.clone();
         let gripper = &now.models().description.arm(self.side).gripper;
         let mut robot = now.robot_configuration().clone();

@@ -3,7 +3,7 @@
 //!
 //! Everything that a plan asks of the world comes here as a request of a builtin.
 
-pub mod call;
+pub(crate) mod call;
 mod explain;
 mod film;
 mod following;
@@ -20,9 +20,9 @@ pub(super) mod parts;
 mod pose_argument;
 mod properties;
 mod raising;
-pub mod request;
+pub(crate) mod request;
 mod tables;
-pub mod tour;
+pub(crate) mod tour;
 
 use std::cell::OnceCell;
 use std::collections::VecDeque;
@@ -42,11 +42,11 @@ use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
 
-pub use film::Filming;
-pub use following::FollowerId;
-pub use functions::watching::WatchError;
+pub(crate) use film::Filming;
+pub(crate) use following::FollowerId;
+pub(crate) use functions::watching::WatchError;
 use pace::Pace;
-pub use tables::install;
+pub(crate) use tables::install;
 
 /// A motion that a task waits for.
 struct Job {
@@ -64,18 +64,18 @@ struct Job {
 
 /// Coordinate axes that a person asked to see.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axes {
+pub(crate) struct Axes {
     /// Where, in the map frame.
-    pub pose: Pose,
+    pub(crate) pose: Pose,
     /// Length of the bars (m).
-    pub size: f64,
+    pub(crate) size: f64,
 }
 
 /// Looks at the world after every step of a motion.
-pub type Observer = Box<dyn FnMut(&World)>;
+pub(crate) type Observer = Box<dyn FnMut(&World)>;
 
 /// The robot in its world.
-pub struct Simulation {
+pub(crate) struct Simulation {
     models: Arc<Models>,
     world: World,
     grasps: GraspLibrary,
@@ -181,12 +181,12 @@ impl Simulation {
     }
 
     /// Simulated time (s).
-    pub fn now(&self) -> f64 {
+    pub(crate) fn now(&self) -> f64 {
         self.now
     }
 
     /// The world.
-    pub fn world(&self) -> &World {
+    pub(crate) fn world(&self) -> &World {
         &self.world
     }
 
@@ -206,7 +206,7 @@ impl Simulation {
     }
 
     /// Has a function look at the world after every step that a motion takes.
-    pub fn set_observer(&mut self, observer: Observer) {
+    pub(crate) fn set_observer(&mut self, observer: Observer) {
         self.observer = Some(observer);
     }
 
@@ -217,7 +217,7 @@ impl Simulation {
     }
 
     /// The coordinate axes to be shown, if any.
-    pub fn axes(&self) -> Option<&Axes> {
+    pub(crate) fn axes(&self) -> Option<&Axes> {
         self.axes.as_ref()
     }
 

@@ -76,17 +76,17 @@ impl Simulation {
     }
 
     /// From here on, also keeps the moments before motions.
-    pub fn keep_moments_of_motions(&mut self, keeps: bool) {
+    pub(crate) fn keep_moments_of_motions(&mut self, keeps: bool) {
         self.moments.keeps_motions = keeps;
     }
 
     /// From here on, what is evaluated is on top of a form that stands still, or not.
-    pub fn set_aside(&mut self, is_aside: bool) {
+    pub(crate) fn set_aside(&mut self, is_aside: bool) {
         self.moments.is_aside = is_aside;
     }
 
     /// A form at top level is about to be evaluated.
-    pub fn begin_form(&mut self, form: &Value) {
+    pub(crate) fn begin_form(&mut self, form: &Value) {
         self.moments.motions.clear();
         if !self.moments.is_touched
             && let Some(last) = self.moments.forms.back_mut()
@@ -116,13 +116,13 @@ impl Simulation {
     }
 
     /// Is the world another one than before the last form at top level?
-    pub fn has_changed_since_form(&self) -> bool {
+    pub(crate) fn has_changed_since_form(&self) -> bool {
         let last = self.moments.forms.back();
         last.is_some_and(|before| before.hash != self.world.hash())
     }
 
     /// Takes the world back to before the last form at top level.
-    pub fn go_back_to_form(&mut self) {
+    pub(crate) fn go_back_to_form(&mut self) {
         let last = self.moments.forms.back();
         if let Some(moment) = last.map(|before| before.moment.clone()) {
             self.take_back(&moment);
@@ -147,12 +147,12 @@ impl Simulation {
     }
 
     /// Can the world be taken back to before the motion of that number?
-    pub fn has_motion_moment(&self, motion: u64) -> bool {
+    pub(crate) fn has_motion_moment(&self, motion: u64) -> bool {
         self.moments.motions.iter().any(|(n, _)| *n == motion)
     }
 
     /// Takes the world back to before the motion of that number, if that is known.
-    pub fn go_back_to(&mut self, motion: u64) {
+    pub(crate) fn go_back_to(&mut self, motion: u64) {
         let found = self.moments.motions.iter().find(|(n, _)| *n == motion);
         if let Some((_, moment)) = found.cloned() {
             self.take_back(&moment);
@@ -230,7 +230,7 @@ impl Simulation {
     }
 
     /// The names under which the world was kept.
-    pub fn kept_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn kept_names(&self) -> impl Iterator<Item = &str> {
         self.moments.named.keys().map(String::as_str)
     }
 

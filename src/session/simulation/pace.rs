@@ -22,7 +22,7 @@ pub(super) struct Pace {
 
 impl Pace {
     /// At the speed that the control says.
-    pub fn new(control: PaceControl) -> Pace {
+    pub(crate) fn new(control: PaceControl) -> Pace {
         Pace {
             control,
             next: Instant::now(),
@@ -30,13 +30,13 @@ impl Pace {
     }
 
     /// Who says how fast.
-    pub fn control(&self) -> &PaceControl {
+    pub(crate) fn control(&self) -> &PaceControl {
         &self.control
     }
 
     /// How much simulated time (s) may pass at once when nothing happens; none if as much as
     /// there is.
-    pub fn slice(&self) -> Option<f64> {
+    pub(crate) fn slice(&self) -> Option<f64> {
         match self.control.get() {
             (Speed::Times(factor), _) => Some(SLICE.as_secs_f64() * factor),
             // It waits for the end of the pause, then goes on.
@@ -47,7 +47,7 @@ impl Pace {
 
     /// Waits until so much simulated time (s) may have passed since it was waited last, or
     /// until somebody interrupts.
-    pub fn wait(&mut self, mut seconds: f64, interrupt: &AtomicBool) {
+    pub(crate) fn wait(&mut self, mut seconds: f64, interrupt: &AtomicBool) {
         while !interrupt.load(Ordering::Relaxed) {
             let Some(speed) = self.control.wait(SLICE) else {
                 continue;

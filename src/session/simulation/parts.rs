@@ -26,7 +26,7 @@ const LONGEST_LIST: usize = 100_000;
 pub(in crate::session) struct View {
     title: String,
     /// Names and values.
-    pub parts: Vec<(String, Value)>,
+    pub(crate) parts: Vec<(String, Value)>,
 }
 
 impl View {

@@ -1,15 +1,15 @@
 //! A first session for somebody who knows nothing: a few steps, each with a form to type.
 
 /// A step: what there is to know, and a form to type.
-pub struct Step {
+pub(crate) struct Step {
     /// For people.
-    pub text: &'static str,
+    pub(crate) text: &'static str,
     /// To be typed.
-    pub form: &'static str,
+    pub(crate) form: &'static str,
 }
 
 /// The steps, in order.
-pub static STEPS: &[Step] = &[
+pub(crate) static STEPS: &[Step] = &[
     Step {
         text: "Everything typed here is a form in parentheses: a function and its arguments.\n\
                Enter evaluates it, and shows its value. Names live in packages; first go to\n\

@@ -6,7 +6,7 @@ use std::thread;
 
 /// Opens the address in the user's browser, where there is a display to show it on. Does not
 /// wait for it; that there is no browser is no failure. Returns whether one has been started.
-pub fn open_in_browser(address: &str) -> bool {
+pub(crate) fn open_in_browser(address: &str) -> bool {
     let Some(mut command) = opener() else {
         return false;
     };

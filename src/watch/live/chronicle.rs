@@ -15,7 +15,7 @@ const MOST_TEXT: usize = 4_000;
 
 /// Where a chronicle comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Origin {
+pub(crate) enum Origin {
     /// A session that goes on.
     Session,
     /// A recording.
@@ -24,7 +24,7 @@ pub enum Origin {
 
 /// What a session leaves for those who look. Clones are the same chronicle.
 #[derive(Clone)]
-pub struct Chronicle {
+pub(crate) struct Chronicle {
     shared: Arc<Shared>,
 }
 
@@ -74,7 +74,7 @@ pub(crate) struct Pages {
 
 impl Chronicle {
     /// An empty one.
-    pub fn new(origin: Origin) -> Self {
+    pub(crate) fn new(origin: Origin) -> Self {
         let shared = Shared {
             origin,
             state: Mutex::default(),
@@ -86,13 +86,13 @@ impl Chronicle {
     }
 
     /// Where it comes from.
-    pub fn origin(&self) -> Origin {
+    pub(crate) fn origin(&self) -> Origin {
         self.shared.origin
     }
 
     /// Leaves the newest moment; `nodes` are all that are known. It goes into the past, too, if
     /// that is asked for.
-    pub fn leave(&self, nodes: &[Arc<Node>], moment: Arc<Moment>, keep: bool) {
+    pub(crate) fn leave(&self, nodes: &[Arc<Node>], moment: Arc<Moment>, keep: bool) {
         self.change(|state| {
             let known = state.nodes.len().min(nodes.len());
             state.nodes.extend_from_slice(&nodes[known..]);
@@ -104,7 +104,7 @@ impl Chronicle {
     }
 
     /// Adds news of that simulated time (s).
-    pub fn tell(&self, time: f64, happening: &Happening) {
+    pub(crate) fn tell(&self, time: f64, happening: &Happening) {
         let happening = match happening {
             Happening::Output(text) => Happening::Output(shortened(text)),
             Happening::Aborted(text) => Happening::Aborted(shortened(text)),
@@ -125,7 +125,7 @@ impl Chronicle {
     }
 
     /// Tells the readers that nothing more will come.
-    pub fn close(&self) {
+    pub(crate) fn close(&self) {
         self.change(|state| state.is_over = true);
     }
 
@@ -156,24 +156,24 @@ impl Chronicle {
     }
 
     /// The node of a link of the robot, by the link's name.
-    pub fn link_named(&self, name: &str) -> Option<u32> {
+    pub(crate) fn link_named(&self, name: &str) -> Option<u32> {
         let state = self.state();
         let mut links = state.nodes.iter().filter(|n| n.kind == Kind::Robot);
         links.find(|node| node.name == name).map(|node| node.id)
     }
 
     /// Nodes from that number on.
-    pub fn nodes_from(&self, first: usize) -> Vec<Arc<Node>> {
+    pub(crate) fn nodes_from(&self, first: usize) -> Vec<Arc<Node>> {
         self.state().nodes.get(first..).unwrap_or_default().to_vec()
     }
 
     /// The news that are remembered, with their simulated times (s).
-    pub fn news(&self) -> Vec<Arc<(f64, Happening)>> {
+    pub(crate) fn news(&self) -> Vec<Arc<(f64, Happening)>> {
         self.state().news.iter().cloned().collect()
     }
 
     /// The past between two times (s), at most so many moments.
-    pub fn past(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Moment>> {
+    pub(crate) fn past(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Moment>> {
         self.state().past.between(from, to, most)
     }
 

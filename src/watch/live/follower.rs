@@ -15,7 +15,7 @@ const BETWEEN_KEPT: f64 = 1.0 / 30.0;
 
 /// Writes into a chronicle what happens in a session. Looks at the world no more often than
 /// somebody can see.
-pub struct LiveFollower {
+pub(crate) struct LiveFollower {
     chronicle: Chronicle,
     witness: Witness,
     left: Option<Instant>,
@@ -24,7 +24,7 @@ pub struct LiveFollower {
 
 impl LiveFollower {
     /// A follower that writes into the chronicle.
-    pub fn new(chronicle: Chronicle, witness: Witness) -> Self {
+    pub(crate) fn new(chronicle: Chronicle, witness: Witness) -> Self {
         Self {
             chronicle,
             witness,

@@ -27,10 +27,10 @@ mod timeline;
 mod token;
 mod views;
 
-pub use browser::open_in_browser;
-pub use chronicle::{Chronicle, Origin};
-pub use follower::LiveFollower;
-pub use pace_control::{PaceControl, Speed};
-pub use server::Server;
-pub use timeline::Timeline;
-pub use views::Views;
+pub(crate) use browser::open_in_browser;
+pub(crate) use chronicle::{Chronicle, Origin};
+pub(crate) use follower::LiveFollower;
+pub(crate) use pace_control::{PaceControl, Speed};
+pub(crate) use server::Server;
+pub(crate) use timeline::Timeline;
+pub(crate) use views::Views;

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 /// How many simulated seconds pass in a real one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Speed {
+pub(crate) enum Speed {
     /// So many.
     Times(f64),
     /// As many as possible.
@@ -14,7 +14,7 @@ pub enum Speed {
 
 impl Speed {
     /// The speed that the text names: `max` or a number from 0.01 to 100.
-    pub fn named(text: &str) -> Option<Self> {
+    pub(crate) fn named(text: &str) -> Option<Self> {
         if text == "max" {
             return Some(Self::Unlimited);
         }
@@ -25,7 +25,7 @@ impl Speed {
     }
 
     /// The factor; infinite for as fast as possible.
-    pub fn factor(self) -> f64 {
+    pub(crate) fn factor(self) -> f64 {
         match self {
             Self::Times(factor) => factor,
             Self::Unlimited => f64::INFINITY,
@@ -36,7 +36,7 @@ impl Speed {
 /// How fast simulated time passes, and whether it does. Clones are the same control. It
 /// changes when things happen, never what happens.
 #[derive(Clone, Debug)]
-pub struct PaceControl {
+pub(crate) struct PaceControl {
     shared: Arc<(Mutex<State>, Condvar)>,
 }
 
@@ -48,7 +48,7 @@ struct State {
 
 impl PaceControl {
     /// Time passes at that speed.
-    pub fn new(speed: Speed) -> Self {
+    pub(crate) fn new(speed: Speed) -> Self {
         let state = State {
             speed,
             is_paused: false,
@@ -59,25 +59,25 @@ impl PaceControl {
     }
 
     /// The speed, and whether time stands still.
-    pub fn get(&self) -> (Speed, bool) {
+    pub(crate) fn get(&self) -> (Speed, bool) {
         let state = self.state();
         (state.speed, state.is_paused)
     }
 
     /// Changes the speed.
-    pub fn set_speed(&self, speed: Speed) {
+    pub(crate) fn set_speed(&self, speed: Speed) {
         self.state().speed = speed;
     }
 
     /// Lets time stand still, or pass again.
-    pub fn set_paused(&self, is_paused: bool) {
+    pub(crate) fn set_paused(&self, is_paused: bool) {
         self.state().is_paused = is_paused;
         self.shared.1.notify_all();
     }
 
     /// Waits while time stands still, but not longer than that. Returns the speed, or nothing
     /// if time still stands.
-    pub fn wait(&self, patience: Duration) -> Option<Speed> {
+    pub(crate) fn wait(&self, patience: Duration) -> Option<Speed> {
         let waiting = |state: &mut State| state.is_paused;
         let waited = self
             .shared

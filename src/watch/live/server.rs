@@ -25,7 +25,7 @@ const STACK_BYTES: usize = 512 << 10;
 const GONE: Duration = Duration::from_secs(3);
 
 /// Serves the page until it is dropped.
-pub struct Server {
+pub(crate) struct Server {
     shared: Arc<Shared>,
     address: SocketAddr,
     thread: Option<JoinHandle<()>>,
@@ -48,7 +48,7 @@ pub(crate) struct Shared {
 
 impl Server {
     /// Starts to serve on 127.0.0.1, on any port that is free.
-    pub fn start(
+    pub(crate) fn start(
         chronicle: Chronicle,
         pace: Option<PaceControl>,
         views: Views,
@@ -78,17 +78,17 @@ impl Server {
     }
 
     /// The page's address.
-    pub fn address(&self) -> String {
+    pub(crate) fn address(&self) -> String {
         format!("http://{}/{}/", self.address, self.shared.token)
     }
 
     /// How many viewers there are now.
-    pub fn viewers(&self) -> usize {
+    pub(crate) fn viewers(&self) -> usize {
         self.shared.viewers.load(Ordering::Relaxed)
     }
 
     /// Whether there has been one.
-    pub fn had_viewer(&self) -> bool {
+    pub(crate) fn had_viewer(&self) -> bool {
         self.shared.had_viewer.load(Ordering::Relaxed)
     }
 }

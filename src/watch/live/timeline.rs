@@ -11,7 +11,7 @@ const MOST_BYTES: usize = 96 << 20;
 /// Moments in order of time. When they take too much memory, every second one of the older
 /// half is forgotten: the longer ago, the coarser.
 #[derive(Debug)]
-pub struct Timeline {
+pub(crate) struct Timeline {
     moments: VecDeque<Arc<Moment>>,
     bytes: usize,
     most_bytes: usize,
@@ -25,7 +25,7 @@ impl Default for Timeline {
 
 impl Timeline {
     /// An empty past that takes about so many bytes at most.
-    pub fn new(most_bytes: usize) -> Self {
+    pub(crate) fn new(most_bytes: usize) -> Self {
         Self {
             moments: VecDeque::new(),
             bytes: 0,
@@ -34,7 +34,7 @@ impl Timeline {
     }
 
     /// Adds a moment that is not before the last one; one at the same time takes its place.
-    pub fn push(&mut self, moment: Arc<Moment>) {
+    pub(crate) fn push(&mut self, moment: Arc<Moment>) {
         while let Some(last) = self.moments.back()
             && last.time >= moment.time
         {
@@ -60,12 +60,12 @@ impl Timeline {
     }
 
     /// Time (s) of the first and the last moment.
-    pub fn span(&self) -> Option<[f64; 2]> {
+    pub(crate) fn span(&self) -> Option<[f64; 2]> {
         Some([self.moments.front()?.time, self.moments.back()?.time])
     }
 
     /// The moments from the last one at or before `from` up to `to` (s), at most `most`.
-    pub fn between(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Moment>> {
+    pub(crate) fn between(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Moment>> {
         let after = self.moments.partition_point(|m| m.time <= from);
         let moments = self.moments.range(after.saturating_sub(1)..);
         let within = moments.take_while(|m| m.time <= to).take(most);
@@ -78,12 +78,12 @@ impl Timeline {
     }
 
     /// Number of moments.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.moments.len()
     }
 
     /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.moments.is_empty()
     }
 }

@@ -14,12 +14,12 @@ const LOOKED_AT: f64 = 0.7;
 
 /// What the page needs to know to look from the named places.
 #[derive(Clone, Debug)]
-pub struct Views(pub(crate) Value);
+pub(crate) struct Views(pub(crate) Value);
 
 impl Views {
     /// The named places in the world. `node_of` tells the node of a link of the robot, by its
     /// name.
-    pub fn new(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Self {
+    pub(crate) fn new(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Self {
         Self(views(world, node_of))
     }
 }

@@ -24,7 +24,7 @@ const MOST_WAITING: usize = 64;
 
 /// Records what happens in a session until it is dropped. Texts and pictures are made on a
 /// thread of its own.
-pub struct Recorder {
+pub(crate) struct Recorder {
     witness: Witness,
     known: usize,
     last: f64,
@@ -35,11 +35,11 @@ pub struct Recorder {
 
 /// How a recording went. Ends of it are known when the recorder is dropped.
 #[derive(Clone, Default)]
-pub struct RecordingResult(Arc<Mutex<Option<RecordingError>>>);
+pub(crate) struct RecordingResult(Arc<Mutex<Option<RecordingError>>>);
 
 impl RecordingResult {
     /// What went wrong, once.
-    pub fn take(&self) -> Option<RecordingError> {
+    pub(crate) fn take(&self) -> Option<RecordingError> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
 
@@ -57,7 +57,10 @@ enum Item {
 
 impl Recorder {
     /// Begins a recording in the file, which is written anew.
-    pub fn create(path: &Path, world: &World) -> Result<(Self, RecordingResult), RecordingError> {
+    pub(crate) fn create(
+        path: &Path,
+        world: &World,
+    ) -> Result<(Self, RecordingResult), RecordingError> {
         let witness = Witness::new(world);
         let tree = &world.models().robot;
         let joints = witness.joints().iter();

@@ -13,8 +13,8 @@ mod schema;
 mod shapes;
 mod write;
 
-pub use follower::{Recorder, RecordingResult};
-pub use read::{Recording, read_recording};
+pub(crate) use follower::{Recorder, RecordingResult};
+pub(crate) use read::{Recording, read_recording};
 
 use std::io;
 
@@ -22,7 +22,7 @@ use thiserror::Error;
 
 /// Why there is no recording.
 #[derive(Debug, Error)]
-pub enum RecordingError {
+pub(crate) enum RecordingError {
     /// The file cannot be read or written.
     #[error("{0}")]
     File(#[from] io::Error),

@@ -18,17 +18,17 @@ use crate::watch::{
 
 /// What a recording holds.
 #[derive(Debug, PartialEq)]
-pub struct Recording {
+pub(crate) struct Recording {
     /// How many moments.
-    pub moments: usize,
+    pub(crate) moments: usize,
     /// How many pieces of news.
-    pub news: usize,
+    pub(crate) news: usize,
     /// Whether the file ends in the middle, as when the session was killed.
-    pub is_cut_off: bool,
+    pub(crate) is_cut_off: bool,
 }
 
 /// Reads a file's bytes into a chronicle. What is not ours in it is passed over.
-pub fn read_recording(bytes: &[u8], to: &Chronicle) -> Result<Recording, RecordingError> {
+pub(crate) fn read_recording(bytes: &[u8], to: &Chronicle) -> Result<Recording, RecordingError> {
     let mut reader = Reader {
         to,
         nodes: Vec::new(),

@@ -8,18 +8,18 @@ use crate::lisp::value::raise::Raise;
 /// A wrong control string, or too few arguments for one.
 #[derive(Clone, PartialEq, Debug, Error)]
 #[error("error in FORMAT: {problem}\n  {control}\n  {}^", " ".repeat(*position))]
-pub struct FormatError {
+pub(crate) struct FormatError {
     /// What is wrong.
-    pub problem: Problem,
+    pub(crate) problem: Problem,
     /// The control string.
-    pub control: String,
+    pub(crate) control: String,
     /// Which character of it.
-    pub position: usize,
+    pub(crate) position: usize,
 }
 
 /// What is wrong.
 #[derive(Clone, PartialEq, Debug, Error)]
-pub enum Problem {
+pub(crate) enum Problem {
     /// The string ends after a tilde.
     #[error("String ended before directive was found.")]
     Unfinished,

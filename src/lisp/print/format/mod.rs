@@ -16,7 +16,7 @@ mod output;
 #[cfg(test)]
 mod tests;
 
-pub use error::FormatError;
+pub(crate) use error::FormatError;
 
 use std::rc::Rc;
 
@@ -27,14 +27,14 @@ use crate::lisp::value::raise::Raise;
 
 /// A parsed control string.
 #[derive(Clone)]
-pub struct Control {
+pub(crate) struct Control {
     text: Rc<str>,
     pieces: Rc<[directive::Piece]>,
 }
 
 impl Control {
     /// Parses a control string.
-    pub fn parse(text: &str) -> Result<Control, FormatError> {
+    pub(crate) fn parse(text: &str) -> Result<Control, FormatError> {
         let pieces = directive::parse(text)?;
         Ok(Control {
             text: text.into(),
@@ -44,7 +44,7 @@ impl Control {
 
     /// What the control string makes of the arguments, where the line has already so many
     /// characters.
-    pub fn run(
+    pub(crate) fn run(
         &self,
         image: &Image,
         args: &[Value],
@@ -57,7 +57,7 @@ impl Control {
 
 /// What a control string makes of the arguments; objects that need Lisp code print in
 /// their default form.
-pub fn format_to_string(
+pub(crate) fn format_to_string(
     image: &Image,
     control: &str,
     args: &[Value],

@@ -95,7 +95,7 @@ fn fraction(numerator: BigInt, denominator: BigInt) -> Value {
 
 /// `(+ a b)`.
 #[inline]
-pub fn add(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn add(a: &Value, b: &Value) -> NumberResult {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => match x.checked_add(*y) {
             Some(sum) => Ok(Value::Int(sum)),
@@ -120,7 +120,7 @@ fn add_slowly(a: &Value, b: &Value) -> NumberResult {
 
 /// `(- a b)`.
 #[inline]
-pub fn sub(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn sub(a: &Value, b: &Value) -> NumberResult {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => match x.checked_sub(*y) {
             Some(difference) => Ok(Value::Int(difference)),
@@ -145,7 +145,7 @@ fn sub_slowly(a: &Value, b: &Value) -> NumberResult {
 
 /// `(* a b)`.
 #[inline]
-pub fn mul(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn mul(a: &Value, b: &Value) -> NumberResult {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => match x.checked_mul(*y) {
             Some(product) => Ok(Value::Int(product)),
@@ -170,7 +170,7 @@ fn mul_slowly(a: &Value, b: &Value) -> NumberResult {
 
 /// `(/ a b)`.
 #[inline]
-pub fn div(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn div(a: &Value, b: &Value) -> NumberResult {
     match (a, b) {
         (Value::Double(x), Value::Double(y)) if *y != 0.0 => double(x / y, known::DIVIDE, a, b),
         (Value::Int(x), Value::Int(y)) if *y > 0 && x % y == 0 => Ok(Value::Int(x / y)),
@@ -193,7 +193,7 @@ fn div_slowly(a: &Value, b: &Value) -> NumberResult {
 }
 
 /// `(- a)`.
-pub fn negate(a: &Value) -> NumberResult {
+pub(crate) fn negate(a: &Value) -> NumberResult {
     match a {
         // Zero minus zero would lose the sign of a float.
         Value::Double(x) => Ok(Value::Double(-x)),
@@ -204,18 +204,18 @@ pub fn negate(a: &Value) -> NumberResult {
 
 /// `(1+ a)`.
 #[inline]
-pub fn increment(a: &Value) -> NumberResult {
+pub(crate) fn increment(a: &Value) -> NumberResult {
     add(a, &Value::Int(1))
 }
 
 /// `(1- a)`.
 #[inline]
-pub fn decrement(a: &Value) -> NumberResult {
+pub(crate) fn decrement(a: &Value) -> NumberResult {
     sub(a, &Value::Int(1))
 }
 
 /// `(abs a)`.
-pub fn abs(a: &Value) -> NumberResult {
+pub(crate) fn abs(a: &Value) -> NumberResult {
     match a {
         Value::Double(x) => Ok(Value::Double(x.abs())),
         Value::Single(x) => Ok(Value::Single(x.abs())),
@@ -231,7 +231,7 @@ pub fn abs(a: &Value) -> NumberResult {
 }
 
 /// `(signum a)`: -1, 0 or 1 in the type of the number.
-pub fn signum(a: &Value) -> NumberResult {
+pub(crate) fn signum(a: &Value) -> NumberResult {
     match a {
         Value::Double(x) if *x == 0.0 => Ok(a.clone()),
         Value::Double(x) => Ok(Value::Double(x.signum())),

@@ -15,7 +15,7 @@ use crate::lisp::value::raise::Raise;
 const EXACT_IN_DOUBLE: u64 = 1 << 53;
 
 /// The order of two real numbers; `None` if one is not a number (NaN).
-pub fn compare(a: &Value, b: &Value) -> Result<Option<Ordering>, Box<Raise>> {
+pub(crate) fn compare(a: &Value, b: &Value) -> Result<Option<Ordering>, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(Some(x.cmp(y))),
         (Value::Double(x), Value::Double(y)) => Ok(x.partial_cmp(y)),
@@ -72,13 +72,13 @@ fn compare_rationals(a: &Value, b: &Value) -> Option<Ordering> {
 }
 
 /// Are two numbers of whatever types equal in value? False unless both are numbers.
-pub fn equal_by_value(a: &Value, b: &Value) -> bool {
+pub(crate) fn equal_by_value(a: &Value, b: &Value) -> bool {
     is_number(a) && is_number(b) && matches!(number_equal(a, b), Ok(true))
 }
 
 /// `(= a b)`.
 #[inline]
-pub fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x == y),
         (Value::Double(x), Value::Double(y)) => Ok(x == y),
@@ -98,7 +98,7 @@ pub fn number_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(< a b)`.
 #[inline]
-pub fn less(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn less(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x < y),
         (Value::Double(x), Value::Double(y)) => Ok(x < y),
@@ -108,7 +108,7 @@ pub fn less(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(> a b)`.
 #[inline]
-pub fn greater(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn greater(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x > y),
         (Value::Double(x), Value::Double(y)) => Ok(x > y),
@@ -118,7 +118,7 @@ pub fn greater(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(<= a b)`.
 #[inline]
-pub fn less_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn less_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x <= y),
         (Value::Double(x), Value::Double(y)) => Ok(x <= y),
@@ -128,7 +128,7 @@ pub fn less_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 
 /// `(>= a b)`.
 #[inline]
-pub fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match (a, b) {
         (Value::Int(x), Value::Int(y)) => Ok(x >= y),
         (Value::Double(x), Value::Double(y)) => Ok(x >= y),
@@ -137,17 +137,17 @@ pub fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 }
 
 /// The larger of two numbers, as it is; of equal ones the first.
-pub fn maximum(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn maximum(a: &Value, b: &Value) -> NumberResult {
     Ok(if less(a, b)? { b.clone() } else { a.clone() })
 }
 
 /// The smaller of two numbers, as it is; of equal ones the first.
-pub fn minimum(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn minimum(a: &Value, b: &Value) -> NumberResult {
     Ok(if less(b, a)? { b.clone() } else { a.clone() })
 }
 
 /// `(zerop a)`.
-pub fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
     match a {
         Value::Int(n) => Ok(*n == 0),
         Value::Double(x) => Ok(*x == 0.0),
@@ -159,17 +159,17 @@ pub fn is_zero(a: &Value) -> Result<bool, Box<Raise>> {
 }
 
 /// `(plusp a)`.
-pub fn is_plus(a: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn is_plus(a: &Value) -> Result<bool, Box<Raise>> {
     greater(a, &Value::Int(0))
 }
 
 /// `(minusp a)`.
-pub fn is_minus(a: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn is_minus(a: &Value) -> Result<bool, Box<Raise>> {
     less(a, &Value::Int(0))
 }
 
 /// `(evenp a)`.
-pub fn is_even(a: &Value) -> Result<bool, Box<Raise>> {
+pub(crate) fn is_even(a: &Value) -> Result<bool, Box<Raise>> {
     match a {
         Value::Int(n) => Ok(n % 2 == 0),
         Value::Big(n) => Ok(n.is_even()),

@@ -21,7 +21,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// A complex number.
-pub struct Complex {
+pub(crate) struct Complex {
     /// The real part.
     re: Value,
     /// The imaginary part.
@@ -46,12 +46,12 @@ impl Foreign for Complex {
 }
 
 /// Is this a complex number that is not real?
-pub fn is_complex(value: &Value) -> bool {
+pub(crate) fn is_complex(value: &Value) -> bool {
     value.as_foreign::<Complex>().is_some()
 }
 
 /// `(complex re im)`: a real number if both parts are rational and the second is zero.
-pub fn complex(re: &Value, im: &Value) -> NumberResult {
+pub(crate) fn complex(re: &Value, im: &Value) -> NumberResult {
     for part in [re, im] {
         if !is_real(part) {
             return Err(not_real(part));
@@ -80,12 +80,12 @@ pub fn complex(re: &Value, im: &Value) -> NumberResult {
 }
 
 /// `(realpart z)`.
-pub fn real_part(value: &Value) -> NumberResult {
+pub(crate) fn real_part(value: &Value) -> NumberResult {
     parts(value).map(|(re, _)| re)
 }
 
 /// `(imagpart z)`.
-pub fn imaginary_part(value: &Value) -> NumberResult {
+pub(crate) fn imaginary_part(value: &Value) -> NumberResult {
     parts(value).map(|(_, im)| im)
 }
 
@@ -134,7 +134,7 @@ fn divide(a: &Value, b: &Value) -> NumberResult {
 }
 
 /// `(conjugate z)`.
-pub fn conjugate(value: &Value) -> NumberResult {
+pub(crate) fn conjugate(value: &Value) -> NumberResult {
     match value.as_foreign::<Complex>() {
         Some(z) => complex(&z.re, &negate(&z.im)?),
         None if is_real(value) => Ok(value.clone()),
@@ -170,13 +170,13 @@ pub(crate) fn magnitude(value: &Value) -> NumberResult {
 }
 
 /// `(phase z)`: the angle (rad) of the number in the plane.
-pub fn phase(value: &Value) -> NumberResult {
+pub(crate) fn phase(value: &Value) -> NumberResult {
     let (re, im) = parts(value)?;
     atan2(&im, &re)
 }
 
 /// `(cis angle)`: the number of magnitude one at an angle (rad).
-pub fn cis(angle: &Value) -> NumberResult {
+pub(crate) fn cis(angle: &Value) -> NumberResult {
     complex(&cos(angle)?, &sin(angle)?)
 }
 

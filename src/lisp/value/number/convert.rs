@@ -12,7 +12,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 
 /// An integer as a value: immediate if it fits 64 bits.
-pub fn from_big(n: BigInt) -> Value {
+pub(crate) fn from_big(n: BigInt) -> Value {
     match n.to_i64() {
         Some(small) => Value::Int(small),
         None => Value::Big(Rc::new(n)),
@@ -20,12 +20,12 @@ pub fn from_big(n: BigInt) -> Value {
 }
 
 /// A count as a value.
-pub fn from_usize(n: usize) -> Value {
+pub(crate) fn from_usize(n: usize) -> Value {
     Value::from(n)
 }
 
 /// A fraction as a value, in lowest terms; `None` if the denominator is zero.
-pub fn ratio(numerator: BigInt, denominator: BigInt) -> Option<Value> {
+pub(crate) fn ratio(numerator: BigInt, denominator: BigInt) -> Option<Value> {
     if denominator.is_zero() {
         return None;
     }
@@ -45,7 +45,7 @@ pub fn ratio(numerator: BigInt, denominator: BigInt) -> Option<Value> {
 }
 
 /// The integer as a big one; `None` if it is no integer.
-pub fn to_big(value: &Value) -> Option<BigInt> {
+pub(crate) fn to_big(value: &Value) -> Option<BigInt> {
     match value {
         Value::Int(n) => Some(BigInt::from(*n)),
         Value::Big(n) => Some(n.as_ref().clone()),
@@ -54,27 +54,27 @@ pub fn to_big(value: &Value) -> Option<BigInt> {
 }
 
 /// Is this a number?
-pub fn is_number(value: &Value) -> bool {
+pub(crate) fn is_number(value: &Value) -> bool {
     is_real(value) || crate::lisp::value::number::complex::is_complex(value)
 }
 
 /// Is this a real number?
-pub fn is_real(value: &Value) -> bool {
+pub(crate) fn is_real(value: &Value) -> bool {
     is_rational(value) || matches!(value, Value::Single(_) | Value::Double(_))
 }
 
 /// Is this an integer or a ratio?
-pub fn is_rational(value: &Value) -> bool {
+pub(crate) fn is_rational(value: &Value) -> bool {
     is_integer(value) || matches!(value, Value::Ratio(_))
 }
 
 /// Is this an integer?
-pub fn is_integer(value: &Value) -> bool {
+pub(crate) fn is_integer(value: &Value) -> bool {
     matches!(value, Value::Int(_) | Value::Big(_))
 }
 
 /// Is this an integer between `most-negative-fixnum` and `most-positive-fixnum`?
-pub fn is_fixnum(value: &Value) -> bool {
+pub(crate) fn is_fixnum(value: &Value) -> bool {
     matches!(
         value,
         Value::Int(
@@ -86,7 +86,7 @@ pub fn is_fixnum(value: &Value) -> bool {
 
 /// The number as the nearest double float; infinite beyond the largest one; `None` if it
 /// is no real number.
-pub fn to_f64(value: &Value) -> Option<f64> {
+pub(crate) fn to_f64(value: &Value) -> Option<f64> {
     match value {
         Value::Int(n) => Some(*n as f64),
         Value::Big(n) => n.to_f64(),
@@ -104,7 +104,7 @@ pub fn to_f64(value: &Value) -> Option<f64> {
 
 /// The number as the nearest single float; infinite beyond the largest one; `None` if it
 /// is no real number.
-pub fn to_f32(value: &Value) -> Option<f32> {
+pub(crate) fn to_f32(value: &Value) -> Option<f32> {
     match value {
         Value::Int(n) => Some(*n as f32),
         Value::Big(n) => n.to_f32(),
@@ -172,7 +172,7 @@ fn fraction_to_f64(numerator: &BigInt, denominator: &BigInt, bits: u32, lowest: 
 }
 
 /// `(coerce x 'single-float)`.
-pub fn to_single(value: &Value) -> NumberResult {
+pub(crate) fn to_single(value: &Value) -> NumberResult {
     let x = to_f32(value).ok_or_else(|| not_real(value))?;
     if x.is_infinite() && to_f64(value).is_some_and(f64::is_finite)
         || x.is_infinite() && is_rational(value)
@@ -183,7 +183,7 @@ pub fn to_single(value: &Value) -> NumberResult {
 }
 
 /// `(coerce x 'double-float)`.
-pub fn to_double(value: &Value) -> NumberResult {
+pub(crate) fn to_double(value: &Value) -> NumberResult {
     let x = to_f64(value).ok_or_else(|| not_real(value))?;
     if x.is_infinite() && is_rational(value) {
         return Err(overflow(known::FLOAT, &[value]));
@@ -192,7 +192,7 @@ pub fn to_double(value: &Value) -> NumberResult {
 }
 
 /// `(float x prototype)`.
-pub fn to_float_like(value: &Value, prototype: &Value) -> NumberResult {
+pub(crate) fn to_float_like(value: &Value, prototype: &Value) -> NumberResult {
     match prototype {
         Value::Double(_) => to_double(value),
         _ => to_single(value),
@@ -200,7 +200,7 @@ pub fn to_float_like(value: &Value, prototype: &Value) -> NumberResult {
 }
 
 /// `rational`: the exact value of a number.
-pub fn rational(value: &Value) -> NumberResult {
+pub(crate) fn rational(value: &Value) -> NumberResult {
     match value {
         Value::Single(x) => Ok(exact(f64::from(*x)).unwrap_or(Value::Int(0))),
         Value::Double(x) => Ok(exact(*x).unwrap_or(Value::Int(0))),
@@ -239,7 +239,7 @@ pub(crate) fn fraction_of(value: &Value) -> Option<(BigInt, BigInt)> {
 }
 
 /// `numerator`.
-pub fn numerator(value: &Value) -> NumberResult {
+pub(crate) fn numerator(value: &Value) -> NumberResult {
     match value {
         Value::Ratio(r) => Ok(from_big(r.numerator.clone())),
         n if is_integer(n) => Ok(n.clone()),
@@ -251,7 +251,7 @@ pub fn numerator(value: &Value) -> NumberResult {
 }
 
 /// `denominator`.
-pub fn denominator(value: &Value) -> NumberResult {
+pub(crate) fn denominator(value: &Value) -> NumberResult {
     match value {
         Value::Ratio(r) => Ok(from_big(r.denominator.clone())),
         n if is_integer(n) => Ok(Value::Int(1)),
@@ -263,7 +263,7 @@ pub fn denominator(value: &Value) -> NumberResult {
 }
 
 /// `rationalize`: the simplest exact number that is read back as the same float.
-pub fn rationalize(value: &Value) -> NumberResult {
+pub(crate) fn rationalize(value: &Value) -> NumberResult {
     let (x, is_same): (f64, fn(f64, f64) -> bool) = match value {
         Value::Single(x) => (f64::from(*x), |a, b| a as f32 == b as f32),
         Value::Double(x) => (*x, |a, b| a == b),

@@ -16,7 +16,7 @@ use crate::lisp::value::symbol::Sym;
 
 /// Which integer a quotient becomes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Rounding {
+pub(crate) enum Rounding {
     /// The one below or equal.
     Floor,
     /// The one above or equal.
@@ -39,7 +39,11 @@ impl Rounding {
 }
 
 /// Quotient, an integer, and remainder of `a` by `b`: `a = quotient * b + remainder`.
-pub fn divide(a: &Value, b: &Value, rounding: Rounding) -> Result<(Value, Value), Box<Raise>> {
+pub(crate) fn divide(
+    a: &Value,
+    b: &Value,
+    rounding: Rounding,
+) -> Result<(Value, Value), Box<Raise>> {
     if let (Value::Int(x), Value::Int(y)) = (a, b)
         && *y != 0
         && *y != -1
@@ -193,7 +197,7 @@ fn integer_of(x: f64) -> Value {
 }
 
 /// Like [`divide`], but the quotient is a float (`ffloor` and so on).
-pub fn divide_to_float(
+pub(crate) fn divide_to_float(
     a: &Value,
     b: &Value,
     rounding: Rounding,
@@ -209,36 +213,36 @@ pub fn divide_to_float(
 }
 
 /// `(floor a b)`.
-pub fn floor(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub(crate) fn floor(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Floor)
 }
 
 /// `(ceiling a b)`.
-pub fn ceiling(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub(crate) fn ceiling(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Ceiling)
 }
 
 /// `(truncate a b)`.
-pub fn truncate(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub(crate) fn truncate(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Truncate)
 }
 
 /// `(round a b)`.
-pub fn round(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
+pub(crate) fn round(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Round)
 }
 
 /// The integer that a real number is rounded to.
-pub fn quotient(a: &Value, rounding: Rounding) -> NumberResult {
+pub(crate) fn quotient(a: &Value, rounding: Rounding) -> NumberResult {
     Ok(divide(a, &Value::Int(1), rounding)?.0)
 }
 
 /// `(mod a b)`.
-pub fn modulo(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn modulo(a: &Value, b: &Value) -> NumberResult {
     Ok(divide(a, b, Rounding::Floor)?.1)
 }
 
 /// `(rem a b)`.
-pub fn remainder(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn remainder(a: &Value, b: &Value) -> NumberResult {
     Ok(divide(a, b, Rounding::Truncate)?.1)
 }

@@ -6,29 +6,29 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// The result of an operation on numbers.
-pub type NumberResult = Result<Value, Box<Raise>>;
+pub(crate) type NumberResult = Result<Value, Box<Raise>>;
 
 /// `datum` is no number.
 #[cold]
-pub fn not_a_number(datum: &Value) -> Box<Raise> {
+pub(crate) fn not_a_number(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::NUMBER)
 }
 
 /// `datum` is no real number.
 #[cold]
-pub fn not_real(datum: &Value) -> Box<Raise> {
+pub(crate) fn not_real(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::REAL)
 }
 
 /// `datum` is no integer.
 #[cold]
-pub fn not_an_integer(datum: &Value) -> Box<Raise> {
+pub(crate) fn not_an_integer(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::INTEGER)
 }
 
 /// `datum` is no float.
 #[cold]
-pub fn not_a_float(datum: &Value) -> Box<Raise> {
+pub(crate) fn not_a_float(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::FLOAT)
 }
 
@@ -49,25 +49,25 @@ fn arithmetic(class: Sym, operation: Sym, operands: &[&Value]) -> Box<Raise> {
 
 /// A division by zero.
 #[cold]
-pub fn division_by_zero(operation: Sym, operands: &[&Value]) -> Box<Raise> {
+pub(crate) fn division_by_zero(operation: Sym, operands: &[&Value]) -> Box<Raise> {
     arithmetic(known::DIVISION_BY_ZERO, operation, operands)
 }
 
 /// A result too large for its float format.
 #[cold]
-pub fn overflow(operation: Sym, operands: &[&Value]) -> Box<Raise> {
+pub(crate) fn overflow(operation: Sym, operands: &[&Value]) -> Box<Raise> {
     arithmetic(known::FLOATING_POINT_OVERFLOW, operation, operands)
 }
 
 /// A float operation without a meaningful result.
 #[cold]
-pub fn invalid(operation: Sym, operands: &[&Value]) -> Box<Raise> {
+pub(crate) fn invalid(operation: Sym, operands: &[&Value]) -> Box<Raise> {
     arithmetic(known::FLOATING_POINT_INVALID_OPERATION, operation, operands)
 }
 
 /// A function outside the real numbers for which it is defined here.
 #[cold]
-pub fn complex_result(operation: Sym, operand: &Value) -> Box<Raise> {
+pub(crate) fn complex_result(operation: Sym, operand: &Value) -> Box<Raise> {
     arithmetic(
         known::FLOATING_POINT_INVALID_OPERATION,
         operation,

@@ -25,7 +25,7 @@ fn sign(value: &Value, x: f64) -> Value {
 }
 
 /// `decode-float`: a mantissa in 1/2 .. 1, an exponent, and the sign as a float.
-pub fn decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
+pub(crate) fn decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
     let x = as_double(value)?;
     let (mantissa, exponent) = libm::frexp(x.abs());
     Ok([
@@ -36,7 +36,7 @@ pub fn decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
 }
 
 /// `integer-decode-float`: an integer mantissa, an exponent, and the sign as an integer.
-pub fn integer_decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
+pub(crate) fn integer_decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
     let x = as_double(value)?;
     let bits = if matches!(value, Value::Double(_)) {
         53
@@ -56,7 +56,7 @@ pub fn integer_decode(value: &Value) -> Result<[Value; 3], Box<Raise>> {
 }
 
 /// `(scale-float x n)`: x times two to the power of n.
-pub fn scale(value: &Value, power: &Value) -> NumberResult {
+pub(crate) fn scale(value: &Value, power: &Value) -> NumberResult {
     let x = as_double(value)?;
     let n = match power {
         Value::Int(n) => i32::try_from((*n).clamp(-10_000, 10_000)).unwrap_or(0),
@@ -70,7 +70,7 @@ pub fn scale(value: &Value, power: &Value) -> NumberResult {
 }
 
 /// `float-digits`: bits of the mantissa.
-pub fn digits(value: &Value) -> NumberResult {
+pub(crate) fn digits(value: &Value) -> NumberResult {
     match value {
         Value::Single(_) => Ok(Value::Int(24)),
         Value::Double(_) => Ok(Value::Int(53)),
@@ -79,7 +79,7 @@ pub fn digits(value: &Value) -> NumberResult {
 }
 
 /// `float-precision`: significant bits of the mantissa.
-pub fn precision(value: &Value) -> NumberResult {
+pub(crate) fn precision(value: &Value) -> NumberResult {
     let x = as_double(value)?;
     let (full, lowest) = match value {
         Value::Double(_) => (53, -1074),
@@ -93,7 +93,7 @@ pub fn precision(value: &Value) -> NumberResult {
 }
 
 /// `(float-sign x y)`: the magnitude of y with the sign of x.
-pub fn sign_of(value: &Value, magnitude: Option<&Value>) -> NumberResult {
+pub(crate) fn sign_of(value: &Value, magnitude: Option<&Value>) -> NumberResult {
     let x = as_double(value)?;
     match magnitude {
         None => Ok(sign(value, x)),

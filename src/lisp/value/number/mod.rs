@@ -12,43 +12,45 @@ mod compare;
 mod complex;
 mod convert;
 mod division;
-pub mod error;
+pub(crate) mod error;
 mod float_parts;
 mod power;
 mod random;
 mod ratio;
 mod transcendental;
 
-pub use arithmetic::{abs, add, decrement, div, increment, mul, negate, signum, sub};
-pub use bits::{
+pub(crate) use arithmetic::{abs, add, decrement, div, increment, mul, negate, signum, sub};
+pub(crate) use bits::{
     ByteSpecifier, and, ash, bit_count, bit_length, deposit, extract, is_bit_set, not, or, xor,
 };
-pub use compare::{
+pub(crate) use compare::{
     compare, equal_by_value, greater, greater_equal, is_even, is_minus, is_plus, is_zero, less,
     less_equal, maximum, minimum, number_equal,
 };
-pub use complex::{Complex, cis, complex, conjugate, imaginary_part, is_complex, phase, real_part};
-pub use convert::{
+pub(crate) use complex::{
+    Complex, cis, complex, conjugate, imaginary_part, is_complex, phase, real_part,
+};
+pub(crate) use convert::{
     denominator, from_big, from_usize, is_fixnum, is_integer, is_number, is_rational, is_real,
     numerator, ratio, rational, rationalize, to_big, to_double, to_f32, to_f64, to_float_like,
     to_single,
 };
-pub use division::{
+pub(crate) use division::{
     Rounding, ceiling, divide, divide_to_float, floor, modulo, quotient, remainder, round, truncate,
 };
-pub use float_parts::{decode, digits, integer_decode, precision, scale, sign_of};
-pub use power::{expt, gcd, isqrt, lcm, sqrt};
-pub use random::{RandomState, make_random_state, random, random_from};
-pub use ratio::Ratio;
-pub use transcendental::{
+pub(crate) use float_parts::{decode, digits, integer_decode, precision, scale, sign_of};
+pub(crate) use power::{expt, gcd, isqrt, lcm, sqrt};
+pub(crate) use random::{RandomState, make_random_state, random, random_from};
+pub(crate) use ratio::Ratio;
+pub(crate) use transcendental::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, exp, log, log_base, sin, sinh, tan,
     tanh,
 };
 
 /// The largest fixnum: `most-positive-fixnum`.
-pub const MOST_POSITIVE_FIXNUM: i64 = (1 << 62) - 1;
+pub(crate) const MOST_POSITIVE_FIXNUM: i64 = (1 << 62) - 1;
 /// The smallest fixnum: `most-negative-fixnum`.
-pub const MOST_NEGATIVE_FIXNUM: i64 = -(1 << 62);
+pub(crate) const MOST_NEGATIVE_FIXNUM: i64 = -(1 << 62);
 
 #[cfg(test)]
 mod tests;

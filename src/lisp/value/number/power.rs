@@ -31,7 +31,7 @@ pub(crate) fn too_large(operation: &str) -> Box<Raise> {
 }
 
 /// `(expt base power)`.
-pub fn expt(base: &Value, power: &Value) -> NumberResult {
+pub(crate) fn expt(base: &Value, power: &Value) -> NumberResult {
     for operand in [base, power] {
         if !is_number(operand) {
             return Err(not_a_number(operand));
@@ -135,7 +135,7 @@ fn exact_power(base: &Value, power: &Value) -> NumberResult {
 }
 
 /// `(sqrt x)`; complex for a negative number.
-pub fn sqrt(value: &Value) -> NumberResult {
+pub(crate) fn sqrt(value: &Value) -> NumberResult {
     if is_complex(value) || is_real(value) && is_minus(value)? {
         return complex::square_root(value);
     }
@@ -149,7 +149,7 @@ pub fn sqrt(value: &Value) -> NumberResult {
 }
 
 /// `(isqrt n)`: the largest integer whose square is not above `n`.
-pub fn isqrt(value: &Value) -> NumberResult {
+pub(crate) fn isqrt(value: &Value) -> NumberResult {
     let expected = || Raise::type_error(value, known::UNSIGNED_BYTE);
     let n = to_big(value).ok_or_else(expected)?;
     if n.is_negative() {
@@ -159,14 +159,14 @@ pub fn isqrt(value: &Value) -> NumberResult {
 }
 
 /// `(gcd a b)`.
-pub fn gcd(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn gcd(a: &Value, b: &Value) -> NumberResult {
     let x = to_big(a).ok_or_else(|| not_an_integer(a))?;
     let y = to_big(b).ok_or_else(|| not_an_integer(b))?;
     Ok(from_big(x.gcd(&y)))
 }
 
 /// `(lcm a b)`.
-pub fn lcm(a: &Value, b: &Value) -> NumberResult {
+pub(crate) fn lcm(a: &Value, b: &Value) -> NumberResult {
     if is_zero(a).map_err(|_| not_an_integer(a))? || is_zero(b).map_err(|_| not_an_integer(b))? {
         return Ok(Value::Int(0));
     }

@@ -17,9 +17,9 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// A generator of its own, or the image's: the value of `*random-state*`.
-pub struct RandomState {
+pub(crate) struct RandomState {
     /// None for the image's generator.
-    pub generator: Option<RefCell<Pcg64>>,
+    pub(crate) generator: Option<RefCell<Pcg64>>,
 }
 
 impl Foreign for RandomState {
@@ -34,7 +34,7 @@ impl Foreign for RandomState {
 
 /// `(make-random-state state)`: a generator that goes on as another one would (`NIL` is
 /// the image's), or, for `T`, as no other does.
-pub fn make_random_state(image: &mut Image, state: &Value) -> NumberResult {
+pub(crate) fn make_random_state(image: &mut Image, state: &Value) -> NumberResult {
     let copy = match (state, state.as_foreign::<RandomState>()) {
         (Value::Symbol(known::NIL), _) => image.random.clone(),
         (Value::Symbol(known::T), _) => {
@@ -53,7 +53,7 @@ pub fn make_random_state(image: &mut Image, state: &Value) -> NumberResult {
 }
 
 /// `(random limit state)`
-pub fn random_from(image: &mut Image, limit: &Value, state: &Value) -> NumberResult {
+pub(crate) fn random_from(image: &mut Image, limit: &Value, state: &Value) -> NumberResult {
     match state.as_foreign::<RandomState>() {
         Some(RandomState {
             generator: Some(generator),
@@ -64,7 +64,7 @@ pub fn random_from(image: &mut Image, limit: &Value, state: &Value) -> NumberRes
 }
 
 /// `(random limit)`: an integer or float from zero up to, but not including, the limit.
-pub fn random(generator: &mut Pcg64, limit: &Value) -> NumberResult {
+pub(crate) fn random(generator: &mut Pcg64, limit: &Value) -> NumberResult {
     match limit {
         Value::Int(n) if *n > 0 => {
             // The high word of the product: no modulo, and no bias that could be seen.

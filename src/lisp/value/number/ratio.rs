@@ -4,9 +4,9 @@ use num_bigint::BigInt;
 
 /// A fraction in lowest terms; the denominator is greater than one.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Ratio {
+pub(crate) struct Ratio {
     /// Numerator, with the sign.
-    pub numerator: BigInt,
+    pub(crate) numerator: BigInt,
     /// Denominator, greater than one.
-    pub denominator: BigInt,
+    pub(crate) denominator: BigInt,
 }

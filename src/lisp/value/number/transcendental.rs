@@ -29,7 +29,7 @@ fn apply(value: &Value, operation: Sym, function: fn(f64) -> f64) -> NumberResul
 macro_rules! functions {
     ($($(#[$doc:meta])* $name:ident = $sym:ident;)*) => {
         $($(#[$doc])*
-        pub fn $name(value: &Value) -> NumberResult {
+        pub(crate) fn $name(value: &Value) -> NumberResult {
             apply(value, known::$sym, libm::$name)
         })*
     };
@@ -55,7 +55,7 @@ functions! {
 }
 
 /// `(exp x)`.
-pub fn exp(value: &Value) -> NumberResult {
+pub(crate) fn exp(value: &Value) -> NumberResult {
     if complex::is_complex(value) {
         return complex::exponential(value);
     }
@@ -77,27 +77,27 @@ fn apply_within(
 }
 
 /// `(asin x)`, in rad.
-pub fn asin(value: &Value) -> NumberResult {
+pub(crate) fn asin(value: &Value) -> NumberResult {
     apply_within(value, known::ASIN, libm::asin, |x| x.abs() <= 1.0)
 }
 
 /// `(acos x)`, in rad.
-pub fn acos(value: &Value) -> NumberResult {
+pub(crate) fn acos(value: &Value) -> NumberResult {
     apply_within(value, known::ACOS, libm::acos, |x| x.abs() <= 1.0)
 }
 
 /// `(acosh x)`.
-pub fn acosh(value: &Value) -> NumberResult {
+pub(crate) fn acosh(value: &Value) -> NumberResult {
     apply_within(value, known::ACOSH, libm::acosh, |x| x >= 1.0)
 }
 
 /// `(atanh x)`.
-pub fn atanh(value: &Value) -> NumberResult {
+pub(crate) fn atanh(value: &Value) -> NumberResult {
     apply_within(value, known::ATANH, libm::atanh, |x| x.abs() <= 1.0)
 }
 
 /// `(atan y x)`: the angle (rad) of the vector (x, y).
-pub fn atan2(y: &Value, x: &Value) -> NumberResult {
+pub(crate) fn atan2(y: &Value, x: &Value) -> NumberResult {
     let to = |v: &Value| to_f64(v).ok_or_else(|| crate::lisp::value::number::error::not_real(v));
     let angle = libm::atan2(to(y)?, to(x)?);
     finite(angle, is_double(y) || is_double(x), known::ATAN, &[y, x])
@@ -127,7 +127,7 @@ fn natural(value: &Value) -> Option<f64> {
 }
 
 /// `(log x)`; complex for a negative number; zero has none.
-pub fn log(value: &Value) -> NumberResult {
+pub(crate) fn log(value: &Value) -> NumberResult {
     if is_zero(value)? {
         return Err(division_by_zero(known::LOG, &[value]));
     }
@@ -139,7 +139,7 @@ pub fn log(value: &Value) -> NumberResult {
 }
 
 /// `(log x base)`.
-pub fn log_base(value: &Value, base: &Value) -> NumberResult {
+pub(crate) fn log_base(value: &Value, base: &Value) -> NumberResult {
     if let (Value::Int(x), Value::Int(b)) = (value, base)
         && *x > 0
         && *b > 1

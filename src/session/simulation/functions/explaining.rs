@@ -9,7 +9,7 @@ use crate::session::simulation::Simulation;
 use crate::session::simulation::call::{done, host};
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[control(
+pub(crate) static TABLE: &[Builtin] = &[control(
     "EXPLAIN",
     "",
     "Tells what is known about the last failure of a motion, and what would work instead: from where, with which arm and grasp, looking where.",

@@ -10,7 +10,7 @@ use crate::session::simulation::call::host;
 use crate::session::simulation::{Simulation, call};
 
 /// Builtins of package `COMMON-LISP`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "QUIT",
         "&optional status",

@@ -1,16 +1,16 @@
 //! The builtins on the world, one table per topic.
 
-pub mod explaining;
-pub mod grasps;
-pub mod leaving;
-pub mod moments;
-pub mod objects;
+pub(crate) mod explaining;
+pub(crate) mod grasps;
+pub(crate) mod leaving;
+pub(crate) mod moments;
+pub(crate) mod objects;
 mod picture_request;
-pub mod pictures;
-pub mod plans;
-pub mod prompt;
-pub mod reaching;
-pub mod robot_macros;
-pub mod ros;
-pub mod tutorial;
-pub mod watching;
+pub(crate) mod pictures;
+pub(crate) mod plans;
+pub(crate) mod prompt;
+pub(crate) mod reaching;
+pub(crate) mod robot_macros;
+pub(crate) mod ros;
+pub(crate) mod tutorial;
+pub(crate) mod watching;

@@ -15,7 +15,7 @@ use crate::session::simulation::names::name_text;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "REWIND",
         "&optional count",

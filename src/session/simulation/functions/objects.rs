@@ -22,7 +22,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const SETTLE: f64 = 5.0;
 
 /// Builtins of package `CRAM-BULLET-REASONING-UTILITIES`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "SPAWN-OBJECT",
         "name type &key pose color mass",
@@ -78,11 +78,11 @@ pub static TABLE: &[Builtin] = &[
 
 /// What is to be spawned.
 pub(super) struct Spawning<'a> {
-    pub name: &'a Value,
-    pub kind: &'a Value,
-    pub pose: Pose,
-    pub color: Option<&'a Value>,
-    pub mass: Option<f64>,
+    pub(crate) name: &'a Value,
+    pub(crate) kind: &'a Value,
+    pub(crate) pose: Pose,
+    pub(crate) color: Option<&'a Value>,
+    pub(crate) mass: Option<f64>,
 }
 
 impl Simulation {

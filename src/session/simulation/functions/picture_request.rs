@@ -26,14 +26,14 @@ const ASIDE: [f64; 3] = [-1.15, -1.25, 0.95];
 /// A picture's arguments: a file and a view, both optional, then keys with their values.
 pub(super) struct PictureRequest {
     /// The file that is asked for.
-    pub file: Option<String>,
+    pub(crate) file: Option<String>,
     view: Option<Value>,
     keys: Vec<(&'static str, Value)>,
 }
 
 impl PictureRequest {
     /// Takes the arguments apart; `keys` are the keys that may be given.
-    pub fn of(image: &Image, args: &[Value], keys: &[&'static str]) -> Result<Self> {
+    pub(crate) fn of(image: &Image, args: &[Value], keys: &[&'static str]) -> Result<Self> {
         let mut request = Self {
             file: None,
             view: None,
@@ -74,13 +74,13 @@ impl PictureRequest {
     }
 
     /// The value of a key, if it is given.
-    pub fn get(&self, key: &str) -> Option<&Value> {
+    pub(crate) fn get(&self, key: &str) -> Option<&Value> {
         let found = self.keys.iter().find(|(known, _)| *known == key);
         found.map(|(_, value)| value)
     }
 
     /// A number of pixels.
-    pub fn size(&self, image: &Image, key: &str, otherwise: usize) -> Result<usize> {
+    pub(crate) fn size(&self, image: &Image, key: &str, otherwise: usize) -> Result<usize> {
         let Some(value) = self.get(key) else {
             return Ok(otherwise);
         };
@@ -99,7 +99,7 @@ impl PictureRequest {
     }
 
     /// From where to look.
-    pub fn view(&self, simulation: &Simulation, image: &Image) -> Result<View> {
+    pub(crate) fn view(&self, simulation: &Simulation, image: &Image) -> Result<View> {
         let named = self.view.as_ref().or_else(|| self.get("VIEW"));
         let (from, at) = (self.get("FROM"), self.get("AT"));
         match (named, from, at) {

@@ -31,7 +31,7 @@ const WIDTH: usize = 640;
 const HEIGHT: usize = 480;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "PICTURE",
         "&rest arguments",
@@ -57,7 +57,7 @@ pub static TABLE: &[Builtin] = &[
 
 impl Simulation {
     /// Everything there is to be seen now.
-    pub fn scene(&self) -> picture::Scene {
+    pub(crate) fn scene(&self) -> picture::Scene {
         let mut scene = self.looks().scene(&self.world);
         if let Some(axes) = self.axes() {
             scene.add_axes(&axes.pose, axes.size);
@@ -66,7 +66,7 @@ impl Simulation {
     }
 
     /// The picture that a view has now.
-    pub fn picture(
+    pub(crate) fn picture(
         &self,
         view: View,
         width: usize,

@@ -27,7 +27,7 @@ use crate::world::object_library::ObjectType;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "ARM-POSTURE",
         "arm posture",
@@ -124,11 +124,11 @@ const HEADINGS: [f64; 24] = [
 /// An object as perception has described it.
 pub(in crate::session::simulation) struct Perceived {
     /// Its name in the world.
-    pub name: String,
+    pub(crate) name: String,
     /// Name of its type.
-    pub kind: String,
+    pub(crate) kind: String,
     /// Its pose in the frame of the robot's base as it stands now.
-    pub in_base: Pose,
+    pub(crate) in_base: Pose,
 }
 
 impl Simulation {

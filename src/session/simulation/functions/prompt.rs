@@ -22,7 +22,7 @@ use crate::session::simulation::{Simulation, tour};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "HELP",
         "",
@@ -68,7 +68,7 @@ pub static TABLE: &[Builtin] = &[
 ];
 
 /// What `time` calls, in package `SYSTEM`.
-pub static SYSTEM_TABLE: &[Builtin] = &[control(
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
     "CALL-WITH-TIMING",
     "function",
     "Calls a function and tells how long that took, in real and in simulated time.",
@@ -87,7 +87,7 @@ pub static SYSTEM_TABLE: &[Builtin] = &[control(
 )];
 
 /// Macros of package `PLANWRIGHT`.
-pub static OPERATORS: &[Operator] = &[Operator {
+pub(crate) static OPERATORS: &[Operator] = &[Operator {
     name: "DOC",
     lambda_list: "name",
     doc: "Tells what is known about a name, which need not be quoted. At the prompt, ?name is short for it.",

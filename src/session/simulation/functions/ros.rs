@@ -12,7 +12,7 @@ use crate::session::simulation::{LogLevel, Simulation};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `ROSLISP`.
-pub static LOG_TABLE: &[Builtin] = &[
+pub(crate) static LOG_TABLE: &[Builtin] = &[
     control(
         "LOG-LINE",
         "level tags text",
@@ -30,7 +30,7 @@ pub static LOG_TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `ROSLISP-UTILITIES`.
-pub static UTILITIES_TABLE: &[Builtin] = &[
+pub(crate) static UTILITIES_TABLE: &[Builtin] = &[
     control(
         "STARTUP-ROS",
         "&rest options",
@@ -48,7 +48,7 @@ pub static UTILITIES_TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `ROS-LOAD`.
-pub static LOAD_TABLE: &[Builtin] = &[control(
+pub(crate) static LOAD_TABLE: &[Builtin] = &[control(
     "LOAD-SYSTEM",
     "package &optional system",
     "Nothing to load: everything is built in.",

@@ -22,7 +22,7 @@ use crate::watch::recording::{Recorder, RecordingError, RecordingResult};
 use crate::watch::{Cause, Witness};
 
 /// Builtins of package `PLANWRIGHT`.
-pub static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[
     control(
         "VIEW",
         "&optional (on t)",
@@ -41,7 +41,7 @@ pub static TABLE: &[Builtin] = &[
 
 /// Who watches the session.
 #[derive(Default)]
-pub struct Watching {
+pub(crate) struct Watching {
     view: Option<LiveView>,
     recording: Option<(FollowerId, PathBuf, RecordingResult)>,
 }
@@ -56,7 +56,7 @@ struct LiveView {
 
 /// Why the session cannot be watched.
 #[derive(Debug, Error)]
-pub enum WatchError {
+pub(crate) enum WatchError {
     /// There is no port.
     #[error("the live view cannot be opened: {0}")]
     View(io::Error),
@@ -138,7 +138,7 @@ impl Simulation {
     }
 
     /// The server of the live view, if it is open.
-    pub fn view_server(&self) -> Option<&Server> {
+    pub(crate) fn view_server(&self) -> Option<&Server> {
         self.watching.view.as_ref().map(|view| &view.server)
     }
 }

@@ -1,0 +1,9 @@
+//! The program as people start it: the command line, and the prompt in a terminal.
+// Figures are told.
+#![allow(clippy::print_stdout)]
+
+#[cfg(unix)]
+mod pseudo_terminal;
+#[cfg(unix)]
+mod terminal;
+mod usage;

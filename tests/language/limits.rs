@@ -1,0 +1,184 @@
+//! What is too much ends in a condition, and what is used up is given back.
+
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+use crate::session::dialogue::{Evaluate, Event, Outcome};
+use crate::session::{Session, SessionOptions};
+use proptest::prelude::*;
+
+fn session() -> Session {
+    Session::new(&SessionOptions::default()).unwrap()
+}
+
+/// Everything that is told while a text is evaluated.
+fn told(session: &mut Session, text: &str) -> (Outcome, String) {
+    let mut shown = String::new();
+    let outcome = session.evaluate("test", text, &mut |event| match event {
+        Event::Output(text) => shown.push_str(&text),
+        Event::Values(values) => shown.push_str(&format!("{values:?}\n")),
+        Event::Aborted(abort) => shown.push_str(&format!("{} {}\n", abort.condition, abort.report)),
+        _ => {}
+    });
+    (outcome, shown)
+}
+
+#[test]
+fn calls_that_nest_without_end_are_a_condition_that_can_be_handled() {
+    let mut session = session();
+    let text = "(defun down (n) (if (= n 0) 0 (+ 1 (down (- n 1)))))
+                (down 100000)
+                (handler-case (down -1) (storage-condition () :too-deep))
+                (+ 1 1)";
+    let (outcome, shown) = told(&mut session, text);
+    assert_eq!(outcome, Outcome::Finished, "{shown}");
+    assert_eq!(
+        shown,
+        "[\"DOWN\"]\n[\"100000\"]\n[\":TOO-DEEP\"]\n[\"2\"]\n"
+    );
+}
+
+#[test]
+fn a_list_of_a_million_elements_is_worked_on_and_freed() {
+    let mut session = session();
+    let text = "(let ((l (loop for i below 1000000 collect i)))
+                  (list (length l) (reduce #'+ l) (car (last (sort (mapcar #'- l) #'<)))
+                        (equal l (copy-list l))))";
+    let (outcome, shown) = told(&mut session, text);
+    assert_eq!(outcome, Outcome::Finished, "{shown}");
+    assert_eq!(shown, "[\"(1000000 499999500000 0 T)\"]\n");
+}
+
+#[test]
+fn endless_loops_can_be_interrupted() {
+    for endless in [
+        "(loop)",
+        "(loop for i from 0 collect (* i i) do (setf i 0))",
+        "(let ((l (list 1 2))) (setf (cdr (last l)) l) (mapc #'identity l))",
+        "(cpl:top-level (cpl:par (loop (cpl:sleep 1)) (loop (cpl:sleep 2))))",
+        "(cpl:top-level (cpl:with-failure-handling ((error (e) (cpl:retry))) (error \"x\")))",
+    ] {
+        let mut session = session();
+        let flag = session.interrupt_handle();
+        let watch = std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_millis(50));
+            flag.store(true, Ordering::Relaxed);
+            Instant::now()
+        });
+        let (outcome, shown) = told(&mut session, endless);
+        let waited = watch.join().unwrap().elapsed();
+        assert_eq!(outcome, Outcome::Aborted, "{endless}: {shown}");
+        assert!(waited < Duration::from_secs(2), "{endless}: {waited:?}");
+        let (outcome, shown) = told(&mut session, "(+ 1 1)");
+        assert_eq!((outcome, shown.as_str()), (Outcome::Finished, "[\"2\"]\n"));
+    }
+}
+
+/// Forms without parts; `N` stands for a small number.
+const LEAVES: &[&str] = &[
+    "N",
+    "-N",
+    "x",
+    "'sym",
+    "\"text\"",
+    "N.5",
+    "N/3",
+    "#\\a",
+    "nil",
+    "t",
+    ":key",
+    "y",
+    "'(1 N)",
+    "(vector 1 N)",
+    "#'car",
+    "(make-hash-table)",
+    "(error \"no N\")",
+    "(signal 'warning)",
+    "(return-from b N)",
+    "(throw 'c N)",
+    "(go again)",
+    "(random 5)",
+    "(values N x)",
+];
+
+/// Forms with parts: `A` and `B` stand for other forms.
+const BRANCHES: &[&str] = &[
+    "(+ A B)",
+    "(list A B)",
+    "(cons A B)",
+    "(car A)",
+    "(funcall A B)",
+    "(apply #'list A B)",
+    "(mapcar (lambda (x) A) B)",
+    "(let ((x A)) B)",
+    "(let* ((x A) (y x)) B)",
+    "(setq x A)",
+    "(if A B x)",
+    "(progn A B)",
+    "(block b A B)",
+    "(catch 'c A B)",
+    "(unwind-protect A B)",
+    "(handler-case A (error (x) B))",
+    "(ignore-errors A B)",
+    "(handler-bind ((error (lambda (x) B))) A)",
+    "(multiple-value-list (values A B))",
+    "(restart-case A (use-value (x) B))",
+    "(with-simple-restart (skip \"s\") A B)",
+    "(dotimes (i 3 x) A)",
+    "(loop for x in A collect B)",
+    "(format nil \"~a ~s\" A B)",
+    "(flet ((f (x) A)) (f B))",
+    "(labels ((f (x) (if (eql x 0) A 0))) (f B))",
+    "(macrolet ((m (z) `(list ,z))) (m A))",
+    "(symbol-macrolet ((y A)) B)",
+    "(sort A #'<)",
+    "(reduce #'+ A :initial-value B)",
+    "(nth A B)",
+    "(coerce A 'list)",
+    "(elt A B)",
+    "(let ((n 0)) (tagbody again (when (< (incf n) 3) A B)))",
+    "(eval 'A)",
+    "(destructuring-bind (x &optional y) A B)",
+    "(typep A 'B)",
+    "(setf (car A) B)",
+    "(concatenate 'list A B)",
+    "(subseq A N)",
+    "(equal A B)",
+    "`(1 ,A ,@B)",
+    "(cpl:top-level (cpl:par A B))",
+    "(cpl:with-failure-handling ((error (x) B)) A)",
+];
+
+fn program() -> BoxedStrategy<String> {
+    let leaf = (0..LEAVES.len(), 0..4_u8)
+        .prop_map(|(i, n): (usize, u8)| LEAVES[i].replace('N', &n.to_string()))
+        .boxed();
+    leaf.prop_recursive(6, 60, 2, |inner| {
+        (0..BRANCHES.len(), 0..4_u8, inner.clone(), inner)
+            .prop_map(|(i, n, a, b): (usize, u8, String, String)| {
+                let form = BRANCHES[i].replace('N', &n.to_string());
+                // Parts are put in by mark, since they may hold these letters themselves.
+                let form = form.replace("A", "\u{1}").replace("B", "\u{2}");
+                form.replace('\u{1}', &a).replace('\u{2}', &b)
+            })
+            .boxed()
+    })
+    .boxed()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 120, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn random_programs_never_panic_and_do_the_same_twice(form in program()) {
+        let text = format!("(let ((x '(3 1 2)) (y 2)) (catch 'c (block b (tagbody (return-from b {form}) again))))");
+        let run = || {
+            let mut session = session();
+            let (_, shown) = told(&mut session, &text);
+            prop_assert!(!shown.contains("panic"), "{}", shown);
+            Ok(shown)
+        };
+        let first = run()?;
+        prop_assert_eq!(&first, &run()?, "{}", text);
+    }
+}

@@ -1,0 +1,10 @@
+//! Plans: the plan language, designators, whole plans.
+
+mod designators;
+mod exercises;
+mod language;
+pub(crate) mod overlaps;
+pub(crate) mod prompt;
+mod properties;
+mod tasks;
+mod whole_plan;

@@ -1,0 +1,4 @@
+//! A session as a person talks to it.
+
+mod reference;
+mod session;

@@ -1,0 +1,4 @@
+//! Transcripts: how they are replayed, and those that there are.
+
+mod conformance;
+mod replaying;

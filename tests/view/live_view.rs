@@ -1,0 +1,378 @@
+//! The live view as its page and as strangers meet it, over real connections.
+
+use std::io::{Read, Write};
+use std::net::{Shutdown, TcpStream};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::session::dialogue::{Evaluate, Event, Outcome};
+use crate::session::{Session, SessionOptions};
+
+/// A session with its live view open, and where that is.
+struct Viewed {
+    session: Session,
+    /// `127.0.0.1:PORT`
+    host: String,
+    /// `/TOKEN/`
+    path: String,
+}
+
+fn viewed() -> Viewed {
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    let address = session.open_view().unwrap();
+    let rest = address.strip_prefix("http://").unwrap();
+    let (host, path) = rest.split_at(rest.find('/').unwrap());
+    Viewed {
+        session,
+        host: host.to_owned(),
+        path: path.to_owned(),
+    }
+}
+
+impl Viewed {
+    fn connect(&self) -> TcpStream {
+        TcpStream::connect(&self.host).unwrap()
+    }
+
+    /// Sends bytes and reads until the server ends the connection.
+    fn send(&self, bytes: &[u8]) -> Vec<u8> {
+        let mut stream = self.connect();
+        // A server that has closed early takes no more.
+        let _ = stream.write_all(bytes);
+        let mut answer = Vec::new();
+        let _ = stream.read_to_end(&mut answer);
+        answer
+    }
+
+    /// Status of the answer to a request with these header lines.
+    fn status(&self, method: &str, path: &str, headers: &str, body: &str) -> String {
+        let text = format!(
+            "{method} {path} HTTP/1.1\r\n{headers}Content-Length: {}\r\n\r\n{body}",
+            body.len()
+        );
+        let answer = self.send(text.as_bytes());
+        let answer = String::from_utf8_lossy(&answer).into_owned();
+        answer.split(' ').nth(1).unwrap_or("none").to_owned()
+    }
+
+    fn get(&self, name: &str) -> Vec<u8> {
+        let (path, host) = (&self.path, &self.host);
+        let text = format!("GET {path}{name} HTTP/1.1\r\nHost: {host}\r\n\r\n");
+        let answer = self.send(text.as_bytes());
+        let end = answer.windows(4).position(|w| w == b"\r\n\r\n").unwrap();
+        assert!(answer.starts_with(b"HTTP/1.1 200 OK\r\n"), "{name}");
+        answer[end + 4..].to_vec()
+    }
+
+    /// Asks for another pace, as the page does.
+    fn ask(&self, what: &str) -> String {
+        let host = &self.host;
+        let headers = format!("Host: {host}\r\nOrigin: http://{host}\r\n");
+        self.status("POST", &format!("{}pace", self.path), &headers, what)
+    }
+
+    fn evaluate(&mut self, text: &str) {
+        let mut told = String::new();
+        let outcome = self.session.evaluate("test", text, &mut |event| {
+            if let Event::Aborted(abort) = event {
+                told = abort.report;
+            }
+        });
+        assert_eq!(outcome, Outcome::Finished, "{told}");
+    }
+
+    fn hash(&self) -> u64 {
+        self.session.simulation().world().hash()
+    }
+}
+
+/// Moves arms and torso for some simulated seconds.
+const EXERCISE: &str = "(in-package :pp-tut)
+    (init-projection)
+    (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
+    (with-simulated-robot
+      (cpl:par
+        (perform (a motion (type moving-torso) (joint-angle 0.3)))
+        (park-arms)))";
+
+/// The world that the exercise leaves when nobody looks.
+fn unseen() -> u64 {
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    let outcome = session.evaluate("test", EXERCISE, &mut |_| {});
+    assert_eq!(outcome, Outcome::Finished);
+    session.simulation().world().hash()
+}
+
+#[test]
+fn the_page_is_whole_and_tells_the_browser_to_trust_nothing_else() {
+    let viewed = viewed();
+    let (path, host) = (&viewed.path, &viewed.host);
+    let request = format!("GET {path} HTTP/1.1\r\nHost: {host}\r\nSec-Fetch-Site: none\r\n\r\n");
+    let answer = String::from_utf8(viewed.send(request.as_bytes())).unwrap();
+    let (head, page) = answer.split_once("\r\n\r\n").unwrap();
+    assert!(head.starts_with("HTTP/1.1 200 OK\r\n"), "{head}");
+    assert!(head.contains("Content-Security-Policy: default-src 'none'; script-src 'nonce-"));
+    assert!(head.contains("frame-ancestors 'none'") && head.contains("no-store"));
+    assert!(page.ends_with("</html>\n"));
+    // Nothing comes from elsewhere.
+    assert!(!page.contains("https://") && !page.contains("src=") && !page.contains("@import"));
+    assert!(page.len() < 90_000, "{} bytes", page.len());
+}
+
+#[test]
+fn only_the_page_itself_with_the_right_word_is_answered() {
+    let viewed = viewed();
+    let (path, host) = (&*viewed.path, &*viewed.host);
+    let own = format!("Host: {host}\r\n");
+    let get = |path: &str, headers: &str| viewed.status("GET", path, headers, "");
+    assert_eq!(get(path, &own), "200");
+    let local = own.replace("127.0.0.1", "localhost");
+    assert_eq!(get(path, &local), "200");
+    // Without the word, or with another.
+    for wrong in [
+        "/",
+        "/x/",
+        "/events",
+        "/../",
+        "/00000000000000000000000000000000/",
+    ] {
+        assert_eq!(get(wrong, &own), "404", "{wrong}");
+    }
+    assert_eq!(get(&format!("{path}Cargo.toml"), &own), "404");
+    assert_eq!(get(&format!("{path}../../etc/passwd"), &own), "404");
+    // By another name that leads here, or by none.
+    assert_eq!(get(path, "Host: evil.example\r\n"), "403");
+    assert_eq!(get(path, &format!("Host: {host}.evil.example\r\n")), "403");
+    assert_eq!(get(path, ""), "403");
+    // From another page.
+    for stranger in [
+        "Origin: http://evil.example\r\n",
+        "Origin: null\r\n",
+        "Origin: http://127.0.0.1:1\r\n",
+        "Sec-Fetch-Site: cross-site\r\n",
+        "Sec-Fetch-Site: same-site\r\n",
+    ] {
+        assert_eq!(get(path, &format!("{own}{stranger}")), "403", "{stranger}");
+        let pace = format!("{path}pace");
+        let headers = format!("{own}{stranger}");
+        assert_eq!(viewed.status("POST", &pace, &headers, "pause"), "403");
+    }
+    // A request that changes something must say where it comes from.
+    assert_eq!(
+        viewed.status("POST", &format!("{path}pace"), &own, "pause"),
+        "403"
+    );
+}
+
+#[test]
+fn nothing_but_pause_and_speed_can_be_asked_for() {
+    let viewed = viewed();
+    for known in ["pause", "go", "speed 0.25", "speed 4", "speed max"] {
+        assert_eq!(viewed.ask(known), "204", "{known}");
+    }
+    for unknown in [
+        "",
+        "stop",
+        "PAUSE",
+        "speed",
+        "speed -1",
+        "speed 0",
+        "speed nan",
+        "speed 1e300",
+        "pause go",
+        "(quit)",
+        "{\"speed\": 1}",
+        "go\n(init-projection)",
+    ] {
+        assert_eq!(viewed.ask(unknown), "400", "{unknown}");
+    }
+    assert_eq!(viewed.ask(&"x".repeat(300)), "none");
+    let own = format!("Host: {0}\r\nOrigin: http://{0}\r\n", viewed.host);
+    for method in ["PUT", "DELETE", "OPTIONS", "HEAD", "EVAL"] {
+        let path = format!("{}pace", viewed.path);
+        assert_eq!(
+            viewed.status(method, &path, &own, "pause"),
+            "404",
+            "{method}"
+        );
+    }
+}
+
+#[test]
+fn garbage_is_dropped() {
+    let viewed = viewed();
+    let noise: Vec<u8> = (0..20_000u32)
+        .map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8)
+        .collect();
+    let long = format!("GET /{} HTTP/1.1\r\n\r\n", "a".repeat(20_000));
+    let unended = vec![b'a'; 100_000];
+    let pieces: [&[u8]; 7] = [
+        b"\r\n\r\n",
+        b"GET\r\n\r\n",
+        b"\0\0\0\0\r\n\r\n",
+        b"GET / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n",
+        &noise,
+        long.as_bytes(),
+        &unended,
+    ];
+    for piece in pieces {
+        assert!(viewed.send(piece).is_empty());
+    }
+    // Others are answered as before.
+    assert!(!viewed.get("past?from=0&to=1").is_empty());
+    for query in [
+        "",
+        "?",
+        "?from=x",
+        "?from=-1e308&to=1e308",
+        "?from=nan&to=inf",
+        "?=&&=",
+    ] {
+        let text = String::from_utf8(viewed.get(&format!("past{query}"))).unwrap();
+        assert!(text.starts_with("[{\"t\":0.0000,"), "{text:.40}");
+        viewed.get(&format!("meshes{query}"));
+    }
+    assert!(viewed.get("meshes?from=1e300").is_empty());
+}
+
+#[test]
+fn who_says_nothing_is_left() {
+    let viewed = viewed();
+    let mut silent = viewed.connect();
+    silent.write_all(b"GET / HT").unwrap();
+    let begin = Instant::now();
+    // Neither silence nor a byte now and then keeps a connection.
+    let mut slow = viewed.connect();
+    let dropped = (0..100).any(|_| {
+        thread::sleep(Duration::from_millis(100));
+        slow.write_all(b"a").is_err()
+    });
+    assert!(dropped && begin.elapsed() < Duration::from_secs(8));
+    let mut rest = Vec::new();
+    assert!(!matches!(silent.read_to_end(&mut rest), Ok(1..)));
+}
+
+#[test]
+fn a_viewer_gets_the_scene_and_its_changes_and_the_result_is_the_same() {
+    let mut viewed = viewed();
+    assert_eq!(viewed.ask("speed max"), "204");
+    let mut stream = viewed.connect();
+    let (path, host) = (&viewed.path, &viewed.host);
+    let request = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    stream.write_all(request.as_bytes()).unwrap();
+    let reader = thread::spawn(move || {
+        let mut text = String::new();
+        stream.read_to_string(&mut text).map(|_| text)
+    });
+    thread::sleep(Duration::from_millis(300));
+    viewed.evaluate(EXERCISE);
+    assert_eq!(viewed.hash(), unseen());
+    let span = viewed.get("past?from=0&to=1000");
+    let frames: serde_json::Value = serde_json::from_slice(&span).unwrap();
+    assert!(frames.as_array().unwrap().len() > 50);
+    drop(viewed);
+    // The end of the session is told, then the connection ends.
+    let text = reader.join().unwrap().unwrap();
+    for event in ["hello", "nodes", "news", "pace", "frame", "over"] {
+        assert!(text.contains(&format!("event: {event}\ndata: ")), "{event}");
+    }
+    assert!(text.contains("\"BOTTLE-1\"") && text.contains("moving-torso"));
+}
+
+/// Sends nonsense on ever new connections until it is enough; how many.
+fn flood(host: &str, is_enough: &AtomicBool) -> u32 {
+    let mut count = 0;
+    while !is_enough.load(Ordering::Relaxed) {
+        if let Ok(mut stream) = TcpStream::connect(host) {
+            let _ = stream.write_all(b"GET /flood HTTP/1.1\r\nHost: x\r\n\r\n\0\xff garbage");
+            let _ = stream.shutdown(Shutdown::Both);
+        }
+        count += 1;
+        thread::sleep(Duration::from_micros(200));
+    }
+    count
+}
+
+#[test]
+fn stalling_and_flooding_clients_change_nothing() {
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    session.evaluate("test", EXERCISE, &mut |_| {});
+    let expected = session.simulation().world().hash();
+    let begin = Instant::now();
+    session.evaluate("test", EXERCISE, &mut |_| {});
+    let without = begin.elapsed();
+
+    let mut viewed = viewed();
+    assert_eq!(viewed.ask("speed max"), "204");
+    viewed.evaluate(EXERCISE);
+    let begin = Instant::now();
+    viewed.evaluate(EXERCISE);
+    let alone = begin.elapsed();
+
+    let mut stalled = Vec::new();
+    for _ in 0..20 {
+        let mut stream = viewed.connect();
+        let (path, host) = (&viewed.path, &viewed.host);
+        let request = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
+        stream.write_all(request.as_bytes()).unwrap();
+        // Nothing is ever read from it.
+        stalled.push(stream);
+    }
+    let done = AtomicBool::new(false);
+    let (host, session) = (&viewed.host, &mut viewed.session);
+    let (during, count) = thread::scope(|scope| {
+        let flooding = scope.spawn(|| flood(host, &done));
+        let begin = Instant::now();
+        let outcome = session.evaluate("test", EXERCISE, &mut |_| {});
+        let during = begin.elapsed();
+        done.store(true, Ordering::Relaxed);
+        assert_eq!(outcome, Outcome::Finished);
+        (during, flooding.join().unwrap())
+    });
+    let hash = viewed.hash();
+    assert_eq!(hash, expected);
+    eprintln!(
+        "without the view {without:?}, with it {alone:?}, with {} stalled viewers and {count} bad requests {during:?}",
+        stalled.len()
+    );
+    // The flood takes a processor, so the time is only looked at roughly.
+    assert!(
+        during < alone * 6 + Duration::from_secs(2),
+        "{alone:?} {during:?}"
+    );
+}
+
+#[test]
+fn a_pause_ends_when_everybody_has_left() {
+    let mut viewed = viewed();
+    let mut stream = viewed.connect();
+    let (path, host) = (&viewed.path, &viewed.host);
+    let request = format!("GET {path}events HTTP/1.1\r\nHost: {host}\r\n\r\n");
+    stream.write_all(request.as_bytes()).unwrap();
+    thread::sleep(Duration::from_millis(200));
+    assert_eq!(viewed.ask("speed max"), "204");
+    assert_eq!(viewed.ask("pause"), "204");
+    let gone = thread::spawn(move || {
+        thread::sleep(Duration::from_millis(300));
+        drop(stream);
+    });
+    let begin = Instant::now();
+    viewed.evaluate(EXERCISE);
+    assert!(begin.elapsed() > Duration::from_millis(300));
+    gone.join().unwrap();
+}
+
+#[test]
+fn an_interrupt_ends_what_is_paused() {
+    let mut viewed = viewed();
+    assert_eq!(viewed.ask("pause"), "204");
+    let interrupt = viewed.session.interrupt_handle();
+    let user = thread::spawn(move || {
+        thread::sleep(Duration::from_millis(300));
+        interrupt.store(true, Ordering::Relaxed);
+    });
+    let outcome = viewed.session.evaluate("test", EXERCISE, &mut |_| {});
+    assert_eq!(outcome, Outcome::Aborted);
+    user.join().unwrap();
+}

@@ -1,0 +1,6 @@
+//! What can be seen: pictures, live view, recordings.
+
+mod live_view;
+mod pictures;
+mod pictures_at_the_prompt;
+mod recording;

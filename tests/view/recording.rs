@@ -1,0 +1,141 @@
+//! Recordings: what is written is read back, the same session writes the same bytes, and
+//! files that are none are refused.
+
+use std::path::PathBuf;
+
+use crate::session::dialogue::{Evaluate, Outcome};
+use crate::session::{Session, SessionOptions};
+use crate::watch::live::{Chronicle, Origin};
+use crate::watch::recording::{Recording, RecordingError, read_recording};
+use crate::watch::{Happening, Kind, TaskState};
+
+const EXERCISE: &str = "(in-package :pp-tut)
+    (init-projection)
+    (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
+    (visualize-coordinates :bottle)
+    (roslisp:ros-info (test) \"Here \\\"we\\\" go\")
+    (with-simulated-robot
+      (cpl:par
+        (perform (a motion (type moving-torso) (joint-angle 0.3)))
+        (park-arms)))
+    (spawn-object '((-1.2 -0.9 0.82) (0 0 0 1)) :cup 'cup-1 '(0 1 0))";
+
+/// A file of that name that does not exist yet.
+fn file(name: &str) -> PathBuf {
+    let folder = crate::tests::scratch_folder();
+    let path = folder.join(format!("{name}.mcap"));
+    let _ = std::fs::remove_file(&path);
+    path
+}
+
+/// The bytes of a recording of the exercise, and the hash of the world after it.
+fn recorded(name: &str) -> (Vec<u8>, u64) {
+    let path = file(name);
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    session.begin_recording(&path).unwrap();
+    let outcome = session.evaluate("test", EXERCISE, &mut |_| {});
+    assert_eq!(outcome, Outcome::Finished);
+    session.end_recording().unwrap();
+    let bytes = std::fs::read(&path).unwrap();
+    (bytes, session.simulation().world().hash())
+}
+
+fn read(bytes: &[u8]) -> (Result<Recording, RecordingError>, Chronicle) {
+    let chronicle = Chronicle::new(Origin::Recording);
+    (read_recording(bytes, &chronicle), chronicle)
+}
+
+#[test]
+fn a_recording_shows_what_happened() {
+    let (bytes, hash) = recorded("shows");
+    let mut unseen = Session::new(&SessionOptions::default()).unwrap();
+    unseen.evaluate("test", EXERCISE, &mut |_| {});
+    assert_eq!(unseen.simulation().world().hash(), hash);
+
+    let (found, chronicle) = read(&bytes);
+    let found = found.unwrap();
+    assert!(found.moments > 90 && !found.is_cut_off, "{found:?}");
+    let nodes = chronicle.nodes_from(0);
+    let node = |name: &str| nodes.iter().find(|n| n.name == name).unwrap();
+    let bottle = node("BOTTLE-1");
+    assert_eq!((bottle.kind, &*bottle.type_name), (Kind::Object, "bottle"));
+    assert!(!bottle.mesh.triangles.is_empty());
+
+    let past = chronicle.past(0.0, 100.0, 10_000);
+    let last = past.last().unwrap();
+    let place = |name: &str| last.placed.iter().find(|p| p.node == node(name).id);
+    let world = unseen.simulation().world();
+    for name in ["BOTTLE-1", "CUP-1"] {
+        let real = world.object_pose(name).unwrap().translation.vector;
+        let told = place(name).unwrap().at;
+        let off = (0..3).map(|i| (real[i] - f64::from(told[i])).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-4, "{name}");
+    }
+    assert!(last.axes.is_some());
+    // The cup appeared in the end, the way of the arms was seen meanwhile.
+    assert!(past[0].placed.iter().all(|p| p.node != node("CUP-1").id));
+    assert!(
+        past.iter()
+            .any(|m| m.paths.iter().any(|p| p.what == "left"))
+    );
+
+    let news = chronicle.news();
+    let ended = news.iter().filter(|n| match &n.1 {
+        Happening::Task(news) => news.state == TaskState::Succeeded,
+        _ => false,
+    });
+    assert!(ended.count() >= 5);
+    // Who starts a task is told before it.
+    let mut told = Vec::new();
+    for task in news.iter().filter_map(|n| match &n.1 {
+        Happening::Task(task) => Some(task),
+        _ => None,
+    }) {
+        assert!(
+            task.parent.is_none_or(|parent| told.contains(&parent)),
+            "{task:?}"
+        );
+        told.push(task.id);
+    }
+    let line = Happening::Output("[(TEST) INFO] 0.000: Here \"we\" go\n".to_owned());
+    assert!(news.iter().any(|n| n.1 == line), "{news:?}");
+}
+
+#[test]
+fn the_same_session_writes_the_same_bytes() {
+    assert!(recorded("one").0 == recorded("two").0);
+}
+
+#[test]
+fn a_file_that_is_cut_off_is_shown_as_far_as_it_goes() {
+    let (bytes, _) = recorded("cut");
+    let (whole, _) = read(&bytes);
+    let (half, _) = read(&bytes[..bytes.len() * 7 / 10]);
+    let (whole, half) = (whole.unwrap(), half.unwrap());
+    assert!(half.is_cut_off && half.moments > 0 && half.moments < whole.moments);
+}
+
+#[test]
+fn what_is_no_recording_is_refused() {
+    let (bytes, _) = recorded("garbage");
+    for garbage in [&b""[..], b"hello", &bytes[1..], &bytes[..50]] {
+        assert!(read(garbage).0.is_err());
+    }
+    // Damage anywhere ends in an error or in less, never otherwise.
+    for at in (0..bytes.len()).step_by(bytes.len() / 60) {
+        let mut damaged = bytes.clone();
+        damaged[at] ^= 0x55;
+        let _ = read(&damaged);
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_told() {
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    let path = crate::tests::scratch_folder().join("none/run.mcap");
+    let error = session.begin_recording(&path).unwrap_err().to_string();
+    assert!(
+        error.contains("run.mcap") && error.contains("cannot record"),
+        "{error}"
+    );
+}

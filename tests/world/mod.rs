@@ -1,0 +1,7 @@
+//! The physical world.
+
+mod collisions;
+pub(crate) mod kitchen;
+mod motion;
+mod objects;
+mod sight;

@@ -1,0 +1,170 @@
+//! Objects in the kitchen: where they come to rest, what moves them.
+
+use crate::spatial::pose::from_xyz_rpy;
+use crate::tests::world::kitchen::{at, spawn, world};
+use crate::world::BodyName;
+use proptest::prelude::*;
+
+/// Spawns, settles, and returns the height (m) at which the object rests.
+fn rest_height(type_name: &str, x: f64, y: f64, z: f64) -> f64 {
+    let mut world = world();
+    spawn(&mut world, "THING", type_name, &at(x, y, z));
+    assert!(world.settle(10.0), "the object does not come to rest");
+    world.object_pose("THING").unwrap().translation.z
+}
+
+#[test]
+fn bottles_of_the_tutorial_stand_on_the_table() {
+    for (x, y, z) in [(-1.6, -0.9, 0.82), (-2.0, -0.9, 0.86), (-1.0, -0.75, 0.86)] {
+        let height = rest_height("bottle", x, y, z);
+        assert!((height - 0.8208).abs() < 5e-4, "{height}");
+    }
+}
+
+#[test]
+fn an_object_that_is_spawned_inside_furniture_ends_on_top_of_it() {
+    let on_island = rest_height("bottle", -1.0, 0.75, 0.86);
+    assert!((on_island - 0.9608).abs() < 2e-3, "{on_island}");
+    let on_counter = rest_height("cube", 1.44, 1.28, 0.85);
+    assert!((on_counter - 0.887).abs() < 2e-3, "{on_counter}");
+}
+
+#[test]
+fn a_sausage_comes_to_rest_on_the_counter() {
+    let height = rest_height("weisswurst", 1.5, 1.0, 1.0);
+    assert!((height - 0.8678).abs() < 2e-3, "{height}");
+}
+
+#[test]
+fn every_type_of_the_library_comes_to_rest_on_the_table() {
+    let mut world = world();
+    let types: Vec<_> = world
+        .models()
+        .objects
+        .types()
+        .map(|t| t.name.clone())
+        .collect();
+    for name in types {
+        let report = spawn(&mut world, "THING", &name, &at(-1.4, -1.05, 0.85));
+        assert!(world.settle(3.0), "{name} does not come to rest");
+        let pose = world.object_pose("THING").unwrap();
+        let moved = pose.translation.vector - report.pose.translation.vector;
+        // A sausage rolls a little, everything else stays where it lands.
+        assert!(moved.xy().norm() < 0.1, "{name} moved by {moved:?}");
+        assert!(
+            (0.71..0.85).contains(&pose.translation.z),
+            "{name} is at {pose:?}"
+        );
+        world.remove("THING").unwrap();
+    }
+}
+
+#[test]
+fn an_object_of_a_known_name_is_moved_and_keeps_its_type() {
+    let mut world = world();
+    spawn(&mut world, "THING", "bottle", &at(-1.4, -1.05, 0.85));
+    let report = spawn(&mut world, "THING", "cube", &at(-1.0, -0.9, 0.85));
+    assert!(!report.is_new);
+    assert_eq!(world.object("THING").unwrap().type_name(), "bottle");
+    assert_eq!(world.objects().len(), 1);
+}
+
+#[test]
+fn what_is_spawned_into_an_object_ends_on_top_of_it() {
+    let mut world = world();
+    spawn(&mut world, "BELOW", "cube", &at(-1.4, -1.05, 0.755));
+    world.settle(2.0);
+    let report = spawn(&mut world, "ABOVE", "cube", &at(-1.4, -1.05, 0.77));
+    assert_eq!(
+        report.blocked_by,
+        Some(BodyName::Object("BELOW".to_owned()))
+    );
+    assert_eq!(report.support, report.blocked_by);
+    assert!(world.settle(2.0));
+    let height = world.object_pose("ABOVE").unwrap().translation.z;
+    assert!((height - 0.825).abs() < 1e-3, "{height}");
+}
+
+#[test]
+fn what_is_spawned_into_a_wall_ends_beside_it() {
+    let mut world = world();
+    let report = spawn(&mut world, "THING", "bottle", &at(-2.5, 2.98, 0.11));
+    assert_eq!(report.blocked_by.unwrap().to_string(), "kitchen_wall_3");
+    assert!(
+        report.shifted > 0.0 && report.shifted < 0.1,
+        "{}",
+        report.shifted
+    );
+    assert!((report.lifted + 0.0092).abs() < 1e-3, "{}", report.lifted);
+}
+
+#[test]
+fn what_rested_on_a_removed_object_falls() {
+    let mut world = world();
+    spawn(&mut world, "BELOW", "cube", &at(-1.4, -1.05, 0.755));
+    spawn(&mut world, "ABOVE", "cube", &at(-1.4, -1.05, 0.825));
+    world.settle(2.0);
+    for _ in 0..480 {
+        world.step();
+    }
+    world.remove("BELOW").unwrap();
+    world.settle(2.0);
+    let height = world.object_pose("ABOVE").unwrap().translation.z;
+    assert!((height - 0.755).abs() < 1e-3, "{height}");
+}
+
+#[test]
+fn mistakes_say_what_is_there_instead() {
+    let mut world = world();
+    spawn(&mut world, "BOTTLE-1", "bottle", &at(-1.4, -1.05, 0.85));
+    let unknown = world
+        .spawn("X", "botle", &at(0.0, 1.0, 1.0), None, None)
+        .unwrap_err();
+    assert_eq!(
+        unknown.to_string(),
+        "there is no object type botle; did you mean bottle?"
+    );
+    let unknown = world.object_pose("BOTTLE-2").unwrap_err();
+    assert_eq!(
+        unknown.to_string(),
+        "there is no object named BOTTLE-2; did you mean BOTTLE-1?"
+    );
+    let nowhere = at(f64::NAN, 0.0, 0.0);
+    assert!(world.move_object("BOTTLE-1", &nowhere).is_err());
+    assert!(
+        world
+            .spawn("Y", "cup", &at(0.0, 1.0, 1.0), None, Some(0.0))
+            .is_err()
+    );
+    assert_eq!(world.objects().len(), 1);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Wherever an object appears, nothing throws it.
+    #[test]
+    fn spawning_anywhere_is_harmless(
+        x in -3.9f64..1.9,
+        y in -1.9f64..3.1,
+        z in -0.1f64..1.5,
+        yaw in -3.0f64..3.0,
+        tilt in -1.0f64..1.0,
+        kind in 0usize..4,
+    ) {
+        let mut world = world();
+        let pose = from_xyz_rpy([x, y, z], [tilt, 0.0, yaw]);
+        let name = ["bottle", "cup", "plate", "breakfast-cereal"][kind];
+        let report = spawn(&mut world, "THING", name, &pose);
+        let mut before = report.pose.translation.z;
+        for _ in 0..480 {
+            world.step();
+            let now = world.object_pose("THING").unwrap().translation.z;
+            let speed = (now - before) * 240.0;
+            // Things that topple rise a little; things that are thrown rise fast.
+            prop_assert!(speed < 1.5, "{name} flies up at {speed} m/s from {report:?}");
+            before = now;
+        }
+        prop_assert!(before > -0.01, "{name} fell through the floor");
+    }
+}
