@@ -19,7 +19,6 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::front::manual;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -98,13 +97,9 @@ impl Session {
             .collect()
     }
 
-    /// The reference manual in Markdown.
-    pub(crate) fn reference(&self) -> String {
-        manual::markdown(&manual::Sources {
-            image: &self.image,
-            objects: self.simulation.object_types(),
-            grasps: self.simulation.grasp_library(),
-        })
+    /// What the language knows.
+    pub(crate) fn image(&self) -> &Image {
+        &self.image
     }
 
     /// The robot in its world.

@@ -1,5 +1,6 @@
 //! `docs/reference.md` is what `planwright reference` prints.
 
+use crate::front::manual;
 use crate::session::{Session, SessionOptions};
 
 #[test]
@@ -7,7 +8,7 @@ fn the_reference_is_current() {
     let session = Session::new(&SessionOptions::default()).unwrap();
     let kept = std::fs::read_to_string("docs/reference.md").unwrap();
     assert!(
-        kept == session.reference(),
+        kept == manual::markdown(&session),
         "docs/reference.md is out of date; run: cargo run -- reference > docs/reference.md"
     );
 }

@@ -3,12 +3,13 @@
 use std::io::{self, Write};
 
 use super::failure::{CommandError, Status};
+use crate::front::manual;
 use crate::session::{Session, SessionOptions};
 
 /// Prints the manual of what is built in: options do not change it.
 pub(crate) fn print() -> Result<Status, CommandError> {
     let session = Session::new(&SessionOptions::default())
         .map_err(|error| CommandError::Open(error.to_string()))?;
-    io::stdout().write_all(session.reference().as_bytes())?;
+    io::stdout().write_all(manual::markdown(&session).as_bytes())?;
     Ok(Status::Good)
 }

@@ -12,27 +12,16 @@ mod objects;
 
 use std::fmt::Write;
 
-use crate::lisp::image::Image;
-use crate::world::grasp_library::GraspLibrary;
-use crate::world::object_library::ObjectLibrary;
+use crate::session::Session;
 
 const INTRODUCTION: &str = include_str!("introduction.md");
 const DIFFERENCES: &str = include_str!("differences.md");
 
-/// What the manual is made from.
-pub(crate) struct Sources<'a> {
-    /// The language, all layers installed.
-    pub(crate) image: &'a Image,
-    /// The types of objects.
-    pub(crate) objects: &'a ObjectLibrary,
-    /// How they are grasped.
-    pub(crate) grasps: &'a GraspLibrary,
-}
-
-/// The whole manual.
-pub(crate) fn markdown(sources: &Sources<'_>) -> String {
+/// The whole manual of what a session knows.
+pub(crate) fn markdown(session: &Session) -> String {
     let mut to = String::new();
-    let packages = entries::packages(sources.image);
+    let (image, simulation) = (session.image(), session.simulation());
+    let packages = entries::packages(image);
     to.push_str(INTRODUCTION);
     to.push('\n');
     for package in &packages {
@@ -55,8 +44,12 @@ pub(crate) fn markdown(sources: &Sources<'_>) -> String {
         package.write(&mut to);
     }
     designators::write(&mut to);
-    failures::write(&mut to, sources.image);
-    objects::write(&mut to, sources.objects, sources.grasps);
+    failures::write(&mut to, image);
+    objects::write(
+        &mut to,
+        simulation.object_types(),
+        simulation.grasp_library(),
+    );
     to
 }
 

@@ -196,12 +196,12 @@ impl Simulation {
     }
 
     /// The types of objects that can be spawned.
-    pub(super) fn object_types(&self) -> &ObjectLibrary {
+    pub(crate) fn object_types(&self) -> &ObjectLibrary {
         &self.models.objects
     }
 
     /// How objects are grasped.
-    pub(super) fn grasp_library(&self) -> &GraspLibrary {
+    pub(crate) fn grasp_library(&self) -> &GraspLibrary {
         &self.grasps
     }
 
