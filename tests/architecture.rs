@@ -385,14 +385,19 @@ fn rooms_use_each_other_as_the_architecture_says() {
 }
 
 #[test]
-fn nothing_is_used_in_a_circle() {
+fn no_folders_use_each_other_in_a_circle() {
     let sources = Sources::read();
     let folders: BTreeSet<&[String]> = (sources.names.keys())
         .map(|module| &module[..module.len().saturating_sub(1)])
         .collect();
     let mut wrong = Vec::new();
-    for folder in folders {
-        let uses = sources.uses_between_children(folder);
+    for folder in &folders {
+        let mut uses = sources.uses_between_children(folder);
+        let is_folder = |child: &String| {
+            let path = [*folder, std::slice::from_ref(child)].concat();
+            folders.contains(path.as_slice())
+        };
+        uses.retain(|(from, to), _| is_folder(from) && is_folder(to));
         if let Some(circle) = circle(&uses) {
             let steps = circle.iter().zip(circle.iter().cycle().skip(1));
             let shown: Vec<&str> = steps
