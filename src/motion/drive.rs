@@ -7,15 +7,16 @@
 //! become blocked it then looks for another one.
 
 use super::base_path::BasePlace;
-use super::drive_plan::{at_place, is_way_free, plan_drive};
+use super::drive_plan::{at_place, is_trajectory_free, plan_drive};
 use super::failure::MotionFailure;
-use super::follower::Follower;
 use super::guard;
 use super::job::{
-    Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress, WayAxes, check_finite,
+    Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress,
+    TrajectoryAxes, check_finite,
 };
-use super::patience::{Attempt, Retry};
+use super::replanning::{Attempt, Replanning};
 use super::trajectory::{AxisGroup, Corners, Trajectory};
+use super::trajectory_follower::TrajectoryFollower;
 use crate::robot::JointId;
 use crate::spatial::{Pose, pose};
 use crate::world::physics::STEP_SECONDS;
@@ -34,8 +35,8 @@ const STEADY: f64 = 0.05;
 /// How long (s) the robot may be still without a path before the drive fails: when there has
 /// been none yet, and when there has been one that became blocked. The arms wait shorter, so
 /// that they get out of the way.
-const FIRST_PATIENCE: f64 = 0.1;
-const LATER_PATIENCE: f64 = 1.0;
+const FIRST_TIMEOUT: f64 = 0.1;
+const LATER_TIMEOUT: f64 = 1.0;
 /// How often a path is found, and then blocked, before giving up.
 const MOST_PLANS: u32 = 8;
 
@@ -43,7 +44,7 @@ const MOST_PLANS: u32 = 8;
 #[derive(Clone, Debug)]
 pub(crate) struct Drive {
     goal: BasePlace,
-    way: Option<Follower>,
+    follower: Option<TrajectoryFollower>,
     /// Torso and arms in the last tick, and for how long (s) they have been so.
     posture: Vec<f64>,
     steady: f64,
@@ -56,7 +57,7 @@ pub(crate) struct Drive {
     ahead_is_sure: bool,
     /// Paths that were found.
     plans: u32,
-    retry: Retry,
+    replanning: Replanning,
     ended: bool,
 }
 
@@ -66,7 +67,7 @@ impl Drive {
         let t = goal.translation;
         Self {
             goal: [t.x, t.y, pose::yaw(goal)],
-            way: None,
+            follower: None,
             posture: Vec::new(),
             steady: 0.0,
             ticks: 0,
@@ -74,7 +75,7 @@ impl Drive {
             yields: 0,
             ahead_is_sure: false,
             plans: 0,
-            retry: Retry::default(),
+            replanning: Replanning::default(),
             ended: false,
         }
     }
@@ -94,7 +95,7 @@ impl Drive {
         self.steady >= STEADY
     }
 
-    fn plan(&self, world: &World) -> Result<Follower, MotionFailure> {
+    fn plan(&self, world: &World) -> Result<TrajectoryFollower, MotionFailure> {
         check_finite(ProcessModule::Navigation, &self.goal)?;
         let path = plan_drive(world, self.goal)?;
         let base = &world.models().description.base;
@@ -108,37 +109,37 @@ impl Drive {
         let points: Vec<Vec<f64>> = path.iter().map(|p| p.to_vec()).collect();
         let round = Trajectory::new(&points, &limits, Corners::Round);
         // Rounding leaves the path that was checked, so what comes out is checked again.
-        let free = points.len() <= 2 || is_way_free(world, &round);
-        let way = if free {
+        let free = points.len() <= 2 || is_trajectory_free(world, &round);
+        let trajectory = if free {
             round
         } else {
             Trajectory::new(&points, &limits, Corners::Stop)
         };
-        Ok(Follower::new(way))
+        Ok(TrajectoryFollower::new(trajectory))
     }
 
     /// Searches a path; what is in the way while the posture changes may be gone later.
     fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
-        let patience = if self.plans == 0 {
-            FIRST_PATIENCE
+        let timeout = if self.plans == 0 {
+            FIRST_TIMEOUT
         } else {
-            LATER_PATIENCE
+            LATER_TIMEOUT
         };
-        match self.retry.next(world, patience) {
+        match self.replanning.next(world, timeout) {
             Attempt::Later => return None,
             Attempt::GiveUp(failure) => return Some(MotionStatus::failed(failure)),
             Attempt::Now => {}
         }
         match self.plan(world) {
-            Ok(way) => {
+            Ok(follower) => {
                 self.plans += 1;
-                self.retry.reset();
+                self.replanning.reset();
                 self.ahead = None;
-                self.way = Some(way);
+                self.follower = Some(follower);
                 None
             }
             Err(failure) if failure.may_pass() => {
-                self.retry.failed(world, failure);
+                self.replanning.failed(world, failure);
                 None
             }
             Err(failure) => Some(MotionStatus::failed(failure)),
@@ -150,7 +151,9 @@ impl Drive {
         if !self.ticks.is_multiple_of(LOOK_EVERY) || (self.is_steady() && self.ahead.is_none()) {
             return;
         }
-        let Some(way) = &self.way else { return };
+        let Some(follower) = &self.follower else {
+            return;
+        };
         // Arms that wait for the base and a base that waits for the arms would creep along
         // together; so the base yields a few times only.
         let yields = !self.is_steady() && self.yields < MOST_YIELDS;
@@ -169,7 +172,11 @@ impl Drive {
         let was_free = self.ahead.is_none();
         self.ahead_is_sure = !yields;
         self.ahead = LOOK_AHEAD.iter().find_map(|seconds| {
-            checker.first_hit(&at_place(robot, &way.ahead(*seconds)), &allowed, margin)
+            checker.first_hit(
+                &at_place(robot, &follower.ahead(*seconds)),
+                &allowed,
+                margin,
+            )
         });
         if yields && was_free && self.ahead.is_some() {
             self.yields += 1;
@@ -178,8 +185,8 @@ impl Drive {
 
     fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
         self.look_ahead(world);
-        let way = self.way.as_mut()?;
-        if way.is_at_end() {
+        let follower = self.follower.as_mut()?;
+        if follower.is_at_end() {
             return Some(MotionStatus::Done(MotionOutcome::Arrived));
         }
         if let Some(stuck) = guard::stuck_object(world, |_| true) {
@@ -187,28 +194,28 @@ impl Drive {
                 Box::new(stuck),
             )));
         }
-        if way.is_stopped()
+        if follower.is_stopped()
             && self.ahead_is_sure
             && let Some(hit) = self.ahead.take()
         {
-            return self.give_up_way(hit);
+            return self.give_up_trajectory(hit);
         }
-        let next = at_place(world.robot_configuration(), &way.next());
+        let next = at_place(world.robot_configuration(), &follower.next());
         if let Some(hit) = guard::obstacle(world, &next, &AllowedPairs::none()) {
-            return self.give_up_way(hit);
+            return self.give_up_trajectory(hit);
         }
         if self.ahead.is_some() {
-            way.brake()
+            follower.brake()
         } else {
-            way.advance()
+            follower.advance()
         }
         world.set_robot_configuration(&next);
         None
     }
 
     /// Stops; another way is looked for in the next ticks.
-    fn give_up_way(&mut self, hit: CollisionHit) -> Option<MotionStatus> {
-        self.way = None;
+    fn give_up_trajectory(&mut self, hit: CollisionHit) -> Option<MotionStatus> {
+        self.follower = None;
         let (goal, hit) = (self.goal, Box::new(hit));
         (self.plans >= MOST_PLANS)
             .then(|| MotionStatus::failed(MotionFailure::DriveBlocked { goal, hit }))
@@ -237,7 +244,7 @@ impl Motion for Drive {
         self.ticks += 1;
         self.watch_posture(world);
         let mut end = None;
-        if self.way.is_none() {
+        if self.follower.is_none() {
             end = self.try_plan(world);
         }
         if end.is_none() {
@@ -256,22 +263,25 @@ impl Motion for Drive {
         self.ended = true;
     }
 
-    fn planned(&self) -> Option<PlannedWay<'_>> {
-        self.way.as_ref().map(|way| PlannedWay {
-            axes: WayAxes::Base,
-            trajectory: way.trajectory(),
+    fn planned(&self) -> Option<PlannedTrajectory<'_>> {
+        self.follower.as_ref().map(|follower| PlannedTrajectory {
+            axes: TrajectoryAxes::Base,
+            trajectory: follower.trajectory(),
         })
     }
 
     fn before_planning(&self) -> Option<Box<dyn Motion>> {
-        if self.way.is_some() || self.ended {
+        if self.follower.is_some() || self.ended {
             return None;
         }
         Some(Box::new(self.clone()))
     }
 
     fn progress(&self) -> Progress {
-        let fraction = self.way.as_ref().map_or(0.0, Follower::fraction);
+        let fraction = self
+            .follower
+            .as_ref()
+            .map_or(0.0, TrajectoryFollower::fraction);
         Progress {
             what: "driving",
             fraction,

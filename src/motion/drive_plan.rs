@@ -36,7 +36,7 @@ pub(super) fn at_place(robot: &RobotConfiguration, place: &[f64]) -> RobotConfig
 }
 
 /// Judges places of the base for the posture that the robot has now.
-pub(super) struct BaseJudge<'w> {
+pub(super) struct BaseChecker<'w> {
     checker: CollisionChecker<'w>,
     robot: RobotConfiguration,
     /// Poses of the links in the frame of the base, and in the map for the place judged last.
@@ -47,7 +47,7 @@ pub(super) struct BaseJudge<'w> {
     own: AllowedPairs,
 }
 
-impl<'w> BaseJudge<'w> {
+impl<'w> BaseChecker<'w> {
     pub(super) fn new(world: &'w World) -> Self {
         let mut checker = world.collision_checker();
         let robot = world.robot_configuration().clone();
@@ -139,13 +139,13 @@ impl<'w> BaseJudge<'w> {
 }
 
 /// Whether the robot touches nothing all along the trajectory.
-pub(super) fn is_way_free(world: &World, way: &Trajectory) -> bool {
-    let mut judge = BaseJudge::new(world);
-    let parts = (way.duration() / CHECK_EVERY).ceil().max(1.0) as u32;
+pub(super) fn is_trajectory_free(world: &World, trajectory: &Trajectory) -> bool {
+    let mut checker = BaseChecker::new(world);
+    let parts = (trajectory.duration() / CHECK_EVERY).ceil().max(1.0) as u32;
     (0..=parts).all(|i| {
-        let place = way.position(way.duration() * f64::from(i) / f64::from(parts));
+        let place = trajectory.position(trajectory.duration() * f64::from(i) / f64::from(parts));
         let place = <BasePlace>::try_from(place);
-        place.is_ok_and(|place| judge.blocked(&place, 0.0).is_none())
+        place.is_ok_and(|place| checker.blocked(&place, 0.0).is_none())
     })
 }
 
@@ -155,12 +155,12 @@ pub(crate) fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace
     let t = base.translation;
     let start = [t.x, t.y, pose::yaw(&base)];
     let area = floor_area(world, &start, &goal);
-    let mut judge = BaseJudge::new(world);
-    let reach = judge.reach();
-    let away = judge.way_out(&start);
+    let mut checker = BaseChecker::new(world);
+    let reach = checker.reach();
+    let away = checker.way_out(&start);
     let from = away.unwrap_or(start);
     let found = find_base_path(from, goal, area, reach, &mut |place, margin| {
-        judge.blocked(place, margin).map(Obstacle)
+        checker.blocked(place, margin).map(Obstacle)
     });
     let found = found.map(|path| away.map(|_| start).into_iter().chain(path).collect());
     found.map_err(|failure| match failure {
@@ -169,7 +169,7 @@ pub(crate) fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace
         }
         BasePathFailure::GoalOccupied(hit) => {
             let mut places = nearby(&goal).into_iter();
-            let nearest_free = places.find(|place| judge.blocked(place, 0.0).is_none());
+            let nearest_free = places.find(|place| checker.blocked(place, 0.0).is_none());
             MotionFailure::GoalOccupied {
                 goal,
                 hit: hit.0.into(),

@@ -3,7 +3,7 @@
 use super::failure::MotionFailure;
 use super::guard;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
-use super::joint_follow::{FollowStep, JointFollow, with_joints};
+use super::joint_follower::{FollowStep, JointFollower, with_joints};
 use super::joint_limit::violation;
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
@@ -16,7 +16,7 @@ use crate::world::{AllowedPairs, BodyName, ContactForce, World};
 const CROPPED: f64 = 1e-4;
 /// How long (s) the way may be blocked while nothing moves. Longer than the arms wait before
 /// they look for another way: often it is the own forearm that fingers would touch.
-const PATIENCE: f64 = 1.0;
+const BLOCKED_TIMEOUT: f64 = 1.0;
 /// Force (N) from which on a finger counts as pressing.
 pub(crate) const GRIP_FORCE: f64 = 2.0;
 /// How long (s) fingers may press on different things before that counts as a failure.
@@ -43,7 +43,7 @@ pub(crate) enum GripperCommand {
 pub(crate) struct MoveGripper {
     side: Side,
     command: GripperCommand,
-    follow: Option<JointFollow>,
+    follow: Option<JointFollower>,
     unequal: f64,
     ended: bool,
 }
@@ -97,14 +97,14 @@ impl MoveGripper {
             > self.goal(world)
     }
 
-    fn start(&self, world: &World) -> JointFollow {
+    fn start(&self, world: &World) -> JointFollower {
         let gripper = self.gripper(world);
         let joints = vec![gripper.joint];
         let from = vec![world.robot_configuration().joints.get(gripper.joint)];
         let to = vec![gripper.limits.clamp(self.goal(world))];
         let limits = speeds::limits_of(&world.models().description, &joints);
-        let way = Trajectory::new(&[from, to], &limits, Corners::Round);
-        JointFollow::new(joints, way, hand_may_touch_objects(world, self.side))
+        let trajectory = Trajectory::new(&[from, to], &limits, Corners::Round);
+        JointFollower::new(joints, trajectory, hand_may_touch_objects(world, self.side))
     }
 
     /// Moves the fingers to a position; closing ones stop when something is between them.
@@ -117,7 +117,7 @@ impl MoveGripper {
         self.follow = Some(follow);
         match step {
             FollowStep::Moving | FollowStep::Stuck(_) => None,
-            FollowStep::Blocked { still, .. } if still < PATIENCE => None,
+            FollowStep::Blocked { still, .. } if still < BLOCKED_TIMEOUT => None,
             FollowStep::Blocked { hit, .. } => {
                 let side = self.side;
                 Some(MotionStatus::failed(MotionFailure::FingersBlocked {
@@ -241,7 +241,7 @@ impl Motion for MoveGripper {
         };
         Progress {
             what,
-            fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction),
+            fraction: self.follow.as_ref().map_or(0.0, JointFollower::fraction),
         }
     }
 }

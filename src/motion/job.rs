@@ -147,7 +147,7 @@ pub(crate) trait Motion {
     fn progress(&self) -> Progress;
 
     /// The way that it takes, once that is planned, for those who want to see it.
-    fn planned(&self) -> Option<PlannedWay<'_>> {
+    fn planned(&self) -> Option<PlannedTrajectory<'_>> {
         None
     }
 
@@ -160,16 +160,16 @@ pub(crate) trait Motion {
 
 /// A way that was planned.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PlannedWay<'a> {
+pub(crate) struct PlannedTrajectory<'a> {
     /// What the numbers of the trajectory mean.
-    pub(crate) axes: WayAxes<'a>,
+    pub(crate) axes: TrajectoryAxes<'a>,
     /// Where the axes are when.
     pub(crate) trajectory: &'a Trajectory,
 }
 
 /// What moves along a way.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum WayAxes<'a> {
+pub(crate) enum TrajectoryAxes<'a> {
     /// The base: x, y (m) and heading (rad) in the map.
     Base,
     /// Joints (rad or m); axes of the trajectory beyond them move nothing.

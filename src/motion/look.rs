@@ -7,7 +7,7 @@ use nalgebra::Point3;
 
 use super::failure::MotionFailure;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
-use super::joint_follow::{FollowStep, JointFollow, with_joints};
+use super::joint_follower::{FollowStep, JointFollower, with_joints};
 use super::joint_limit::violation;
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
@@ -18,7 +18,7 @@ use crate::world::{AllowedPairs, World};
 /// An angle farther outside of its limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
 /// How long (s) the way may be blocked while nothing moves.
-const PATIENCE: f64 = 0.3;
+const BLOCKED_TIMEOUT: f64 = 0.3;
 
 /// A direction to look in, as seen from the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +66,7 @@ pub(crate) enum LookTarget {
 #[derive(Clone, Debug)]
 pub(crate) struct Look {
     target: LookTarget,
-    follow: Option<JointFollow>,
+    follow: Option<JointFollower>,
     violation: Option<LimitViolation>,
     ended: bool,
 }
@@ -111,7 +111,7 @@ impl Look {
         })
     }
 
-    fn start(&mut self, world: &World) -> Result<JointFollow, MotionFailure> {
+    fn start(&mut self, world: &World) -> Result<JointFollower, MotionFailure> {
         let point = self.point(world)?;
         if let Some(point) = &point {
             check_finite(ProcessModule::Neck, point.coords.as_slice())?;
@@ -139,8 +139,8 @@ impl Look {
             .map(|j| world.robot_configuration().joints.get(*j))
             .collect();
         let limits = speeds::limits_of(&world.models().description, &joints);
-        let way = Trajectory::new(&[now, goal], &limits, Corners::Round);
-        Ok(JointFollow::new(joints, way, AllowedPairs::none()))
+        let trajectory = Trajectory::new(&[now, goal], &limits, Corners::Round);
+        Ok(JointFollower::new(joints, trajectory, AllowedPairs::none()))
     }
 
     fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
@@ -153,7 +153,7 @@ impl Look {
         let follow = self.follow.as_mut()?;
         match follow.tick(world, |_| false) {
             FollowStep::Moving | FollowStep::Stuck(_) => None,
-            FollowStep::Blocked { still, .. } if still < PATIENCE => None,
+            FollowStep::Blocked { still, .. } if still < BLOCKED_TIMEOUT => None,
             FollowStep::Blocked { hit, .. } => {
                 Some(MotionStatus::failed(MotionFailure::NeckBlocked {
                     hit: hit.into(),
@@ -210,7 +210,7 @@ impl Motion for Look {
     }
 
     fn progress(&self) -> Progress {
-        let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
+        let fraction = self.follow.as_ref().map_or(0.0, JointFollower::fraction);
         Progress {
             what: "looking",
             fraction,

@@ -2,37 +2,38 @@
 //!
 //! Only this folder moves the robot. Nothing here knows of the plan language.
 
-mod arm_axes;
-pub(crate) mod arm_path;
-mod arm_way;
 pub(crate) mod base_path;
+pub(crate) mod cartesian_path;
+mod configuration_checker;
 pub(crate) mod detect;
 pub(crate) mod drive;
 pub(crate) mod drive_plan;
 pub(crate) mod expected_contacts;
 pub(crate) mod failure;
-mod follower;
 pub(crate) mod gripper;
 pub(crate) mod guard;
 pub(crate) mod hold;
 pub(crate) mod interruption;
 pub(crate) mod job;
-mod joint_follow;
+mod joint_follower;
 mod joint_limit;
-mod judge;
+pub(crate) mod joint_path;
+mod joint_trajectory;
 pub(crate) mod look;
 pub(crate) mod move_joints;
 pub(crate) mod move_tcp;
 pub(crate) mod move_torso;
-mod patience;
+mod planning_group;
+mod pose_goal;
 pub(crate) mod put;
 mod put_plan;
 pub(crate) mod reach;
+mod replanning;
 pub(crate) mod speeds;
-pub(crate) mod tcp_line;
-mod tcp_plan;
+mod standstill;
 mod touching;
 pub(crate) mod trajectory;
+mod trajectory_follower;
 pub(crate) mod unreachable;
 
 pub(crate) use detect::{Detect, DetectQuery};
@@ -42,12 +43,12 @@ pub(crate) use failure::MotionFailure;
 pub(crate) use gripper::{GripperCommand, MoveGripper};
 pub(crate) use hold::{LetGo, held_objects, take_hold};
 pub(crate) use job::{
-    DetectedObject, Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress,
-    WayAxes,
+    DetectedObject, Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule,
+    Progress, TrajectoryAxes,
 };
 pub(crate) use look::{Look, LookDirection, LookTarget, pan_and_tilt};
 pub(crate) use move_joints::MoveJoints;
-pub(crate) use move_tcp::{MoveTcp, TcpGoal, TcpPath};
+pub(crate) use move_tcp::{MoveTcp, PoseGoal, TcpPath};
 pub(crate) use move_torso::MoveTorso;
 pub(crate) use put::Put;
 pub(crate) use reach::{can_reach, can_stand, touching_at};

@@ -1,23 +1,23 @@
 //! Moving one or both arms to given joint positions, around what is in the way.
 
-use super::arm_axes::ArmAxes;
-use super::arm_path::ArmPathEffort;
-use super::arm_way::plan_way;
+use super::configuration_checker::ConfigurationChecker;
 use super::expected_contacts::ExpectedContacts;
 use super::failure::MotionFailure;
 use super::job::{
-    Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress, check_finite,
+    Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress, check_finite,
 };
-use super::joint_follow::{FollowStep, JointFollow, with_joints};
+use super::joint_follower::{FollowStep, JointFollower, with_joints};
 use super::joint_limit::violation;
-use super::judge::Judge;
-use super::patience::{Attempt, Retry};
+use super::joint_path::JointPathEffort;
+use super::joint_trajectory::plan_joint_trajectory;
+use super::planning_group::PlanningGroup;
+use super::replanning::{Attempt, Replanning};
 use crate::robot::{ARM_JOINTS, Side};
 use crate::spatial::trig;
 use crate::world::{AllowedPairs, World};
 
 /// How long (s) a plan or the way may be blocked while nothing moves.
-const PATIENCE: f64 = 0.3;
+const BLOCKED_TIMEOUT: f64 = 0.3;
 /// How often a path is searched before giving up.
 const MOST_PLANS: u32 = 4;
 
@@ -25,8 +25,8 @@ const MOST_PLANS: u32 = 4;
 #[derive(Clone, Debug)]
 pub(crate) struct MoveJoints {
     goals: [Option<Vec<f64>>; 2],
-    follow: Option<JointFollow>,
-    retry: Retry,
+    follow: Option<JointFollower>,
+    replanning: Replanning,
     plans: u32,
     ended: bool,
 }
@@ -38,7 +38,7 @@ impl MoveJoints {
         Self {
             goals: [left, right],
             follow: None,
-            retry: Retry::default(),
+            replanning: Replanning::default(),
             plans: 0,
             ended: false,
         }
@@ -52,7 +52,7 @@ impl MoveJoints {
     }
 
     /// The goals one after the other, within hard limits.
-    fn goal(&self, world: &World, axes: &ArmAxes) -> Result<Vec<f64>, MotionFailure> {
+    fn goal(&self, world: &World, group: &PlanningGroup) -> Result<Vec<f64>, MotionFailure> {
         let mut goal = Vec::new();
         for (side, given) in Side::BOTH.into_iter().zip(&self.goals) {
             let Some(given) = given else { continue };
@@ -68,7 +68,7 @@ impl MoveJoints {
         }
         check_finite(ProcessModule::Arms, &goal)?;
         let tree = &world.models().robot;
-        let joints = axes.joints.iter().zip(axes.now(world));
+        let joints = group.joints.iter().zip(group.now(world));
         for ((&id, now), wanted) in joints.zip(&mut goal) {
             let joint = tree.joint(id);
             match joint.limits {
@@ -83,20 +83,26 @@ impl MoveJoints {
         Ok(goal)
     }
 
-    fn plan(&self, world: &World) -> Result<JointFollow, MotionFailure> {
-        let axes = ArmAxes::new(world, false, &self.sides());
-        let goal = self.goal(world, &axes)?;
+    fn plan(&self, world: &World) -> Result<JointFollower, MotionFailure> {
+        let group = PlanningGroup::new(world, false, &self.sides());
+        let goal = self.goal(world, &group)?;
         let none = AllowedPairs::none();
         let contacts = ExpectedContacts::default();
-        let mut judge = Judge::new(world, axes.joints.clone(), &contacts);
-        judge.accept_goal(&goal);
-        let way = plan_way(world, &axes, &goal, &mut judge, ArmPathEffort::default())?;
-        Ok(JointFollow::new(axes.joints, way, none))
+        let mut checker = ConfigurationChecker::new(world, group.joints.clone(), &contacts);
+        checker.accept_goal(&goal);
+        let trajectory = plan_joint_trajectory(
+            world,
+            &group,
+            &goal,
+            &mut checker,
+            JointPathEffort::default(),
+        )?;
+        Ok(JointFollower::new(group.joints, trajectory, none))
     }
 
     /// Plans; what is in the way while the robot still moves may be gone later.
     fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
-        match self.retry.next(world, PATIENCE) {
+        match self.replanning.next(world, BLOCKED_TIMEOUT) {
             Attempt::Later => return None,
             Attempt::GiveUp(failure) => return Some(MotionStatus::failed(failure)),
             Attempt::Now => {}
@@ -105,11 +111,11 @@ impl MoveJoints {
             Ok(follow) => {
                 self.plans += 1;
                 self.follow = Some(follow);
-                self.retry.reset();
+                self.replanning.reset();
                 None
             }
             Err(failure) if failure.may_pass() => {
-                self.retry.failed(world, failure);
+                self.replanning.failed(world, failure);
                 None
             }
             Err(failure) => Some(MotionStatus::failed(failure)),
@@ -129,7 +135,7 @@ impl MoveJoints {
         ];
         match follow.tick(world, |link| hands.contains(&link)) {
             FollowStep::Moving => None,
-            FollowStep::Blocked { still, .. } if still < PATIENCE => None,
+            FollowStep::Blocked { still, .. } if still < BLOCKED_TIMEOUT => None,
             FollowStep::Blocked { hit, .. } if self.plans >= MOST_PLANS => {
                 Some(MotionStatus::failed(MotionFailure::ArmBlocked {
                     hit: hit.into(),
@@ -151,9 +157,9 @@ impl MoveJoints {
 
     /// Gives the joints the very numbers that were asked for: continuous joints were unwound.
     fn name_positions(&self, world: &mut World) {
-        let axes = ArmAxes::new(world, false, &self.sides());
+        let group = PlanningGroup::new(world, false, &self.sides());
         let goal: Vec<f64> = self.goals.iter().flatten().flatten().copied().collect();
-        let exact = with_joints(world.robot_configuration(), &axes.joints, &goal);
+        let exact = with_joints(world.robot_configuration(), &group.joints, &goal);
         world.set_robot_configuration(&exact);
     }
 }
@@ -180,8 +186,8 @@ impl Motion for MoveJoints {
         self.ended = true;
     }
 
-    fn planned(&self) -> Option<PlannedWay<'_>> {
-        self.follow.as_ref().map(JointFollow::planned)
+    fn planned(&self) -> Option<PlannedTrajectory<'_>> {
+        self.follow.as_ref().map(JointFollower::planned)
     }
 
     fn before_planning(&self) -> Option<Box<dyn Motion>> {
@@ -192,7 +198,7 @@ impl Motion for MoveJoints {
     }
 
     fn progress(&self) -> Progress {
-        let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
+        let fraction = self.follow.as_ref().map_or(0.0, JointFollower::fraction);
         Progress {
             what: "moving the arms",
             fraction,

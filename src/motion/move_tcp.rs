@@ -1,22 +1,22 @@
 //! Bringing one or both hands to poses.
 
+use super::cartesian_path::tcp_in_base;
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::failure::MotionFailure;
 use super::job::{
-    Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress, check_finite,
+    Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress, check_finite,
     numbers_of,
 };
-use super::joint_follow::{FollowStep, JointFollow};
-use super::patience::{Attempt, Retry};
-use super::tcp_line::tcp_in_base;
-use super::tcp_plan::TcpTask;
+use super::joint_follower::{FollowStep, JointFollower};
+use super::pose_goal::PoseGoalTask;
+use super::replanning::{Attempt, Replanning};
 use crate::robot::Side;
 use crate::spatial::Pose;
 use crate::spatial::pose::{angle_between, distance_between};
 use crate::world::{AllowedPairs, World};
 
 /// How long (s) a plan or the way may be blocked while nothing moves.
-const PATIENCE: f64 = 0.3;
+const BLOCKED_TIMEOUT: f64 = 0.3;
 /// A hand that ends farther from its goal than this (m, rad) has missed it.
 const MISSED: (f64, f64) = (0.001, 0.01);
 /// How often a path is searched before giving up.
@@ -24,7 +24,7 @@ const MOST_PLANS: u32 = 4;
 
 /// A pose of a tool centre point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum TcpGoal {
+pub(crate) enum PoseGoal {
     /// In the frame of the robot's base when the motion starts.
     InBase(Pose),
     /// In the map frame.
@@ -43,11 +43,11 @@ pub(crate) enum TcpPath {
 /// Moves one or both hands to poses, with the torso's help where that is needed.
 #[derive(Clone, Debug)]
 pub(crate) struct MoveTcp {
-    goals: [Option<TcpGoal>; 2],
+    goals: [Option<PoseGoal>; 2],
     path: TcpPath,
     mode: CollisionMode,
-    follow: Option<JointFollow>,
-    retry: Retry,
+    follow: Option<JointFollower>,
+    replanning: Replanning,
     plans: u32,
     ended: bool,
 }
@@ -55,8 +55,8 @@ pub(crate) struct MoveTcp {
 impl MoveTcp {
     /// Goals of the left and of the right hand; a hand without one stays with its arm.
     pub(crate) fn new(
-        left: Option<TcpGoal>,
-        right: Option<TcpGoal>,
+        left: Option<PoseGoal>,
+        right: Option<PoseGoal>,
         path: TcpPath,
         mode: CollisionMode,
     ) -> Self {
@@ -65,13 +65,13 @@ impl MoveTcp {
             path,
             mode,
             follow: None,
-            retry: Retry::default(),
+            replanning: Replanning::default(),
             plans: 0,
             ended: false,
         }
     }
 
-    fn plan(&self, world: &World) -> Result<JointFollow, MotionFailure> {
+    fn plan(&self, world: &World) -> Result<JointFollower, MotionFailure> {
         let base = world.robot_configuration().base;
         let goals = Side::BOTH.into_iter().zip(self.goals);
         let goals: Vec<(Side, Pose)> = goals
@@ -82,7 +82,7 @@ impl MoveTcp {
         }
         let sides = goals.iter().map(|(side, _)| *side);
         let contacts = ExpectedContacts::of(world, sides, self.mode);
-        let mut task = TcpTask {
+        let mut task = PoseGoalTask {
             world,
             goals,
             contacts,
@@ -100,7 +100,7 @@ impl MoveTcp {
                     touching: task.contacts.touching.clone(),
                 };
                 if self.plans == 0
-                    && let Some(first) = task.plan_start_of_line(&careful)
+                    && let Some(first) = task.plan_to_start_of_line(&careful)
                 {
                     return Ok(first);
                 }
@@ -112,7 +112,7 @@ impl MoveTcp {
 
     /// Plans; what is in the way while the robot still moves may be gone later.
     fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
-        match self.retry.next(world, PATIENCE) {
+        match self.replanning.next(world, BLOCKED_TIMEOUT) {
             Attempt::Later => return None,
             Attempt::GiveUp(failure) => return Some(MotionStatus::failed(failure)),
             Attempt::Now => {}
@@ -121,11 +121,11 @@ impl MoveTcp {
             Ok(follow) => {
                 self.plans += 1;
                 self.follow = Some(follow);
-                self.retry.reset();
+                self.replanning.reset();
                 None
             }
             Err(failure) if failure.may_pass() => {
-                self.retry.failed(world, failure);
+                self.replanning.failed(world, failure);
                 None
             }
             Err(failure) => Some(MotionStatus::failed(failure)),
@@ -168,7 +168,7 @@ impl MoveTcp {
         ];
         match follow.tick(world, |link| hands.contains(&link)) {
             FollowStep::Moving => None,
-            FollowStep::Blocked { still, .. } if still < PATIENCE => None,
+            FollowStep::Blocked { still, .. } if still < BLOCKED_TIMEOUT => None,
             FollowStep::Blocked { hit, .. } if self.plans >= MOST_PLANS => {
                 Some(MotionStatus::failed(MotionFailure::ArmBlocked {
                     hit: hit.into(),
@@ -187,10 +187,10 @@ impl MoveTcp {
 }
 
 /// The goal in the frame of the base.
-pub(super) fn in_base(goal: TcpGoal, base: &Pose) -> Pose {
+pub(super) fn in_base(goal: PoseGoal, base: &Pose) -> Pose {
     match goal {
-        TcpGoal::InBase(pose) => pose,
-        TcpGoal::InMap(pose) => base.inverse() * pose,
+        PoseGoal::InBase(pose) => pose,
+        PoseGoal::InMap(pose) => base.inverse() * pose,
     }
 }
 
@@ -216,8 +216,8 @@ impl Motion for MoveTcp {
         self.ended = true;
     }
 
-    fn planned(&self) -> Option<PlannedWay<'_>> {
-        self.follow.as_ref().map(JointFollow::planned)
+    fn planned(&self) -> Option<PlannedTrajectory<'_>> {
+        self.follow.as_ref().map(JointFollower::planned)
     }
 
     fn before_planning(&self) -> Option<Box<dyn Motion>> {
@@ -234,7 +234,7 @@ impl Motion for MoveTcp {
         };
         Progress {
             what,
-            fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction),
+            fraction: self.follow.as_ref().map_or(0.0, JointFollower::fraction),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::failure::MotionFailure;
 use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
-use super::joint_follow::{FollowStep, JointFollow};
+use super::joint_follower::{FollowStep, JointFollower};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
 use crate::robot::Limits;
@@ -12,14 +12,14 @@ use crate::world::{AllowedPairs, World};
 const CROPPED: f64 = 1e-4;
 /// How long (s) the way may be blocked while nothing moves: longer than the arms wait before
 /// they look for another way.
-const PATIENCE: f64 = 1.0;
+const BLOCKED_TIMEOUT: f64 = 1.0;
 
 /// Moves the torso to a height. A goal beyond the joint's limits is first cropped and
 /// reached as far as possible, then reported.
 #[derive(Clone, Debug)]
 pub(crate) struct MoveTorso {
     goal: f64,
-    follow: Option<JointFollow>,
+    follow: Option<JointFollower>,
     ended: bool,
 }
 
@@ -37,7 +37,7 @@ impl MoveTorso {
         world.models().description.torso.limits
     }
 
-    fn start(&self, world: &World) -> JointFollow {
+    fn start(&self, world: &World) -> JointFollower {
         let joints = vec![world.models().description.torso.joint];
         let now = world
             .robot_configuration()
@@ -45,8 +45,8 @@ impl MoveTorso {
             .get(world.models().description.torso.joint);
         let points = [vec![now], vec![Self::limits(world).clamp(self.goal)]];
         let limits = speeds::limits_of(&world.models().description, &joints);
-        let way = Trajectory::new(&points, &limits, Corners::Round);
-        JointFollow::new(joints, way, AllowedPairs::none())
+        let trajectory = Trajectory::new(&points, &limits, Corners::Round);
+        JointFollower::new(joints, trajectory, AllowedPairs::none())
     }
 
     fn arrived(&self, world: &World) -> MotionStatus {
@@ -80,7 +80,9 @@ impl Motion for MoveTorso {
         self.follow = Some(follow);
         let end = match step {
             FollowStep::Moving => return MotionStatus::Running,
-            FollowStep::Blocked { still, .. } if still < PATIENCE => return MotionStatus::Running,
+            FollowStep::Blocked { still, .. } if still < BLOCKED_TIMEOUT => {
+                return MotionStatus::Running;
+            }
             FollowStep::Blocked { hit, .. } => MotionStatus::failed(MotionFailure::TorsoBlocked {
                 goal: self.goal,
                 height: world
@@ -103,7 +105,7 @@ impl Motion for MoveTorso {
     }
 
     fn progress(&self) -> Progress {
-        let fraction = self.follow.as_ref().map_or(0.0, JointFollow::fraction);
+        let fraction = self.follow.as_ref().map_or(0.0, JointFollower::fraction);
         Progress {
             what: "moving the torso",
             fraction,

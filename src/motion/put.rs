@@ -4,18 +4,18 @@
 //! object: earlier than the goal when the surface is higher, below the goal when it is lower.
 //! Without any surface within reach below the goal it ends in the goal.
 
+use super::cartesian_path::tcp_in_base;
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::failure::MotionFailure;
 use super::hold::held_objects;
 use super::job::{
-    Motion, MotionOutcome, MotionStatus, PlannedWay, ProcessModule, Progress, check_finite,
+    Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress, check_finite,
     numbers_of,
 };
-use super::joint_follow::{FollowStep, JointFollow};
-use super::move_tcp::{TcpGoal, in_base};
+use super::joint_follower::{FollowStep, JointFollower};
+use super::move_tcp::{PoseGoal, in_base};
+use super::pose_goal::PoseGoalTask;
 use super::put_plan::PutPlan;
-use super::tcp_line::tcp_in_base;
-use super::tcp_plan::TcpTask;
 use crate::robot::Side;
 use crate::world::{BodyName, World};
 
@@ -24,21 +24,21 @@ const DEPTH: f64 = 0.10;
 /// Force (N) from which on something carries the object.
 const CARRIED: f64 = 0.5;
 /// How long (s) the way may be blocked while nothing moves.
-const PATIENCE: f64 = 0.3;
+const BLOCKED_TIMEOUT: f64 = 0.3;
 
 /// Puts down what a hand holds.
 #[derive(Clone, Debug)]
 pub(crate) struct Put {
     side: Side,
-    goal: TcpGoal,
+    goal: PoseGoal,
     object: String,
-    follow: Option<JointFollow>,
+    follow: Option<JointFollower>,
     ended: bool,
 }
 
 impl Put {
     /// With the tool centre point going to the goal.
-    pub(crate) fn new(side: Side, goal: TcpGoal) -> Self {
+    pub(crate) fn new(side: Side, goal: PoseGoal) -> Self {
         Self {
             side,
             goal,
@@ -48,7 +48,7 @@ impl Put {
         }
     }
 
-    fn plan(&mut self, world: &World) -> Result<JointFollow, MotionFailure> {
+    fn plan(&mut self, world: &World) -> Result<JointFollower, MotionFailure> {
         let side = self.side;
         let held = held_objects(world, side).into_iter().next();
         self.object = held.ok_or(MotionFailure::HoldsNothing { side })?;
@@ -56,7 +56,7 @@ impl Put {
         check_finite(ProcessModule::Arms, &numbers_of(&goal))?;
         let goals = vec![(side, goal)];
         let contacts = ExpectedContacts::of(world, [side].into_iter(), CollisionMode::AllowAll);
-        let task = TcpTask {
+        let task = PoseGoalTask {
             world,
             goals,
             contacts,
@@ -68,7 +68,7 @@ impl Put {
             object,
             depth: DEPTH,
         }
-        .way()
+        .plan()
     }
 
     /// What carries the object, if anything does.
@@ -103,7 +103,7 @@ impl Put {
         let palm = world.models().description.arm(self.side).gripper.palm;
         match follow.tick(world, |link| link == palm) {
             FollowStep::Moving => None,
-            FollowStep::Blocked { still, .. } if still < PATIENCE => None,
+            FollowStep::Blocked { still, .. } if still < BLOCKED_TIMEOUT => None,
             FollowStep::Blocked { hit, .. } => {
                 Some(MotionStatus::failed(MotionFailure::ArmBlocked {
                     hit: hit.into(),
@@ -139,14 +139,14 @@ impl Motion for Put {
         self.ended = true;
     }
 
-    fn planned(&self) -> Option<PlannedWay<'_>> {
-        self.follow.as_ref().map(JointFollow::planned)
+    fn planned(&self) -> Option<PlannedTrajectory<'_>> {
+        self.follow.as_ref().map(JointFollower::planned)
     }
 
     fn progress(&self) -> Progress {
         Progress {
             what: "putting down",
-            fraction: self.follow.as_ref().map_or(0.0, JointFollow::fraction),
+            fraction: self.follow.as_ref().map_or(0.0, JointFollower::fraction),
         }
     }
 }

@@ -1,26 +1,26 @@
 //! Planning how to put a held object down: where it meets something, and a way there.
 
-use super::arm_axes::ArmAxes;
-use super::joint_follow::{JointFollow, with_joints};
-use super::judge::Judge;
+use super::cartesian_path::{CartesianEnd, CartesianLine, CartesianPath, CartesianTask};
+use super::configuration_checker::ConfigurationChecker;
+use super::joint_follower::{JointFollower, with_joints};
+use super::planning_group::PlanningGroup;
+use super::pose_goal::{PoseGoalTask, REASON_STEP};
 use super::speeds;
-use super::tcp_line::{LineEnd, LinePath, LineTask, TcpLine};
-use super::tcp_plan::{REASON_STEP, TcpTask};
 use crate::robot::Side;
 use crate::spatial::{Pose, pose};
 use crate::world::{AllowedPairs, BodyName};
 
 /// How far (m) the hand may go on below the place where the object meets something.
 const PRESS: f64 = 0.004;
-/// Steps of refinement of that place; each halves the centimetre between two postures.
+/// Steps of refinement of that place; each halves the centimetre between two configurations.
 const REFINEMENTS: u32 = 6;
-/// How many final postures at one height are tried.
-const POSTURES: usize = 6;
+/// How many final configurations at one height are tried.
+const CONFIGURATIONS: usize = 6;
 
 /// Plans the way of a hand with an object: straight to the goal of the task, which has one,
 /// and from there straight down.
 pub(super) struct PutPlan<'a> {
-    pub(super) task: TcpTask<'a>,
+    pub(super) task: PoseGoalTask<'a>,
     pub(super) side: Side,
     /// Name of the held object.
     pub(super) object: BodyName,
@@ -30,46 +30,49 @@ pub(super) struct PutPlan<'a> {
 
 impl PutPlan<'_> {
     /// The way to where the object meets something, or to the goal where it meets nothing.
-    pub(super) fn way(mut self) -> Result<JointFollow, super::failure::MotionFailure> {
+    pub(super) fn plan(mut self) -> Result<JointFollower, super::failure::MotionFailure> {
         let Some(&(side, goal)) = self.task.goals.first() else {
             return self.task.plan_free();
         };
         let contact = self.contact();
         self.task.goals = vec![(side, contact.unwrap_or(goal))];
         for height in self.task.heights(REASON_STEP) {
-            if let Some(follow) = self.way_at(height, contact.is_some()) {
+            if let Some(follow) = self.plan_at(height, contact.is_some()) {
                 return Ok(follow);
             }
         }
         self.task.plan_free()
     }
 
-    fn way_at(&self, height: f64, presses: bool) -> Option<JointFollow> {
-        let axes = self.task.axes(height);
-        let postures = self.task.postures(height, &axes);
-        if postures.is_empty() {
+    fn plan_at(&self, height: f64, presses: bool) -> Option<JointFollower> {
+        let group = self.task.group(height);
+        let configurations = self.task.configurations(height, &group);
+        if configurations.is_empty() {
             return None;
         }
-        let mut judge = Judge::new(self.task.world, axes.joints.clone(), &self.task.contacts);
-        let start = axes.now(self.task.world);
-        let ends = postures
+        let mut checker =
+            ConfigurationChecker::new(self.task.world, group.joints.clone(), &self.task.contacts);
+        let start = group.now(self.task.world);
+        let ends = configurations
             .iter()
-            .take(POSTURES)
+            .take(CONFIGURATIONS)
             .map(|p| Some(p.positions.as_slice()));
-        let mut task = self.task.line_task(height, &axes);
+        let mut task = self.task.line_task(height, &group);
         for end in std::iter::once(None).chain(ends) {
-            let (mut path, met) = task.follow(&start, end, Some(&mut judge));
-            if !matches!(met, LineEnd::Complete) {
+            let (mut path, met) = task.follow(&start, end, Some(&mut checker));
+            if !matches!(met, CartesianEnd::Complete) {
                 continue;
             }
             if presses {
                 lower(&mut task, PRESS);
-                append(&mut path, &task, Some(&mut judge));
+                append(&mut path, &task, Some(&mut checker));
             }
-            let way = self.task.line_way(&path, &axes, speeds::PUT, &mut judge);
-            return Some(JointFollow::new(
-                axes.joints,
-                way,
+            let trajectory =
+                self.task
+                    .cartesian_trajectory(&path, &group, speeds::PUT, &mut checker);
+            return Some(JointFollower::new(
+                group.joints,
+                trajectory,
                 self.task.contacts.allowed.clone(),
             ));
         }
@@ -80,38 +83,38 @@ impl PutPlan<'_> {
     /// itself would touch on the way.
     fn contact(&self) -> Option<Pose> {
         for height in self.task.heights(REASON_STEP) {
-            let axes = self.task.axes(height);
-            let start = axes.now(self.task.world);
-            let mut task = self.task.line_task(height, &axes);
+            let group = self.task.group(height);
+            let start = group.now(self.task.world);
+            let mut task = self.task.line_task(height, &group);
             let (path, met) = task.follow(&start, None, None);
-            let to_goal = self.contact_on(&task, &path, &axes, &start);
+            let to_goal = self.contact_on(&task, &path, &group, &start);
             if to_goal.is_some() {
                 return to_goal;
             }
-            if !matches!(met, LineEnd::Complete) {
+            if !matches!(met, CartesianEnd::Complete) {
                 continue;
             }
             lower(&mut task, self.depth);
             let reached = path.points.last()?.clone();
             let (down, _) = task.follow(&reached, None, None);
-            return self.contact_on(&task, &down, &axes, &reached);
+            return self.contact_on(&task, &down, &group, &reached);
         }
         None
     }
 
-    /// The first contact of the object on the path, refined between two postures.
+    /// The first contact of the object on the path, refined between two configurations.
     fn contact_on(
         &self,
-        task: &LineTask<'_>,
-        path: &LinePath,
-        axes: &ArmAxes,
+        task: &CartesianTask<'_>,
+        path: &CartesianPath,
+        group: &PlanningGroup,
         start: &[f64],
     ) -> Option<Pose> {
         let world = self.task.world;
         let mut checker = world.collision_checker();
         let none = AllowedPairs::none();
         let mut touches = |positions: &[f64]| {
-            let there = with_joints(world.robot_configuration(), &axes.joints, positions);
+            let there = with_joints(world.robot_configuration(), &group.joints, positions);
             checker
                 .all_hits(&there, &none, 0.0)
                 .iter()
@@ -125,8 +128,8 @@ impl PutPlan<'_> {
         let seed = path.points.get(met)?;
         for _ in 0..REFINEMENTS {
             let middle = (free + touching) / 2.0;
-            match task.posture(middle, seed, start) {
-                Some(posture) if touches(&posture) => touching = middle,
+            match task.configuration(middle, seed, start) {
+                Some(configuration) if touches(&configuration) => touching = middle,
                 Some(_) => free = middle,
                 None => break,
             }
@@ -137,11 +140,11 @@ impl PutPlan<'_> {
 }
 
 /// Lets the lines go on straight down from where they end.
-fn lower(task: &mut LineTask<'_>, depth: f64) {
+fn lower(task: &mut CartesianTask<'_>, depth: f64) {
     for line in &mut task.lines {
         let mut to = line.to;
         to.translation.z -= depth;
-        *line = TcpLine {
+        *line = CartesianLine {
             from: line.to,
             to,
             ..*line
@@ -150,11 +153,19 @@ fn lower(task: &mut LineTask<'_>, depth: f64) {
 }
 
 /// Follows the lines from the end of the path on, as far as possible.
-fn append(path: &mut LinePath, task: &LineTask<'_>, judge: Option<&mut Judge<'_>>) {
+fn append(
+    path: &mut CartesianPath,
+    task: &CartesianTask<'_>,
+    checker: Option<&mut ConfigurationChecker<'_>>,
+) {
     let reached = path.points.last().cloned().unwrap_or_default();
-    let so_far = path.way.last().copied().unwrap_or(0.0);
-    let (more, _) = task.follow(&reached, None, judge);
+    let so_far = path.lengths.last().copied().unwrap_or(0.0);
+    let (more, _) = task.follow(&reached, None, checker);
     path.points.extend(more.points.into_iter().skip(1));
-    path.way
-        .extend(more.way.into_iter().skip(1).map(|way| so_far + way));
+    path.lengths.extend(
+        more.lengths
+            .into_iter()
+            .skip(1)
+            .map(|length| so_far + length),
+    );
 }

@@ -5,10 +5,10 @@
 //! looked at.
 
 use super::base_path::BasePlace;
-use super::drive_plan::{BaseJudge, at_place};
+use super::configuration_checker::ConfigurationChecker;
+use super::drive_plan::{BaseChecker, at_place};
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
-use super::judge::Judge;
-use super::tcp_plan::{REASON_STEP, TcpTask};
+use super::pose_goal::{PoseGoalTask, REASON_STEP};
 use crate::robot::Side;
 use crate::spatial::Pose;
 use crate::world::{AllowedPairs, CollisionHit, World};
@@ -16,7 +16,7 @@ use crate::world::{AllowedPairs, CollisionHit, World};
 /// Whether the base could be at the place (m, m, rad) with torso and arms as they are,
 /// touching nothing.
 pub(crate) fn can_stand(world: &World, place: &BasePlace) -> bool {
-    BaseJudge::new(world).blocked(place, 0.0).is_none()
+    BaseChecker::new(world).blocked(place, 0.0).is_none()
 }
 
 /// What the robot would touch with its base at the place (m, m, rad), torso and arms as they
@@ -31,20 +31,20 @@ pub(crate) fn touching_at(world: &World, place: &BasePlace) -> Vec<CollisionHit>
 /// of the torso, while the robot touches nothing but what the mode lets it.
 pub(crate) fn can_reach(world: &World, side: Side, tool: &Pose, mode: CollisionMode) -> bool {
     let contacts = ExpectedContacts::of(world, [side].into_iter(), mode);
-    let task = TcpTask {
+    let task = PoseGoalTask {
         world,
         goals: vec![(side, *tool)],
         contacts,
     };
     task.heights(REASON_STEP).into_iter().any(|height| {
-        let axes = task.axes(height);
-        let postures = task.postures(height, &axes);
-        if postures.is_empty() {
+        let group = task.group(height);
+        let configurations = task.configurations(height, &group);
+        if configurations.is_empty() {
             return false;
         }
-        let mut judge = Judge::new(world, axes.joints.clone(), &task.contacts);
-        postures
+        let mut checker = ConfigurationChecker::new(world, group.joints.clone(), &task.contacts);
+        configurations
             .iter()
-            .any(|posture| judge.blocked(&posture.positions).is_none())
+            .any(|configuration| checker.blocked(&configuration.positions).is_none())
     })
 }

@@ -38,7 +38,7 @@ pub(crate) enum UnreachableReason {
         /// What one of them touches.
         hit: CollisionHit,
         /// How many postures were looked at.
-        postures: usize,
+        configurations: usize,
     },
 }
 
@@ -64,9 +64,12 @@ impl fmt::Display for UnreachablePose {
             UnreachableReason::Arm { nearest, torso } => {
                 write!(f, "{nearest} (with the torso at {torso:.2} m)")
             }
-            UnreachableReason::Collisions { hit, postures } => write!(
+            UnreachableReason::Collisions {
+                hit,
+                configurations,
+            } => write!(
                 f,
-                "all {postures} postures that were tried touch something, one of them {} and {}",
+                "all {configurations} postures that were tried touch something, one of them {} and {}",
                 hit.moving, hit.other
             ),
         }

@@ -7,7 +7,7 @@ impl Converse for Session {
     fn set_interactive(&mut self, is_interactive: bool) {
         self.console.is_interactive = is_interactive;
         self.scheduler.set_stops_in_place(is_interactive);
-        self.simulation.keep_moments_of_motions(is_interactive);
+        self.simulation.keep_snapshots_of_motions(is_interactive);
     }
 
     fn level(&self) -> usize {

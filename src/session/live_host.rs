@@ -7,7 +7,7 @@ use super::dialogue::Event;
 use super::simulation::Simulation;
 use crate::lisp::image::Image;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
-use crate::watch::Happening;
+use crate::watch::WatchEvent;
 
 /// A simulation, and whom to tell what is printed meanwhile.
 pub(super) struct LiveHost<'a> {
@@ -39,7 +39,7 @@ pub(super) fn flush(image: &mut Image, simulation: &mut Simulation, sink: &mut d
     simulation.tell_tasks(image);
     let text = image.output.take();
     if !text.is_empty() {
-        let told = Happening::Output(text.clone());
+        let told = WatchEvent::Output(text.clone());
         simulation.tell(&told);
         sink(Event::Output(text));
     }

@@ -25,7 +25,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::plan::{Evaluation, Scheduler};
 use crate::session::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
-use crate::watch::{Cause, Happening};
+use crate::watch::{Cause, WatchEvent};
 use live_host::LiveHost;
 use simulation::Simulation;
 
@@ -143,7 +143,7 @@ impl Session {
             Evaluation::Unhandled(condition) => {
                 let abort = self.describe(&condition);
                 self.abort(sink);
-                let report = Happening::Aborted(abort.report.clone());
+                let report = WatchEvent::Aborted(abort.report.clone());
                 self.simulation.tell(&report);
                 Ended::Aborted(Box::new(abort))
             }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use super::moment::Placed;
+use super::frame::Placed;
 use crate::picture::scene::{Finish, Scene};
 
 /// What sort of thing a node is.

@@ -1,10 +1,10 @@
 //! Arms: joint goals, hand goals of one and of both arms, putting down, and what is refused.
 
 use super::bench::Kitchen;
-use crate::motion::tcp_line::tcp_in_base;
+use crate::motion::cartesian_path::tcp_in_base;
 use crate::motion::{
-    CollisionMode, Motion, MotionFailure, MotionOutcome, MotionStatus, MoveJoints, MoveTcp, Put,
-    TcpGoal, TcpPath, UnreachableReason,
+    CollisionMode, Motion, MotionFailure, MotionOutcome, MotionStatus, MoveJoints, MoveTcp,
+    PoseGoal, Put, TcpPath, UnreachableReason,
 };
 use crate::robot::Side;
 use crate::spatial::Pose;
@@ -86,8 +86,8 @@ fn both_hands_reach_their_goals_at_the_same_time() {
     let mut kitchen = Kitchen::parked(0.0, 0.5, 0.0, 0.2);
     let goal = |y: f64| from_xyz_rpy([0.7, y, 0.9], [0.0; 3]);
     let motion = MoveTcp::new(
-        Some(TcpGoal::InBase(goal(0.25))),
-        Some(TcpGoal::InBase(goal(-0.25))),
+        Some(PoseGoal::InBase(goal(0.25))),
+        Some(PoseGoal::InBase(goal(-0.25))),
         TcpPath::Free,
         CollisionMode::AvoidAll,
     );
@@ -103,7 +103,7 @@ fn both_hands_reach_their_goals_at_the_same_time() {
 fn a_goal_in_the_map_is_reached_in_the_map() {
     let mut kitchen = Kitchen::parked(0.0, 0.5, 0.0, 0.2);
     let goal = from_xyz_rpy([0.7, 0.2, 0.9], [0.0; 3]);
-    let goals = (None, Some(TcpGoal::InMap(goal)));
+    let goals = (None, Some(PoseGoal::InMap(goal)));
     let motion = MoveTcp::new(goals.0, goals.1, TcpPath::Free, CollisionMode::AvoidAll);
     assert_eq!(kitchen.run_one(motion), ARRIVED);
     let hand = kitchen.world.robot_configuration().base * tcp_in_base(&kitchen.world, Side::Right);
@@ -113,7 +113,7 @@ fn a_goal_in_the_map_is_reached_in_the_map() {
 #[test]
 fn hands_that_need_different_heights_of_the_torso_say_which() {
     let mut kitchen = Kitchen::parked(0.0, 0.5, 0.0, 0.2);
-    let goal = |y: f64, z: f64| Some(TcpGoal::InBase(from_xyz_rpy([0.8, y, z], [0.0; 3])));
+    let goal = |y: f64, z: f64| Some(PoseGoal::InBase(from_xyz_rpy([0.8, y, z], [0.0; 3])));
     let motion = MoveTcp::new(
         goal(0.2, 1.5),
         goal(-0.2, 0.35),
@@ -194,7 +194,7 @@ fn put_at(kitchen: &mut Kitchen, z: f64) -> (MotionOutcome, f64) {
     let base = kitchen.world.robot_configuration().base;
     let target = base.inverse() * from_xyz_rpy([-1.55, -0.92, z], [0.0; 3]);
     let goal = kitchen.grasp_poses(Side::Right, "left-side", &target).grasp;
-    let end = kitchen.run_one(Put::new(Side::Right, TcpGoal::InBase(goal)));
+    let end = kitchen.run_one(Put::new(Side::Right, PoseGoal::InBase(goal)));
     let end = end.unwrap_or_else(|f| panic!("{f}"));
     (
         end,
@@ -251,7 +251,7 @@ fn a_target_high_in_the_air_is_met_there() {
 #[test]
 fn a_hand_without_an_object_cannot_put_it_down() {
     let mut kitchen = Kitchen::parked(-0.15, 2.0, 180.0, 0.3);
-    let goal = TcpGoal::InBase(from_xyz_rpy([0.6, -0.1, 1.0], [0.0; 3]));
+    let goal = PoseGoal::InBase(from_xyz_rpy([0.6, -0.1, 1.0], [0.0; 3]));
     let failure = kitchen.run_one(Put::new(Side::Right, goal)).unwrap_err();
     assert_eq!(failure, MotionFailure::HoldsNothing { side: Side::Right });
 }

@@ -3,8 +3,8 @@
 
 use crate::motion::{
     CollisionMode, Drive, GripperCommand, LetGo, Motion, MotionFailure, MotionOutcome,
-    MotionStatus, MoveGripper, MoveJoints, MoveTcp, MoveTorso, Put, TcpGoal, TcpPath, held_objects,
-    take_hold,
+    MotionStatus, MoveGripper, MoveJoints, MoveTcp, MoveTorso, PoseGoal, Put, TcpPath,
+    held_objects, take_hold,
 };
 use crate::robot::Side;
 use crate::spatial::Pose;
@@ -147,7 +147,7 @@ impl Kitchen {
         path: TcpPath,
         mode: CollisionMode,
     ) -> MoveTcp {
-        let goal = Some(TcpGoal::InBase(pose));
+        let goal = Some(PoseGoal::InBase(pose));
         let (left, right) = match side {
             Side::Left => (goal, None),
             Side::Right => (None, goal),
@@ -217,7 +217,7 @@ impl Kitchen {
         let poses = self.grasp_poses(side, grasp, target_in_base);
         let object = held_objects(&self.world, side).remove(0);
         self.run_one(self.tcp(side, poses.lift, TcpPath::Free, CollisionMode::AvoidAll))?;
-        let put = self.run_one(Put::new(side, TcpGoal::InBase(poses.grasp)))?;
+        let put = self.run_one(Put::new(side, PoseGoal::InBase(poses.grasp)))?;
         let raised = match put {
             MotionOutcome::Put { raised, .. } => Translation3::new(0.0, 0.0, raised),
             _ => Translation3::identity(),

@@ -3,7 +3,7 @@
 use super::bench::Kitchen;
 use crate::motion::{
     CollisionMode, Drive, GripperCommand, Look, LookTarget, Motion, MotionFailure, MotionStatus,
-    MoveGripper, MoveJoints, MoveTcp, MoveTorso, TcpGoal, TcpPath,
+    MoveGripper, MoveJoints, MoveTcp, MoveTorso, PoseGoal, TcpPath,
 };
 use crate::robot::Side;
 use crate::spatial::Pose;
@@ -12,7 +12,7 @@ use crate::spatial::Pose;
 fn goals_that_are_no_numbers_are_refused() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let pose = Pose::translation(bad, 0.0, 0.0);
-        let tcp = Some(TcpGoal::InBase(pose));
+        let tcp = Some(PoseGoal::InBase(pose));
         let motions: Vec<Box<dyn Motion>> = vec![
             Box::new(Drive::new(&pose)),
             Box::new(MoveTorso::new(bad)),

@@ -260,7 +260,7 @@ fn shoulders_are_blue_on_the_left_and_orange_on_the_right() {
         assert!(columns.len() > 100, "{}", columns.len());
         columns.iter().sum::<usize>() / columns.len()
     };
-    // Seen from in front the robot's left is to the right.
+    // Observation from in front the robot's left is to the right.
     let blue = mean(&|[r, _, b]| b > 90 && b / 2 > r);
     let orange = mean(&|[r, g, b]| r > 150 && r / 3 > g / 2 && b < 60);
     assert!(

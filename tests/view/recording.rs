@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use crate::session::dialogue::{Evaluate, Outcome};
 use crate::session::{Session, SessionOptions};
-use crate::watch::live::{Chronicle, Origin};
+use crate::watch::live::{History, Origin};
 use crate::watch::recording::{Recording, RecordingError, read_recording};
-use crate::watch::{Happening, Kind, TaskState};
+use crate::watch::{Kind, TaskState, WatchEvent};
 
 const EXERCISE: &str = "(in-package :pp-tut)
     (init-projection)
@@ -40,9 +40,9 @@ fn recorded(name: &str) -> (Vec<u8>, u64) {
     (bytes, session.simulation().world().hash())
 }
 
-fn read(bytes: &[u8]) -> (Result<Recording, RecordingError>, Chronicle) {
-    let chronicle = Chronicle::new(Origin::Recording);
-    (read_recording(bytes, &chronicle), chronicle)
+fn read(bytes: &[u8]) -> (Result<Recording, RecordingError>, History) {
+    let history = History::new(Origin::Recording);
+    (read_recording(bytes, &history), history)
 }
 
 #[test]
@@ -52,16 +52,16 @@ fn a_recording_shows_what_happened() {
     unseen.evaluate("test", EXERCISE, &mut |_| {});
     assert_eq!(unseen.simulation().world().hash(), hash);
 
-    let (found, chronicle) = read(&bytes);
+    let (found, history) = read(&bytes);
     let found = found.unwrap();
-    assert!(found.moments > 90 && !found.is_cut_off, "{found:?}");
-    let nodes = chronicle.nodes_from(0);
+    assert!(found.frames > 90 && !found.is_cut_off, "{found:?}");
+    let nodes = history.nodes_from(0);
     let node = |name: &str| nodes.iter().find(|n| n.name == name).unwrap();
     let bottle = node("BOTTLE-1");
     assert_eq!((bottle.kind, &*bottle.type_name), (Kind::Object, "bottle"));
     assert!(!bottle.mesh.triangles.is_empty());
 
-    let past = chronicle.past(0.0, 100.0, 10_000);
+    let past = history.past(0.0, 100.0, 10_000);
     let last = past.last().unwrap();
     let place = |name: &str| last.placed.iter().find(|p| p.node == node(name).id);
     let world = unseen.simulation().world();
@@ -79,16 +79,16 @@ fn a_recording_shows_what_happened() {
             .any(|m| m.paths.iter().any(|p| p.what == "left"))
     );
 
-    let news = chronicle.news();
+    let news = history.news();
     let ended = news.iter().filter(|n| match &n.1 {
-        Happening::Task(news) => news.state == TaskState::Succeeded,
+        WatchEvent::Task(news) => news.state == TaskState::Succeeded,
         _ => false,
     });
     assert!(ended.count() >= 5);
     // Who starts a task is told before it.
     let mut told = Vec::new();
     for task in news.iter().filter_map(|n| match &n.1 {
-        Happening::Task(task) => Some(task),
+        WatchEvent::Task(task) => Some(task),
         _ => None,
     }) {
         assert!(
@@ -97,7 +97,7 @@ fn a_recording_shows_what_happened() {
         );
         told.push(task.id);
     }
-    let line = Happening::Output("[(TEST) INFO] 0.000: Here \"we\" go\n".to_owned());
+    let line = WatchEvent::Output("[(TEST) INFO] 0.000: Here \"we\" go\n".to_owned());
     assert!(news.iter().any(|n| n.1 == line), "{news:?}");
 }
 
@@ -112,7 +112,7 @@ fn a_file_that_is_cut_off_is_shown_as_far_as_it_goes() {
     let (whole, _) = read(&bytes);
     let (half, _) = read(&bytes[..bytes.len() * 7 / 10]);
     let (whole, half) = (whole.unwrap(), half.unwrap());
-    assert!(half.is_cut_off && half.moments > 0 && half.moments < whole.moments);
+    assert!(half.is_cut_off && half.frames > 0 && half.frames < whole.frames);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::thread;
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
-use crate::watch::live::{Chronicle, Origin, Server, Views, open_in_browser};
+use crate::watch::live::{History, Origin, Server, Views, open_in_browser};
 use crate::watch::recording::{RecordingError, read_recording};
 
 /// Serves the page with the recording until somebody interrupts.
@@ -18,14 +18,14 @@ pub(crate) fn view(options: &Options, file: &Path) -> Result<Status, CommandErro
         error,
     };
     let bytes = fs::read(file).map_err(|error| failed(error.into()))?;
-    let chronicle = Chronicle::new(Origin::Recording);
-    let found = read_recording(&bytes, &chronicle).map_err(failed)?;
+    let history = History::new(Origin::Recording);
+    let found = read_recording(&bytes, &history).map_err(failed)?;
     drop(bytes);
     // The places to look from are those of the kitchen that the options name.
     let session = open_session(options)?;
     let world = session.simulation().world();
-    let views = Views::new(world, |link| chronicle.link_named(link));
-    let server = Server::start(chronicle.clone(), None, views).map_err(CommandError::Serve)?;
+    let views = Views::new(world, |link| history.link_named(link));
+    let server = Server::start(history.clone(), None, views).map_err(CommandError::Serve)?;
     let address = server.address();
     let mut out = io::stdout();
     let cut_off = if found.is_cut_off {
@@ -33,12 +33,7 @@ pub(crate) fn view(options: &Options, file: &Path) -> Result<Status, CommandErro
     } else {
         ""
     };
-    writeln!(
-        out,
-        "{}: {} moments{cut_off}",
-        file.display(),
-        found.moments
-    )?;
+    writeln!(out, "{}: {} moments{cut_off}", file.display(), found.frames)?;
     writeln!(out, "The recording is at {address}\nCtrl-C ends it.")?;
     out.flush()?;
     open_in_browser(&address);

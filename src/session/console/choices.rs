@@ -30,7 +30,7 @@ pub(super) enum Choice {
         function: Value,
         args: Vec<Value>,
         /// The world is first taken back to before the motion of this number.
-        moment: Option<u64>,
+        motion: Option<u64>,
     },
     /// Evaluate the form at top level again.
     RetryForm,
@@ -193,10 +193,10 @@ impl Session {
                 frame,
                 function,
                 args,
-                moment,
+                motion,
             } => {
-                if let Some(moment) = moment {
-                    self.simulation.go_back_to(moment);
+                if let Some(motion) = motion {
+                    self.simulation.go_back_to(motion);
                 }
                 self.replace_frame(frame, function, args, sink)
             }

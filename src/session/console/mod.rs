@@ -8,10 +8,10 @@
 mod aside;
 mod choices;
 mod commands;
-mod frames;
 mod inspector;
 mod robot_choices;
 mod settle;
+mod stack_frames;
 
 use super::dialogue::{Abort, Event, Outcome};
 use crate::lisp::reader::Reader;

@@ -2,7 +2,7 @@
 //! another place, or with the world as it was before the action.
 
 use super::choices::Choice;
-use super::frames::Told;
+use super::stack_frames::Told;
 use crate::lisp::compile;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -27,11 +27,11 @@ impl Session {
     pub(super) fn robot_choices(&mut self) -> Vec<(Choice, String)> {
         let actions = self.actions_to_retry();
         let perform: Value = packages::symbol(&mut self.image, "CRAM-EXECUTIVE", "PERFORM").into();
-        let again = |action: &Action, designator: &Value, moment| Choice::Call {
+        let again = |action: &Action, designator: &Value, motion| Choice::Call {
             frame: action.frame,
             function: perform.clone(),
             args: vec![designator.clone()],
-            moment,
+            motion,
         };
         let mut choices = Vec::new();
         for action in actions.iter().take(MOST_ACTIONS) {
@@ -62,7 +62,7 @@ impl Session {
         if !self.scheduler.has_requests() {
             for action in actions.iter().take(MOST_ACTIONS) {
                 let first = action.motions_before + 1;
-                if self.simulation.has_motion_moment(first) {
+                if self.simulation.has_motion_snapshot(first) {
                     let choice = again(action, &action.designator, Some(first));
                     let label = format!(
                         "[BEFORE] Take the world back to before {}, and retry it.",
@@ -144,7 +144,7 @@ impl Session {
             frame: picking.frame,
             function,
             args: vec![pose, designator],
-            moment: None,
+            motion: None,
         };
         Some((choice, label))
     }

@@ -3,8 +3,9 @@
 use super::{Job, Simulation};
 use crate::lisp::image::Image;
 use crate::lisp::print;
+use crate::motion::PlannedTrajectory;
 use crate::plan::{Plan, Status};
-use crate::watch::{Cause, Follower, Happening, Seen, TaskId, TaskNews, TaskState};
+use crate::watch::{Cause, Follower, Observation, TaskId, TaskNews, TaskState, WatchEvent};
 use crate::world::CollisionHit;
 
 /// Who follows.
@@ -26,9 +27,9 @@ impl Simulation {
         mut follower: Box<dyn Follower>,
     ) -> FollowerId {
         Plan::of(image).keep_journal();
-        let ways = self.ways();
-        follower.see(&self.seen(&ways), Cause::Rest);
-        drop(ways);
+        let trajectories = self.trajectories();
+        follower.see(&self.observation(&trajectories), Cause::Rest);
+        drop(trajectories);
         self.followers.last += 1;
         let id = FollowerId(self.followers.last);
         self.followers.all.push((id, follower));
@@ -46,21 +47,21 @@ impl Simulation {
             return;
         }
         let mut followers = std::mem::take(&mut self.followers.all);
-        let ways = self.ways();
-        let seen = self.seen(&ways);
+        let trajectories = self.trajectories();
+        let observation = self.observation(&trajectories);
         for (_, follower) in &mut followers {
-            follower.see(&seen, cause);
+            follower.see(&observation, cause);
         }
-        drop(ways);
+        drop(trajectories);
         followers.append(&mut self.followers.all);
         self.followers.all = followers;
     }
 
     /// Tells the followers what happened.
-    pub(in crate::session) fn tell(&mut self, happening: &Happening) {
+    pub(in crate::session) fn tell(&mut self, event: &WatchEvent) {
         let now = self.now;
         for (_, follower) in &mut self.followers.all {
-            follower.hear(now, happening);
+            follower.hear(now, event);
         }
     }
 
@@ -71,7 +72,7 @@ impl Simulation {
         }
         for change in Plan::of(image).fetch_journal() {
             let failure = change.failure.map(|f| print::report::report(image, &f));
-            let news = Happening::Task(TaskNews {
+            let news = WatchEvent::Task(TaskNews {
                 id: TaskId::Task(change.id.0),
                 parent: change.parent.map(|parent| TaskId::Task(parent.0)),
                 name: change.name,
@@ -89,7 +90,7 @@ impl Simulation {
         if self.followers.all.is_empty() {
             return;
         }
-        self.tell(&Happening::Task(TaskNews {
+        self.tell(&WatchEvent::Task(TaskNews {
             id: TaskId::Motion(job.ticket.0),
             parent: Some(TaskId::Task(job.task.0)),
             name: job.name.clone(),
@@ -106,18 +107,21 @@ impl Simulation {
         }
     }
 
-    fn ways(&self) -> Vec<(u64, crate::motion::PlannedWay<'_>)> {
+    fn trajectories(&self) -> Vec<(u64, PlannedTrajectory<'_>)> {
         let jobs = self.active.iter();
         jobs.filter_map(|job| Some((job.ticket.0, job.motion.planned()?)))
             .collect()
     }
 
-    fn seen<'a>(&'a self, ways: &'a [(u64, crate::motion::PlannedWay<'a>)]) -> Seen<'a> {
-        Seen {
+    fn observation<'a>(
+        &'a self,
+        trajectories: &'a [(u64, PlannedTrajectory<'a>)],
+    ) -> Observation<'a> {
+        Observation {
             time: self.now,
             world: &self.world,
             axes: self.axes.as_ref().map(|axes| (axes.pose, axes.size)),
-            ways,
+            trajectories,
         }
     }
 }

@@ -7,12 +7,10 @@ pub(crate) mod call;
 mod explain;
 mod film;
 mod following;
-mod frames;
 mod functions;
 mod grasp_search;
 mod held;
 mod imagined;
-mod moments;
 mod motions;
 mod names;
 mod pace;
@@ -21,8 +19,10 @@ mod pose_argument;
 mod properties;
 mod raising;
 pub(crate) mod request;
+mod snapshots;
 mod tables;
 pub(crate) mod tour;
+mod transforms;
 
 use std::cell::OnceCell;
 use std::collections::VecDeque;
@@ -85,7 +85,7 @@ pub(crate) struct Simulation {
     /// Motions under way, in order of their start.
     active: Vec<Job>,
     /// Motions that have been ticked for the step to come, when an interrupt came between.
-    round: Option<request::Round>,
+    partial_step: Option<request::PartialStep>,
     /// Motions that wait for a process module, in order.
     waiting: VecDeque<Job>,
     next_ticket: u64,
@@ -109,7 +109,7 @@ pub(crate) struct Simulation {
     watching: functions::watching::Watching,
     /// Simulated time (s) as the scheduler told it last.
     now: f64,
-    moments: moments::Moments,
+    snapshots: snapshots::Snapshots,
     /// The step of the tour that comes next, from zero.
     tour_step: usize,
     /// A value that somebody wants to take apart.
@@ -146,7 +146,7 @@ impl Simulation {
             names: IndexMap::new(),
             held: IndexMap::new(),
             active: Vec::new(),
-            round: None,
+            partial_step: None,
             waiting: VecDeque::new(),
             next_ticket: 0,
             asking: TaskId(0),
@@ -164,7 +164,7 @@ impl Simulation {
             followers: following::Followers::default(),
             watching: functions::watching::Watching::default(),
             now: 0.0,
-            moments: moments::Moments::default(),
+            snapshots: snapshots::Snapshots::default(),
             tour_step: 0,
             inspected: None,
         })

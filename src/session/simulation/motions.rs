@@ -1,8 +1,8 @@
 //! Motion designators as motions.
 
 use super::Simulation;
-use super::frames::BASE;
 use super::names::{name_text, type_text};
+use super::transforms::BASE;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -12,7 +12,7 @@ use crate::lisp::value::raise::Raise;
 use crate::motion::{
     CollisionMode, Detect, DetectQuery, DetectedObject, Drive, GripperCommand, Look, LookDirection,
     LookTarget, Motion, MotionOutcome, MotionStatus, MoveGripper, MoveJoints, MoveTcp, MoveTorso,
-    ProcessModule, Progress, Put, TcpGoal, TcpPath,
+    PoseGoal, ProcessModule, Progress, Put, TcpPath,
 };
 use crate::plan::designator::MotionRequest;
 use crate::plan::designator::failure::no_process_module;
@@ -233,11 +233,11 @@ impl Simulation {
         Ok((motion, designator.clone()))
     }
 
-    fn tcp_goal(&self, image: &mut Image, target: &Value) -> Result<TcpGoal> {
+    fn tcp_goal(&self, image: &mut Image, target: &Value) -> Result<PoseGoal> {
         let pose = Simulation::location_pose(image, target)?;
         Ok(match frame_of(&pose).as_deref() {
-            Some(BASE) => TcpGoal::InBase(self.pose_as_given(image, &pose)?),
-            _ => TcpGoal::InMap(self.pose_in_map(image, &pose)?),
+            Some(BASE) => PoseGoal::InBase(self.pose_as_given(image, &pose)?),
+            _ => PoseGoal::InMap(self.pose_in_map(image, &pose)?),
         })
     }
 
@@ -278,7 +278,7 @@ impl Simulation {
         }
         if let Some(frame) = get(image, "FRAME") {
             let name = frame.as_text().unwrap_or_default();
-            self.frame_pose(image, &name)?;
+            self.frame_in_map(image, &name)?;
             return Ok((Box::new(Look::new(LookTarget::Frame(name))), frame));
         }
         if let Some(object) = get(image, "OBJECT") {

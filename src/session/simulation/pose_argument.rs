@@ -19,7 +19,7 @@ impl Simulation {
         };
         let local = placement.to_pose();
         match frame_of(pose) {
-            Some(frame) => Ok(self.frame_pose(image, &frame)? * local),
+            Some(frame) => Ok(self.frame_in_map(image, &frame)? * local),
             None => Ok(local),
         }
     }

@@ -16,7 +16,7 @@ use crate::world::physics::STEP_SECONDS;
 
 /// A step of the world to come: what motions have done for it so far.
 #[derive(Default)]
-pub(super) struct Round {
+pub(super) struct PartialStep {
     /// Motions that have set their joints.
     ticked: Vec<Ticket>,
     /// What has ended by that.
@@ -81,7 +81,7 @@ impl Host for Simulation {
             self.tell_motion(&job, TaskState::Evaporated, "");
         }
         if self.active.is_empty() {
-            self.round = None;
+            self.partial_step = None;
         }
     }
 
@@ -110,7 +110,7 @@ impl Simulation {
             && until.is_none_or(|until| self.now < until)
             && !self.is_interrupted(image)
         {
-            if self.round.is_none() {
+            if self.partial_step.is_none() {
                 self.admit_waiting();
             }
             if !self.tick(image, &mut done) {
@@ -205,18 +205,18 @@ impl Simulation {
     /// Lets the motions set the robot's joints for the next step. When an interrupt comes
     /// before one of them plans, or while it does, the rest is left for later: false.
     fn tick(&mut self, image: &mut Image, completions: &mut Vec<Completion>) -> bool {
-        let mut round = self.round.take().unwrap_or_default();
+        let mut partial_step = self.partial_step.take().unwrap_or_default();
         let mut jobs = std::mem::take(&mut self.active);
         let mut is_whole = true;
         for job in &mut jobs {
-            if job.is_paused || round.ticked.contains(&job.ticket) {
+            if job.is_paused || partial_step.ticked.contains(&job.ticket) {
                 continue;
             }
             let Some(status) = self.tick_job(image, job) else {
                 is_whole = false;
                 break;
             };
-            round.ticked.push(job.ticket);
+            partial_step.ticked.push(job.ticket);
             let result = match status {
                 MotionStatus::Running => continue,
                 MotionStatus::Done(outcome) => {
@@ -231,17 +231,22 @@ impl Simulation {
                     Err(self.failure(image, &failure, &job.subject))
                 }
             };
-            round.completions.push((job.ticket, result));
+            partial_step.completions.push((job.ticket, result));
         }
         jobs.append(&mut self.active);
         self.active = jobs;
         if !is_whole {
-            self.round = Some(round);
+            self.partial_step = Some(partial_step);
             return false;
         }
-        let has_ended = |job: &Job| round.completions.iter().any(|(t, _)| *t == job.ticket);
+        let has_ended = |job: &Job| {
+            partial_step
+                .completions
+                .iter()
+                .any(|(t, _)| *t == job.ticket)
+        };
         self.active.retain(|job| !has_ended(job));
-        completions.append(&mut round.completions);
+        completions.append(&mut partial_step.completions);
         true
     }
 

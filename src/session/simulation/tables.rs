@@ -16,7 +16,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("ROSLISP-UTILITIES", functions::ros::UTILITIES_TABLE),
     ("ROS-LOAD", functions::ros::LOAD_TABLE),
     ("PLANWRIGHT", functions::explaining::TABLE),
-    ("PLANWRIGHT", functions::moments::TABLE),
+    ("PLANWRIGHT", functions::snapshots::TABLE),
     ("PLANWRIGHT", functions::pictures::TABLE),
     ("PLANWRIGHT", functions::prompt::TABLE),
     ("PLANWRIGHT", functions::watching::TABLE),

@@ -4,7 +4,7 @@ use std::io;
 use std::net::TcpStream;
 use std::sync::Arc;
 
-use super::frame::frame;
+use super::frame_json::frame_json;
 use super::http::{HttpError, Request, answer, read_request};
 use super::mesh_bytes::mesh_bytes;
 use super::pace_control::{PaceControl, Speed};
@@ -13,7 +13,7 @@ use super::server::Shared;
 use super::stream::stream;
 use super::token::{is_same, random_word};
 
-/// Moments of the past in one answer.
+/// Frames of the past in one answer.
 const MOST_MOMENTS: usize = 120;
 
 const TEXT: &str = "text/plain; charset=utf-8";
@@ -49,7 +49,7 @@ fn read_and_answer(shared: &Arc<Shared>, to: &mut TcpStream) -> Result<(), HttpE
         ("GET", Some("meshes")) => {
             // The cast saturates.
             let first = request.number("from").unwrap_or(0.0) as usize;
-            let bytes = mesh_bytes(&shared.chronicle.nodes_from(first));
+            let bytes = mesh_bytes(&shared.history.nodes_from(first));
             answer(to, "200 OK", "application/octet-stream", "", &bytes)?;
         }
         ("GET", Some("past")) => {
@@ -110,11 +110,11 @@ fn send_page(to: &mut TcpStream) -> io::Result<()> {
 fn past(shared: &Shared, request: &Request) -> String {
     let from = request.number("from").unwrap_or(0.0);
     let to = request.number("to").unwrap_or(from);
-    let moments = shared.chronicle.past(from, to, MOST_MOMENTS);
+    let frames = shared.history.past(from, to, MOST_MOMENTS);
     let mut before = None;
-    let frames: Vec<String> = moments
+    let frames: Vec<String> = frames
         .iter()
-        .map(|moment| frame(moment, before.replace(moment.as_ref())))
+        .map(|frame| frame_json(frame, before.replace(frame.as_ref())))
         .collect();
     format!("[{}]", frames.join(","))
 }

@@ -1,33 +1,33 @@
-//! Writes into a chronicle what happens in a session.
+//! Writes into a history what happens in a session.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::chronicle::Chronicle;
-use crate::watch::{Cause, Follower, Happening, Seen, Witness};
+use super::history::History;
+use crate::watch::{Cause, Follower, FrameBuilder, Observation, WatchEvent};
 use crate::world::CollisionHit;
 
-/// Real time between two moments that viewers get: more come than a screen shows.
-const BETWEEN_MOMENTS: Duration = Duration::from_millis(14);
+/// Real time between two frames that viewers get: more come than a screen shows.
+const BETWEEN_FRAMES: Duration = Duration::from_millis(14);
 
-/// Simulated time (s) between two moments of the past.
+/// Simulated time (s) between two frames of the past.
 const BETWEEN_KEPT: f64 = 1.0 / 30.0;
 
-/// Writes into a chronicle what happens in a session. Looks at the world no more often than
+/// Writes into a history what happens in a session. Looks at the world no more often than
 /// somebody can see.
 pub(crate) struct LiveFollower {
-    chronicle: Chronicle,
-    witness: Witness,
+    history: History,
+    frame_builder: FrameBuilder,
     left: Option<Instant>,
     kept: f64,
 }
 
 impl LiveFollower {
-    /// A follower that writes into the chronicle.
-    pub(crate) fn new(chronicle: Chronicle, witness: Witness) -> Self {
+    /// A follower that writes into the history.
+    pub(crate) fn new(history: History, frame_builder: FrameBuilder) -> Self {
         Self {
-            chronicle,
-            witness,
+            history,
+            frame_builder,
             left: None,
             kept: f64::NEG_INFINITY,
         }
@@ -35,35 +35,35 @@ impl LiveFollower {
 }
 
 impl Follower for LiveFollower {
-    fn see(&mut self, seen: &Seen<'_>, cause: Cause) {
-        let keep = seen.time >= self.kept + BETWEEN_KEPT || cause == Cause::Rest;
+    fn see(&mut self, observation: &Observation<'_>, cause: Cause) {
+        let keep = observation.time >= self.kept + BETWEEN_KEPT || cause == Cause::Rest;
         let is_due = self
             .left
-            .is_none_or(|left| left.elapsed() >= BETWEEN_MOMENTS);
+            .is_none_or(|left| left.elapsed() >= BETWEEN_FRAMES);
         if !keep && !is_due {
             return;
         }
-        let moment = Arc::new(self.witness.look(seen));
+        let frame = Arc::new(self.frame_builder.build(observation));
         if keep {
-            self.kept = seen.time;
+            self.kept = observation.time;
         }
         // Edits that take no time are part of the past, too: the last one counts.
         let keep = keep || cause == Cause::Edit;
-        self.chronicle.leave(self.witness.nodes(), moment, keep);
+        self.history.leave(self.frame_builder.nodes(), frame, keep);
         self.left = Some(Instant::now());
     }
 
-    fn hear(&mut self, time: f64, happening: &Happening) {
-        self.chronicle.tell(time, happening);
+    fn hear(&mut self, time: f64, event: &WatchEvent) {
+        self.history.tell(time, event);
     }
 
     fn collide(&mut self, time: f64, hit: &CollisionHit) {
-        self.witness.collide(time, hit);
+        self.frame_builder.collide(time, hit);
     }
 }
 
 impl Drop for LiveFollower {
     fn drop(&mut self) {
-        self.chronicle.close();
+        self.history.close();
     }
 }

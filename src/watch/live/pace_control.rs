@@ -77,12 +77,12 @@ impl PaceControl {
 
     /// Waits while time stands still, but not longer than that. Returns the speed, or nothing
     /// if time still stands.
-    pub(crate) fn wait(&self, patience: Duration) -> Option<Speed> {
+    pub(crate) fn wait(&self, timeout: Duration) -> Option<Speed> {
         let waiting = |state: &mut State| state.is_paused;
         let waited = self
             .shared
             .1
-            .wait_timeout_while(self.state(), patience, waiting);
+            .wait_timeout_while(self.state(), timeout, waiting);
         let (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
         (!state.is_paused).then_some(state.speed)
     }

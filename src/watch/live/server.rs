@@ -9,8 +9,8 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use super::chronicle::Chronicle;
 use super::connection;
+use super::history::History;
 use super::pace_control::PaceControl;
 use super::token::random_word;
 use super::views::Views;
@@ -33,7 +33,7 @@ pub(crate) struct Server {
 
 /// What the threads of the server share.
 pub(crate) struct Shared {
-    pub(crate) chronicle: Chronicle,
+    pub(crate) history: History,
     /// None where time does not pass, as in a recording.
     pub(crate) pace: Option<PaceControl>,
     pub(crate) views: Value,
@@ -49,14 +49,14 @@ pub(crate) struct Shared {
 impl Server {
     /// Starts to serve on 127.0.0.1, on any port that is free.
     pub(crate) fn start(
-        chronicle: Chronicle,
+        history: History,
         pace: Option<PaceControl>,
         views: Views,
     ) -> io::Result<Self> {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         let address = listener.local_addr()?;
         let shared = Arc::new(Shared {
-            chronicle,
+            history,
             pace,
             views: views.0,
             token: random_word(),

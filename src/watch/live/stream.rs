@@ -8,13 +8,13 @@ use std::time::{Duration, Instant};
 
 use serde_json::json;
 
-use super::chronicle::{Bookmark, Origin};
-use super::frame::frame;
+use super::event_json;
+use super::frame_json::frame_json;
+use super::history::{Origin, ReadPosition};
 use super::http::begin_events;
-use super::news;
 use super::pace_control::Speed;
 use super::server::Shared;
-use crate::watch::Moment;
+use crate::watch::Frame;
 
 /// Least time between two frames.
 const BETWEEN_FRAMES: Duration = Duration::from_millis(15);
@@ -25,27 +25,27 @@ const SIGN_OF_LIFE: Duration = Duration::from_millis(500);
 /// Pieces of news in one message.
 const MOST_NEWS: usize = 500;
 
-/// Sends what is new until the viewer or the session is gone. Sends only the newest moment: a
+/// Sends what is new until the viewer or the session is gone. Sends only the newest frame: a
 /// viewer that is slow misses some.
 pub(crate) fn stream(shared: &Shared, to: &mut TcpStream) -> io::Result<()> {
     begin_events(to)?;
-    let mut mark = Bookmark::default();
-    let mut shown: Option<Arc<Moment>> = None;
+    let mut mark = ReadPosition::default();
+    let mut shown: Option<Arc<Frame>> = None;
     let mut pace = None;
     let hello = json!({
-        "recording": shared.chronicle.origin() == Origin::Recording,
+        "recording": shared.history.origin() == Origin::Recording,
         "views": shared.views,
     });
     let mut text = message("hello", &hello.to_string());
     loop {
         let begin = Instant::now();
-        let pages = shared.chronicle.read(&mut mark, MOST_NEWS, SIGN_OF_LIFE);
+        let pages = shared.history.read(&mut mark, MOST_NEWS, SIGN_OF_LIFE);
         if !pages.nodes.is_empty() {
-            let nodes: Vec<_> = pages.nodes.iter().map(|n| news::node(n)).collect();
+            let nodes: Vec<_> = pages.nodes.iter().map(|n| event_json::node(n)).collect();
             text += &message("nodes", &json!(nodes).to_string());
         }
         if !pages.news.is_empty() {
-            let news: Vec<_> = pages.news.iter().map(|n| news::news(n)).collect();
+            let news: Vec<_> = pages.news.iter().map(|n| event_json::news(n)).collect();
             text += &message("news", &json!(news).to_string());
         }
         let now = shared.pace.as_ref().map(|p| p.get());
@@ -60,10 +60,10 @@ pub(crate) fn stream(shared: &Shared, to: &mut TcpStream) -> io::Result<()> {
         {
             let [start, end] = pages.span.unwrap_or([newest.time; 2]);
             text += &message("span", &format!("[{start:.4},{end:.4}]"));
-            text += &message("frame", &frame(&newest, shown.as_deref()));
+            text += &message("frame", &frame_json(&newest, shown.as_deref()));
             shown = Some(newest);
         }
-        let is_over = shared.chronicle.origin() == Origin::Session && pages.is_over;
+        let is_over = shared.history.origin() == Origin::Session && pages.is_over;
         if is_over && mark.is_read() {
             text += &message("over", "{}");
         }

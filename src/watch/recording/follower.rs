@@ -9,11 +9,11 @@ use std::thread::{self, JoinHandle};
 
 use super::RecordingError;
 use super::write::RecordingWriter;
-use crate::watch::{Cause, Follower, Happening, Moment, Node, Seen, Witness};
+use crate::watch::{Cause, Follower, Frame, FrameBuilder, Node, Observation, WatchEvent};
 use crate::world::{CollisionHit, World};
 
-/// Simulated time (s) between two moments, and between two pictures of the camera.
-const BETWEEN_MOMENTS: f64 = 1.0 / 30.0;
+/// Simulated time (s) between two frames, and between two pictures of the camera.
+const BETWEEN_FRAMES: f64 = 1.0 / 30.0;
 const BETWEEN_PICTURES: f64 = 1.0;
 
 /// Less than a step of the world (s).
@@ -25,7 +25,7 @@ const MOST_WAITING: usize = 64;
 /// Records what happens in a session until it is dropped. Texts and pictures are made on a
 /// thread of its own.
 pub(crate) struct Recorder {
-    witness: Witness,
+    frame_builder: FrameBuilder,
     known: usize,
     last: f64,
     last_picture: f64,
@@ -50,9 +50,9 @@ impl RecordingResult {
 }
 
 enum Item {
-    Moment(Vec<Arc<Node>>, Box<Moment>),
+    Frame(Vec<Arc<Node>>, Box<Frame>),
     Picture(f64, Box<World>),
-    Happening(f64, Happening),
+    WatchEvent(f64, WatchEvent),
 }
 
 impl Recorder {
@@ -61,9 +61,9 @@ impl Recorder {
         path: &Path,
         world: &World,
     ) -> Result<(Self, RecordingResult), RecordingError> {
-        let witness = Witness::new(world);
+        let frame_builder = FrameBuilder::new(world);
         let tree = &world.models().robot;
-        let joints = witness.joints().iter();
+        let joints = frame_builder.joints().iter();
         let names = joints
             .map(|joint| tree.joint(*joint).name.clone())
             .collect();
@@ -81,7 +81,7 @@ impl Recorder {
                 }
             })?;
         let recorder = Self {
-            witness,
+            frame_builder,
             known: 0,
             last: f64::NEG_INFINITY,
             last_picture: f64::NEG_INFINITY,
@@ -105,17 +105,17 @@ fn write(
 ) -> Result<(), RecordingError> {
     for item in from {
         match item {
-            Item::Moment(nodes, moment) => writer.moment(nodes, &moment)?,
+            Item::Frame(nodes, frame) => writer.frame(nodes, &frame)?,
             Item::Picture(time, world) => writer.picture(time, &world)?,
-            Item::Happening(time, happening) => writer.happening(time, &happening)?,
+            Item::WatchEvent(time, event) => writer.event(time, &event)?,
         }
     }
     writer.finish()
 }
 
 impl Follower for Recorder {
-    fn see(&mut self, seen: &Seen<'_>, cause: Cause) {
-        let is_due = seen.time >= self.last + BETWEEN_MOMENTS - EPSILON;
+    fn see(&mut self, observation: &Observation<'_>, cause: Cause) {
+        let is_due = observation.time >= self.last + BETWEEN_FRAMES - EPSILON;
         // What is edited is seen when the evaluation has ended, or at the next step.
         let is_wanted = match cause {
             Cause::Step => is_due,
@@ -125,24 +125,27 @@ impl Follower for Recorder {
         if !is_wanted {
             return;
         }
-        self.last = seen.time;
-        let moment = Box::new(self.witness.look(seen));
-        let nodes = self.witness.nodes();
+        self.last = observation.time;
+        let frame = Box::new(self.frame_builder.build(observation));
+        let nodes = self.frame_builder.nodes();
         let fresh = nodes.get(self.known..).unwrap_or_default().to_vec();
         self.known = nodes.len();
-        self.send(Item::Moment(fresh, moment));
-        if seen.time >= self.last_picture + BETWEEN_PICTURES - EPSILON {
-            self.last_picture = seen.time;
-            self.send(Item::Picture(seen.time, Box::new(seen.world.clone())));
+        self.send(Item::Frame(fresh, frame));
+        if observation.time >= self.last_picture + BETWEEN_PICTURES - EPSILON {
+            self.last_picture = observation.time;
+            self.send(Item::Picture(
+                observation.time,
+                Box::new(observation.world.clone()),
+            ));
         }
     }
 
-    fn hear(&mut self, time: f64, happening: &Happening) {
-        self.send(Item::Happening(time, happening.clone()));
+    fn hear(&mut self, time: f64, event: &WatchEvent) {
+        self.send(Item::WatchEvent(time, event.clone()));
     }
 
     fn collide(&mut self, time: f64, hit: &CollisionHit) {
-        self.witness.collide(time, hit);
+        self.frame_builder.collide(time, hit);
     }
 }
 

@@ -11,32 +11,32 @@ use super::RecordingError;
 use super::channel::Channel;
 use super::message::{FrameTransform, FrameTransforms, Log, SceneUpdate, Shown, Task};
 use super::shapes::{frame_of, node, way_name};
-use crate::watch::live::Chronicle;
+use crate::watch::live::History;
 use crate::watch::{
-    Happening, Hit, Hold, Kind, Moment, Node, Path, Placed, TaskId, TaskNews, TaskState,
+    Frame, Hit, Hold, Kind, Node, Path, Placed, TaskId, TaskNews, TaskState, WatchEvent,
 };
 
 /// What a recording holds.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Recording {
-    /// How many moments.
-    pub(crate) moments: usize,
+    /// How many frames.
+    pub(crate) frames: usize,
     /// How many pieces of news.
     pub(crate) news: usize,
     /// Whether the file ends in the middle, as when the session was killed.
     pub(crate) is_cut_off: bool,
 }
 
-/// Reads a file's bytes into a chronicle. What is not ours in it is passed over.
-pub(crate) fn read_recording(bytes: &[u8], to: &Chronicle) -> Result<Recording, RecordingError> {
+/// Reads a file's bytes into a history. What is not ours in it is passed over.
+pub(crate) fn read_recording(bytes: &[u8], to: &History) -> Result<Recording, RecordingError> {
     let mut reader = Reader {
         to,
         nodes: Vec::new(),
-        frames: IndexMap::new(),
+        frame_ids: IndexMap::new(),
         still: IndexMap::new(),
         objects: IndexMap::new(),
-        shown: Moment::default(),
-        moments: 0,
+        shown: Frame::default(),
+        frames: 0,
         news: 0,
     };
     let mut is_cut_off = false;
@@ -44,35 +44,35 @@ pub(crate) fn read_recording(bytes: &[u8], to: &Chronicle) -> Result<Recording, 
         match message {
             Ok(message) => reader.take(&message)?,
             // A session that was killed left half of a message at the end.
-            Err(_) if reader.moments > 0 => {
+            Err(_) if reader.frames > 0 => {
                 is_cut_off = true;
                 break;
             }
             Err(error) => return Err(error.into()),
         }
     }
-    if reader.moments == 0 {
+    if reader.frames == 0 {
         return Err(RecordingError::Foreign);
     }
     Ok(Recording {
-        moments: reader.moments,
+        frames: reader.frames,
         news: reader.news,
         is_cut_off,
     })
 }
 
 struct Reader<'a> {
-    to: &'a Chronicle,
+    to: &'a History,
     nodes: Vec<Arc<Node>>,
     /// Nodes by their frames: those that are in the world.
-    frames: IndexMap<String, u32>,
+    frame_ids: IndexMap<String, u32>,
     /// Where frames are that cannot move.
     still: IndexMap<String, Placed>,
     /// Nodes of objects by what the writer numbered them.
     objects: IndexMap<String, u32>,
     /// What is shown beside bodies now.
-    shown: Moment,
-    moments: usize,
+    shown: Frame,
+    frames: usize,
     news: usize,
 }
 
@@ -91,8 +91,8 @@ impl Reader<'_> {
             Channel::Still => {
                 let message: FrameTransforms = parsed(data)?;
                 let placed = message.transforms.iter().filter_map(|transform| {
-                    let frame = transform.child_frame_id.clone();
-                    Some((frame, placed(transform, 0)?))
+                    let frame_id = transform.child_frame_id.clone();
+                    Some((frame_id, placed(transform, 0)?))
                 });
                 self.still.extend(placed);
             }
@@ -108,19 +108,19 @@ impl Reader<'_> {
                 let log: Log = parsed(data)?;
                 let level = ["", "DEBUG", "INFO", "WARN", "ERROR"].get(usize::from(log.level));
                 let told = match level {
-                    _ if log.name == "aborted" => Happening::Aborted(log.message),
-                    Some(&level) if !level.is_empty() => Happening::Output(format!(
+                    _ if log.name == "aborted" => WatchEvent::Aborted(log.message),
+                    Some(&level) if !level.is_empty() => WatchEvent::Output(format!(
                         "[({}) {level}] {time:.3}: {}\n",
                         log.name, log.message
                     )),
-                    _ => Happening::Output(format!("{}\n", log.message)),
+                    _ => WatchEvent::Output(format!("{}\n", log.message)),
                 };
                 self.tell(time, &told);
             }
             Channel::Tasks => {
                 let task: Task = parsed(data)?;
                 if let Some(news) = news(task) {
-                    self.tell(time, &Happening::Task(news));
+                    self.tell(time, &WatchEvent::Task(news));
                 }
             }
             Channel::Joints | Channel::Picture | Channel::Calibration | Channel::Overlay => {}
@@ -128,38 +128,39 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn tell(&mut self, time: f64, happening: &Happening) {
-        self.to.tell(time, happening);
+    fn tell(&mut self, time: f64, event: &WatchEvent) {
+        self.to.tell(time, event);
         self.news += 1;
     }
 
     fn transforms(&mut self, time: f64, message: &FrameTransforms) {
         let mut placed: Vec<Placed> = Vec::new();
         for transform in &message.transforms {
-            let frame = &transform.child_frame_id;
-            let known = self.frames.get(frame).copied();
+            let frame_id = &transform.child_frame_id;
+            let known = self.frame_ids.get(frame_id).copied();
             let id = match known {
                 Some(id) => id,
                 // A mere frame, such as the camera's.
-                None if !frame.starts_with("object/") => self.add_frame(frame),
+                None if !frame_id.starts_with("object/") => self.add_frame(frame_id),
                 None => continue,
             };
             placed.extend(self::placed(transform, id));
         }
         placed.sort_by_key(|p| p.node);
         placed.dedup_by_key(|p| p.node);
-        let moment = Moment {
+        let frame = Frame {
             time,
             placed,
             ..self.shown.clone()
         };
-        self.moments += 1;
-        self.to.leave(&self.nodes, Arc::new(moment), true);
+        self.frames += 1;
+        self.to.leave(&self.nodes, Arc::new(frame), true);
     }
 
     fn scene(&mut self, channel: Channel, update: &SceneUpdate) {
         if channel == Channel::Objects {
-            self.frames.retain(|frame, _| !frame.starts_with("object/"));
+            self.frame_ids
+                .retain(|frame_id, _| !frame_id.starts_with("object/"));
         }
         for entity in &update.entities {
             let is_object = channel == Channel::Objects;
@@ -183,13 +184,13 @@ impl Reader<'_> {
                     id
                 }
             };
-            self.frames.insert(entity.frame_id.clone(), id);
+            self.frame_ids.insert(entity.frame_id.clone(), id);
         }
     }
 
     fn shown(&mut self, shown: &Shown) {
-        let node = |frame: &String| self.frames.get(frame).copied();
-        let now = Moment {
+        let node = |frame_id: &String| self.frame_ids.get(frame_id).copied();
+        let now = Frame {
             holds: (shown.held.iter())
                 .filter_map(|held| {
                     Some(Hold {
@@ -224,21 +225,21 @@ impl Reader<'_> {
                     })
                 })
                 .collect(),
-            ..Moment::default()
+            ..Frame::default()
         };
         self.shown = now;
     }
 
-    fn add_frame(&mut self, frame: &str) -> u32 {
+    fn add_frame(&mut self, frame_id: &str) -> u32 {
         let id = self.add(Node {
             id: self.next_id(),
-            name: frame.to_owned(),
+            name: frame_id.to_owned(),
             kind: Kind::Robot,
             type_name: String::new(),
             still: None,
             mesh: Arc::default(),
         });
-        self.frames.insert(frame.to_owned(), id);
+        self.frame_ids.insert(frame_id.to_owned(), id);
         id
     }
 

@@ -5,7 +5,7 @@ use nalgebra::Vector3 as Direction;
 use super::message::{
     Color, KeyValuePair, LinePrimitive, SceneEntity, Time, TriangleListPrimitive, Vector3,
 };
-use crate::watch::{Kind, Moment, Node, Path, Placed, Vertex, VisualMesh};
+use crate::watch::{Frame, Kind, Node, Path, Placed, Vertex, VisualMesh};
 
 /// The frame that everything is placed in.
 pub(crate) const MAP: &str = "map";
@@ -118,7 +118,7 @@ fn smooth(mesh: &mut VisualMesh) {
 }
 
 /// What is shown beside bodies, as lines.
-pub(crate) fn lines(moment: &Moment, frame: impl Fn(u32) -> Option<String>) -> Vec<SceneEntity> {
+pub(crate) fn lines(frame: &Frame, frame_id: impl Fn(u32) -> Option<String>) -> Vec<SceneEntity> {
     let plain = |rgb: [f32; 3]| Color {
         r: rgb[0],
         g: rgb[1],
@@ -126,7 +126,7 @@ pub(crate) fn lines(moment: &Moment, frame: impl Fn(u32) -> Option<String>) -> V
         a: 1.0,
     };
     let entity = |id: String, frame_id: String, line: LinePrimitive| SceneEntity {
-        timestamp: Time::new(moment.time),
+        timestamp: Time::new(frame.time),
         frame_id,
         id,
         frame_locked: true,
@@ -134,7 +134,7 @@ pub(crate) fn lines(moment: &Moment, frame: impl Fn(u32) -> Option<String>) -> V
         ..SceneEntity::default()
     };
     let mut entities = Vec::new();
-    for path in moment.paths.iter() {
+    for path in frame.paths.iter() {
         let color = match path.what {
             "base" => [0.1, 0.45, 0.8],
             "left" => [0.1, 0.62, 0.42],
@@ -148,13 +148,13 @@ pub(crate) fn lines(moment: &Moment, frame: impl Fn(u32) -> Option<String>) -> V
             color: plain(color),
             ..LinePrimitive::default()
         };
-        let frame = path
+        let frame_id = path
             .frame
-            .and_then(&frame)
+            .and_then(&frame_id)
             .unwrap_or_else(|| MAP.to_owned());
-        entities.push(entity(format!("way of {}", path.what), frame, line));
+        entities.push(entity(format!("way of {}", path.what), frame_id, line));
     }
-    for (i, hit) in moment.hits.iter().enumerate() {
+    for (i, hit) in frame.hits.iter().enumerate() {
         let ends = (0..3).flat_map(|axis| [-CROSS, CROSS].map(|d| moved(hit.at, axis, d)));
         let line = LinePrimitive {
             kind: 2,
@@ -166,7 +166,7 @@ pub(crate) fn lines(moment: &Moment, frame: impl Fn(u32) -> Option<String>) -> V
         };
         entities.push(entity(format!("stop {i}"), MAP.to_owned(), line));
     }
-    if let Some((place, size)) = &moment.axes {
+    if let Some((place, size)) = &frame.axes {
         let axes = 0..3;
         let line = LinePrimitive {
             kind: 2,

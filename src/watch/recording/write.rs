@@ -19,7 +19,7 @@ use super::shapes::{MAP, entity, frame_of, lines, tidy};
 use crate::perception::camera::Camera;
 use crate::picture::{Scene, render};
 use crate::spatial::Pose;
-use crate::watch::{Happening, Kind, Moment, Node, Placed, TaskId, TaskNews};
+use crate::watch::{Frame, Kind, Node, Placed, TaskId, TaskNews, WatchEvent};
 use crate::world::World;
 
 /// What is told with the file.
@@ -41,7 +41,7 @@ pub(crate) struct RecordingWriter<W: Write + Seek> {
 }
 
 impl<W: Write + Seek> RecordingWriter<W> {
-    /// Begins a recording. `joints` are the names of the joints of every moment.
+    /// Begins a recording. `joints` are the names of the joints of every frame.
     pub(crate) fn new(to: W, joints: Vec<String>) -> Result<Self, RecordingError> {
         let options = mcap::WriteOptions::new().compression(None).library(LIBRARY);
         let mut writer = options.create(to)?;
@@ -70,13 +70,13 @@ impl<W: Write + Seek> RecordingWriter<W> {
     }
 
     /// Writes how the world is; `nodes` are those that were not known before.
-    pub(crate) fn moment(
+    pub(crate) fn frame(
         &mut self,
         nodes: Vec<Arc<Node>>,
-        moment: &Moment,
+        frame: &Frame,
     ) -> Result<(), RecordingError> {
         self.nodes.extend(nodes);
-        let time = moment.time;
+        let time = frame.time;
         if !self.has_begun {
             self.has_begun = true;
             let still = self.nodes.iter().filter_map(|n| n.still.as_ref());
@@ -95,11 +95,11 @@ impl<W: Write + Seek> RecordingWriter<W> {
                 },
             )?;
         }
-        self.write_objects(moment)?;
-        self.write_shown(moment)?;
-        let transforms = self.transforms(time, moment.placed.iter());
+        self.write_objects(frame)?;
+        self.write_shown(frame)?;
+        let transforms = self.transforms(time, frame.placed.iter());
         self.write(Channel::Transforms, time, &transforms)?;
-        let joints = self.joints.iter().zip(moment.joints.iter());
+        let joints = self.joints.iter().zip(frame.joints.iter());
         let joints = joints.map(|(name, position)| JointState {
             name: name.clone(),
             position: (position * 1e6).round() / 1e6,
@@ -120,7 +120,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
             Some(FrameTransform {
                 timestamp: Time::new(time),
                 parent_frame_id: MAP.to_owned(),
-                child_frame_id: self.frame(placed.node)?,
+                child_frame_id: self.frame_id(placed.node)?,
                 translation: placed.at.map(tidy).into(),
                 rotation: placed.turn.map(|v| (v * 1e6).round() / 1e6).into(),
             })
@@ -130,9 +130,9 @@ impl<W: Write + Seek> RecordingWriter<W> {
         }
     }
 
-    fn write_objects(&mut self, moment: &Moment) -> Result<(), RecordingError> {
+    fn write_objects(&mut self, frame: &Frame) -> Result<(), RecordingError> {
         let is_object = |id: &u32| self.node(*id).is_some_and(|node| node.kind == Kind::Object);
-        let here: Vec<u32> = moment
+        let here: Vec<u32> = frame
             .placed
             .iter()
             .map(|p| p.node)
@@ -143,35 +143,35 @@ impl<W: Write + Seek> RecordingWriter<W> {
         }
         let nodes = here.iter().filter_map(|id| self.node(*id));
         let update = SceneUpdate {
-            deletions: vec![all_deleted(moment.time)],
-            entities: nodes.map(|node| entity(node, moment.time)).collect(),
+            deletions: vec![all_deleted(frame.time)],
+            entities: nodes.map(|node| entity(node, frame.time)).collect(),
         };
         self.objects = here;
-        self.write(Channel::Objects, moment.time, &update)
+        self.write(Channel::Objects, frame.time, &update)
     }
 
-    fn write_shown(&mut self, moment: &Moment) -> Result<(), RecordingError> {
-        let frame = |id: u32| self.frame(id);
+    fn write_shown(&mut self, frame: &Frame) -> Result<(), RecordingError> {
+        let frame_id = |id: u32| self.frame_id(id);
         let shown = Shown {
             timestamp: self.shown.timestamp,
-            held: (moment.holds.iter())
+            held: (frame.holds.iter())
                 .filter_map(|hold| {
                     Some(Held {
-                        object: frame(hold.object)?,
+                        object: frame_id(hold.object)?,
                         link: hold.link.to_string(),
                     })
                 })
                 .collect(),
-            touching: (moment.touching.iter())
-                .filter_map(|[a, b]| Some([frame(*a)?, frame(*b)?]))
+            touching: (frame.touching.iter())
+                .filter_map(|[a, b]| Some([frame_id(*a)?, frame_id(*b)?]))
                 .collect(),
-            stops: (moment.hits.iter())
+            stops: (frame.hits.iter())
                 .map(|hit| Stop {
-                    frames: hit.nodes.iter().filter_map(|id| frame(*id)).collect(),
+                    frames: hit.nodes.iter().filter_map(|id| frame_id(*id)).collect(),
                     position: hit.at.into(),
                 })
                 .collect(),
-            axes: (moment.axes.iter())
+            axes: (frame.axes.iter())
                 .map(|(place, length)| Axes {
                     pose: PoseMessage {
                         position: place.at.into(),
@@ -180,10 +180,13 @@ impl<W: Write + Seek> RecordingWriter<W> {
                     length: *length,
                 })
                 .collect(),
-            paths: (moment.paths.iter())
+            paths: (frame.paths.iter())
                 .map(|path| PathMessage {
                     what: path.what.to_owned(),
-                    frame_id: path.frame.and_then(frame).unwrap_or_else(|| MAP.to_owned()),
+                    frame_id: path
+                        .frame
+                        .and_then(frame_id)
+                        .unwrap_or_else(|| MAP.to_owned()),
                     points: path.points.iter().map(|p| (*p).into()).collect(),
                 })
                 .collect(),
@@ -192,14 +195,14 @@ impl<W: Write + Seek> RecordingWriter<W> {
             return Ok(());
         }
         let update = SceneUpdate {
-            deletions: vec![all_deleted(moment.time)],
-            entities: lines(moment, frame),
+            deletions: vec![all_deleted(frame.time)],
+            entities: lines(frame, frame_id),
         };
         self.shown = shown;
-        self.shown.timestamp = Time::new(moment.time);
+        self.shown.timestamp = Time::new(frame.time);
         let shown = self.shown.clone();
-        self.write(Channel::Overlay, moment.time, &update)?;
-        self.write(Channel::Shown, moment.time, &shown)
+        self.write(Channel::Overlay, frame.time, &update)?;
+        self.write(Channel::Shown, frame.time, &shown)
     }
 
     /// Writes what the robot's camera sees in the world.
@@ -237,9 +240,9 @@ impl<W: Write + Seek> RecordingWriter<W> {
     }
 
     /// Writes what happened.
-    pub(crate) fn happening(&mut self, time: f64, what: &Happening) -> Result<(), RecordingError> {
+    pub(crate) fn event(&mut self, time: f64, what: &WatchEvent) -> Result<(), RecordingError> {
         match what {
-            Happening::Output(text) => {
+            WatchEvent::Output(text) => {
                 self.line.push_str(text);
                 let text = std::mem::take(&mut self.line);
                 let mut lines = text.split_inclusive('\n').peekable();
@@ -252,8 +255,8 @@ impl<W: Write + Seek> RecordingWriter<W> {
                 }
                 Ok(())
             }
-            Happening::Aborted(report) => self.log_at(time, 4, "aborted", report),
-            Happening::Task(news) => self.task(time, news),
+            WatchEvent::Aborted(report) => self.log_at(time, 4, "aborted", report),
+            WatchEvent::Task(news) => self.task(time, news),
         }
     }
 
@@ -346,7 +349,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
         self.nodes.get(id as usize).map(AsRef::as_ref)
     }
 
-    fn frame(&self, id: u32) -> Option<String> {
+    fn frame_id(&self, id: u32) -> Option<String> {
         self.node(id).map(frame_of)
     }
 }

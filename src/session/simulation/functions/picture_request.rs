@@ -182,7 +182,7 @@ fn is_object(simulation: &Simulation, image: &Image, value: &Value) -> bool {
 /// A place (m, map frame): a point, a pose, the name of an object or of a frame.
 fn place(simulation: &Simulation, image: &Image, value: &Value) -> Result<Point3<f64>> {
     let point = match value {
-        Value::Str(frame) => origin(&simulation.frame_pose(image, &frame.text())?),
+        Value::Str(frame) => origin(&simulation.frame_in_map(image, &frame.text())?),
         Value::Symbol(known::NIL) => return Err(Raise::type_error(value, known::VECTOR_3D)),
         Value::Symbol(_) => {
             let name = simulation.object_named(image, value)?;

@@ -361,8 +361,8 @@ fn look_up_transformation(
         other => Err(Raise::type_error(other, known::STRING)),
     };
     let (parent, child) = (frame(&args[0])?, frame(&args[1])?);
-    let from = simulation.frame_pose(image, &parent)?;
-    let to = simulation.frame_pose(image, &child)?;
+    let from = simulation.frame_in_map(image, &parent)?;
+    let to = simulation.frame_in_map(image, &child)?;
     done(transform_stamped(&parent, &child, &(from.inverse() * to)))
 }
 

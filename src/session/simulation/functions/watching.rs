@@ -16,10 +16,10 @@ use crate::session::simulation::call::{done, host};
 use crate::session::simulation::following::FollowerId;
 use crate::session::simulation::pace::Pace;
 use crate::watch::live::{
-    Chronicle, LiveFollower, Origin, PaceControl, Server, Speed, Views, open_in_browser,
+    History, LiveFollower, Origin, PaceControl, Server, Speed, Views, open_in_browser,
 };
 use crate::watch::recording::{Recorder, RecordingError, RecordingResult};
-use crate::watch::{Cause, Witness};
+use crate::watch::{Cause, FrameBuilder};
 
 /// Builtins of package `PLANWRIGHT`.
 pub(crate) static TABLE: &[Builtin] = &[
@@ -81,13 +81,13 @@ impl Simulation {
             .pace
             .get_or_insert_with(|| Pace::new(PaceControl::new(Speed::Times(1.0))));
         let control = pace.control().clone();
-        let chronicle = Chronicle::new(Origin::Session);
-        let witness = Witness::new(&self.world);
+        let history = History::new(Origin::Session);
+        let witness = FrameBuilder::new(&self.world);
         let views = Views::new(&self.world, |link| witness.node_named(link));
         let server =
-            Server::start(chronicle.clone(), Some(control), views).map_err(WatchError::View)?;
+            Server::start(history.clone(), Some(control), views).map_err(WatchError::View)?;
         let address = server.address();
-        let follower = Box::new(LiveFollower::new(chronicle, witness));
+        let follower = Box::new(LiveFollower::new(history, witness));
         let follower = self.add_follower(image, follower);
         self.watching.view = Some(LiveView {
             server,

@@ -1,10 +1,10 @@
 //! Moving a set of joints along a trajectory, one guarded step at a time.
 
-use super::follower::Follower;
 use super::guard::{self, StuckObject};
-use super::job::{PlannedWay, WayAxes};
-use super::patience::Patience;
+use super::job::{PlannedTrajectory, TrajectoryAxes};
+use super::standstill::StandstillTimer;
 use super::trajectory::Trajectory;
+use super::trajectory_follower::TrajectoryFollower;
 use crate::robot::{JointId, LinkId};
 use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
 
@@ -29,28 +29,28 @@ pub(super) enum FollowStep {
 /// Joints that follow a trajectory. Axes of the trajectory beyond the joints only limit its
 /// speed.
 #[derive(Clone, Debug)]
-pub(super) struct JointFollow {
+pub(super) struct JointFollower {
     joints: Vec<JointId>,
-    follower: Follower,
+    follower: TrajectoryFollower,
     allowed: AllowedPairs,
-    patience: Patience,
+    standstill: StandstillTimer,
 }
 
-impl JointFollow {
-    pub(super) fn new(joints: Vec<JointId>, way: Trajectory, allowed: AllowedPairs) -> Self {
-        let follower = Follower::new(way);
+impl JointFollower {
+    pub(super) fn new(joints: Vec<JointId>, trajectory: Trajectory, allowed: AllowedPairs) -> Self {
+        let follower = TrajectoryFollower::new(trajectory);
         Self {
             joints,
             follower,
             allowed,
-            patience: Patience::default(),
+            standstill: StandstillTimer::default(),
         }
     }
 
     /// The way as it was planned.
-    pub(super) fn planned(&self) -> PlannedWay<'_> {
-        PlannedWay {
-            axes: WayAxes::Joints(&self.joints),
+    pub(super) fn planned(&self) -> PlannedTrajectory<'_> {
+        PlannedTrajectory {
+            axes: TrajectoryAxes::Joints(&self.joints),
             trajectory: self.follower.trajectory(),
         }
     }
@@ -79,7 +79,7 @@ impl JointFollow {
         match guard::obstacle(world, &next, &self.allowed) {
             None => {
                 self.follower.advance();
-                self.patience.reset();
+                self.standstill.reset();
                 world.set_robot_configuration(&next);
                 FollowStep::Moving
             }
@@ -87,7 +87,7 @@ impl JointFollow {
                 self.follower.hold();
                 FollowStep::Blocked {
                     hit,
-                    still: self.patience.wait(world),
+                    still: self.standstill.wait(world),
                 }
             }
         }

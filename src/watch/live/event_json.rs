@@ -2,14 +2,14 @@
 
 use serde_json::{Value, json};
 
-use crate::watch::{Happening, Node, TaskId};
+use crate::watch::{Node, TaskId, WatchEvent};
 
 /// A piece of news of that simulated time (s).
-pub(crate) fn news((time, happening): &(f64, Happening)) -> Value {
-    match happening {
-        Happening::Output(text) => json!({"t": time, "text": text}),
-        Happening::Aborted(text) => json!({"t": time, "aborted": text}),
-        Happening::Task(news) => json!({
+pub(crate) fn news((time, event): &(f64, WatchEvent)) -> Value {
+    match event {
+        WatchEvent::Output(text) => json!({"t": time, "text": text}),
+        WatchEvent::Aborted(text) => json!({"t": time, "aborted": text}),
+        WatchEvent::Task(news) => json!({
             "t": time,
             "task": id(news.id),
             "parent": news.parent.map(id),
@@ -27,7 +27,7 @@ pub(crate) fn node(node: &Node) -> Value {
         "name": node.name,
         "kind": node.kind.name(),
         "type": node.type_name,
-        "still": node.still.as_ref().map(crate::watch::live::frame::numbers),
+        "still": node.still.as_ref().map(crate::watch::live::frame_json::numbers),
         "seen": !node.mesh.triangles.is_empty(),
     })
 }

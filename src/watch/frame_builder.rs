@@ -1,13 +1,13 @@
-//! Makes moments of the world.
+//! Makes frames of the world.
 
 use std::sync::Arc;
 
 use indexmap::IndexMap;
 
-use super::Seen;
-use super::moment::{Hit, Hold, Moment, Path, Placed};
+use super::Observation;
+use super::frame::{Frame, Hit, Hold, Path, Placed};
 use super::node::{Kind, Node, VisualMesh};
-use super::path::KnownWay;
+use super::trajectory_lines::TrajectoryLines;
 use crate::picture::scene::Scene;
 use crate::robot::{JointId, JointKind, KinematicTree, LinkId};
 use crate::world::{BodyName, CollisionHit, Object, World};
@@ -21,8 +21,8 @@ const HIT_SECONDS: f64 = 2.5;
 /// What tells objects apart that look different or are called differently.
 type ObjectKey = (String, String, [u32; 4]);
 
-/// Makes moments of one world, and knows the nodes in them.
-pub(crate) struct Witness {
+/// Makes frames of one world, and knows the nodes in them.
+pub(crate) struct FrameBuilder {
     nodes: Vec<Arc<Node>>,
     /// Nodes of links, by the links' places in their trees.
     robot: IndexMap<usize, u32>,
@@ -35,15 +35,15 @@ pub(crate) struct Witness {
     meshes: IndexMap<(String, [u32; 4]), Arc<VisualMesh>>,
     joints: Vec<JointId>,
     base: u32,
-    ways: Vec<KnownWay>,
+    trajectories: Vec<TrajectoryLines>,
     paths: Arc<[Path]>,
     hits: Vec<(f64, Hit)>,
 }
 
-impl Witness {
-    /// A witness of the world, whose robot and kitchen become nodes.
+impl FrameBuilder {
+    /// A builder of frames of the world, whose robot and kitchen become nodes.
     pub(crate) fn new(world: &World) -> Self {
-        let mut witness = Self {
+        let mut frame_builder = Self {
             nodes: Vec::new(),
             robot: IndexMap::new(),
             furniture: IndexMap::new(),
@@ -53,24 +53,26 @@ impl Witness {
             meshes: IndexMap::new(),
             joints: Vec::new(),
             base: 0,
-            ways: Vec::new(),
+            trajectories: Vec::new(),
             paths: Vec::new().into(),
             hits: Vec::new(),
         };
         let models = world.models();
         let actuated = models.robot.joints().filter(|(_, j)| j.is_actuated());
-        witness.joints = actuated.map(|(id, _)| id).collect();
+        frame_builder.joints = actuated.map(|(id, _)| id).collect();
         let camera = models.description.camera().frame;
         for (link, _) in models.robot.links() {
             let scene = Scene::of_link(&models.robot, link, true);
             if scene.bodies.is_empty() && link != models.robot.root() && link != camera {
                 continue;
             }
-            let node = witness.add_link(&models.robot, link, Kind::Robot, &scene, None);
-            witness.robot.insert(link.index(), node);
-            witness.robot_links.push((link, node));
+            let node = frame_builder.add_link(&models.robot, link, Kind::Robot, &scene, None);
+            frame_builder.robot.insert(link.index(), node);
+            frame_builder.robot_links.push((link, node));
         }
-        witness.base = witness.node_of(models.robot.root().index()).unwrap_or(0);
+        frame_builder.base = frame_builder
+            .node_of(models.robot.root().index())
+            .unwrap_or(0);
         for (link, _) in models.kitchen.links() {
             let scene = Scene::of_link(&models.kitchen, link, false);
             if scene.bodies.is_empty() {
@@ -81,13 +83,14 @@ impl Witness {
             // The number is given when the node is added.
             let place = Placed::new(0, &world.furniture_pose(link));
             let still = still.then_some(place);
-            let node = witness.add_link(&models.kitchen, link, Kind::Furniture, &scene, still);
-            witness.furniture.insert(link.index(), node);
+            let node =
+                frame_builder.add_link(&models.kitchen, link, Kind::Furniture, &scene, still);
+            frame_builder.furniture.insert(link.index(), node);
             if still.is_none() {
-                witness.moving_furniture.push((link, node));
+                frame_builder.moving_furniture.push((link, node));
             }
         }
-        witness
+        frame_builder
     }
 
     /// All nodes that are known, in order of their numbers.
@@ -111,14 +114,14 @@ impl Witness {
         self.robot.get(&link).copied()
     }
 
-    /// The robot's actuated joints, in the order of [`Moment::joints`].
+    /// The robot's actuated joints, in the order of [`Frame::joints`].
     pub(crate) fn joints(&self) -> &[JointId] {
         &self.joints
     }
 
     /// The world as it is now. Objects that have not been seen before become nodes.
-    pub(crate) fn look(&mut self, seen: &Seen<'_>) -> Moment {
-        let world = seen.world;
+    pub(crate) fn build(&mut self, observation: &Observation<'_>) -> Frame {
+        let world = observation.world;
         let mut placed: Vec<Placed> = Vec::with_capacity(self.nodes.len());
         let links = self.robot_links.iter();
         placed.extend(links.map(|(link, node)| Placed::new(*node, &world.link_pose(*link))));
@@ -150,18 +153,18 @@ impl Witness {
         }
         placed.sort_by_key(|p| p.node);
         self.hits
-            .retain(|(since, _)| (0.0..HIT_SECONDS).contains(&(seen.time - since)));
-        self.follow_ways(seen);
+            .retain(|(since, _)| (0.0..HIT_SECONDS).contains(&(observation.time - since)));
+        self.follow_trajectories(observation);
         let robot = world.robot_configuration();
         let position = |joint: &JointId| world.models().robot.position(&robot.joints, *joint);
-        Moment {
-            time: seen.time,
+        Frame {
+            time: observation.time,
             placed,
             holds,
             touching,
             hits: self.hits.iter().map(|(_, hit)| hit.clone()).collect(),
             // The axes are no node.
-            axes: (seen.axes).map(|(pose, size)| (Placed::new(0, &pose), size as f32)),
+            axes: (observation.axes).map(|(pose, size)| (Placed::new(0, &pose), size as f32)),
             paths: self.paths.clone(),
             joints: self.joints.iter().map(position).collect(),
         }
@@ -191,20 +194,33 @@ impl Witness {
         }
     }
 
-    fn follow_ways(&mut self, seen: &Seen<'_>) {
-        let is_known = |(known, (number, way)): (&KnownWay, &(u64, _))| known.is(*number, way);
-        if self.ways.len() == seen.ways.len() && self.ways.iter().zip(seen.ways).all(is_known) {
+    fn follow_trajectories(&mut self, observation: &Observation<'_>) {
+        let is_known = |(known, (number, trajectory)): (&TrajectoryLines, &(u64, _))| {
+            known.is(*number, trajectory)
+        };
+        if self.trajectories.len() == observation.trajectories.len()
+            && self
+                .trajectories
+                .iter()
+                .zip(observation.trajectories)
+                .all(is_known)
+        {
             return;
         }
-        let mut before = std::mem::take(&mut self.ways);
-        for (number, way) in seen.ways {
-            let place = before.iter().position(|known| known.is(*number, way));
-            self.ways.push(match place {
+        let mut before = std::mem::take(&mut self.trajectories);
+        for (number, trajectory) in observation.trajectories {
+            let place = before
+                .iter()
+                .position(|known| known.is(*number, trajectory));
+            self.trajectories.push(match place {
                 Some(place) => before.remove(place),
-                None => KnownWay::new(seen.world, self.base, *number, way),
+                None => TrajectoryLines::new(observation.world, self.base, *number, trajectory),
             });
         }
-        let lines = self.ways.iter().flat_map(|way| way.lines.iter().cloned());
+        let lines = self
+            .trajectories
+            .iter()
+            .flat_map(|trajectory| trajectory.lines.iter().cloned());
         self.paths = lines.collect();
     }
 

@@ -1,7 +1,7 @@
-//! Planned ways as lines.
+//! Planned trajectories as lines.
 
-use super::moment::Path;
-use crate::motion::{PlannedWay, WayAxes};
+use super::frame::Path;
+use crate::motion::{PlannedTrajectory, TrajectoryAxes};
 use crate::robot::Side;
 use crate::spatial::Pose;
 use crate::world::World;
@@ -13,27 +13,32 @@ const MOST_POINTS: usize = 90;
 /// Height (m) of the line of the base above the floor.
 const ABOVE_FLOOR: f32 = 0.015;
 
-/// A way that has been made into lines.
-pub(crate) struct KnownWay {
+/// A planned trajectory as lines.
+pub(crate) struct TrajectoryLines {
     number: u64,
     duration: f64,
     end: Vec<f64>,
     pub(crate) lines: Vec<Path>,
 }
 
-impl KnownWay {
-    /// The lines of the way; `base` is the node of the robot's base.
-    pub(crate) fn new(world: &World, base: u32, number: u64, way: &PlannedWay<'_>) -> Self {
-        let lines = match way.axes {
-            WayAxes::Base => vec![Path {
+impl TrajectoryLines {
+    /// The lines of the trajectory; `base` is the node of the robot's base.
+    pub(crate) fn new(
+        world: &World,
+        base: u32,
+        number: u64,
+        planned: &PlannedTrajectory<'_>,
+    ) -> Self {
+        let lines = match planned.axes {
+            TrajectoryAxes::Base => vec![Path {
                 what: Path::WHAT[0],
                 frame: None,
-                points: points(way, |at| match at {
+                points: points(planned, |at| match at {
                     [x, y, ..] => Some([*x as f32, *y as f32, ABOVE_FLOOR]),
                     _ => None,
                 }),
             }],
-            WayAxes::Joints(joints) => {
+            TrajectoryAxes::Joints(joints) => {
                 let description = &world.models().description;
                 let moved = |side: &Side| {
                     let own = description.arm(*side).joints();
@@ -44,7 +49,7 @@ impl KnownWay {
                     .map(|side| Path {
                         what: Path::WHAT[1 + side.index()],
                         frame: Some(base),
-                        points: points(way, |at| {
+                        points: points(planned, |at| {
                             let mut q = world.robot_configuration().joints.clone();
                             for (joint, position) in joints.iter().zip(at) {
                                 q.set(*joint, *position);
@@ -61,28 +66,34 @@ impl KnownWay {
         };
         Self {
             number,
-            duration: way.trajectory.duration(),
-            end: way.trajectory.last().to_vec(),
+            duration: planned.trajectory.duration(),
+            end: planned.trajectory.last().to_vec(),
             lines,
         }
     }
 
-    /// Whether these are the lines of that way.
-    pub(crate) fn is(&self, number: u64, way: &PlannedWay<'_>) -> bool {
+    /// Whether these are the lines of that trajectory.
+    pub(crate) fn is(&self, number: u64, planned: &PlannedTrajectory<'_>) -> bool {
         self.number == number
-            && self.duration == way.trajectory.duration()
-            && self.end == way.trajectory.last()
+            && self.duration == planned.trajectory.duration()
+            && self.end == planned.trajectory.last()
     }
 }
 
 fn points(
-    way: &PlannedWay<'_>,
+    planned: &PlannedTrajectory<'_>,
     mut point: impl FnMut(&[f64]) -> Option<[f32; 3]>,
 ) -> Vec<[f32; 3]> {
-    let duration = way.trajectory.duration();
+    let duration = planned.trajectory.duration();
     // The cast saturates.
     let count = ((duration / EVERY).ceil() as usize).clamp(1, MOST_POINTS);
     (0..=count)
-        .filter_map(|i| point(&way.trajectory.position(duration * i as f64 / count as f64)))
+        .filter_map(|i| {
+            point(
+                &planned
+                    .trajectory
+                    .position(duration * i as f64 / count as f64),
+            )
+        })
         .collect()
 }

@@ -13,7 +13,7 @@ pub(super) const BASE: &str = "base_footprint";
 
 impl Simulation {
     /// The pose of a frame in the map frame.
-    pub(super) fn frame_pose(&self, _: &Image, frame: &str) -> Result<Pose, Box<Raise>> {
+    pub(super) fn frame_in_map(&self, _: &Image, frame: &str) -> Result<Pose, Box<Raise>> {
         let name = frame.trim_start_matches('/');
         if matches!(name, "map" | "world" | "odom_combined") {
             return Ok(Pose::identity());

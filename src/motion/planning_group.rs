@@ -1,6 +1,6 @@
 //! The joints that a motion of the arms sets, as axes of a path.
 
-use super::arm_path::{ALL_CHAINS, PathAxis};
+use super::joint_path::{ALL_CHAINS, PathAxis};
 use crate::robot::description::Arm;
 use crate::robot::{JointId, KinematicTree, Limits, Side};
 use crate::world::World;
@@ -12,19 +12,19 @@ const HAND_WIDTH: f64 = 0.15;
 
 /// Joints of the arms, and of the torso where it moves along.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct ArmAxes {
+pub(super) struct PlanningGroup {
     pub(super) joints: Vec<JointId>,
-    pub(super) path: Vec<PathAxis>,
+    pub(super) axes: Vec<PathAxis>,
 }
 
-impl ArmAxes {
+impl PlanningGroup {
     /// The axes of the arms of those sides, after that of the torso if it is to move.
     pub(super) fn new(world: &World, torso: bool, sides: &[Side]) -> Self {
         let tree = &world.models().robot;
         let body = &world.models().description;
         let mut all = Self {
             joints: Vec::new(),
-            path: Vec::new(),
+            axes: Vec::new(),
         };
         if torso {
             all.add(tree, body.torso.joint, ALL_CHAINS, 1.0, 0.0);
@@ -46,7 +46,7 @@ impl ArmAxes {
         };
         let Limits { lower, upper } = tree.joint(joint).limits.unwrap_or(turn);
         self.joints.push(joint);
-        self.path.push(PathAxis {
+        self.axes.push(PathAxis {
             lower,
             upper,
             reach,

@@ -11,13 +11,13 @@ const RATE_CHANGE: f64 = 4.0;
 
 /// A place on a trajectory that moves on with time.
 #[derive(Clone, Debug)]
-pub(super) struct Follower {
+pub(super) struct TrajectoryFollower {
     trajectory: Trajectory,
     time: f64,
     rate: f64,
 }
 
-impl Follower {
+impl TrajectoryFollower {
     pub(super) fn new(trajectory: Trajectory) -> Self {
         Self {
             trajectory,

@@ -1,4 +1,4 @@
-//! Moments as text for the page.
+//! Frames as text for the page.
 //!
 //! A frame tells what is different from the one before it: lengths in tenths of a millimetre,
 //! quaternions in hundred-thousandths.
@@ -6,24 +6,24 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
-use crate::watch::{Moment, Path, Placed};
+use crate::watch::{Frame, Path, Placed};
 
 /// Parts of a metre, and of one in quaternions.
 const METRE: f32 = 1e4;
 const UNIT: f32 = 1e5;
 
-/// The moment as a JSON object, as it differs from the one that the page has.
-pub(crate) fn frame(moment: &Moment, before: Option<&Moment>) -> String {
+/// The frame as a JSON object, as it differs from the one that the page has.
+pub(crate) fn frame_json(frame: &Frame, before: Option<&Frame>) -> String {
     let mut text = String::with_capacity(4096);
     // Writing to a string does not fail.
     let _ = write!(
         text,
         "{{\"t\":{:.4},\"whole\":{}",
-        moment.time,
+        frame.time,
         before.is_none()
     );
     let known = before.map_or(&[][..], |b| &b.placed);
-    let placed = moment.placed.iter();
+    let placed = frame.placed.iter();
     let moved = placed.filter(|p| {
         let then = known.binary_search_by_key(&p.node, |k| k.node);
         // A place that the search found is within the list.
@@ -36,7 +36,7 @@ pub(crate) fn frame(moment: &Moment, before: Option<&Moment>) -> String {
         }
     });
     let is_here = |p: &&Placed| {
-        moment
+        frame
             .placed
             .binary_search_by_key(&p.node, |k| k.node)
             .is_ok()
@@ -45,13 +45,13 @@ pub(crate) fn frame(moment: &Moment, before: Option<&Moment>) -> String {
     list(&mut text, "gone", gone, |text, p| {
         let _ = write!(text, "{}", p.node);
     });
-    list(&mut text, "held", &moment.holds, |text, hold| {
+    list(&mut text, "held", &frame.holds, |text, hold| {
         let _ = write!(text, "[{},{}]", hold.object, quoted(&hold.link));
     });
-    list(&mut text, "touch", &moment.touching, |text, [a, b]| {
+    list(&mut text, "touch", &frame.touching, |text, [a, b]| {
         let _ = write!(text, "[{a},{b}]");
     });
-    list(&mut text, "hits", &moment.hits, |text, hit| {
+    list(&mut text, "hits", &frame.hits, |text, hit| {
         let _ = write!(
             text,
             "{{\"nodes\":{:?},\"at\":{:?}}}",
@@ -59,14 +59,14 @@ pub(crate) fn frame(moment: &Moment, before: Option<&Moment>) -> String {
             units(hit.at, METRE)
         );
     });
-    list(&mut text, "axes", &moment.axes, |text, (place, size)| {
+    list(&mut text, "axes", &frame.axes, |text, (place, size)| {
         for number in numbers(place) {
             let _ = write!(text, "{number},");
         }
         let _ = write!(text, "{}", rounded(*size, METRE));
     });
-    if before.is_none_or(|b| !Arc::ptr_eq(&b.paths, &moment.paths)) {
-        list(&mut text, "paths", moment.paths.iter(), path);
+    if before.is_none_or(|b| !Arc::ptr_eq(&b.paths, &frame.paths)) {
+        list(&mut text, "paths", frame.paths.iter(), path);
     }
     text.push('}');
     text
@@ -124,28 +124,28 @@ pub(crate) fn quoted(text: &str) -> String {
 mod tests {
     use crate::spatial::Pose;
     use crate::watch::Hold;
-    use crate::watch::live::frame::*;
+    use crate::watch::live::frame_json::*;
 
-    fn moment(x: f64) -> Moment {
+    fn frame(x: f64) -> Frame {
         let still = Placed::new(1, &Pose::identity());
-        Moment {
+        Frame {
             time: 2.0,
             placed: vec![still, Placed::new(4, &Pose::translation(x, 0.0, -0.5))],
             holds: vec![Hold {
                 object: 4,
                 link: "a\"b".into(),
             }],
-            ..Moment::default()
+            ..Frame::default()
         }
     }
 
-    fn parsed(moment: &Moment, before: Option<&Moment>) -> serde_json::Value {
-        serde_json::from_str(&frame(moment, before)).unwrap()
+    fn parsed(frame: &Frame, before: Option<&Frame>) -> serde_json::Value {
+        serde_json::from_str(&frame_json(frame, before)).unwrap()
     }
 
     #[test]
     fn a_first_frame_is_whole() {
-        let frame = parsed(&moment(1.0), None);
+        let frame = parsed(&frame(1.0), None);
         assert_eq!(frame["whole"], true);
         let places = [
             1, 0, 0, 0, 0, 0, 0, 100_000, 4, 10_000, 0, -5_000, 0, 0, 0, 100_000,
@@ -156,14 +156,14 @@ mod tests {
 
     #[test]
     fn a_later_frame_tells_what_moved_and_what_is_gone() {
-        let before = moment(1.0);
+        let before = frame(1.0);
         assert_eq!(
-            parsed(&moment(1.00001), Some(&before))["p"],
+            parsed(&frame(1.00001), Some(&before))["p"],
             serde_json::json!([])
         );
-        let moved = parsed(&moment(1.001), Some(&before));
+        let moved = parsed(&frame(1.001), Some(&before));
         assert_eq!(moved["p"][0], 4);
-        let mut empty = moment(1.0);
+        let mut empty = frame(1.0);
         empty.placed.pop();
         assert_eq!(
             parsed(&empty, Some(&before))["gone"],

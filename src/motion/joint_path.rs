@@ -28,7 +28,7 @@ pub(crate) const ALL_CHAINS: usize = 0;
 
 /// Why there is no path; `P` is what the caller's check names.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum ArmPathFailure<P> {
+pub(crate) enum JointPathFailure<P> {
     /// The start is blocked.
     Start(P),
     /// The goal is blocked.
@@ -44,7 +44,7 @@ pub(crate) enum ArmPathFailure<P> {
 
 /// How fine and how long to search.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ArmPathEffort {
+pub(crate) struct JointPathEffort {
     /// Greatest motion (m) of any part of the robot between two checked configurations.
     pub(crate) resolution: f64,
     /// Greatest number of random configurations.
@@ -55,7 +55,7 @@ pub(crate) struct ArmPathEffort {
     pub(crate) shortcuts: usize,
 }
 
-impl Default for ArmPathEffort {
+impl Default for JointPathEffort {
     fn default() -> Self {
         Self {
             resolution: 0.01,
@@ -78,19 +78,19 @@ const CHAINS: usize = 3;
 type Point = Vec<f64>;
 
 /// A path from `start` to `goal`, both included, on which `blocked` names nothing.
-pub(crate) fn find_arm_path<P>(
+pub(crate) fn find_joint_path<P>(
     axes: &[PathAxis],
     start: &[f64],
     goal: &[f64],
-    effort: ArmPathEffort,
+    effort: JointPathEffort,
     rng: &mut Pcg64,
     blocked: &mut dyn FnMut(&[f64]) -> Option<P>,
-) -> Result<Vec<Point>, ArmPathFailure<P>> {
+) -> Result<Vec<Point>, JointPathFailure<P>> {
     if let Some(p) = blocked(goal) {
-        return Err(ArmPathFailure::Goal(p));
+        return Err(JointPathFailure::Goal(p));
     }
     if let Some(p) = blocked(start) {
-        return Err(ArmPathFailure::Start(p));
+        return Err(JointPathFailure::Start(p));
     }
     let mut search = Search {
         axes,
@@ -117,7 +117,7 @@ pub(crate) fn find_arm_path<P>(
             return Ok(path);
         }
     }
-    Err(ArmPathFailure::NotFound {
+    Err(JointPathFailure::NotFound {
         blocker,
         samples: effort.samples,
     })
@@ -131,9 +131,9 @@ pub(crate) fn blocked_between<P>(
     resolution: f64,
     blocked: &mut dyn FnMut(&[f64]) -> Option<P>,
 ) -> Option<P> {
-    let effort = ArmPathEffort {
+    let effort = JointPathEffort {
         resolution,
-        ..ArmPathEffort::default()
+        ..JointPathEffort::default()
     };
     Search {
         axes,
@@ -146,7 +146,7 @@ pub(crate) fn blocked_between<P>(
 
 struct Search<'a, P> {
     axes: &'a [PathAxis],
-    effort: ArmPathEffort,
+    effort: JointPathEffort,
     blocked: &'a mut dyn FnMut(&[f64]) -> Option<P>,
     /// Configurations that were checked.
     checks: usize,
@@ -408,13 +408,13 @@ mod tests {
 
     fn find(
         blocked: &mut dyn FnMut(&[f64]) -> Option<&'static str>,
-    ) -> Result<Vec<Point>, ArmPathFailure<&'static str>> {
+    ) -> Result<Vec<Point>, JointPathFailure<&'static str>> {
         let mut rng = Pcg64::seed_from_u64(1);
-        find_arm_path(
+        find_joint_path(
             &PLANE,
             &[-1.0, 0.0],
             &[1.0, 0.0],
-            ArmPathEffort::default(),
+            JointPathEffort::default(),
             &mut rng,
             blocked,
         )
@@ -453,7 +453,7 @@ mod tests {
     #[test]
     fn a_blocked_goal_names_what_blocks_it() {
         let result = find(&mut |p| (p[0] > 0.5).then_some("table"));
-        assert_eq!(result, Err(ArmPathFailure::Goal("table")));
+        assert_eq!(result, Err(JointPathFailure::Goal("table")));
     }
 
     #[test]
@@ -461,7 +461,7 @@ mod tests {
         let result = find(&mut |p| (p[0].abs() < 0.1).then_some("wall"));
         assert_eq!(
             result,
-            Err(ArmPathFailure::NotFound {
+            Err(JointPathFailure::NotFound {
                 blocker: "wall",
                 samples: 1500
             })

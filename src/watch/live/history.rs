@@ -1,11 +1,11 @@
-//! What a session leaves for those who look: the newest moment, the past, and the news.
+//! What a session leaves for those who look: the newest frame, the past, and the news.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use super::timeline::Timeline;
-use crate::watch::{Happening, Kind, Moment, Node};
+use crate::watch::{Frame, Kind, Node, WatchEvent};
 
 /// News that are kept; the oldest are forgotten first.
 const MOST_NEWS: usize = 40_000;
@@ -13,7 +13,7 @@ const MOST_NEWS: usize = 40_000;
 /// Characters of one piece of news that are kept.
 const MOST_TEXT: usize = 4_000;
 
-/// Where a chronicle comes from.
+/// Where a history comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Origin {
     /// A session that goes on.
@@ -22,9 +22,9 @@ pub(crate) enum Origin {
     Recording,
 }
 
-/// What a session leaves for those who look. Clones are the same chronicle.
+/// What a session leaves for those who look. Clones are the same history.
 #[derive(Clone)]
-pub(crate) struct Chronicle {
+pub(crate) struct History {
     shared: Arc<Shared>,
 }
 
@@ -37,9 +37,9 @@ struct Shared {
 #[derive(Default)]
 struct State {
     nodes: Vec<Arc<Node>>,
-    newest: Option<Arc<Moment>>,
+    newest: Option<Arc<Frame>>,
     past: Timeline,
-    news: VecDeque<Arc<(f64, Happening)>>,
+    news: VecDeque<Arc<(f64, WatchEvent)>>,
     /// How many news were forgotten.
     forgotten: usize,
     /// Counts changes.
@@ -49,14 +49,14 @@ struct State {
 
 /// How far a reader has come.
 #[derive(Clone, Default)]
-pub(crate) struct Bookmark {
+pub(crate) struct ReadPosition {
     version: u64,
     nodes: usize,
     news: usize,
     has_all: bool,
 }
 
-impl Bookmark {
+impl ReadPosition {
     /// Whether the last reading came to the end.
     pub(crate) fn is_read(&self) -> bool {
         self.has_all
@@ -64,15 +64,15 @@ impl Bookmark {
 }
 
 /// What a reader has not had yet.
-pub(crate) struct Pages {
+pub(crate) struct Unread {
     pub(crate) nodes: Vec<Arc<Node>>,
-    pub(crate) newest: Option<Arc<Moment>>,
-    pub(crate) news: Vec<Arc<(f64, Happening)>>,
+    pub(crate) newest: Option<Arc<Frame>>,
+    pub(crate) news: Vec<Arc<(f64, WatchEvent)>>,
     pub(crate) span: Option<[f64; 2]>,
     pub(crate) is_over: bool,
 }
 
-impl Chronicle {
+impl History {
     /// An empty one.
     pub(crate) fn new(origin: Origin) -> Self {
         let shared = Shared {
@@ -90,29 +90,29 @@ impl Chronicle {
         self.shared.origin
     }
 
-    /// Leaves the newest moment; `nodes` are all that are known. It goes into the past, too, if
+    /// Leaves the newest frame; `nodes` are all that are known. It goes into the past, too, if
     /// that is asked for.
-    pub(crate) fn leave(&self, nodes: &[Arc<Node>], moment: Arc<Moment>, keep: bool) {
+    pub(crate) fn leave(&self, nodes: &[Arc<Node>], frame: Arc<Frame>, keep: bool) {
         self.change(|state| {
             let known = state.nodes.len().min(nodes.len());
             state.nodes.extend_from_slice(&nodes[known..]);
             if keep {
-                state.past.push(Arc::clone(&moment));
+                state.past.push(Arc::clone(&frame));
             }
-            state.newest = Some(moment);
+            state.newest = Some(frame);
         });
     }
 
     /// Adds news of that simulated time (s).
-    pub(crate) fn tell(&self, time: f64, happening: &Happening) {
-        let happening = match happening {
-            Happening::Output(text) => Happening::Output(shortened(text)),
-            Happening::Aborted(text) => Happening::Aborted(shortened(text)),
-            Happening::Task(news) => {
+    pub(crate) fn tell(&self, time: f64, event: &WatchEvent) {
+        let event = match event {
+            WatchEvent::Output(text) => WatchEvent::Output(shortened(text)),
+            WatchEvent::Aborted(text) => WatchEvent::Aborted(shortened(text)),
+            WatchEvent::Task(news) => {
                 let mut news = news.clone();
                 news.name = shortened(&news.name);
                 news.failure = shortened(&news.failure);
-                Happening::Task(news)
+                WatchEvent::Task(news)
             }
         };
         self.change(|state| {
@@ -120,7 +120,7 @@ impl Chronicle {
                 state.news.pop_front();
                 state.forgotten += 1;
             }
-            state.news.push_back(Arc::new((time, happening)));
+            state.news.push_back(Arc::new((time, event)));
         });
     }
 
@@ -131,13 +131,13 @@ impl Chronicle {
 
     /// What a reader has not had yet, as soon as there is something or that much time has
     /// passed; at most `most` news.
-    pub(crate) fn read(&self, mark: &mut Bookmark, most: usize, patience: Duration) -> Pages {
+    pub(crate) fn read(&self, mark: &mut ReadPosition, most: usize, timeout: Duration) -> Unread {
         let state = self.state();
         let is_old = |state: &mut State| state.version == mark.version && mark.has_all;
         let waiting = self
             .shared
             .changed
-            .wait_timeout_while(state, patience, is_old);
+            .wait_timeout_while(state, timeout, is_old);
         let (state, _) = waiting.unwrap_or_else(PoisonError::into_inner);
         mark.version = state.version;
         let nodes = state.nodes.get(mark.nodes..).unwrap_or_default().to_vec();
@@ -146,7 +146,7 @@ impl Chronicle {
         let news: Vec<_> = state.news.iter().skip(first).take(most).cloned().collect();
         mark.news = state.forgotten + first.min(state.news.len()) + news.len();
         mark.has_all = mark.news >= state.forgotten + state.news.len();
-        Pages {
+        Unread {
             nodes,
             newest: state.newest.clone(),
             news,
@@ -168,12 +168,12 @@ impl Chronicle {
     }
 
     /// The news that are remembered, with their simulated times (s).
-    pub(crate) fn news(&self) -> Vec<Arc<(f64, Happening)>> {
+    pub(crate) fn news(&self) -> Vec<Arc<(f64, WatchEvent)>> {
         self.state().news.iter().cloned().collect()
     }
 
-    /// The past between two times (s), at most so many moments.
-    pub(crate) fn past(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Moment>> {
+    /// The past between two times (s), at most so many frames.
+    pub(crate) fn past(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Frame>> {
         self.state().past.between(from, to, most)
     }
 
@@ -201,16 +201,16 @@ fn shortened(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::watch::live::chronicle::*;
+    use crate::watch::live::history::*;
 
-    fn told(chronicle: &Chronicle, text: &str) {
-        chronicle.tell(0.0, &Happening::Output(text.to_owned()));
+    fn told(history: &History, text: &str) {
+        history.tell(0.0, &WatchEvent::Output(text.to_owned()));
     }
 
-    fn read(chronicle: &Chronicle, mark: &mut Bookmark) -> Vec<String> {
-        let pages = chronicle.read(mark, 3, Duration::ZERO);
+    fn read(history: &History, mark: &mut ReadPosition) -> Vec<String> {
+        let pages = history.read(mark, 3, Duration::ZERO);
         let texts = pages.news.iter().map(|news| match &news.1 {
-            Happening::Output(text) => text.clone(),
+            WatchEvent::Output(text) => text.clone(),
             other => panic!("{other:?}"),
         });
         texts.collect()
@@ -218,27 +218,27 @@ mod tests {
 
     #[test]
     fn a_reader_gets_everything_once() {
-        let chronicle = Chronicle::new(Origin::Session);
+        let history = History::new(Origin::Session);
         for text in ["a", "b", "c", "d"] {
-            told(&chronicle, text);
+            told(&history, text);
         }
-        let mut mark = Bookmark::default();
-        assert_eq!(read(&chronicle, &mut mark), ["a", "b", "c"]);
-        assert_eq!(read(&chronicle, &mut mark), ["d"]);
-        assert!(read(&chronicle, &mut mark).is_empty());
-        told(&chronicle, "e");
-        assert_eq!(read(&chronicle, &mut mark), ["e"]);
+        let mut mark = ReadPosition::default();
+        assert_eq!(read(&history, &mut mark), ["a", "b", "c"]);
+        assert_eq!(read(&history, &mut mark), ["d"]);
+        assert!(read(&history, &mut mark).is_empty());
+        told(&history, "e");
+        assert_eq!(read(&history, &mut mark), ["e"]);
     }
 
     #[test]
     fn news_are_forgotten_but_those_that_come_are_read() {
-        let chronicle = Chronicle::new(Origin::Session);
-        let mut mark = Bookmark::default();
-        (0..MOST_NEWS + 5).for_each(|i| told(&chronicle, &i.to_string()));
-        assert_eq!(read(&chronicle, &mut mark)[0], "5");
-        assert_eq!(chronicle.state().news.len(), MOST_NEWS);
-        told(&chronicle, &"x".repeat(10 * MOST_TEXT));
-        let last = chronicle.state().news.back().cloned();
-        assert!(matches!(&last.unwrap().1, Happening::Output(t) if t.len() < MOST_TEXT + 9));
+        let history = History::new(Origin::Session);
+        let mut mark = ReadPosition::default();
+        (0..MOST_NEWS + 5).for_each(|i| told(&history, &i.to_string()));
+        assert_eq!(read(&history, &mut mark)[0], "5");
+        assert_eq!(history.state().news.len(), MOST_NEWS);
+        told(&history, &"x".repeat(10 * MOST_TEXT));
+        let last = history.state().news.back().cloned();
+        assert!(matches!(&last.unwrap().1, WatchEvent::Output(t) if t.len() < MOST_TEXT + 9));
     }
 }

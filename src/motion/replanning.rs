@@ -1,36 +1,9 @@
-//! How long a job waits for others before it gives up.
+//! When to plan again after a plan has failed.
 
 use super::failure::MotionFailure;
+use super::standstill::StandstillTimer;
 use crate::world::physics::STEP_SECONDS;
 use crate::world::{RobotConfiguration, World};
-
-/// Watches whether the robot still moves while a job is blocked: as long as another job
-/// moves it, the way may become free.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Patience {
-    last: Option<RobotConfiguration>,
-    still: u32,
-}
-
-impl Patience {
-    /// To be called in every tick in which the job is blocked. Returns for how long (s) the
-    /// robot has not moved at all.
-    pub(super) fn wait(&mut self, world: &World) -> f64 {
-        let now = world.robot_configuration();
-        if self.last.as_ref() == Some(now) {
-            self.still += 1;
-        } else {
-            self.last = Some(now.clone());
-            self.still = 0;
-        }
-        f64::from(self.still) * STEP_SECONDS
-    }
-
-    /// To be called when the job goes on.
-    pub(super) fn reset(&mut self) {
-        *self = Self::default();
-    }
-}
 
 /// The robot is steady when it has not moved for this long (s).
 const STEADY: f64 = 0.05;
@@ -51,17 +24,17 @@ pub(super) enum Attempt {
 /// When to plan again after a plan has failed: when other jobs have moved the robot into
 /// another configuration, since the way may be free then.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Retry {
-    patience: Patience,
+pub(super) struct Replanning {
+    standstill: StandstillTimer,
     failed: Option<(RobotConfiguration, MotionFailure)>,
     since: f64,
 }
 
-impl Retry {
+impl Replanning {
     /// To be called in every tick without a plan; `give_up_after` is how long (s) the robot
     /// may stay in a configuration for which there is no plan.
     pub(super) fn next(&mut self, world: &World, give_up_after: f64) -> Attempt {
-        let still = self.patience.wait(world);
+        let still = self.standstill.wait(world);
         self.since += STEP_SECONDS;
         match self.failed.take() {
             None => Attempt::Now,

@@ -11,7 +11,7 @@ pub(crate) enum TaskId {
 
 /// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Happening {
+pub(crate) enum WatchEvent {
     /// Text was printed; not necessarily whole lines.
     Output(String),
     /// A condition that nobody handled ended an evaluation; its report.

@@ -1,24 +1,24 @@
-//! Postures that lead the tools of the arms along straight lines.
+//! Configurations that lead the tools of the arms along straight lines.
 
-use super::arm_axes::ArmAxes;
-use super::arm_path::{between, blocked_between};
-use super::judge::Judge;
+use super::configuration_checker::ConfigurationChecker;
+use super::joint_path::{between, blocked_between};
+use super::planning_group::PlanningGroup;
 use crate::robot::description::Arm;
 use crate::robot::{ARM_JOINTS, ArmPositions, Side};
 use crate::spatial::{Pose, pose};
 use crate::world::{Models, RobotConfiguration, World};
 
-/// Distance (m) and angle (rad) between neighbouring postures of a line.
+/// Distance (m) and angle (rad) between neighbouring configurations of a line.
 const STEP: (f64, f64) = (0.01, 0.05);
-/// Greatest change (rad) of a joint between neighbouring postures: more is a jump from one
+/// Greatest change (rad) of a joint between neighbouring configurations: more is a jump from one
 /// branch of the inverse kinematics to another.
 const JUMP: f64 = 0.35;
-/// Between neighbouring postures no part moves farther (m) than this without a check.
+/// Between neighbouring configurations no part moves farther (m) than this without a check.
 const RESOLUTION: f64 = 0.02;
 
 /// A straight line of the tool of one arm, in the frame of the base.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct TcpLine {
+pub(super) struct CartesianLine {
     pub(super) side: Side,
     pub(super) from: Pose,
     pub(super) to: Pose,
@@ -26,34 +26,34 @@ pub(super) struct TcpLine {
 
 /// Straight lines that both arms, or one, follow at the same time while the torso goes to
 /// a height.
-pub(super) struct LineTask<'a> {
+pub(super) struct CartesianTask<'a> {
     pub(super) models: &'a Models,
     pub(super) robot: RobotConfiguration,
-    pub(super) axes: ArmAxes,
-    pub(super) lines: Vec<TcpLine>,
+    pub(super) group: PlanningGroup,
+    pub(super) lines: Vec<CartesianLine>,
     /// Height (m) of the torso in the end, when it is the first of the axes.
     pub(super) torso: Option<f64>,
 }
 
 /// The robot's joints along a line, and how far the tool has moved (m) at each place.
 #[derive(Clone, Debug, Default)]
-pub(super) struct LinePath {
+pub(super) struct CartesianPath {
     pub(super) points: Vec<Vec<f64>>,
-    pub(super) way: Vec<f64>,
+    pub(super) lengths: Vec<f64>,
     /// Number of steps of the complete line.
     pub(super) steps: u32,
 }
 
 /// Where a line ended.
 #[derive(Debug)]
-pub(super) enum LineEnd {
+pub(super) enum CartesianEnd {
     Complete,
-    /// No posture, or none near the one before.
+    /// No configuration, or none near the one before.
     Unreachable,
     Blocked,
 }
 
-impl LineTask<'_> {
+impl CartesianTask<'_> {
     /// Length of the longest line (m); a turn counts as the arc of a hand's length.
     fn length(&self) -> f64 {
         let lengths = self.lines.iter().map(|l| {
@@ -63,27 +63,27 @@ impl LineTask<'_> {
         lengths.fold(0.0, f64::max)
     }
 
-    /// Follows the lines as far as possible. Each posture is the one nearest to the one
-    /// before; with a final posture, to one that drifts there. Without a judge nothing is in the way.
+    /// Follows the lines as far as possible. Each configuration is the one nearest to the one
+    /// before; with a final configuration, to one that drifts there. Without a checker nothing is in the way.
     pub(super) fn follow(
         &self,
         start: &[f64],
         last: Option<&[f64]>,
-        mut judge: Option<&mut Judge<'_>>,
-    ) -> (LinePath, LineEnd) {
+        mut checker: Option<&mut ConfigurationChecker<'_>>,
+    ) -> (CartesianPath, CartesianEnd) {
         let length = self.length();
         let steps = (length / STEP.0).ceil().max(1.0) as u32;
-        let mut path = LinePath {
+        let mut path = CartesianPath {
             points: vec![start.to_vec()],
-            way: vec![0.0],
+            lengths: vec![0.0],
             steps,
         };
         let mut before = start.to_vec();
         for i in 1..=steps {
             let share = f64::from(i) / f64::from(steps);
             let seed = last.map_or_else(|| before.clone(), |last| between(start, last, share));
-            let Some(next) = self.posture(share, &seed, start) else {
-                return (path, LineEnd::Unreachable);
+            let Some(next) = self.configuration(share, &seed, start) else {
+                return (path, CartesianEnd::Unreachable);
             };
             let jump = before
                 .iter()
@@ -91,29 +91,39 @@ impl LineTask<'_> {
                 .map(|(a, b)| (a - b).abs())
                 .fold(0.0, f64::max);
             if jump > JUMP {
-                return (path, LineEnd::Unreachable);
+                return (path, CartesianEnd::Unreachable);
             }
-            if let Some(judge) = judge.as_deref_mut()
-                && self.is_blocked(&before, &next, judge)
+            if let Some(checker) = checker.as_deref_mut()
+                && self.is_blocked(&before, &next, checker)
             {
-                return (path, LineEnd::Blocked);
+                return (path, CartesianEnd::Blocked);
             }
             path.points.push(next.clone());
-            path.way.push(length * share);
+            path.lengths.push(length * share);
             before = next;
         }
-        (path, LineEnd::Complete)
+        (path, CartesianEnd::Complete)
     }
 
-    fn is_blocked(&self, before: &[f64], next: &[f64], judge: &mut Judge<'_>) -> bool {
-        let mut blocked = |q: &[f64]| judge.blocked(q);
+    fn is_blocked(
+        &self,
+        before: &[f64],
+        next: &[f64],
+        checker: &mut ConfigurationChecker<'_>,
+    ) -> bool {
+        let mut blocked = |q: &[f64]| checker.blocked(q);
         blocked(next).is_some()
-            || blocked_between(&self.axes.path, before, next, RESOLUTION, &mut blocked).is_some()
+            || blocked_between(&self.group.axes, before, next, RESOLUTION, &mut blocked).is_some()
     }
 
-    /// The posture at that share of the way that is nearest to the seed.
-    pub(super) fn posture(&self, share: f64, seed: &[f64], start: &[f64]) -> Option<Vec<f64>> {
-        let mut posture = Vec::with_capacity(seed.len());
+    /// The configuration at that share of the way that is nearest to the seed.
+    pub(super) fn configuration(
+        &self,
+        share: f64,
+        seed: &[f64],
+        start: &[f64],
+    ) -> Option<Vec<f64>> {
+        let mut configuration = Vec::with_capacity(seed.len());
         let mut robot = self.robot.clone();
         if let Some(end) = self.torso {
             let from = start.first().copied()?;
@@ -121,17 +131,17 @@ impl LineTask<'_> {
             robot
                 .joints
                 .set(self.models.description.torso.joint, height);
-            posture.push(height);
+            configuration.push(height);
         }
         for line in &self.lines {
             let arm = self.models.description.arm(line.side);
             let tcp = pose::between(&line.from, &line.to, share);
             let wrist = wrist_in_torso(self.models, &robot, arm, &tcp);
-            let offset = posture.len();
+            let offset = configuration.len();
             let seed: ArmPositions = seed.get(offset..offset + ARM_JOINTS)?.try_into().ok()?;
-            posture.extend(arm.kinematics.nearest(&wrist, &seed).ok()?);
+            configuration.extend(arm.kinematics.nearest(&wrist, &seed).ok()?);
         }
-        Some(posture)
+        Some(configuration)
     }
 }
 

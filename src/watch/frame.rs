@@ -6,7 +6,7 @@ use crate::spatial::Pose;
 
 /// How the world looks at one time. Everything is in the map frame.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Moment {
+pub(crate) struct Frame {
     /// Simulated time (s) since the session began.
     pub(crate) time: f64,
     /// Where the nodes are that can move, in order of their numbers. Objects that are not
@@ -85,7 +85,7 @@ impl Path {
     pub(crate) const WHAT: [&'static str; 3] = ["base", "left", "right"];
 }
 
-impl Moment {
+impl Frame {
     /// About how many bytes it takes.
     pub(crate) fn bytes(&self) -> usize {
         size_of::<Self>()

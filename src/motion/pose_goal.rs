@@ -1,20 +1,22 @@
-//! Choosing a height of the torso and postures of the arms for goals of their hands, and
+//! Choosing a height of the torso and configurations of the arms for goals of their hands, and
 //! planning the way there.
 //!
 //! The present height of the torso comes first, then others, the nearest first. At each
-//! height all postures over the arm's free angle are looked at, those that touch something
+//! height all configurations over the arm's free angle are looked at, those that touch something
 //! are left out, the rest is ranked by how far away it is and how much room it leaves.
 
-use super::arm_axes::ArmAxes;
-use super::arm_path::{ArmPathEffort, blocked_between};
-use super::arm_way::{plan_way, smooth};
+use super::cartesian_path::{
+    CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base, wrist_in_torso,
+};
+use super::configuration_checker::ConfigurationChecker;
 use super::expected_contacts::ExpectedContacts;
 use super::failure::MotionFailure;
 use super::hold::held_objects;
-use super::joint_follow::{JointFollow, with_joints};
-use super::judge::Judge;
+use super::joint_follower::{JointFollower, with_joints};
+use super::joint_path::{JointPathEffort, blocked_between};
+use super::joint_trajectory::{plan_joint_trajectory, smooth};
+use super::planning_group::PlanningGroup;
 use super::speeds;
-use super::tcp_line::{LineEnd, LinePath, LineTask, TcpLine, tcp_in_base, wrist_in_torso};
 use super::trajectory::{AxisGroup, Corners, Trajectory};
 use super::unreachable::{UnreachablePose, UnreachableReason};
 use crate::robot::description::Speed;
@@ -22,44 +24,44 @@ use crate::robot::{self, JointId, Limits, RobotDescription, Side};
 use crate::spatial::{Pose, trig};
 use crate::world::{CollisionHit, World};
 
-/// Distance of neighbouring postures over the free angle (rad).
-const POSTURE_STEP: f64 = 0.15;
+/// Distance of neighbouring configurations over the free angle (rad).
+const CONFIGURATION_STEP: f64 = 0.15;
 /// Steps of the torso's height (m) that are tried.
 const TORSO_STEP: f64 = 0.01;
 /// Steps of the torso's height (m) at which a reason for failing is looked for.
 pub(super) const REASON_STEP: f64 = 0.03;
-/// How many postures are judged by the room they leave.
+/// How many configurations are judged by the room they leave.
 const SHORT_LIST: usize = 10;
 /// Room (m) around the arm beyond which more is not better.
 const ROOM: f64 = 0.05;
-/// What a posture without any room costs, in radians of joint motion.
+/// What a configuration without any room costs, in radians of joint motion.
 const NO_ROOM_COST: f64 = 2.0;
-/// What a posture costs in which the empty hand could not open, in radians of joint motion.
+/// What a configuration costs in which the empty hand could not open, in radians of joint motion.
 const SHUT_COST: f64 = 4.0;
-/// Distance (rad) from a joint's limit below which postures cost more, and how much.
+/// Distance (rad) from a joint's limit below which configurations cost more, and how much.
 const LIMIT_MARGIN: (f64, f64) = (0.2, 1.0);
-/// How many postures at one height are tried with a long search for a path.
+/// How many configurations at one height are tried with a long search for a path.
 const LONG_SEARCHES: usize = 2;
-/// How many final postures at one height are tried for a straight line.
+/// How many final configurations at one height are tried for a straight line.
 const LINE_ENDS: usize = 6;
 /// At how many heights a search for a path may fail before giving up.
 const MOST_HEIGHTS: usize = 4;
 
 /// Goals of the hands: poses of their tools in the frame of the base.
-pub(super) struct TcpTask<'a> {
+pub(super) struct PoseGoalTask<'a> {
     pub(super) world: &'a World,
     pub(super) goals: Vec<(Side, Pose)>,
     pub(super) contacts: ExpectedContacts,
 }
 
-/// A posture that reaches the goals.
-pub(super) struct Posture {
+/// A configuration that reaches the goals.
+pub(super) struct GoalConfiguration {
     cost: f64,
     /// Positions of the axes, that of the torso first if it moves.
     pub(super) positions: Vec<f64>,
 }
 
-impl TcpTask<'_> {
+impl PoseGoalTask<'_> {
     fn body(&self) -> &RobotDescription {
         &self.world.models().description
     }
@@ -93,8 +95,8 @@ impl TcpTask<'_> {
     }
 
     /// The torso is one of the axes only when it has to move.
-    pub(super) fn axes(&self, height: f64) -> ArmAxes {
-        ArmAxes::new(self.world, height != self.torso_now(), &self.sides())
+    pub(super) fn group(&self, height: f64) -> PlanningGroup {
+        PlanningGroup::new(self.world, height != self.torso_now(), &self.sides())
     }
 
     fn wrist(&self, side: Side, tcp: &Pose, height: f64) -> Pose {
@@ -106,19 +108,23 @@ impl TcpTask<'_> {
         wrist_in_torso(self.world.models(), &robot, self.body().arm(side), tcp)
     }
 
-    /// All postures at the height, the best one first; what they touch is not looked at.
-    pub(super) fn postures(&self, height: f64, axes: &ArmAxes) -> Vec<Posture> {
-        let now = axes.now(self.world);
+    /// All configurations at the height, the best one first; what they touch is not looked at.
+    pub(super) fn configurations(
+        &self,
+        height: f64,
+        group: &PlanningGroup,
+    ) -> Vec<GoalConfiguration> {
+        let now = group.now(self.world);
         let lead = now.len() - self.goals.len() * robot::ARM_JOINTS;
         let torso = if lead > 0 { vec![height] } else { Vec::new() };
-        let mut all = vec![Posture {
+        let mut all = vec![GoalConfiguration {
             cost: 0.0,
             positions: torso,
         }];
         for (side, tcp) in &self.goals {
             let kinematics = &self.body().arm(*side).kinematics;
             let wrist = self.wrist(*side, tcp, height);
-            let found = kinematics.solutions(&wrist, POSTURE_STEP);
+            let found = kinematics.solutions(&wrist, CONFIGURATION_STEP);
             let mut next = Vec::new();
             for before in &all {
                 for solution in &found {
@@ -134,11 +140,11 @@ impl TcpTask<'_> {
                         cost += (to - from).abs() + limits.map_or(0.0, |l| limit_cost(&l, to));
                         positions.push(to);
                     }
-                    next.push(Posture { cost, positions });
+                    next.push(GoalConfiguration { cost, positions });
                 }
             }
             next.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-            // Two arms: the product of all postures of both would be too much.
+            // Two arms: the product of all configurations of both would be too much.
             next.truncate(400);
             all = next;
         }
@@ -155,34 +161,34 @@ impl TcpTask<'_> {
             .collect()
     }
 
-    /// The postures at the height that touch nothing, the best one first; or how many there
+    /// The configurations at the height that touch nothing, the best one first; or how many there
     /// are and what one of them touches.
-    fn free_postures(
+    fn free_configurations(
         &self,
-        postures: Vec<Posture>,
-        judge: &mut Judge<'_>,
-    ) -> Result<Vec<Posture>, (usize, Option<CollisionHit>)> {
-        let count = postures.len();
+        configurations: Vec<GoalConfiguration>,
+        checker: &mut ConfigurationChecker<'_>,
+    ) -> Result<Vec<GoalConfiguration>, (usize, Option<CollisionHit>)> {
+        let count = configurations.len();
         let mut first_hit = None;
         let mut free = Vec::new();
         let open_hands = self.open_hands();
-        for mut posture in postures {
-            if let Some(hit) = judge.blocked(&posture.positions) {
+        for mut configuration in configurations {
+            if let Some(hit) = checker.blocked(&configuration.positions) {
                 first_hit = first_hit.or(Some(hit));
                 continue;
             }
-            if !judge.is_free_with(&posture.positions, &open_hands) {
-                posture.cost += SHUT_COST;
+            if !checker.is_free_with(&configuration.positions, &open_hands) {
+                configuration.cost += SHUT_COST;
             }
-            free.push(posture);
+            free.push(configuration);
         }
         if free.is_empty() {
             return Err((count, first_hit));
         }
         free.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        for posture in free.iter_mut().take(SHORT_LIST) {
-            let room = judge.clearance(&posture.positions, ROOM);
-            posture.cost += NO_ROOM_COST * (1.0 - room.max(0.0) / ROOM);
+        for configuration in free.iter_mut().take(SHORT_LIST) {
+            let room = checker.clearance(&configuration.positions, ROOM);
+            configuration.cost += NO_ROOM_COST * (1.0 - room.max(0.0) / ROOM);
         }
         let listed = free.len().min(SHORT_LIST);
         free[..listed].sort_by(|a, b| a.cost.total_cmp(&b.cost));
@@ -190,18 +196,19 @@ impl TcpTask<'_> {
     }
 
     /// A path to the goals, wherever it leads the hands in between.
-    pub(super) fn plan_free(&self) -> Result<JointFollow, MotionFailure> {
+    pub(super) fn plan_free(&self) -> Result<JointFollower, MotionFailure> {
         let mut touching: Option<(usize, CollisionHit)> = None;
         let mut last_failure = None;
         let mut searched = 0;
         for height in self.heights(TORSO_STEP) {
-            let axes = self.axes(height);
-            let postures = self.postures(height, &axes);
-            if postures.is_empty() {
+            let group = self.group(height);
+            let configurations = self.configurations(height, &group);
+            if configurations.is_empty() {
                 continue;
             }
-            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.contacts);
-            let free = match self.free_postures(postures, &mut judge) {
+            let mut checker =
+                ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
+            let free = match self.free_configurations(configurations, &mut checker) {
                 Ok(free) => free,
                 Err((count, hit)) => {
                     let all = touching.as_ref().map_or(0, |t| t.0) + count;
@@ -209,11 +216,11 @@ impl TcpTask<'_> {
                     continue;
                 }
             };
-            match self.plan_to_one_of(&free, &axes, &mut judge) {
-                Ok(way) => {
-                    return Ok(JointFollow::new(
-                        axes.joints,
-                        way,
+            match self.plan_to_one_of(&free, &group, &mut checker) {
+                Ok(trajectory) => {
+                    return Ok(JointFollower::new(
+                        group.joints,
+                        trajectory,
                         self.contacts.allowed.clone(),
                     ));
                 }
@@ -228,49 +235,55 @@ impl TcpTask<'_> {
         Err(last_failure.unwrap_or_else(|| self.unreachable(touching)))
     }
 
-    /// Straight ways to the best postures first, then long searches to the very best ones.
+    /// Straight ways to the best configurations first, then long searches to the very best ones.
     fn plan_to_one_of(
         &self,
-        free: &[Posture],
-        axes: &ArmAxes,
-        judge: &mut Judge<'_>,
+        free: &[GoalConfiguration],
+        group: &PlanningGroup,
+        checker: &mut ConfigurationChecker<'_>,
     ) -> Result<Trajectory, MotionFailure> {
-        let effort = ArmPathEffort::default();
-        let now = axes.now(self.world);
-        for posture in free.iter().take(SHORT_LIST) {
-            let mut blocked = |q: &[f64]| judge.blocked(q);
+        let effort = JointPathEffort::default();
+        let now = group.now(self.world);
+        for configuration in free.iter().take(SHORT_LIST) {
+            let mut blocked = |q: &[f64]| checker.blocked(q);
             let met = blocked_between(
-                &axes.path,
+                &group.axes,
                 &now,
-                &posture.positions,
+                &configuration.positions,
                 effort.resolution,
                 &mut blocked,
             );
             if met.is_none() {
-                let limits = speeds::limits_of(self.body(), &axes.joints);
-                let path = [now, posture.positions.clone()];
+                let limits = speeds::limits_of(self.body(), &group.joints);
+                let path = [now, configuration.positions.clone()];
                 return Ok(Trajectory::new(&path, &limits, Corners::Round));
             }
         }
         let mut result = None;
-        for posture in free.iter().take(LONG_SEARCHES) {
-            match plan_way(self.world, axes, &posture.positions, judge, effort) {
-                Ok(way) => return Ok(way),
+        for configuration in free.iter().take(LONG_SEARCHES) {
+            match plan_joint_trajectory(
+                self.world,
+                group,
+                &configuration.positions,
+                checker,
+                effort,
+            ) {
+                Ok(trajectory) => return Ok(trajectory),
                 Err(failure) => result = Some(failure),
             }
         }
         Err(result.unwrap_or_else(|| self.unreachable(None)))
     }
 
-    pub(super) fn line_task(&self, height: f64, axes: &ArmAxes) -> LineTask<'_> {
-        LineTask {
+    pub(super) fn line_task(&self, height: f64, group: &PlanningGroup) -> CartesianTask<'_> {
+        CartesianTask {
             models: self.world.models(),
             robot: self.world.robot_configuration().clone(),
-            axes: axes.clone(),
+            group: group.clone(),
             lines: self
                 .goals
                 .iter()
-                .map(|(side, to)| TcpLine {
+                .map(|(side, to)| CartesianLine {
                     side: *side,
                     from: tcp_in_base(self.world, *side),
                     to: *to,
@@ -281,27 +294,29 @@ impl TcpTask<'_> {
     }
 
     /// A path that leads the tools straight to the goals, if there is one.
-    pub(super) fn plan_line(&self) -> Option<JointFollow> {
+    pub(super) fn plan_line(&self) -> Option<JointFollower> {
         for height in self.heights(REASON_STEP) {
-            let axes = self.axes(height);
-            let postures = self.postures(height, &axes);
-            if postures.is_empty() {
+            let group = self.group(height);
+            let configurations = self.configurations(height, &group);
+            if configurations.is_empty() {
                 continue;
             }
-            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.contacts);
-            let task = self.line_task(height, &axes);
-            let start = axes.now(self.world);
-            let ends = postures
+            let mut checker =
+                ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
+            let task = self.line_task(height, &group);
+            let start = group.now(self.world);
+            let ends = configurations
                 .iter()
                 .take(LINE_ENDS)
                 .map(|p| Some(p.positions.as_slice()));
             for end in std::iter::once(None).chain(ends) {
-                let (path, met) = task.follow(&start, end, Some(&mut judge));
-                if matches!(met, LineEnd::Complete) {
-                    let way = self.line_way(&path, &axes, speeds::HAND, &mut judge);
-                    return Some(JointFollow::new(
-                        axes.joints,
-                        way,
+                let (path, met) = task.follow(&start, end, Some(&mut checker));
+                if matches!(met, CartesianEnd::Complete) {
+                    let trajectory =
+                        self.cartesian_trajectory(&path, &group, speeds::HAND, &mut checker);
+                    return Some(JointFollower::new(
+                        group.joints,
+                        trajectory,
                         self.contacts.allowed.clone(),
                     ));
                 }
@@ -310,35 +325,42 @@ impl TcpTask<'_> {
         None
     }
 
-    /// A way to another posture in which the tools are where they are now, but can be led
+    /// A way to another configuration in which the tools are where they are now, but can be led
     /// straight to the goals from there; on it the robot touches only what is given.
-    pub(super) fn plan_start_of_line(&self, contacts: &ExpectedContacts) -> Option<JointFollow> {
+    pub(super) fn plan_to_start_of_line(
+        &self,
+        contacts: &ExpectedContacts,
+    ) -> Option<JointFollower> {
         let mut searches = 0;
         for height in self.heights(REASON_STEP) {
-            let axes = self.axes(height);
-            let postures = self.postures(height, &axes);
-            if postures.is_empty() {
+            let group = self.group(height);
+            let configurations = self.configurations(height, &group);
+            if configurations.is_empty() {
                 continue;
             }
-            let mut judge = Judge::new(self.world, axes.joints.clone(), &self.contacts);
-            let mut back = self.line_task(height, &axes);
+            let mut checker =
+                ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
+            let mut back = self.line_task(height, &group);
             for line in &mut back.lines {
                 std::mem::swap(&mut line.from, &mut line.to);
             }
-            let free = postures
+            let free = configurations
                 .iter()
-                .filter(|p| judge.blocked(&p.positions).is_none());
-            let ends: Vec<&Posture> = free.take(LINE_ENDS).collect();
+                .filter(|p| checker.blocked(&p.positions).is_none());
+            let ends: Vec<&GoalConfiguration> = free.take(LINE_ENDS).collect();
             for end in ends {
-                let (path, met) = back.follow(&end.positions, None, Some(&mut judge));
-                let (LineEnd::Complete, Some(start)) = (met, path.points.last()) else {
+                let (path, met) = back.follow(&end.positions, None, Some(&mut checker));
+                let (CartesianEnd::Complete, Some(start)) = (met, path.points.last()) else {
                     continue;
                 };
-                let mut judge = Judge::new(self.world, axes.joints.clone(), contacts);
-                let effort = ArmPathEffort::default();
-                if let Ok(way) = plan_way(self.world, &axes, start, &mut judge, effort) {
+                let mut checker =
+                    ConfigurationChecker::new(self.world, group.joints.clone(), contacts);
+                let effort = JointPathEffort::default();
+                if let Ok(trajectory) =
+                    plan_joint_trajectory(self.world, &group, start, &mut checker, effort)
+                {
                     let allowed = contacts.allowed.clone();
-                    return Some(JointFollow::new(axes.joints, way, allowed));
+                    return Some(JointFollower::new(group.joints, trajectory, allowed));
                 }
                 searches += 1;
                 if searches >= LONG_SEARCHES {
@@ -350,29 +372,29 @@ impl TcpTask<'_> {
     }
 
     /// The path in time: the tool's way is one more axis, with its own speed limit.
-    pub(super) fn line_way(
+    pub(super) fn cartesian_trajectory(
         &self,
-        path: &LinePath,
-        axes: &ArmAxes,
+        path: &CartesianPath,
+        group: &PlanningGroup,
         speed: Speed,
-        judge: &mut Judge<'_>,
+        checker: &mut ConfigurationChecker<'_>,
     ) -> Trajectory {
-        let mut limits = speeds::limits_of(self.body(), &axes.joints);
+        let mut limits = speeds::limits_of(self.body(), &group.joints);
         limits.push(AxisGroup::single(
-            axes.joints.len(),
+            group.joints.len(),
             speed.velocity,
             speed.acceleration,
         ));
         let points: Vec<Vec<f64>> = path
             .points
             .iter()
-            .zip(&path.way)
-            .map(|(q, way)| q.iter().copied().chain([*way]).collect())
+            .zip(&path.lengths)
+            .map(|(q, length)| q.iter().copied().chain([*length]).collect())
             .collect();
-        smooth(&points, &limits, judge)
+        smooth(&points, &limits, checker)
     }
 
-    /// Says why no posture was found.
+    /// Says why no configuration was found.
     fn unreachable(&self, touching: Option<(usize, CollisionHit)>) -> MotionFailure {
         let limits = self.torso_limits();
         let torso = [limits.lower, limits.upper];
@@ -417,9 +439,14 @@ impl TcpTask<'_> {
             suitable.push((*side, range));
         }
         match (touching, self.goals.as_slice()) {
-            (Some((postures, hit)), [(side, tcp), ..]) => {
-                report(*side, tcp, UnreachableReason::Collisions { hit, postures })
-            }
+            (Some((configurations, hit)), [(side, tcp), ..]) => report(
+                *side,
+                tcp,
+                UnreachableReason::Collisions {
+                    hit,
+                    configurations,
+                },
+            ),
             _ => {
                 let of = |wanted| {
                     suitable

@@ -1,4 +1,4 @@
-//! Judging postures of some joints while everything else stays as it is.
+//! Judging configurations of some joints while everything else stays as it is.
 
 use super::expected_contacts::ExpectedContacts;
 use super::guard::GUARD_DEPTH;
@@ -6,21 +6,21 @@ use super::touching::TouchingPairs;
 use crate::robot::JointId;
 use crate::world::{CollisionChecker, CollisionHit, RobotConfiguration, World};
 
-/// Gap (m) that planned postures keep to everything.
+/// Gap (m) that planned configurations keep to everything.
 pub(super) const PLAN_MARGIN: f64 = 0.004;
-/// Overlap (m) of pairs that are near at the start, up to which postures pass.
+/// Overlap (m) of pairs that are near at the start, up to which configurations pass.
 const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0003;
 
-/// Tells which postures are free. Pairs that are near each other at the start, such as a
+/// Tells which configurations are free. Pairs that are near each other at the start, such as a
 /// held object and what it stands on, may stay near, but not overlap more.
-pub(super) struct Judge<'w> {
+pub(super) struct ConfigurationChecker<'w> {
     checker: CollisionChecker<'w>,
     robot: RobotConfiguration,
     joints: Vec<JointId>,
     touching: TouchingPairs,
 }
 
-impl<'w> Judge<'w> {
+impl<'w> ConfigurationChecker<'w> {
     pub(super) fn new(world: &'w World, joints: Vec<JointId>, contacts: &ExpectedContacts) -> Self {
         let mut checker = world.collision_checker();
         let robot = world.robot_configuration().clone();
@@ -53,7 +53,7 @@ impl<'w> Judge<'w> {
             .first_hit(&mut self.checker, &self.robot, PLAN_MARGIN)
     }
 
-    /// Whether the posture would also be free with other joints elsewhere than they are now.
+    /// Whether the configuration would also be free with other joints elsewhere than they are now.
     pub(super) fn is_free_with(&mut self, positions: &[f64], others: &[(JointId, f64)]) -> bool {
         let joints = &self.robot.joints;
         let before: Vec<_> = others
@@ -70,7 +70,7 @@ impl<'w> Judge<'w> {
         free
     }
 
-    /// The smallest gap (m) in that posture, up to `reach` (m).
+    /// The smallest gap (m) in that configuration, up to `reach` (m).
     pub(super) fn clearance(&mut self, positions: &[f64], reach: f64) -> f64 {
         self.set(positions);
         let nearest = self

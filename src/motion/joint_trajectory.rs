@@ -1,0 +1,71 @@
+//! From a planned path of the arms to a trajectory that keeps to it.
+
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::SeedableRng;
+
+use super::configuration_checker::ConfigurationChecker;
+use super::failure::MotionFailure;
+use super::joint_path::{JointPathEffort, JointPathFailure, find_joint_path};
+use super::planning_group::PlanningGroup;
+use super::speeds;
+use super::trajectory::{AxisGroup, Corners, Trajectory};
+use crate::world::{CollisionHit, World};
+
+/// Time (s) between two places of a trajectory that are checked.
+const CHECK_EVERY: f64 = 0.02;
+
+/// A path of the axes from where they are now to the goal, as a trajectory.
+pub(super) fn plan_joint_trajectory(
+    world: &World,
+    group: &PlanningGroup,
+    goal: &[f64],
+    checker: &mut ConfigurationChecker<'_>,
+    effort: JointPathEffort,
+) -> Result<Trajectory, MotionFailure> {
+    // One generator per plan, seeded by the time: a plan depends on nothing but the world.
+    let mut rng = Pcg64::seed_from_u64(world.steps());
+    let mut blocked = |q: &[f64]| checker.blocked(q);
+    let path = find_joint_path(
+        &group.axes,
+        &group.now(world),
+        goal,
+        effort,
+        &mut rng,
+        &mut blocked,
+    )
+    .map_err(path_failure)?;
+    let limits = speeds::limits_of(&world.models().description, &group.joints);
+    Ok(smooth(&path, &limits, checker))
+}
+
+/// The path with rounded corners where they are free, and stops in them otherwise.
+pub(super) fn smooth(
+    path: &[Vec<f64>],
+    limits: &[AxisGroup],
+    checker: &mut ConfigurationChecker<'_>,
+) -> Trajectory {
+    let round = Trajectory::new(path, limits, Corners::Round);
+    if path.len() <= 2 || is_free(&round, checker) {
+        return round;
+    }
+    Trajectory::new(path, limits, Corners::Stop)
+}
+
+fn is_free(trajectory: &Trajectory, checker: &mut ConfigurationChecker<'_>) -> bool {
+    let parts = (trajectory.duration() / CHECK_EVERY).ceil().max(1.0) as u32;
+    (1..parts).all(|i| {
+        let t = trajectory.duration() * f64::from(i) / f64::from(parts);
+        checker.blocked(&trajectory.position(t)).is_none()
+    })
+}
+
+fn path_failure(failure: JointPathFailure<CollisionHit>) -> MotionFailure {
+    match failure {
+        JointPathFailure::Start(hit) => MotionFailure::ArmStartInCollision { hit: hit.into() },
+        JointPathFailure::Goal(hit) => MotionFailure::ArmGoalInCollision { hit: hit.into() },
+        JointPathFailure::NotFound { blocker, samples } => MotionFailure::ArmPathNotFound {
+            hit: blocker.into(),
+            samples,
+        },
+    }
+}
