@@ -3,6 +3,7 @@
 //! tables.
 
 use super::image::Image;
+use super::library::definition::{Definition, Kind};
 use super::value::Value;
 use super::value::function::{ControlFn, Function, NativeCall, PureFn};
 use super::value::raise::Raise;
@@ -80,19 +81,31 @@ impl Builtin {
 
     /// Fewest and most arguments, from the lambda list.
     pub(crate) fn arity(&self) -> (u16, Option<u16>) {
-        let mut min = 0;
-        let mut optional = 0;
-        let mut in_optional = false;
-        for word in self.lambda_list.split_whitespace() {
-            match word {
-                "&optional" => in_optional = true,
-                "&rest" | "&key" | "&body" => return (min, None),
-                _ if in_optional => optional += 1,
-                _ => min += 1,
-            }
-        }
-        (min, Some(min + optional))
+        arity(self.lambda_list)
     }
+}
+
+/// Fewest and most arguments of a function with a lambda list, written without its
+/// parentheses.
+pub(crate) fn arity(lambda_list: &str) -> (u16, Option<u16>) {
+    let mut min = 0;
+    let mut optional = 0;
+    let mut in_optional = false;
+    let mut depth = 0_usize;
+    for word in lambda_list.split_whitespace() {
+        let is_parameter = depth == 0;
+        depth += word.matches('(').count();
+        depth = depth.saturating_sub(word.matches(')').count());
+        match word {
+            _ if !is_parameter => {}
+            "&optional" => in_optional = true,
+            "&rest" | "&key" | "&body" => return (min, None),
+            "&aux" => break,
+            _ if in_optional => optional += 1,
+            _ => min += 1,
+        }
+    }
+    (min, Some(min + optional))
 }
 
 /// Expands a macro call: maps the whole form to the form that takes its place.
@@ -110,4 +123,66 @@ pub(crate) struct Operator {
     pub(crate) examples: &'static [&'static str],
     /// How it expands; none for a special operator, which the compiler translates itself.
     pub(crate) expand: Option<Expander>,
+}
+
+/// What the tables say of a name: a function or an operator written in Rust, or a definition
+/// written in Lisp.
+#[derive(Clone, Copy)]
+pub(crate) enum Entry {
+    /// A function written in Rust.
+    Builtin(&'static Builtin),
+    /// A macro written in Rust or a special operator.
+    Operator(&'static Operator),
+    /// A function or macro written in Lisp.
+    Library(&'static Definition),
+}
+
+impl Entry {
+    /// What it is.
+    pub(crate) fn kind(self) -> &'static str {
+        match self {
+            Entry::Builtin(_) => "function",
+            Entry::Operator(operator) if operator.expand.is_none() => "special operator",
+            Entry::Library(definition) if definition.kind == Kind::Function => "function",
+            Entry::Operator(_) | Entry::Library(_) => "macro",
+        }
+    }
+
+    /// The lambda list, without its parentheses.
+    pub(crate) fn lambda_list(self) -> &'static str {
+        match self {
+            Entry::Builtin(builtin) => builtin.lambda_list,
+            Entry::Operator(operator) => operator.lambda_list,
+            Entry::Library(definition) => &definition.signature().lambda_list,
+        }
+    }
+
+    /// One or two sentences.
+    pub(crate) fn doc(self) -> &'static str {
+        match self {
+            Entry::Builtin(builtin) => builtin.doc,
+            Entry::Operator(operator) => operator.doc,
+            Entry::Library(definition) => &definition.signature().doc,
+        }
+    }
+
+    /// Examples: a form, ` => `, and what the prompt prints.
+    pub(crate) fn examples(self) -> Vec<&'static str> {
+        match self {
+            Entry::Builtin(builtin) => builtin.examples.to_vec(),
+            Entry::Operator(operator) => operator.examples.to_vec(),
+            Entry::Library(definition) => {
+                let examples = &definition.signature().examples;
+                examples.iter().map(String::as_str).collect()
+            }
+        }
+    }
+
+    /// File and line of a definition in Lisp.
+    pub(crate) fn location(self) -> Option<String> {
+        match self {
+            Entry::Library(definition) => Some(definition.location()),
+            Entry::Builtin(_) | Entry::Operator(_) => None,
+        }
+    }
 }

@@ -9,14 +9,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use indexmap::IndexMap;
 
-use super::builtin::{Builtin, Operator};
+use super::builtin::{Builtin, Entry, Operator};
 use super::compile::notes::{Note, NoteKind};
 use super::compile::setf::SetfExpander;
+use super::library::Installed;
 use super::object;
 use super::source::{Place, Sources};
 use super::value::Value;
 use super::value::class::Class;
-use super::value::function::Function;
+use super::value::function::{Body, Function};
 use super::value::known;
 use super::value::package::{Access, PackageId, PackageTable};
 use super::value::raise::Raise;
@@ -55,10 +56,13 @@ pub(crate) struct Image {
     /// The calls in which the conditions signalled last were signalled, newest last.
     condition_calls: VecDeque<(Vec<Value>, Vec<Call>)>,
     identities: i64,
-    /// Builtins by the symbol that names them: help and the manual read them.
-    pub(crate) builtins: IndexMap<Sym, &'static Builtin>,
-    /// Macros written in Rust and special operators, by the symbol that names them.
-    pub(crate) operators: IndexMap<Sym, &'static Operator>,
+    /// What the tables say of functions, macros and special operators, by name: calls, help,
+    /// completion, the manual and the test of the examples read this one table.
+    pub(crate) entries: IndexMap<Sym, Entry>,
+    /// The part of the language that is written in Lisp.
+    pub(crate) library: Installed,
+    /// Where the reader puts symbols that the current package does not know, if not there.
+    pub(crate) new_symbols: Option<PackageId>,
     /// Made-up addresses of objects that were printed.
     pub(crate) printed: RefCell<super::print::identity::Identities>,
     /// How many motions of the robot have been begun.
@@ -146,8 +150,9 @@ impl Image {
             condition_calls: VecDeque::new(),
             identities: 0,
             printed: RefCell::default(),
-            builtins: IndexMap::new(),
-            operators: IndexMap::new(),
+            entries: IndexMap::new(),
+            library: Installed::default(),
+            new_symbols: None,
             motions: 0,
             extensions: Vec::new(),
         }
@@ -193,6 +198,16 @@ impl Image {
         self.extensions
             .iter()
             .find_map(|kept| kept.clone().downcast().ok())
+    }
+
+    /// The symbol that the reader means by a name without a prefix.
+    pub(crate) fn intern_read(&mut self, name: &str) -> Sym {
+        let current = self.current_package();
+        let package = match self.new_symbols {
+            Some(elsewhere) if self.packages.find_symbol(current, name).is_none() => elsewhere,
+            _ => current,
+        };
+        self.intern(package, name)
     }
 
     /// A number that no block or tagbody had before.
@@ -373,7 +388,7 @@ impl Image {
         for builtin in table {
             let sym = self.export_symbol(package, builtin.name);
             self.set_function(sym, Rc::new(builtin.function(sym)));
-            self.builtins.insert(sym, builtin);
+            self.entries.insert(sym, Entry::Builtin(builtin));
         }
     }
 
@@ -392,8 +407,32 @@ impl Image {
         for operator in table {
             let sym = self.export_symbol(package, operator.name);
             self.symbols.get_mut(sym).function = FunctionCell::Builtin;
-            self.operators.insert(sym, operator);
+            self.entries.insert(sym, Entry::Operator(operator));
         }
+    }
+
+    /// The macro written in Rust or special operator of a name.
+    pub(crate) fn operator(&self, name: Sym) -> Option<&'static Operator> {
+        match self.entries.get(&name)? {
+            Entry::Operator(operator) => Some(operator),
+            Entry::Builtin(_) | Entry::Library(_) => None,
+        }
+    }
+
+    /// What the tables say of a name, unless a program has given it another meaning.
+    pub(crate) fn entry(&self, name: Sym) -> Option<Entry> {
+        let entry = *self.entries.get(&name)?;
+        let is_current = match (&self.symbol(name).function, entry) {
+            (FunctionCell::Builtin, Entry::Operator(_)) => true,
+            (FunctionCell::Function(function), Entry::Builtin(_)) => {
+                matches!(function.body, Body::Native(_))
+            }
+            (FunctionCell::Function(f) | FunctionCell::Macro(f), Entry::Library(_)) => {
+                f.as_deferred().is_some()
+            }
+            _ => false,
+        };
+        is_current.then_some(entry)
     }
 
     /// The class of that name.

@@ -2,6 +2,7 @@
 
 use super::builtins::{number_theory, numbers, reading, registry};
 use super::image::Image;
+use super::library;
 use super::stream;
 use super::value::Value;
 use super::value::known;
@@ -21,6 +22,7 @@ impl Image {
         numbers::define_constants(&mut image);
         number_theory::define_constants(&mut image);
         reading::define_variables(&mut image);
+        library::install(&mut image, &library::LIBRARY);
         image
     }
 }

@@ -26,6 +26,8 @@ pub(crate) struct Source {
     pub(crate) name: Rc<str>,
     /// The whole text.
     pub(crate) text: Rc<str>,
+    /// Is it a part of the language that is written in Lisp?
+    is_library: bool,
     /// Byte offset of the start of each line.
     line_starts: Vec<u32>,
 }
@@ -79,6 +81,15 @@ pub(crate) struct Sources {
 impl Sources {
     /// Adds a text.
     pub(crate) fn add(&mut self, name: &str, text: &str) -> SourceId {
+        self.add_text(name, text, false)
+    }
+
+    /// Adds a text of the part of the language that is written in Lisp.
+    pub(crate) fn add_library(&mut self, name: &str, text: &str) -> SourceId {
+        self.add_text(name, text, true)
+    }
+
+    fn add_text(&mut self, name: &str, text: &str, is_library: bool) -> SourceId {
         let line_starts = std::iter::once(0)
             .chain(text.match_indices('\n').map(|(i, _)| offset(i + 1)))
             .collect();
@@ -86,6 +97,7 @@ impl Sources {
         self.sources.push(Source {
             name: name.into(),
             text: text.into(),
+            is_library,
             line_starts,
         });
         id
@@ -104,6 +116,12 @@ impl Sources {
             end: offset(end),
         });
         Place(offset(self.spans.len()))
+    }
+
+    /// Is this a place in a program, not in the part of the language written in Lisp?
+    pub(crate) fn is_of_program(&self, place: Place) -> bool {
+        let source = self.span(place).and_then(|span| self.get(span.source));
+        source.is_some_and(|source| !source.is_library)
     }
 
     /// The text that a place covers.

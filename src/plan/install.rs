@@ -3,10 +3,9 @@
 use super::names::{Names, Packages};
 use super::package::reexport;
 use super::state::Plan;
-use super::{builtins, failure_table, macros};
+use super::{builtins, failure_table, library, macros};
 use crate::lisp::image::Image;
 use crate::lisp::object::define::ClassDefinition;
-use crate::lisp::reader;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
 use crate::lisp::value::function::{Function, NativeCall};
@@ -15,9 +14,6 @@ use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use std::rc::Rc;
-
-/// Lisp text that is evaluated in every image.
-const PRELUDE: &str = include_str!("prelude.lisp");
 
 /// Makes the packages of the plan language in an image that has the standard ones, and
 /// everything in them.
@@ -47,7 +43,7 @@ pub(crate) fn install(image: &mut Image) {
     define_types(image, &names);
     // The tables are consistent: every superclass is defined before.
     let _ = failure_table::define(image, packages);
-    evaluate_prelude(image);
+    crate::lisp::library::install(image, &library::LANGUAGE);
     reexport(image, packages.cpl, "CRAM-LANGUAGE-IMPLEMENTATION");
     reexport(image, packages.cpl, "COMMON-LISP");
 }
@@ -112,20 +108,4 @@ fn define_types(image: &mut Image, names: &Names) {
             doc: None,
         });
     }
-}
-
-/// Evaluates the text of the prelude. It is part of the program and tested: it neither
-/// fails nor waits.
-fn evaluate_prelude(image: &mut Image) {
-    let outer = image.special(known::V_PACKAGE).clone();
-    if let Some(package) = image.packages.find("CRAM-LANGUAGE-IMPLEMENTATION") {
-        image.set_special(known::V_PACKAGE, Value::Package(package));
-    }
-    let mut reader = reader::Reader::of_text(PRELUDE);
-    while let Ok(Some((form, _))) = reader.next_form(image) {
-        let evaluated =
-            crate::lisp::vm::machine::call_nested(image, known::EVAL.into(), vec![form]);
-        debug_assert!(evaluated.is_ok(), "the prelude fails");
-    }
-    image.set_special(known::V_PACKAGE, outer);
 }

@@ -12,6 +12,7 @@ mod fluent;
 pub(crate) mod host;
 mod install;
 mod journal;
+mod library;
 mod macros;
 mod names;
 mod overview;

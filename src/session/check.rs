@@ -121,8 +121,8 @@ impl Session {
             | names::DEFSETF => return Effect::Reading,
             _ => {}
         }
-        let operator = self.image.operators.get(&head);
-        match operator.map(|operator| operator.name) {
+        let entry = self.image.entry(head);
+        match entry.map(|_| self.image.name(head)) {
             Some("DEFVAR" | "DEFPARAMETER" | "DEFCONSTANT" | "DEFINE-CONSTANT") => {
                 let name = form.cdr_or_nil().car_or_nil().as_symbol();
                 let is_fresh =

@@ -81,18 +81,14 @@ impl Session {
         self.image.stack_budget = bytes;
     }
 
-    /// The examples of all builtins and operators, with their names, in order of
-    /// installation.
+    /// The examples of everything in the tables, with their names, in order of installation.
     pub(crate) fn examples(&self) -> Vec<(String, &'static str)> {
         let image = &self.image;
-        let builtins = image.builtins.iter().map(|(sym, b)| (sym, b.examples));
-        let operators = image.operators.iter().map(|(sym, o)| (sym, o.examples));
-        builtins
-            .chain(operators)
-            .flat_map(|(sym, examples)| {
-                examples
-                    .iter()
-                    .map(|example| (image.name(*sym).to_owned(), *example))
+        let entries = image.entries.iter();
+        entries
+            .flat_map(|(sym, entry)| {
+                let examples = entry.examples().into_iter();
+                examples.map(|example| (image.name(*sym).to_owned(), example))
             })
             .collect()
     }
@@ -100,6 +96,12 @@ impl Session {
     /// What the language knows.
     pub(crate) fn image(&self) -> &Image {
         &self.image
+    }
+
+    /// The Lisp image.
+    #[cfg(test)]
+    pub(crate) fn image_mut(&mut self) -> &mut Image {
+        &mut self.image
     }
 
     /// The robot in its world.

@@ -2,6 +2,7 @@
 //! panic.
 
 use crate::lisp::Image;
+use crate::lisp::builtin::arity;
 use crate::lisp::reader::read_all;
 use crate::lisp::value::known;
 use crate::lisp::vm::fiber::Fiber;
@@ -107,16 +108,17 @@ fn evaluate(image: &mut Image, text: &str) {
 fn no_arguments_make_a_builtin_panic() {
     let mut numbers = Numbers(1);
     let image = Image::new();
-    let builtins = image
-        .builtins
+    let functions = image
+        .entries
         .iter()
-        .filter(|(_, b)| !LEFT_OUT.contains(&b.name));
-    let names: Vec<(String, usize)> = builtins
-        .map(|(sym, builtin)| {
-            let package = image.symbol(*sym).package.expect("builtins have packages");
+        .filter(|(_, entry)| entry.kind() == "function");
+    let functions = functions.filter(|(sym, _)| !LEFT_OUT.contains(&image.name(**sym)));
+    let names: Vec<(String, usize)> = functions
+        .map(|(sym, entry)| {
+            let package = image.symbol(*sym).package.expect("functions have packages");
             let package = &image.packages.get(package).name;
-            let name = format!("|{package}|::|{}|", builtin.name);
-            (name, usize::from(builtin.arity().0))
+            let name = format!("|{package}|::|{}|", image.name(*sym));
+            (name, usize::from(arity(entry.lambda_list()).0))
         })
         .collect();
     for (name, least) in names {

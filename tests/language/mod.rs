@@ -2,5 +2,6 @@
 
 mod builtin_robustness;
 mod examples;
+mod library;
 mod limits;
 mod reader_round_trip;

@@ -4,41 +4,10 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::{code, line};
-use crate::lisp::builtin::{Builtin, Operator};
+use crate::lisp::builtin::Entry;
 use crate::lisp::image::Image;
 use crate::lisp::value::package::PackageId;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
-
-/// A function or an operator.
-struct Entry {
-    kind: &'static str,
-    lambda_list: &'static str,
-    doc: &'static str,
-    examples: &'static [&'static str],
-}
-
-impl Entry {
-    fn of_builtin(builtin: &Builtin) -> Entry {
-        Entry {
-            kind: "function",
-            lambda_list: builtin.lambda_list,
-            doc: builtin.doc,
-            examples: builtin.examples,
-        }
-    }
-
-    fn of_operator(operator: &Operator) -> Entry {
-        Entry {
-            kind: match operator.expand {
-                Some(_) => "macro",
-                None => "special operator",
-            },
-            lambda_list: operator.lambda_list,
-            doc: operator.doc,
-            examples: operator.examples,
-        }
-    }
-}
+use crate::lisp::value::symbol::Sym;
 
 /// What the manual says about one package.
 pub(crate) struct PackageChapter {
@@ -81,13 +50,8 @@ pub(crate) fn packages(image: &Image) -> Vec<PackageChapter> {
                 .insert(data.name.clone(), entry);
         }
     };
-    for (sym, builtin) in &image.builtins {
-        add(*sym, Entry::of_builtin(builtin));
-    }
-    for (sym, operator) in &image.operators {
-        if matches!(image.symbol(*sym).function, FunctionCell::Builtin) {
-            add(*sym, Entry::of_operator(operator));
-        }
+    for (sym, entry) in &image.entries {
+        add(*sym, *entry);
     }
     by_package
         .into_iter()
@@ -127,18 +91,20 @@ impl NamedEntry {
     fn write(&self, to: &mut String) {
         let entry = &self.entry;
         line(to, &format!("### {}\n", code(&self.name)));
-        let form = if entry.lambda_list.is_empty() {
+        let lambda_list = entry.lambda_list();
+        let form = if lambda_list.is_empty() {
             format!("({})", self.name.to_lowercase())
         } else {
-            format!("({} {})", self.name.to_lowercase(), entry.lambda_list)
+            format!("({} {lambda_list})", self.name.to_lowercase())
         };
-        line(to, &format!("`{form}` — {}\n", entry.kind));
-        line(to, &format!("{}\n", entry.doc));
-        if entry.examples.is_empty() {
+        line(to, &format!("`{form}` — {}\n", entry.kind()));
+        line(to, &format!("{}\n", entry.doc()));
+        let examples = entry.examples();
+        if examples.is_empty() {
             return;
         }
         line(to, "```lisp");
-        for example in entry.examples {
+        for example in examples {
             line(to, example);
         }
         line(to, "```\n");

@@ -2,8 +2,9 @@
 
 use std::rc::Rc;
 
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::{Builtin, Entry, pure};
 use crate::lisp::image::Image;
+use crate::lisp::library::definition_of;
 use crate::lisp::object::method::{MethodObject, named_function};
 use crate::lisp::value::Value;
 use crate::lisp::value::function::{Body, Function};
@@ -66,16 +67,21 @@ fn of_name(image: &Image, name: Sym) -> Option<Rc<str>> {
         FunctionCell::Function(function) | FunctionCell::Macro(function) => {
             of_function(image, function)
         }
-        FunctionCell::Builtin => image.operators.get(&name).map(|o| o.doc.into()),
+        FunctionCell::Builtin => image.entry(name).map(|entry| entry.doc().into()),
         FunctionCell::Unbound => None,
     }
 }
 
-fn of_function(image: &Image, function: &Rc<Function>) -> Option<Rc<str>> {
+fn of_function(image: &Image, function: &Function) -> Option<Rc<str>> {
     match &function.body {
         Body::Closure { code, .. } => code.doc.clone(),
         Body::Generic(generic) => generic.doc.borrow().clone(),
-        Body::Native(native) => image.builtins.get(&native.name).map(|b| b.doc.into()),
+        Body::Native(native) => match image.entries.get(&native.name) {
+            Some(Entry::Builtin(builtin)) => Some(builtin.doc.into()),
+            _ => None,
+        },
+        Body::Deferred(_) => definition_of(image, function)
+            .map(|definition| definition.signature().doc.as_str().into()),
     }
 }
 

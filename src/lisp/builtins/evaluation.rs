@@ -325,7 +325,7 @@ fn compile_function(image: &mut Image, args: &[Value]) -> Result<Value> {
 fn special_operator_p(image: &mut Image, args: &[Value]) -> Result<Value> {
     let is_special = args[0]
         .as_symbol()
-        .and_then(|s| image.operators.get(&s))
+        .and_then(|s| image.operator(s))
         .is_some_and(|o| o.expand.is_none());
     Ok(is_special.into())
 }
@@ -336,7 +336,7 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     };
     Ok(match &image.symbol(name).function {
         FunctionCell::Macro(f) => Value::Function(f.clone()),
-        FunctionCell::Builtin => match image.operators.get(&name).and_then(|o| o.expand) {
+        FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {
             Some(expand) => {
                 Value::Function(Function::made(name, (1, Some(2)), move |image, args| {
                     expand(image, &args[0])
@@ -356,6 +356,7 @@ fn function_lambda_expression(_: &mut Image, args: &[Value]) -> Result<Value> {
         Body::Closure { code, .. } => code.name.clone(),
         Body::Native(native) => native.name.into(),
         Body::Generic(generic) => generic.name.clone(),
+        Body::Deferred(deferred) => deferred.name.into(),
     };
     Ok(Value::values(vec![Value::NIL, Value::T, name]))
 }

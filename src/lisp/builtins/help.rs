@@ -5,8 +5,9 @@
 
 use super::packages;
 use super::strings::designated;
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::{Builtin, Entry, pure};
 use crate::lisp::image::Image;
+use crate::lisp::library::definition_of;
 use crate::lisp::print;
 use crate::lisp::stream;
 use crate::lisp::types::type_of::type_of;
@@ -100,7 +101,9 @@ pub(crate) struct Signature {
     /// The documentation.
     pub(crate) doc: Option<String>,
     /// Examples of calls.
-    pub(crate) examples: &'static [&'static str],
+    pub(crate) examples: Vec<&'static str>,
+    /// File and line of a definition of the language in Lisp.
+    pub(crate) location: Option<String>,
 }
 
 impl Signature {
@@ -112,42 +115,30 @@ impl Signature {
 
 /// What is known about a symbol's function or operator; none if it has none.
 pub(crate) fn signature(image: &Image, sym: Sym) -> Option<Signature> {
-    let defined = |kind, function| {
-        let (lambda_list, doc) = of_definition(image, function);
-        Signature {
-            kind,
-            lambda_list,
-            doc,
-            examples: &[],
+    if let Some(entry) = image.entry(sym) {
+        return Some(Signature {
+            kind: entry.kind(),
+            lambda_list: entry.lambda_list().to_owned(),
+            doc: Some(entry.doc().to_owned()),
+            examples: entry.examples(),
+            location: entry.location(),
+        });
+    }
+    let (kind, function) = match &image.symbol(sym).function {
+        FunctionCell::Unbound | FunctionCell::Builtin => return None,
+        FunctionCell::Macro(function) => ("macro", function),
+        FunctionCell::Function(function) if function.as_generic().is_some() => {
+            ("generic function", function)
         }
+        FunctionCell::Function(function) => ("function", function),
     };
-    Some(match &image.symbol(sym).function {
-        FunctionCell::Unbound => return None,
-        FunctionCell::Builtin => {
-            let operator = image.operators.get(&sym)?;
-            Signature {
-                kind: operator_kind(operator.expand.is_some()),
-                lambda_list: operator.lambda_list.to_owned(),
-                doc: Some(operator.doc.to_owned()),
-                examples: operator.examples,
-            }
-        }
-        FunctionCell::Macro(function) => defined("macro", function),
-        FunctionCell::Function(function) => {
-            let kind = match function.as_generic() {
-                Some(_) => "generic function",
-                None => "function",
-            };
-            match (&function.body, image.builtins.get(&sym)) {
-                (Body::Native(_), Some(builtin)) => Signature {
-                    kind,
-                    lambda_list: builtin.lambda_list.to_owned(),
-                    doc: Some(builtin.doc.to_owned()),
-                    examples: builtin.examples,
-                },
-                _ => defined(kind, function),
-            }
-        }
+    let (lambda_list, doc) = of_definition(image, function);
+    Some(Signature {
+        kind,
+        lambda_list,
+        doc,
+        examples: Vec::new(),
+        location: None,
     })
 }
 
@@ -163,15 +154,10 @@ fn as_function(image: &Image, sym: Sym) -> String {
         let examples = signature.examples.iter();
         examples.for_each(|example| add_indented(&mut text, Some(example)));
     }
-    text
-}
-
-fn operator_kind(is_macro: bool) -> &'static str {
-    if is_macro {
-        "macro"
-    } else {
-        "special operator"
+    if let Some(location) = &signature.location {
+        text.push_str(&format!("Defined at {location}.\n"));
     }
+    text
 }
 
 /// The shape of a call.
@@ -184,8 +170,7 @@ fn call(image: &Image, sym: Sym, lambda_list: &str) -> String {
     }
 }
 
-/// Lambda list, without parentheses, and documentation of a function that the tables do
-/// not know.
+/// Lambda list, without parentheses, and documentation of a function.
 fn of_definition(image: &Image, function: &Function) -> (String, Option<String>) {
     match &function.body {
         Body::Closure { code, .. } => {
@@ -213,7 +198,18 @@ fn of_definition(image: &Image, function: &Function) -> (String, Option<String>)
             let doc = generic.doc.borrow().as_deref().map(str::to_owned);
             (names.join(" "), doc)
         }
+        Body::Deferred(_) => match definition_of(image, function) {
+            Some(definition) => {
+                let signature = definition.signature();
+                let doc = signature.doc.clone();
+                (signature.lambda_list.clone(), Some(doc))
+            }
+            None => (String::new(), None),
+        },
         Body::Native(native) => {
+            if let Some(Entry::Builtin(builtin)) = image.entries.get(&native.name) {
+                return (builtin.lambda_list.to_owned(), Some(builtin.doc.to_owned()));
+            }
             let mut names = vec!["argument".to_owned(); usize::from(native.min)];
             match native.max {
                 None => names.extend(["&rest".to_owned(), "arguments".to_owned()]),
@@ -313,13 +309,7 @@ fn of_value(image: &Image, value: &Value) -> String {
         Value::Instance(instance) => text.push_str(&slot_values(image, instance)),
         Value::Class(class) => text.push_str(&of_class(image, class)),
         Value::Function(function) => {
-            let (lambda_list, doc) = match &function.body {
-                Body::Native(native) => match image.builtins.get(&native.name) {
-                    Some(builtin) => (builtin.lambda_list.to_owned(), Some(builtin.doc.to_owned())),
-                    None => of_definition(image, function),
-                },
-                _ => of_definition(image, function),
-            };
+            let (lambda_list, doc) = of_definition(image, function);
             text.push_str(&format!("  Arguments: ({lambda_list})\n"));
             add_indented(&mut text, doc.as_deref());
         }
@@ -418,10 +408,7 @@ fn meanings(image: &Image, sym: Sym) -> Vec<&'static str> {
         FunctionCell::Function(f) if f.as_generic().is_some() => Some("generic function"),
         FunctionCell::Function(_) => Some("function"),
         FunctionCell::Macro(_) => Some("macro"),
-        FunctionCell::Builtin => image
-            .operators
-            .get(&sym)
-            .map(|operator| operator_kind(operator.expand.is_some())),
+        FunctionCell::Builtin => image.entry(sym).map(Entry::kind),
     };
     let variable = match data.kind {
         _ if image.is_keyword(sym) => None,

@@ -316,6 +316,9 @@ impl<'a> Compiler<'a> {
         match &self.image.symbol(name).function {
             FunctionCell::Macro(function) => {
                 let function = function.clone();
+                if function.as_deferred().is_some() {
+                    self.note_definition(name, form);
+                }
                 let expansion = self.expand_with(&function, form, scope)?;
                 self.analyze(&expansion, scope)
             }
@@ -323,13 +326,8 @@ impl<'a> Compiler<'a> {
                 if let Some(special) = special_forms::lookup(name) {
                     return special(self, rest, scope);
                 }
-                let operator = self.image.operators.get(&name).copied();
-                if operator.is_some_and(|o| o.name.starts_with("DEF")) {
-                    let place = self.place;
-                    self.image
-                        .note(place, || NoteKind::Definition(form.clone()));
-                }
-                let expander = operator.and_then(|o| o.expand);
+                self.note_definition(name, form);
+                let expander = self.image.operator(name).and_then(|o| o.expand);
                 match expander {
                     Some(expand) => {
                         let expansion = expand(self.image, form).map_err(|r| r.at(self.place))?;
@@ -349,6 +347,15 @@ impl<'a> Compiler<'a> {
                 let args = self.analyze_list(rest, scope)?;
                 Ok(Node::Call(Target::Global(name), args, self.place))
             }
+        }
+    }
+
+    /// Notes a form with an operator of the language that defines something.
+    fn note_definition(&mut self, operator: Sym, form: &Value) {
+        if self.image.notes.is_some() && self.image.name(operator).starts_with("DEF") {
+            let place = self.place;
+            self.image
+                .note(place, || NoteKind::Definition(form.clone()));
         }
     }
 

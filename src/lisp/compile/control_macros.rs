@@ -164,15 +164,6 @@ pub(super) fn throw(_: &mut Image, form: &Value) -> Expansion {
     ])
 }
 
-pub(super) fn prog2(_: &mut Image, form: &Value) -> Expansion {
-    let (first, rest) = first_rest(form);
-    Ok(form![
-        known::PROGN,
-        first,
-        Value::cons(known::PROG1.into(), rest)
-    ])
-}
-
 pub(super) fn return_(_: &mut Image, form: &Value) -> Expansion {
     let (value, _) = first_rest(form);
     Ok(form![known::RETURN_FROM, Value::NIL, value])
@@ -343,12 +334,6 @@ pub(super) fn multiple_value_setq(_: &mut Image, form: &Value) -> Expansion {
     }
     let place = Value::cons(known::VALUES.into(), names);
     Ok(form![known::VALUES, form![known::SETF, place, values]])
-}
-
-pub(super) fn nth_value(_: &mut Image, form: &Value) -> Expansion {
-    let (n, rest) = first_rest(form);
-    let list = form![known::MULTIPLE_VALUE_LIST, rest.car_or_nil()];
-    Ok(form![known::NTH, n, list])
 }
 
 /// Each clause is a tag: its handler keeps the condition in a variable and jumps there.

@@ -34,7 +34,7 @@ pub(crate) fn macroexpand_1_in(
                     let args = vec![form.clone(), environment.clone()];
                     machine::call_nested(image, function, args)?
                 }
-                FunctionCell::Builtin => match image.operators.get(&name).and_then(|o| o.expand) {
+                FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {
                     Some(expand) => expand(image, form)?,
                     None => return Ok(None),
                 },

@@ -330,13 +330,6 @@ pub(crate) static OPERATORS: &[Operator] = &[
         control_macros::ctypecase,
     ),
     macro_(
-        "PROG2",
-        "first second &rest forms",
-        "The value of the second form, after all are evaluated.",
-        &["(prog2 1 2 3) => 2"],
-        control_macros::prog2,
-    ),
-    macro_(
         "RETURN",
         "&optional value",
         "Leaves the block NIL: the innermost loop.",
@@ -405,13 +398,6 @@ pub(crate) static OPERATORS: &[Operator] = &[
         "Assigns variables the values of a form.",
         &["(let (q r) (multiple-value-setq (q r) (floor 7 2)) (list q r)) => (3 1)"],
         control_macros::multiple_value_setq,
-    ),
-    macro_(
-        "NTH-VALUE",
-        "n form",
-        "One of the values of a form, counted from 0.",
-        &["(nth-value 1 (floor 7 2)) => 1"],
-        control_macros::nth_value,
     ),
     macro_(
         "DESTRUCTURING-BIND",

@@ -12,7 +12,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::lisp::value::symbol::Sym;
 
 /// `(defmethod name qualifiers… lambda-list body…)`.
 pub(crate) fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
@@ -163,9 +163,10 @@ fn with_other_keys(lambda_list: &Value) -> Value {
 fn asks_for_next(image: &Image, forms: &Value) -> bool {
     any_part(forms, |part| match part {
         Value::Symbol(known::CALL_NEXT_METHOD | known::NEXT_METHOD_P) => true,
-        Value::Cons(cons) => cons.car().as_symbol().is_some_and(|operator| {
-            matches!(image.symbol(operator).function, FunctionCell::Macro(_))
-        }),
+        Value::Cons(cons) => cons
+            .car()
+            .as_symbol()
+            .is_some_and(|operator| image.symbol(operator).function.is_macro_of_program()),
         _ => false,
     })
 }

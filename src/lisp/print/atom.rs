@@ -11,7 +11,7 @@ use crate::lisp::reader::char_name::char_name;
 use crate::lisp::stream::StreamKind;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, ClassKind};
-use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::function::{Body, Deferred, Function, Native};
 use crate::lisp::value::hash_table::HashTest;
 
 /// A value that is no list, vector, array, structure or condition report.
@@ -153,11 +153,8 @@ fn class(image: &Image, class: &Class) -> String {
 fn function(image: &Image, value: &Value, function: &Function, settings: &Settings) -> String {
     let settings = settings.clone().with_escape(true);
     match &function.body {
-        Body::Native(native) => {
-            format!(
-                "#<FUNCTION {}>",
-                symbol::symbol(image, native.name, &settings)
-            )
+        Body::Native(Native { name, .. }) | Body::Deferred(Deferred { name, .. }) => {
+            format!("#<FUNCTION {}>", symbol::symbol(image, *name, &settings))
         }
         Body::Generic(generic) => {
             let name = crate::lisp::object::qualified(image, &generic.name);

@@ -3,6 +3,7 @@
 use super::document::Newline;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
@@ -334,8 +335,8 @@ pub(super) fn form(image: &Image, list: &Value) -> Form {
 /// How many arguments a macro takes before its `&body`, if it has one.
 fn arguments_before_body(image: &Image, operator: Sym) -> Option<usize> {
     if let FunctionCell::Macro(function) = &image.symbol(operator).function {
-        let crate::lisp::value::function::Body::Closure { code, .. } = &function.body else {
-            return None;
+        let Body::Closure { code, .. } = &function.body else {
+            return body_position(image.entry(operator)?.lambda_list());
         };
         let mut count = 0;
         for parameter in code.lambda_list.iter_list() {
@@ -347,10 +348,14 @@ fn arguments_before_body(image: &Image, operator: Sym) -> Option<usize> {
         }
         return None;
     }
-    let operator = image.operators.get(&operator)?;
+    body_position(image.entry(operator)?.lambda_list())
+}
+
+/// How many parameters stand before `&body` in a lambda list, if it has that.
+fn body_position(lambda_list: &str) -> Option<usize> {
     let mut depth = 0_usize;
     let mut count = 0;
-    for word in operator.lambda_list.split_whitespace() {
+    for word in lambda_list.split_whitespace() {
         if depth == 0 {
             match word {
                 "&body" => return Some(count),

@@ -89,7 +89,7 @@ pub(crate) fn split(token: &str) -> Result<Name, ReadErrorKind> {
 /// The symbol that a split token means.
 pub(crate) fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKind> {
     let Some(package_name) = &name.package else {
-        return Ok(image.intern(image.current_package(), &name.name));
+        return Ok(image.intern_read(&name.name));
     };
     if package_name.is_empty() {
         return Ok(image.keyword(&name.name));

@@ -1,5 +1,6 @@
 //! Functions: closures, builtins and generic functions.
 
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 use super::Value;
@@ -30,6 +31,29 @@ pub(crate) enum Body {
     Native(Native),
     /// A generic function.
     Generic(Box<GenericFunction>),
+    /// A function of the library, which is compiled when it is first called.
+    Deferred(Deferred),
+}
+
+/// A function that is compiled when it is first called.
+pub(crate) struct Deferred {
+    /// Its name.
+    pub(crate) name: Sym,
+    /// The number of its definition among those of the image.
+    pub(crate) number: usize,
+    /// The compiled function.
+    pub(crate) function: OnceCell<Rc<Function>>,
+}
+
+impl Deferred {
+    /// A definition that has not been needed yet.
+    pub(crate) fn new(name: Sym, number: usize) -> Deferred {
+        Deferred {
+            name,
+            number,
+            function: OnceCell::new(),
+        }
+    }
 }
 
 /// A builtin that returns at once and calls no Lisp function.
@@ -113,6 +137,21 @@ impl Function {
             arity.1,
             NativeCall::MadeControl(Rc::new(call)),
         ))
+    }
+
+    /// A function that is compiled when it is first called.
+    pub(crate) fn deferred(deferred: Deferred) -> Function {
+        Function {
+            body: Body::Deferred(deferred),
+        }
+    }
+
+    /// The definition in the library, if this is a function or macro of it.
+    pub(crate) fn as_deferred(&self) -> Option<&Deferred> {
+        match &self.body {
+            Body::Deferred(deferred) => Some(deferred),
+            _ => None,
+        }
     }
 
     /// The generic function, if this is one.

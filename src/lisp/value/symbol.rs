@@ -29,6 +29,16 @@ pub(crate) enum FunctionCell {
     Builtin,
 }
 
+impl FunctionCell {
+    /// Is it a macro that a program has defined, not one of the language?
+    pub(crate) fn is_macro_of_program(&self) -> bool {
+        match self {
+            FunctionCell::Macro(function) => function.as_deferred().is_none(),
+            _ => false,
+        }
+    }
+}
+
 /// How a symbol behaves as a variable.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
 pub(crate) enum VariableKind {

@@ -28,7 +28,10 @@ impl Machine<'_> {
                     Body::Closure { code, .. } => {
                         let place = code.place_at(pc.saturating_sub(1));
                         let subject = None;
-                        place.is_some().then_some(Call { place, subject })
+                        let sources = &self.image.sources;
+                        sources
+                            .is_of_program(place)
+                            .then_some(Call { place, subject })
                     }
                     _ => None,
                 },

@@ -12,6 +12,7 @@ use super::code::{Capture, Code, Op};
 use super::fiber::{Dynamic, Fiber, Frame, FrameKind, Handler};
 use super::step::{Resume, Step};
 use crate::lisp::image::Image;
+use crate::lisp::library;
 use crate::lisp::object;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
@@ -269,6 +270,10 @@ impl<'a> Machine<'a> {
             }
             Body::Generic(_) => match object::dispatch::call_generic(self, &function, args) {
                 Ok(step) => self.take_step(step, multi),
+                Err(raise) => self.raise(raise),
+            },
+            Body::Deferred(deferred) => match library::deferred::force(self.image, deferred) {
+                Ok(function) => self.call_value(Value::Function(function), args, multi),
                 Err(raise) => self.raise(raise),
             },
             Body::Closure { code, .. } => {
@@ -900,6 +905,15 @@ impl<'a> Machine<'a> {
                 }
             };
         }
+        if let Body::Deferred(deferred) = &function.body {
+            return match library::deferred::force(self.image, deferred) {
+                Ok(function) => self.call_on_stack(function, count, cut, multi),
+                Err(raise) => {
+                    self.fiber.stack.truncate(cut);
+                    self.raise(raise)
+                }
+            };
+        }
         let start = self.fiber.stack.len() - count;
         let args: Vec<Value> = self.fiber.stack.drain(start..).collect();
         self.fiber.stack.truncate(cut);
@@ -958,7 +972,7 @@ impl<'a> Machine<'a> {
                 FrameKind::Code { function, pc } => match &function.body {
                     Body::Closure { code, .. } => {
                         let place = code.place_at(pc.saturating_sub(1));
-                        place.is_some().then_some(place)
+                        self.image.sources.is_of_program(place).then_some(place)
                     }
                     _ => None,
                 },

@@ -25,18 +25,13 @@ pub(crate) use failure::no_process_module;
 pub(crate) use request::MotionRequest;
 pub(crate) use value::current;
 
-use super::{packages, prolog as prolog_rules};
+use super::{library, packages, prolog as prolog_rules};
 use crate::lisp::image::Image;
 use crate::lisp::object::define::ClassDefinition;
-use crate::lisp::reader::Reader;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::machine;
-
-/// Process modules in Lisp.
-const PROCESS_MODULES: &str = include_str!("process_modules.lisp");
 
 /// Makes the packages, classes, variables, functions and macros; after the plan language.
 pub(crate) fn install(image: &mut Image) {
@@ -73,22 +68,9 @@ pub(crate) fn install(image: &mut Image) {
     let names = packages::ensure(image, "ROSLISP-UTILITIES", &[]);
     image.install(names, names::TABLE);
     if image.packages.find("CRAM-LANGUAGE").is_some() {
-        evaluate(image, "CRAM-PROCESS-MODULES", PROCESS_MODULES);
+        packages::ensure(image, "CRAM-PROCESS-MODULES", &[]);
+        crate::lisp::library::install(image, &library::DESIGNATORS);
     }
-}
-
-/// Evaluates a text of the program's own in a package. It is tested: it neither fails nor
-/// waits.
-fn evaluate(image: &mut Image, package: &str, text: &str) {
-    let outer = image.special(known::V_PACKAGE).clone();
-    let package = packages::ensure(image, package, &[]);
-    image.set_special(known::V_PACKAGE, Value::Package(package));
-    let mut reader = Reader::of_text(text);
-    while let Ok(Some((form, _))) = reader.next_form(image) {
-        let evaluated = machine::call_nested(image, known::EVAL.into(), vec![form]);
-        debug_assert!(evaluated.is_ok(), "the text of a package fails");
-    }
-    image.set_special(known::V_PACKAGE, outer);
 }
 
 /// The first value of a property, by the key's name in upper case; `None` if it is absent,

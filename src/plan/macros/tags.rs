@@ -11,7 +11,7 @@ use crate::lisp::image::Image;
 use crate::lisp::object::form::form;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::lisp::value::symbol::Sym;
 
 /// The macros.
 pub(crate) static OPERATORS: &[Operator] = &[macro_(
@@ -112,7 +112,7 @@ fn find_tags(image: &mut Image, body: &Value) -> Vec<Sym> {
             }
             head if head == names.with_tags => {}
             head => {
-                let is_macro = matches!(image.symbol(head).function, FunctionCell::Macro(_));
+                let is_macro = image.symbol(head).function.is_macro_of_program();
                 if is_macro && expansions < MOST_EXPANSIONS {
                     expansions += 1;
                     if let Ok(Some(expansion)) = compile::macroexpand_1(image, &form) {

@@ -5,6 +5,7 @@ use super::known::KnownNames;
 use crate::closest_name::closest_name;
 use crate::lisp::compile::notes::NoteKind;
 use crate::lisp::image::Image;
+use crate::lisp::library::definition_of;
 use crate::lisp::print;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
@@ -35,7 +36,7 @@ pub(super) fn judge(image: &Image, names: &KnownNames, note: &NoteKind) -> Optio
 fn function(image: &Image, names: &KnownNames, name: Sym, count: Option<usize>) -> Option<Mistake> {
     match &image.symbol(name).function {
         FunctionCell::Function(function) => {
-            let (count, (min, max)) = (count?, arity(function)?);
+            let (count, (min, max)) = (count?, arity(image, function)?);
             if count >= min && max.is_none_or(|max| count <= max) {
                 return None;
             }
@@ -93,8 +94,13 @@ fn variable(image: &Image, names: &KnownNames, name: Sym, near: Option<Sym>) -> 
 }
 
 /// Fewest and most arguments; none if that is not fixed.
-fn arity(function: &Function) -> Option<(usize, Option<usize>)> {
+fn arity(image: &Image, function: &Function) -> Option<(usize, Option<usize>)> {
     match &function.body {
+        Body::Deferred(_) => {
+            let lambda_list = &definition_of(image, function)?.signature().lambda_list;
+            let (min, max) = crate::lisp::builtin::arity(lambda_list);
+            Some((min.into(), max.map(usize::from)))
+        }
         Body::Native(native) => Some((native.min.into(), native.max.map(usize::from))),
         Body::Closure { code, .. } => {
             let p = &code.parameters;

@@ -260,6 +260,6 @@ fn takes_value(image: &Image, restart: &Restart) -> bool {
     match &function.body {
         Body::Closure { code, .. } => code.parameters.required > 0,
         Body::Native(native) => native.min > 0,
-        Body::Generic(_) => false,
+        Body::Generic(_) | Body::Deferred(_) => false,
     }
 }

@@ -7,7 +7,7 @@ use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::types::type_of::type_of;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::Body;
+use crate::lisp::value::function::{Body, Deferred, Native};
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 use crate::plan::TaskRef;
 use crate::plan::designator::value::as_designator;
@@ -189,7 +189,9 @@ fn parts(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
                     part("documentation", doc),
                 ]
             }
-            Body::Native(native) => vec![part("name", native.name)],
+            Body::Native(Native { name, .. }) | Body::Deferred(Deferred { name, .. }) => {
+                vec![part("name", *name)]
+            }
             Body::Generic(_) => Vec::new(),
         },
         Value::Foreign(_) => of_foreign(image, value),

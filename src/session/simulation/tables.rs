@@ -94,8 +94,8 @@ fn alias(
     }
     let function = image.symbol(original).function.clone();
     image.symbols.get_mut(other).function = function;
-    if let Some(operator) = image.operators.get(&original).copied() {
-        image.operators.insert(other, operator);
+    if let Some(entry) = image.entries.get(&original).copied() {
+        image.entries.insert(other, entry);
     }
     image.packages.export(&mut image.symbols, to, other);
 }

@@ -1,4 +1,6 @@
-;;; What is said in the plan language itself. Evaluated when an image is made.
+;;; Policies that come with the language.
+
+(in-package :cram-language-implementation)
 
 (define-policy timeout-policy (seconds)
   "Met when so many simulated seconds have passed."

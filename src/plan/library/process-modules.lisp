@@ -1,14 +1,15 @@
 ;;; Process modules: functions that carry out motions, one motion at a time each.
-;;; Evaluated in CRAM-PROCESS-MODULES when an image is made.
 
-(defun busy-fluent (module)
+(in-package :cram-process-modules)
+
+(defun %busy-fluent (module)
   "Whether a module is at work."
   (or (get module 'busy)
       (setf (get module 'busy) (cpl:make-fluent :name module :value nil))))
 
 (defun pm-execute (module designator)
   "Lets a process module carry out a motion, after the one that it is at."
-  (let ((busy (busy-fluent module)))
+  (let ((busy (%busy-fluent module)))
     (when (cpl:value busy)
       (warn "Process module ~a already processing input. Waiting for it to become free."
             module))

@@ -1,0 +1,132 @@
+//! Reading and compiling a definition of the library when it is first needed.
+//!
+//! It holds that nothing people see depends on whether that has happened: reading happens
+//! with the standard settings of the reader, leaves no symbol in a package that people look
+//! into, and takes no number from the counter of `gensym`.
+
+use std::rc::Rc;
+
+use super::definition::{Definition, Kind};
+use super::standard_value;
+use crate::lisp::image::Image;
+use crate::lisp::reader::Reader;
+use crate::lisp::value::Value;
+use crate::lisp::value::function::{Deferred, Function};
+use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::lisp::vm::machine;
+
+/// The function of a definition, compiled if that has not happened.
+pub(crate) fn force(image: &mut Image, deferred: &Deferred) -> Result<Rc<Function>, Box<Raise>> {
+    if let Some(function) = deferred.function.get() {
+        return Ok(function.clone());
+    }
+    let Some(definition) = image.library.definitions.get(deferred.number).copied() else {
+        return Err(Raise::undefined_function(deferred.name.into()));
+    };
+    let function = compile(image, definition, deferred.name)?;
+    Ok(deferred.function.get_or_init(|| function).clone())
+}
+
+/// Lets a definition define its name, takes the function, and gives the name back what it
+/// meant: it may have been defined anew in the meantime.
+fn compile(
+    image: &mut Image,
+    definition: &'static Definition,
+    name: Sym,
+) -> Result<Rc<Function>, Box<Raise>> {
+    let data = image.symbols.get_mut(name);
+    let outside = (
+        std::mem::take(&mut data.function),
+        data.setf_function.take(),
+    );
+    let evaluated = evaluate(image, definition);
+    let data = image.symbols.get_mut(name);
+    let (cell, setter) = (
+        std::mem::replace(&mut data.function, outside.0),
+        std::mem::replace(&mut data.setf_function, outside.1),
+    );
+    evaluated?;
+    let function = match (definition.kind, cell) {
+        (Kind::Setter, _) => setter,
+        (_, FunctionCell::Function(function) | FunctionCell::Macro(function)) => Some(function),
+        _ => None,
+    };
+    function.ok_or_else(|| Raise::undefined_function(name.into()))
+}
+
+/// Settings that the reader, the compiler and macros depend on, with the value that a
+/// definition is read with; none if it keeps its value and gets it back afterwards.
+fn settings(package: Value) -> [(Sym, Option<Value>); 6] {
+    [
+        (known::V_PACKAGE, Some(package)),
+        (known::V_READTABLE, Some(Value::NIL)),
+        (known::V_READ_BASE, Some(Value::Int(10))),
+        (
+            known::V_READ_DEFAULT_FLOAT_FORMAT,
+            Some(known::SINGLE_FLOAT.into()),
+        ),
+        (known::V_READ_EVAL, Some(Value::NIL)),
+        (known::V_GENSYM_COUNTER, None),
+    ]
+}
+
+/// Reads and evaluates a form of the library.
+pub(super) fn evaluate(
+    image: &mut Image,
+    definition: &'static Definition,
+) -> Result<Value, Box<Raise>> {
+    let settings = settings(standard_value(image, &definition.reading_package));
+    let outside: Vec<(Sym, Value)> = settings
+        .into_iter()
+        .map(|(variable, value)| {
+            let old = image.special(variable).clone();
+            if let Some(value) = value {
+                image.set_special(variable, value);
+            }
+            (variable, old)
+        })
+        .collect();
+    let notes = image.notes.take();
+    let evaluated = read(image, definition)
+        .and_then(|form| machine::call_nested(image, known::EVAL.into(), vec![form]));
+    image.notes = notes;
+    for (variable, value) in outside {
+        image.set_special(variable, value);
+    }
+    evaluated
+}
+
+/// Reads a definition. Symbols that its package does not know are those of `SYSTEM`.
+fn read(image: &mut Image, definition: &'static Definition) -> Result<Value, Box<Raise>> {
+    let mut reader = match definition.kind {
+        Kind::Function | Kind::Setter => {
+            let file = definition.file;
+            let known = image
+                .library
+                .sources
+                .iter()
+                .find(|(name, _)| *name == file.name);
+            let source = match known {
+                Some((_, source)) => *source,
+                None => {
+                    let source = image.sources.add_library(file.name, file.text);
+                    image.library.sources.push((file.name, source));
+                    source
+                }
+            };
+            Reader::new(image, source).at(definition.start)
+        }
+        Kind::Macro | Kind::Form => Reader::of_text(definition.text()),
+    };
+    image.new_symbols = Some(PackageTable::SYSTEM);
+    let form = reader.next_form(image);
+    image.new_symbols = None;
+    match form {
+        Ok(Some((form, _))) => Ok(form),
+        Ok(None) => Ok(Value::NIL),
+        Err(error) => Err(error.raise()),
+    }
+}

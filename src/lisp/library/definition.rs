@@ -1,0 +1,192 @@
+//! A definition in a file of the library: where it is, and what its text says of it.
+
+use std::sync::OnceLock;
+
+/// A file of the library.
+pub(crate) struct File {
+    /// Its path in the source of the program.
+    pub(crate) name: &'static str,
+    /// Its text.
+    pub(crate) text: &'static str,
+}
+
+/// What a definition defines.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Kind {
+    /// A function.
+    Function,
+    /// A macro.
+    Macro,
+    /// What `setf` calls for a place.
+    Setter,
+    /// Something else, or nothing that has a name.
+    Form,
+}
+
+/// A form at top level of a file of the library.
+pub(crate) struct Definition {
+    /// The file.
+    pub(crate) file: &'static File,
+    /// The bytes of the file that it covers; blanks and comments may follow it there.
+    pub(crate) start: usize,
+    /// The byte behind it.
+    pub(crate) end: usize,
+    /// The line on which it begins, from one.
+    pub(crate) line: usize,
+    /// The package in which it is read, in upper case.
+    pub(crate) reading_package: String,
+    /// The package of its name, in upper case.
+    pub(crate) package: String,
+    /// Its name, in upper case.
+    pub(crate) name: String,
+    /// What it defines.
+    pub(crate) kind: Kind,
+    signature: OnceLock<Signature>,
+}
+
+/// What the text of a definition says to people.
+#[derive(Default, Debug)]
+pub(crate) struct Signature {
+    /// The lambda list, without its parentheses.
+    pub(crate) lambda_list: String,
+    /// The docstring on one line, without the examples.
+    pub(crate) doc: String,
+    /// The examples in the docstring.
+    pub(crate) examples: Vec<String>,
+}
+
+/// The line of a docstring after which its examples stand.
+const EXAMPLES: &str = "Examples:";
+
+impl Definition {
+    /// A form that has no name yet.
+    pub(super) fn new(file: &'static File, start: usize, end: usize, line: usize) -> Definition {
+        Definition {
+            file,
+            start,
+            end,
+            line,
+            reading_package: String::new(),
+            package: String::new(),
+            name: String::new(),
+            kind: Kind::Form,
+            signature: OnceLock::new(),
+        }
+    }
+
+    /// The text, from its opening parenthesis on.
+    pub(crate) fn text(&self) -> &'static str {
+        self.file.text.get(self.start..self.end).unwrap_or("")
+    }
+
+    /// File and line, as people write them.
+    pub(crate) fn location(&self) -> String {
+        format!("{}:{}", self.file.name, self.line)
+    }
+
+    /// Is it of use to the library alone?
+    pub(crate) fn is_helper(&self) -> bool {
+        self.name.starts_with('%')
+    }
+
+    /// Lambda list, documentation and examples.
+    pub(crate) fn signature(&self) -> &Signature {
+        self.signature.get_or_init(|| read_signature(self.text()))
+    }
+}
+
+/// Reads what stands behind the name of a definition.
+fn read_signature(text: &str) -> Signature {
+    let mut rest = text.strip_prefix('(').unwrap_or(text);
+    let operator = take_item(&mut rest);
+    // The name.
+    take_item(&mut rest);
+    let list = take_item(&mut rest);
+    let list = list.strip_prefix('(').and_then(|l| l.strip_suffix(')'));
+    let mut lambda_list = on_one_line(list.unwrap_or_default()).to_lowercase();
+    if operator == "define-modify-macro" {
+        // The function that it applies.
+        take_item(&mut rest);
+        lambda_list = format!("place {lambda_list}").trim_end().to_owned();
+    }
+    let docstring = take_item(&mut rest);
+    let docstring = docstring
+        .strip_prefix('"')
+        .and_then(|text| text.strip_suffix('"'))
+        .map(unescaped)
+        .unwrap_or_default();
+    let (doc, examples) = split_examples(&docstring);
+    Signature {
+        lambda_list,
+        doc,
+        examples,
+    }
+}
+
+/// The text of a docstring before its examples, on one line, and the examples.
+fn split_examples(docstring: &str) -> (String, Vec<String>) {
+    let mut lines = docstring.lines().map(str::trim);
+    let doc: Vec<&str> = lines
+        .by_ref()
+        .take_while(|line| *line != EXAMPLES)
+        .collect();
+    let examples = lines.filter(|line| !line.is_empty()).map(str::to_owned);
+    (on_one_line(&doc.join(" ")), examples.collect())
+}
+
+fn on_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Takes a token, a string or a list, and the blanks before it, off a text.
+pub(super) fn take_item<'a>(rest: &mut &'a str) -> &'a str {
+    let text = rest.trim_start();
+    let mut depth = 0_usize;
+    let mut in_string = false;
+    let mut is_escaped = false;
+    let mut end = text.len();
+    for (i, c) in text.char_indices() {
+        if is_escaped {
+            is_escaped = false;
+            continue;
+        }
+        match c {
+            '\\' => is_escaped = true,
+            '"' => {
+                in_string = !in_string;
+                if !in_string && depth == 0 {
+                    end = i + 1;
+                    break;
+                }
+            }
+            _ if in_string => {}
+            '(' => depth += 1,
+            ')' if depth > 1 => depth -= 1,
+            ')' => {
+                // The end of the item, or of the list that it is in.
+                end = if depth == 1 { i + 1 } else { i };
+                break;
+            }
+            c if depth == 0 && c.is_whitespace() => {
+                end = i;
+                break;
+            }
+            _ => {}
+        }
+    }
+    let (item, after) = text.split_at(end);
+    *rest = after;
+    item
+}
+
+fn unescaped(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    let mut chars = text.chars();
+    while let Some(c) = chars.next() {
+        match c {
+            '\\' => plain.extend(chars.next()),
+            c => plain.push(c),
+        }
+    }
+    plain
+}

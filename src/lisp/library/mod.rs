@@ -1,0 +1,150 @@
+//! The part of the language that is written in Lisp itself.
+//!
+//! To add a definition, write it into a file of `library/` (the files are in the order of
+//! the standard's chapters), beginning in the first column: only such forms are seen. Its
+//! docstring says one or two sentences; after a line `Examples:` each line is an example
+//! `FORM => VALUES`, which the manual shows and a test runs:
+//!
+//! ```lisp
+//! (defmacro unless (test &body body)
+//!   "Evaluates the body if the test is NIL.
+//!   Examples:
+//!   (unless nil 1) => 1"
+//!   `(if ,test nil (progn ,@body)))
+//! ```
+//!
+//! To add a file, write it, let it begin with `(in-package …)`, and list it in [`LIBRARY`];
+//! a layer above has a list of its own and installs it with [`install`].
+//!
+//! - A definition's name is exported from the file's package, or from the one that it is
+//!   written with (`alexandria:if-let`). A name that begins with `%` is a helper: it belongs
+//!   to `SYSTEM`, and the manual leaves it out.
+//! - Symbols that the file's package does not know are those of `SYSTEM`, so that reading
+//!   a definition leaves nothing behind in packages that people look into. Symbols of other
+//!   packages are written with their prefix.
+//! - `defun`, `defmacro` and `define-modify-macro` cost nothing until the first call, which
+//!   reads and compiles the definition ([`deferred`]). Any other form is evaluated whenever
+//!   an image is made, after the definitions of all files are known.
+//! - Macros are compiled without places, so that what they expand into has the place of the
+//!   user's form; functions have places, which error messages pass over for the caller's.
+//!
+//! An error in a definition fails the test that compiles all of them
+//! (`tests/language/library.rs`).
+
+pub(crate) mod deferred;
+pub(crate) mod definition;
+mod index;
+
+use std::rc::Rc;
+use std::sync::LazyLock;
+
+use definition::{Definition, File, Kind};
+
+use super::builtin::Entry;
+use super::image::Image;
+use super::value::Value;
+use super::value::function::{Deferred, Function};
+use super::value::package::PackageTable;
+use super::value::symbol::{FunctionCell, Sym};
+
+/// The definitions of one layer, found once per process.
+pub(crate) struct Library {
+    /// What is compiled when it is first called.
+    pub(crate) definitions: Vec<Definition>,
+    /// Other forms: what an image evaluates when it is made.
+    pub(crate) forms: Vec<Definition>,
+}
+
+/// One file of the list of a layer.
+macro_rules! library_file {
+    ($folder:literal, $name:literal) => {
+        $crate::lisp::library::definition::File {
+            name: concat!($folder, "/", $name),
+            text: include_str!($name),
+        }
+    };
+}
+pub(crate) use library_file;
+
+/// The files of Common Lisp and alexandria, in the order of the standard's chapters.
+static FILES: &[File] = &[library_file!("src/lisp/library", "control.lisp")];
+
+/// The library of the language without robots.
+pub(crate) static LIBRARY: LazyLock<Library> = LazyLock::new(|| Library::of(FILES));
+
+impl Library {
+    /// Finds the definitions in files.
+    pub(crate) fn of(files: &'static [File]) -> Library {
+        let mut library = Library {
+            definitions: Vec::new(),
+            forms: Vec::new(),
+        };
+        for file in files {
+            index::find(file, &mut library);
+        }
+        library
+    }
+}
+
+/// What an image keeps of the library.
+#[derive(Default)]
+pub(crate) struct Installed {
+    definitions: Vec<&'static Definition>,
+    sources: Vec<(&'static str, super::source::SourceId)>,
+}
+
+/// Makes the names of a library known in an image, and evaluates its other forms. The
+/// packages of its files must exist.
+pub(crate) fn install(image: &mut Image, library: &'static Library) {
+    for definition in &library.definitions {
+        install_definition(image, definition);
+    }
+    for form in &library.forms {
+        let evaluated = deferred::evaluate(image, form);
+        debug_assert!(evaluated.is_ok(), "{} fails", form.location());
+    }
+}
+
+fn install_definition(image: &mut Image, definition: &'static Definition) {
+    let Some(name) = symbol(image, definition) else {
+        debug_assert!(false, "{} has no package", definition.location());
+        return;
+    };
+    let number = image.library.definitions.len();
+    image.library.definitions.push(definition);
+    let function = Rc::new(Function::deferred(Deferred::new(name, number)));
+    let data = image.symbols.get_mut(name);
+    match definition.kind {
+        Kind::Function => data.function = FunctionCell::Function(function),
+        Kind::Macro => data.function = FunctionCell::Macro(function),
+        Kind::Setter => {
+            data.setf_function = Some(function);
+            return;
+        }
+        Kind::Form => return,
+    }
+    image.entries.insert(name, Entry::Library(definition));
+}
+
+/// The symbol that a definition is about, exported from its package.
+fn symbol(image: &mut Image, definition: &Definition) -> Option<Sym> {
+    let package = match definition.is_helper() {
+        true => PackageTable::SYSTEM,
+        false => image.packages.find(&definition.package)?,
+    };
+    Some(image.export_symbol(package, &definition.name))
+}
+
+/// The definition of a function or macro of the library, or none.
+pub(crate) fn definition_of(image: &Image, function: &Function) -> Option<&'static Definition> {
+    let number = function.as_deferred()?.number;
+    image.library.definitions.get(number).copied()
+}
+
+/// The value of a special variable for the time that the library is read.
+fn standard_value(image: &Image, package: &str) -> Value {
+    match image.packages.find(package) {
+        Some(id) => Value::Package(id),
+        None => Value::Package(PackageTable::SYSTEM),
+    }
+}
