@@ -17,6 +17,7 @@ pub(crate) mod torso_search;
 pub(crate) mod tree;
 pub(crate) mod unreachable;
 pub(crate) mod urdf;
+mod urdf_elements;
 pub(crate) mod urdf_error;
 mod urdf_schema;
 mod xml_elements;

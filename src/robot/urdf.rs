@@ -9,7 +9,7 @@ use urdf_rs::{Geometry, JointType};
 use super::tree::{AssemblyError, JointPart, LinkPart};
 use super::urdf_error::{Place, UrdfError, UrdfProblem};
 use super::xml_elements::{Element, elements};
-use super::{JointKind, KinematicTree, Limits, urdf_schema};
+use super::{JointKind, KinematicTree, Limits, urdf_elements, urdf_schema};
 use crate::closest_name::closest_name;
 use crate::spatial::pose::from_xyz_rpy;
 use crate::spatial::{PlacedShape, Pose, Shape};
@@ -23,13 +23,17 @@ impl KinematicTree {
         };
         let elements = elements(text).map_err(place)?;
         urdf_schema::check(&elements).map_err(place)?;
-        let robot = urdf_rs::read_from_string(text).map_err(|error| UrdfError {
-            place: Place {
-                file: file_name.to_owned(),
-                line_column: None,
-            },
-            problem: Box::new(UrdfProblem::Other(error.to_string())),
-        })?;
+        let robot = if urdf_elements::is_plain(text, &elements) {
+            urdf_elements::robot(&elements)
+        } else {
+            urdf_rs::read_from_string(text).map_err(|error| UrdfError {
+                place: Place {
+                    file: file_name.to_owned(),
+                    line_column: None,
+                },
+                problem: Box::new(UrdfProblem::Other(error.to_string())),
+            })?
+        };
         let source = Source {
             text,
             links: top_level(&elements, "link"),

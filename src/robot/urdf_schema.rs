@@ -33,14 +33,10 @@ impl Value {
     }
 
     fn accepts(self, value: &str) -> bool {
-        let numbers: Option<Vec<f64>> = value
-            .split_whitespace()
-            .map(|word| word.parse::<f64>().ok().filter(|n| n.is_finite()))
-            .collect();
         let all = |count: usize, test: fn(f64) -> bool| {
-            numbers
-                .as_ref()
-                .is_some_and(|n| n.len() == count && n.iter().all(|&n| test(n)))
+            let good = |word: &str| word.parse().is_ok_and(|n: f64| n.is_finite() && test(n));
+            let words = || value.split_whitespace();
+            words().count() == count && words().all(good)
         };
         match self {
             Self::Text => !value.trim().is_empty(),
@@ -73,6 +69,10 @@ const ATTRIBUTES: &[(&str, &str, Value, Option<&str>)] = &[
     ("safety_controller", "soft_upper_limit", Value::Number, None),
     ("safety_controller", "k_position", Value::Number, None),
     ("safety_controller", "k_velocity", Value::Number, Some("10")),
+    ("calibration", "rising", Value::Number, None),
+    ("calibration", "falling", Value::Number, None),
+    ("dynamics", "damping", Value::Number, None),
+    ("dynamics", "friction", Value::Number, None),
     ("mimic", "joint", Value::Text, Some("finger_joint")),
     ("mimic", "multiplier", Value::Number, None),
     ("mimic", "offset", Value::Number, None),
@@ -114,7 +114,19 @@ const CHILDREN: &[(&str, &str, &str)] = &[
 ];
 
 /// Elements whose children may each stand only once.
-const SINGLE_CHILDREN: &[&str] = &["joint", "inertial", "visual", "collision", "geometry"];
+const SINGLE_CHILDREN: &[&str] = &[
+    "joint",
+    "inertial",
+    "visual",
+    "collision",
+    "geometry",
+    "material",
+];
+
+/// Whether the element may hold only one such child.
+fn is_single(element: &str, child: &str) -> bool {
+    SINGLE_CHILDREN.contains(&element) || (element, child) == ("link", "inertial")
+}
 
 /// Finds the first element that breaks the rules: its byte offset and what is wrong.
 ///
@@ -205,15 +217,14 @@ fn check_children(elements: &[Element<'_>], i: usize) -> Result<(), (usize, Urdf
             return missing(child, example);
         }
     }
-    if SINGLE_CHILDREN.contains(&element.name) {
-        for (k, child) in children().enumerate() {
-            if children().take(k).any(|e| e.name == child.name) {
-                let problem = UrdfProblem::RepeatedChild {
-                    element: element.name.to_owned(),
-                    child: child.name.to_owned(),
-                };
-                return Err((child.offset, problem));
-            }
+    let singles = || children().filter(|child| is_single(element.name, child.name));
+    for (k, child) in singles().enumerate() {
+        if singles().take(k).any(|e| e.name == child.name) {
+            let problem = UrdfProblem::RepeatedChild {
+                element: element.name.to_owned(),
+                child: child.name.to_owned(),
+            };
+            return Err((child.offset, problem));
         }
     }
     let limited = matches!(

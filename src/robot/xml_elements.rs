@@ -105,7 +105,8 @@ impl<'a> Scanner<'a> {
     /// Moves over the letters of a name.
     fn name(&mut self) -> &'a str {
         let rest = self.rest();
-        let end = rest.find(|c: char| c.is_whitespace() || "=<>/\"'".contains(c));
+        let end = rest
+            .find(|c: char| c.is_whitespace() || matches!(c, '=' | '<' | '>' | '/' | '"' | '\''));
         let name = &rest[..end.unwrap_or(rest.len())];
         self.at += name.len();
         name

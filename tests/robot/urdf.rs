@@ -272,3 +272,35 @@ fn a_second_limit_is_reported() {
         "r.urdf:4:1: <joint> has a second <limit>; keep one"
     );
 }
+
+#[test]
+fn a_second_inertia_is_reported() {
+    let inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" \
+                    iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>";
+    assert_eq!(
+        error(&format!("<link name=\"a\">\n{inertial}\n{inertial}</link>")),
+        "r.urdf:4:1: <link> has a second <inertial>; keep one"
+    );
+}
+
+#[test]
+fn a_friction_that_is_no_number_is_reported_at_its_place() {
+    assert_eq!(
+        error(&joint(
+            "name=\"j\" type=\"fixed\"",
+            "\n<dynamics friction=\"much\"/>"
+        )),
+        "r.urdf:4:21: friction=\"much\" in <dynamics> is wrong; expected one finite number"
+    );
+}
+
+#[test]
+fn references_and_later_versions_of_the_format_are_understood() {
+    let text = "<robot name=\"r\" version=\"1.1\"><link name=\"a\"/><link name=\"b&amp;c\"/>\
+                <joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b&amp;c\"/>\
+                <origin quat_xyzw=\"0 0 1 0\"/></joint></robot>";
+    let tree = KinematicTree::from_urdf(text, "r.urdf").expect("the test's URDF is right");
+    let b = tree.link_named("b&c").expect("b&c is a link");
+    let pose = tree.link_pose(b, &Pose::identity(), &tree.zero_positions());
+    assert!((pose.rotation.angle() - std::f64::consts::PI).abs() < 1e-12);
+}
