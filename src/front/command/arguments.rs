@@ -135,6 +135,8 @@ pub(crate) enum Command {
     },
     /// Print the reference manual in Markdown
     Reference,
+    /// Print the manual page, for `man`: `planwright man | man -l -`
+    Man,
     /// Print a completion script for a shell
     Completions {
         /// The shell

@@ -5,11 +5,12 @@
 //! robot and its world cannot be set up. A reader that closes our output early is no
 //! error. `(quit n)` leaves with its own status.
 //!
-//! Only this folder and `repl` write to the terminal.
+//! Only this folder and the prompt write to the terminal.
 
 mod arguments;
 mod check;
 mod failure;
+mod man;
 mod open;
 mod paint;
 mod picture;
@@ -32,6 +33,7 @@ use arguments::{Arguments, Command, WatchArguments};
 use failure::{CommandError, Status};
 use paint::Paint;
 
+#[cfg(test)]
 pub(crate) use open::open_default;
 
 /// Bytes of the stack on which commands run: the compiler follows the nesting of forms.
@@ -94,6 +96,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Check { files }) => check::check(options, &files),
         Some(Command::Reference) => reference::print(),
+        Some(Command::Man) => man::print(),
         Some(Command::Completions { shell }) => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "planwright", &mut script);
