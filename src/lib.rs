@@ -1,7 +1,27 @@
 //! planwright: an interactive shell for programming a simulated kitchen robot in a
 //! Common-Lisp-like plan language.
-
-#![warn(unreachable_pub)]
+//!
+//! A program that embeds it makes a [`Session`], has it evaluate texts of the plan language,
+//! and asks where things are afterwards:
+//!
+//! ```
+//! use planwright::{Evaluate, Outcome, Session, SessionOptions};
+//!
+//! let mut session = Session::new(&SessionOptions::default())?;
+//! let plan = "(in-package :pp-tut)
+//!             (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
+//!             (with-simulated-robot (perform (a motion (type moving-torso) (joint-angle 0.3))))";
+//! let outcome = session.evaluate("my plan", plan, &mut |event| println!("{event:?}"));
+//! assert_eq!(outcome, Outcome::Finished);
+//! let bottle = session.object_pose("BOTTLE-1").expect("the bottle has been spawned");
+//! assert!((bottle.translation.x - -1.6).abs() < 0.001);
+//! assert_eq!(session.joint_position("torso_lift_joint"), Some(0.3));
+//! # Ok::<(), planwright::SessionError>(())
+//! ```
+//!
+//! What happens meanwhile comes as [`Event`]s: output, values, pictures, and the
+//! [`Abort`] of a condition that nobody handled. The same texts after the same
+//! [`seed`](SessionOptions::seed) do the same, to the bit.
 
 mod closest_name;
 mod front;
@@ -21,6 +41,7 @@ mod world;
 pub use front::command::main;
 pub use lisp::source::Location;
 pub use picture::Image as Picture;
+pub use robot::Side;
 pub use session::dialogue::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
 pub use session::{LogLevel, Session, SessionError, SessionOptions};
 pub use spatial::Pose;

@@ -26,7 +26,7 @@ pub(crate) use arm_chain::{ARM_JOINTS, ArmChainError, ArmPositions};
 pub(crate) use arm_kinematics::ArmKinematics;
 pub(crate) use description::RobotDescription;
 pub(crate) use joint_positions::JointPositions;
-pub(crate) use side::Side;
+pub use side::Side;
 pub(crate) use torso_search::{Reach, TorsoSearch};
 pub(crate) use tree::{Joint, JointId, JointKind, KinematicTree, Limits, Link, LinkId, Mimic};
 pub(crate) use unreachable::{LimitViolation, Unreachable};

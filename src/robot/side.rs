@@ -4,7 +4,7 @@ use std::fmt;
 
 /// A side of the robot, as seen by the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) enum Side {
+pub enum Side {
     /// Towards positive y.
     Left,
     /// Towards negative y.

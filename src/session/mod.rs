@@ -11,6 +11,7 @@ mod live_host;
 mod options;
 mod plans;
 mod printing;
+mod queries;
 mod record;
 pub(crate) mod simulation;
 mod text;
