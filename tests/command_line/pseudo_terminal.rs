@@ -147,19 +147,20 @@ impl Terminal {
         prompts_in(&self.text())
     }
 
-    /// Waits until the screen shows the text; tells how long that took.
-    pub fn wait_for(&self, wanted: &str) -> Duration {
-        self.wait_until(wanted, |all| all.contains(wanted.trim_end()))
+    /// Waits until the screen shows the text.
+    pub fn wait_for(&self, wanted: &str) {
+        self.wait_until(wanted, |all| all.contains(wanted.trim_end()));
     }
 
     /// Waits until the last line of the screen is that.
-    pub fn wait_for_last_line(&self, wanted: &str) -> Duration {
+    pub fn wait_for_last_line(&self, wanted: &str) {
         self.wait_until(wanted, |all| {
             all.lines().last().map(str::trim_end) == Some(wanted)
-        })
+        });
     }
 
-    pub fn wait_until(&self, what: &str, is_there: impl Fn(&str) -> bool) -> Duration {
+    /// Waits until the text on the screen is as wanted.
+    pub fn wait_until(&self, what: &str, is_there: impl Fn(&str) -> bool) {
         let begin = Instant::now();
         while !is_there(&self.text()) {
             assert!(
@@ -169,7 +170,6 @@ impl Terminal {
             );
             thread::sleep(POLL);
         }
-        begin.elapsed()
     }
 
     /// Ends the program as `kill -9` does.

@@ -1,8 +1,6 @@
 //! The whole way of a bottle from the table to the island, with the robot starting tucked at
 //! the origin; nothing may ever overlap by more than 2 mm.
 
-use std::time::Instant;
-
 use super::bench::{Kitchen, Outcome};
 use crate::motion::{CollisionMode, Detect, DetectQuery, Look, LookTarget, MotionOutcome, TcpPath};
 use crate::robot::Side;
@@ -40,19 +38,8 @@ fn look_and_detect(kitchen: &mut Kitchen) -> Pose {
 fn a_bottle_is_carried_from_the_table_to_the_island() {
     let mut kitchen = Kitchen::new();
     kitchen.spawn_bottle(-1.6, -0.9, 0.82);
-    let clock = Instant::now();
-    let lap = |kitchen: &Kitchen, what: &str| {
-        eprintln!(
-            "{:7.3} s simulated, {:6.1} ms real: {what}",
-            kitchen.world.time(),
-            clock.elapsed().as_secs_f64() * 1e3
-        );
-    };
-
     approach_table(&mut kitchen);
-    lap(&kitchen, "at the table");
     let bottle = look_and_detect(&mut kitchen);
-    lap(&kitchen, "detected");
     let gripped = kitchen
         .pick(Side::Right, "left-side", "bottle-1", &bottle)
         .unwrap_or_else(|f| panic!("{f}"));
@@ -62,13 +49,10 @@ fn a_bottle_is_carried_from_the_table_to_the_island() {
             object: "bottle-1".to_owned()
         }
     );
-    lap(&kitchen, "picked up");
     let park = kitchen.park(false, true);
     kitchen.run_one(park).unwrap_or_else(|f| panic!("{f}"));
-    lap(&kitchen, "parked");
     let drive = kitchen.drive(-0.15, 2.0, 180.0);
     kitchen.run_one(drive).unwrap_or_else(|f| panic!("{f}"));
-    lap(&kitchen, "at the island");
 
     let target = kitchen.world.robot_configuration().base.inverse()
         * from_xyz_rpy([-0.8, 2.0, 0.9], [0.0; 3]);
@@ -85,10 +69,8 @@ fn a_bottle_is_carried_from_the_table_to_the_island() {
         ),
         "{put:?}"
     );
-    lap(&kitchen, "placed");
     let park = kitchen.park(false, true);
     kitchen.run_one(park).unwrap_or_else(|f| panic!("{f}"));
-    lap(&kitchen, "parked");
 
     assert!(kitchen.world.settle(2.0));
     let pose = kitchen.world.object_pose("bottle-1").unwrap();

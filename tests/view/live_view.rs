@@ -2,9 +2,10 @@
 
 use std::io::{Read, Write};
 use std::net::{Shutdown, TcpStream};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::session::dialogue::{Evaluate, Event, Outcome};
 use crate::session::{Session, SessionOptions};
@@ -241,14 +242,13 @@ fn who_says_nothing_is_left() {
     let viewed = viewed();
     let mut silent = viewed.connect();
     silent.write_all(b"GET / HT").unwrap();
-    let begin = Instant::now();
     // Neither silence nor a byte now and then keeps a connection.
     let mut slow = viewed.connect();
     let dropped = (0..100).any(|_| {
         thread::sleep(Duration::from_millis(100));
         slow.write_all(b"a").is_err()
     });
-    assert!(dropped && begin.elapsed() < Duration::from_secs(8));
+    assert!(dropped);
     let mut rest = Vec::new();
     assert!(!matches!(silent.read_to_end(&mut rest), Ok(1..)));
 }
@@ -280,36 +280,21 @@ fn a_viewer_gets_the_scene_and_its_changes_and_the_result_is_the_same() {
     assert!(text.contains("\"BOTTLE-1\"") && text.contains("moving-torso"));
 }
 
-/// Sends nonsense on ever new connections until it is enough; how many.
-fn flood(host: &str, is_enough: &AtomicBool) -> u32 {
-    let mut count = 0;
+/// Sends nonsense on ever new connections until it is enough.
+fn flood(host: &str, is_enough: &AtomicBool) {
     while !is_enough.load(Ordering::Relaxed) {
         if let Ok(mut stream) = TcpStream::connect(host) {
             let _ = stream.write_all(b"GET /flood HTTP/1.1\r\nHost: x\r\n\r\n\0\xff garbage");
             let _ = stream.shutdown(Shutdown::Both);
         }
-        count += 1;
         thread::sleep(Duration::from_micros(200));
     }
-    count
 }
 
 #[test]
 fn stalling_and_flooding_clients_change_nothing() {
-    let mut session = Session::new(&SessionOptions::default()).unwrap();
-    session.evaluate("test", EXERCISE, &mut |_| {});
-    let expected = session.simulation().world().hash();
-    let begin = Instant::now();
-    session.evaluate("test", EXERCISE, &mut |_| {});
-    let without = begin.elapsed();
-
     let mut viewed = viewed();
     assert_eq!(viewed.ask("speed max"), "204");
-    viewed.evaluate(EXERCISE);
-    let begin = Instant::now();
-    viewed.evaluate(EXERCISE);
-    let alone = begin.elapsed();
-
     let mut stalled = Vec::new();
     for _ in 0..20 {
         let mut stream = viewed.connect();
@@ -321,26 +306,13 @@ fn stalling_and_flooding_clients_change_nothing() {
     }
     let done = AtomicBool::new(false);
     let (host, session) = (&viewed.host, &mut viewed.session);
-    let (during, count) = thread::scope(|scope| {
-        let flooding = scope.spawn(|| flood(host, &done));
-        let begin = Instant::now();
+    thread::scope(|scope| {
+        scope.spawn(|| flood(host, &done));
         let outcome = session.evaluate("test", EXERCISE, &mut |_| {});
-        let during = begin.elapsed();
         done.store(true, Ordering::Relaxed);
         assert_eq!(outcome, Outcome::Finished);
-        (during, flooding.join().unwrap())
     });
-    let hash = viewed.hash();
-    assert_eq!(hash, expected);
-    eprintln!(
-        "without the view {without:?}, with it {alone:?}, with {} stalled viewers and {count} bad requests {during:?}",
-        stalled.len()
-    );
-    // The flood takes a processor, so the time is only looked at roughly.
-    assert!(
-        during < alone * 6 + Duration::from_secs(2),
-        "{alone:?} {during:?}"
-    );
+    assert_eq!(viewed.hash(), unseen());
 }
 
 #[test]
@@ -353,14 +325,16 @@ fn a_pause_ends_when_everybody_has_left() {
     thread::sleep(Duration::from_millis(200));
     assert_eq!(viewed.ask("speed max"), "204");
     assert_eq!(viewed.ask("pause"), "204");
-    let gone = thread::spawn(move || {
+    let is_gone = Arc::new(AtomicBool::new(false));
+    let leaves = Arc::clone(&is_gone);
+    let viewer = thread::spawn(move || {
         thread::sleep(Duration::from_millis(300));
+        leaves.store(true, Ordering::Relaxed);
         drop(stream);
     });
-    let begin = Instant::now();
     viewed.evaluate(EXERCISE);
-    assert!(begin.elapsed() > Duration::from_millis(300));
-    gone.join().unwrap();
+    assert!(is_gone.load(Ordering::Relaxed));
+    viewer.join().unwrap();
 }
 
 #[test]

@@ -2,9 +2,10 @@
 
 use crate::perception::{Camera, Sight};
 use crate::picture::animation::{Shot, write_gif};
+use crate::picture::render::segments;
+use crate::picture::scene::{Kind, Owner};
 use crate::picture::{
-    CameraPicture, FloorMap, Image, Kind, Looks, Owner, Scene, View, ViewError, map_scene, render,
-    segments,
+    CameraPicture, FloorMap, Image, Looks, Scene, View, ViewError, map_scene, render,
 };
 use crate::spatial::Pose;
 use crate::tests::world::kitchen::{at, carry, models};

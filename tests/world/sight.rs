@@ -1,6 +1,7 @@
 //! What the PR2 sees of three bottles on the table, as in CRAM's tutorial.
 
-use crate::perception::{Border, Sight, Visibility};
+use crate::perception::visibility::Border;
+use crate::perception::{Sight, Visibility};
 use crate::robot::JointId;
 use crate::tests::world::kitchen::{at, carry, models, spawn};
 use crate::world::{BodyName, World};
@@ -34,9 +35,12 @@ fn seen(world: &World) -> [(i64, i64, f64); 3] {
 }
 
 fn names_seen(world: &World) -> Vec<String> {
-    Sight::of_robot(world)
-        .seen_objects()
-        .into_iter()
+    let sight = Sight::of_robot(world);
+    let objects = world
+        .objects()
+        .map(|object| sight.visibility(object.name()).unwrap());
+    objects
+        .filter(Visibility::is_seen)
         .map(|v| v.object)
         .collect()
 }
