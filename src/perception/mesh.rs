@@ -1,8 +1,6 @@
 //! Surfaces of the primitives as triangles.
 
 use nalgebra::Point3;
-use parry3d_f64::math::Vector;
-use parry3d_f64::transformation::try_convex_hull;
 
 use crate::spatial::{Shape, trig};
 
@@ -22,13 +20,12 @@ pub(crate) struct Mesh {
 }
 
 impl Mesh {
-    /// The surface of a shape; empty for a hull that has no volume.
+    /// The surface of a shape.
     pub(crate) fn of(shape: &Shape) -> Self {
         match shape {
             Shape::Box { size } => Self::cuboid(size.map(|s| s / 2.0)),
             Shape::Cylinder { radius, length } => Self::cylinder(*radius, length / 2.0),
             Shape::Sphere { radius } => Self::ball(*radius),
-            Shape::Hull { points } => Self::hull(points),
         }
     }
 
@@ -98,20 +95,6 @@ impl Mesh {
         mesh
     }
 
-    fn hull(points: &[[f64; 3]]) -> Self {
-        let points: Vec<_> = points
-            .iter()
-            .map(|&[x, y, z]| Vector::new(x, y, z))
-            .collect();
-        let Ok((corners, triangles)) = try_convex_hull(&points) else {
-            return Self::default();
-        };
-        Self {
-            corners: corners.iter().map(|p| Point3::new(p.x, p.y, p.z)).collect(),
-            triangles,
-        }
-    }
-
     fn add_quad(&mut self, [a, b, c, d]: [u32; 4]) {
         self.triangles.extend([[a, b, c], [a, c, d]]);
     }
@@ -151,20 +134,5 @@ mod tests {
         assert!((cylinder / std::f64::consts::TAU - 1.0).abs() < 0.02);
         let ball = volume(&Mesh::of(&Shape::Sphere { radius: 1.0 }));
         assert!((ball / (std::f64::consts::PI * 4.0 / 3.0) - 1.0).abs() < 0.05);
-        let corner = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let hull = volume(&Mesh::of(&Shape::Hull {
-            points: corner.to_vec(),
-        }));
-        assert!((hull - 1.0 / 6.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_hull_without_volume_has_no_surface() {
-        assert_eq!(
-            Mesh::of(&Shape::Hull {
-                points: vec![[0.0; 3]]
-            }),
-            Mesh::default()
-        );
     }
 }

@@ -10,4 +10,4 @@ pub(crate) mod visibility;
 
 pub(crate) use camera::Camera;
 pub(crate) use picture::Picture;
-pub(crate) use visibility::{Border, Sight, Visibility};
+pub(crate) use visibility::{Sight, Visibility};

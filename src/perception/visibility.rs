@@ -148,16 +148,6 @@ impl<'w> Sight<'w> {
         })
     }
 
-    /// All objects that are seen, in the order in which they appeared.
-    pub(crate) fn seen_objects(&self) -> Vec<Visibility> {
-        self.world
-            .objects()
-            // Every name comes from the world itself.
-            .filter_map(|object| self.visibility(object.name()).ok())
-            .filter(Visibility::is_seen)
-            .collect()
-    }
-
     /// Who is at the pixels that the object would have alone.
     fn occluders(&self, key: PartKey, alone: &Picture) -> Vec<(BodyName, usize)> {
         let mut counts: Vec<(PartKey, usize)> = Vec::new();

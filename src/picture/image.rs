@@ -76,7 +76,8 @@ impl Image {
         &self.bytes
     }
 
-    pub fn bytes_mut(&mut self) -> &mut [u8] {
+    /// The same, to be painted on.
+    pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         &mut self.bytes
     }
 

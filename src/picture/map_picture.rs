@@ -72,6 +72,7 @@ impl FloorMap {
 
     /// Whether the base may stand at the place (m, map frame); `None` for a place that was not
     /// judged.
+    #[cfg(test)]
     pub(crate) fn is_free(&self, x: f64, y: f64) -> Option<bool> {
         let place = |value: f64, first: i32| {
             usize::try_from((value / SQUARE).floor() as i64 - i64::from(first)).ok()

@@ -63,6 +63,7 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
 
 /// Which body every pixel shows, as a place in the scene, row by row from the top; none for
 /// the background. The first of a pixel's samples decides.
+#[cfg(test)]
 pub(crate) fn segments(scene: &Scene, camera: &Camera) -> Vec<Option<usize>> {
     let projector = Projector::new(camera);
     let seen = projector.project(&Facets::of(scene).all);

@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Point3, Vector2, Vector3};
 
-use crate::perception::mesh::Mesh;
 use crate::spatial::{Shape, trig};
 
 /// Rings of a ball between its poles.
@@ -30,8 +29,7 @@ pub(crate) struct Surface {
 }
 
 impl Surface {
-    /// The surface of a shape whose edges are broken by at most `bevel` (m); empty for a hull
-    /// that has no volume.
+    /// The surface of a shape whose edges are broken by at most `bevel` (m).
     pub(crate) fn of(shape: &Shape, bevel: f64) -> Self {
         match shape {
             Shape::Box { size } => {
@@ -43,7 +41,6 @@ impl Surface {
                 Self::cylinder(*radius, length / 2.0, bevel)
             }
             Shape::Sphere { radius } => Self::ball(*radius),
-            Shape::Hull { .. } => Self::flat(&Mesh::of(shape)),
         }
     }
 
@@ -202,23 +199,6 @@ impl Surface {
         }
         surface
     }
-
-    /// The mesh with flat triangles.
-    fn flat(mesh: &Mesh) -> Self {
-        let mut surface = Self::default();
-        for triangle in &mesh.triangles {
-            // Triangles of a mesh are places in its own list of corners.
-            let [a, b, c] = triangle.map(|i| mesh.corners[i as usize]);
-            let Some(normal) = (b - a).cross(&(c - a)).try_normalize(1e-18) else {
-                continue;
-            };
-            let first = surface.triangles.len() as u32 * 3;
-            let corners = [a, b, c].map(|point| Corner { point, normal });
-            surface.corners.extend(corners);
-            surface.triangles.push([first, first + 1, first + 2]);
-        }
-        surface
-    }
 }
 
 /// A point of a line that is turned about the z axis.
@@ -283,9 +263,6 @@ mod tests {
         ];
         let share = Surface::lathed(&cup).volume() / (TAU / 2.0 * (1.0 - 0.81 * 0.9));
         assert!((share - 1.0).abs() < 0.01);
-        let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-        let hull = Surface::of(&Shape::Hull { points }, 0.0).volume();
-        assert!((hull - 1.0 / 6.0).abs() < 1e-12);
     }
 
     #[test]

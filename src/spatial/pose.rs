@@ -10,6 +10,7 @@ pub type Pose = Isometry3<f64>;
 /// A pose from a position (m) and a quaternion `[x, y, z, w]`, which is normalised.
 ///
 /// Returns `None` when the quaternion is zero or a number is not finite.
+#[cfg(test)]
 pub(crate) fn from_xyz_quaternion(xyz: [f64; 3], xyzw: [f64; 4]) -> Option<Pose> {
     let [x, y, z, w] = xyzw;
     let q = Quaternion::new(w, x, y, z);

@@ -22,11 +22,6 @@ pub(crate) enum Shape {
         /// Radius (m).
         radius: f64,
     },
-    /// The convex hull of the points (m).
-    Hull {
-        /// Points (m).
-        points: Vec<[f64; 3]>,
-    },
 }
 
 /// A shape with its place in the frame of the link or object that it belongs to.

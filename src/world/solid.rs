@@ -66,13 +66,6 @@ impl Solid {
                 (SharedShape::cylinder(length / 2.0, *radius), place * turn)
             }
             Shape::Sphere { radius } if positive(&[*radius]) => (SharedShape::ball(*radius), place),
-            Shape::Hull { points } if points.iter().flatten().all(|v| v.is_finite()) => {
-                let points: Vec<_> = points
-                    .iter()
-                    .map(|&[x, y, z]| Vector::new(x, y, z))
-                    .collect();
-                (SharedShape::convex_hull(&points)?, place)
-            }
             _ => return None,
         };
         let bounds = shape.compute_aabb(&pose);

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 use crate::session::dialogue::{Evaluate, Outcome};
 use crate::session::{Session, SessionOptions};
 use crate::watch::live::{History, Origin};
-use crate::watch::recording::{Recording, RecordingError, read_recording};
+use crate::watch::recording::read::Recording;
+use crate::watch::recording::{RecordingError, read_recording};
 use crate::watch::{Kind, TaskState, WatchEvent};
 
 const EXERCISE: &str = "(in-package :pp-tut)

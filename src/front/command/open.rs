@@ -3,9 +3,12 @@
 use std::fs;
 use std::path::Path;
 
+#[cfg(test)]
 use clap::Parser;
 
-use super::arguments::{Arguments, LogLevel, Options};
+#[cfg(test)]
+use super::arguments::Arguments;
+use super::arguments::{LogLevel, Options};
 use super::failure::CommandError;
 use crate::session::dialogue::Evaluate;
 use crate::session::{self, Session, SessionOptions};
@@ -45,6 +48,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
 }
 
 /// A fresh evaluator as a command line without options has it.
+#[cfg(test)]
 pub(crate) fn open_default() -> Result<Box<dyn Evaluate>, String> {
     let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;
     open(&arguments.options).map_err(|error| error.to_string())

@@ -19,6 +19,8 @@ mod replay;
 mod verdict;
 
 pub(crate) use bless::blessed;
-pub(crate) use parse::{Entry, Transcript};
-pub(crate) use replay::{replay, replay_all, replay_first};
-pub(crate) use verdict::{Difference, Verdict};
+pub(crate) use parse::Transcript;
+#[cfg(test)]
+pub(crate) use replay::replay;
+pub(crate) use replay::{replay_all, replay_first};
+pub(crate) use verdict::Verdict;

@@ -168,6 +168,7 @@ impl History {
     }
 
     /// The news that are remembered, with their simulated times (s).
+    #[cfg(test)]
     pub(crate) fn news(&self) -> Vec<Arc<(f64, WatchEvent)>> {
         self.state().news.iter().cloned().collect()
     }

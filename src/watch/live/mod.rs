@@ -32,5 +32,4 @@ pub(crate) use follower::LiveFollower;
 pub(crate) use history::{History, Origin};
 pub(crate) use pace_control::{PaceControl, Speed};
 pub(crate) use server::Server;
-pub(crate) use timeline::Timeline;
 pub(crate) use views::Views;

@@ -76,16 +76,6 @@ impl Timeline {
         }
         found
     }
-
-    /// Number of frames.
-    pub(crate) fn len(&self) -> usize {
-        self.frames.len()
-    }
-
-    /// Whether there are none.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.frames.is_empty()
-    }
 }
 
 #[cfg(test)]
@@ -122,7 +112,7 @@ mod tests {
         let mut edited = Frame::clone(&frame(1.0));
         edited.joints = vec![1.0].into();
         past.push(Arc::new(edited));
-        assert_eq!(past.len(), 1);
+        assert_eq!(past.frames.len(), 1);
         assert_eq!(past.between(1.0, 1.0, 1)[0].joints.len(), 1);
     }
 
@@ -131,7 +121,7 @@ mod tests {
         let most = 200 * frame(0.0).bytes();
         let mut past = Timeline::new(most);
         (0..100_000).for_each(|t| past.push(frame(f64::from(t))));
-        assert!(past.bytes <= most && past.len() >= 100);
+        assert!(past.bytes <= most && past.frames.len() >= 100);
         assert_eq!(past.span(), Some([0.0, 99_999.0]));
     }
 }

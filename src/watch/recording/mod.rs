@@ -8,13 +8,13 @@ mod base64;
 mod channel;
 mod follower;
 mod message;
-mod read;
+pub(crate) mod read;
 mod schema;
 mod shapes;
 mod write;
 
 pub(crate) use follower::{Recorder, RecordingResult};
-pub(crate) use read::{Recording, read_recording};
+pub(crate) use read::read_recording;
 
 use std::io;
 
@@ -35,7 +35,4 @@ pub(crate) enum RecordingError {
     /// There is nothing in it that could be shown.
     #[error("it holds no recording of planwright")]
     Foreign,
-    /// The writer has ended before.
-    #[error("the recording has ended")]
-    Ended,
 }
