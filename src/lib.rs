@@ -38,7 +38,7 @@ mod watch;
 mod world;
 
 #[doc(hidden)]
-pub use front::command::main;
+pub use front::{command::main, measured};
 pub use lisp::source::Location;
 pub use picture::Image as Picture;
 pub use robot::Side;

@@ -3,5 +3,6 @@
 
 pub(crate) mod command;
 pub(crate) mod manual;
+pub mod measured;
 pub(crate) mod prompt;
 pub(crate) mod transcript;

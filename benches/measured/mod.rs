@@ -1,0 +1,20 @@
+//! Measures what the library sets up, with criterion.
+
+use criterion::{BatchSize, Criterion};
+use planwright::measured::Stopwatch;
+
+/// Criterion as a stopwatch.
+pub struct Watch<'a>(pub &'a mut Criterion);
+
+impl Stopwatch for Watch<'_> {
+    fn repeated(&mut self, name: &str, work: &mut dyn FnMut()) {
+        self.0
+            .bench_function(name, |bencher| bencher.iter(&mut *work));
+    }
+
+    fn prepared(&mut self, name: &str, prepare: &mut dyn FnMut() -> Box<dyn FnOnce()>) {
+        self.0.bench_function(name, |bencher| {
+            bencher.iter_batched(&mut *prepare, |work| work(), BatchSize::SmallInput);
+        });
+    }
+}
