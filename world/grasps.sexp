@@ -1,24 +1,24 @@
 ; How objects are grasped: the values of CRAM's object knowledge.
 ; Units: m, N. The frame of a grasp is the object's: front +x, left +y, top +z.
 ;
-; A grasp places a gripper frame (z forward, x across the palm) in the object's frame: at
-; :translation, turned by :rotation, the rows of a matrix or the name of one. The hand
-; comes through two pregrasps and leaves through two lifts, which have the same rotation
-; and whose translations are :translation plus these offsets, along the object's axes.
+; A grasp gives the pose of a gripper frame (z forward, x across the palm) in the object's
+; frame: :translation, and :rotation as the rows of a matrix or the name of one. The hand
+; approaches through two pregrasps and leaves through two lifts, with the same rotation and
+; with these offsets added to :translation, along the object's axes.
 
 ; Rotations by name. The third column is the direction in which the hand approaches.
 (rotation back ((0 0 1) (1 0 0) (0 1 0)))
 (rotation front ((0 0 -1) (-1 0 0) (0 1 0)))
 (rotation left-side ((1 0 0) (0 0 -1) (0 1 0)))
 (rotation right-side ((-1 0 0) (0 0 1) (0 1 0)))
-; From above, the fingers across x or across y.
+; From above, with the fingers across x or across y.
 (rotation top-across-x ((0 1 0) (1 0 0) (0 0 -1)))
 (rotation top-across-y ((1 0 0) (0 -1 0) (0 0 -1)))
 ; The rim of a plate, from its left or right, 30 degrees off the vertical.
 (rotation left-rim ((0 1 0) (0.5 0 -0.8660254037844386) (-0.8660254037844386 0 -0.5)))
 (rotation right-rim ((0 -1 0) (-0.5 0 0.8660254037844386) (-0.8660254037844386 0 -0.5)))
 
-; How hard to grip (N) and how wide to open before (m).
+; How hard to grip (N) and how wide to open the gripper beforehand (m).
 (default-grip :effort 35 :opening 0.1)
 (grip (cutlery spoon fork knife) :effort 100 :opening 0.04)
 (grip (plate tray) :effort 100 :opening 0.02)
@@ -28,7 +28,7 @@
 (grip (breakfast-cereal) :effort 20 :opening 0.1)
 (grip (bowl) :effort 100 :opening 0.1)
 
-; The grasps that are tried when none is asked for, the first one first.
+; The grasps to try, in this order, if none is asked for.
 (order (bottle) left-side right-side back front)
 (order (cup) back front left-side right-side)
 (order (milk) back left-side right-side front)
@@ -64,7 +64,7 @@
        :pregrasp (-0.15 0 0.15) :second-pregrasp (-0.15 0 0)
        :lift (0 0 0.15) :second-lift (0 0 0.15))
 ; CRAM gives front the offsets of back, so that the hand would come from behind, through
-; the bottle, with its palm first. These are the offsets that mirror those of back.
+; the bottle, palm first. The offsets here mirror those of back instead.
 (grasp front :types (drink bottle) :arms (left right)
        :translation (-0.02 0 0.005) :rotation front
        :pregrasp (0.15 0 0.15) :second-pregrasp (0.15 0 0)

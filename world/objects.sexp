@@ -1,17 +1,17 @@
 ; The objects that can be spawned. Units: m, rad, kg.
 ;
-; Shapes are given in the object's frame (front +x, left +y, top +z), whose origin is the
-; pose that spawning sets: a box by its edge lengths, a cylinder with its axis along z, a
-; sphere, and a ring of equal boxes (staves, thickness x width x height) around :at. The
-; placing :at and :rpy are those of the shape's centre, zero where not given.
+; Shapes are given in the object's frame (front +x, left +y, top +z); spawning sets the pose
+; of its origin. They are: a box given by its edge lengths, a cylinder with its axis along z,
+; a sphere, and a ring of equal boxes (staves, thickness x width x height) around :at. :at and
+; :rpy give the pose of the shape's centre and default to zero.
 ; Colours are linear red, green, blue and optionally alpha.
 
-; What list-available-objects lists, in its order.
+; The types that list-available-objects returns, in that order.
 (available tray tray-base spoon red-metal-plate milk cup cube cereal buttermilk
            breakfast-cereal bottle blue-metal-plate mug plate mondamin pot weisswurst bowl
            fork knife spatula cap glasses glove shoe)
 
-; Which types are kinds of which; a kind is used where its type is asked for.
+; Types and their kinds; an object of a kind may be used wherever its type is asked for.
 (kinds household-item kitchen-item clothing-item)
 (kinds kitchen-item cutlery plate tray bottle cup milk cereal bowl open-box pot spatula)
 (kinds food bread weisswurst)
@@ -166,7 +166,7 @@
   ((box :size (0.0572 0.1397 0.05) :at (0 -0.0311 0.025))
    (box :size (0.0572 0.0698 0.0437) :at (0 0.0039 0.0718))))
 
-; Objects that can be spawned but are not listed.
+; Objects that can be spawned, but are not listed.
 
 (object bread :mass 0.2 :color (0.5 0.1 0)
  :shapes

@@ -1,10 +1,10 @@
-; What the links and joints of the PR2 are for, and how fast they may move.
-; Units: m, rad, s. Names are those of world/pr2.urdf.
+; The roles of the PR2's links and joints, and how fast they may move.
+; Units: m, rad, s. Names are those in world/pr2.urdf.
 
 (robot PR2)
 
-; The mobile base: the frame on the floor that poses of the robot refer to, the body,
-; and how fast it drives and turns.
+; The mobile base: the frame on the floor to which poses of the robot refer, the link of the
+; body, and how fast it drives and turns.
 (base :frame base_footprint
       :body base_link
       :drive-velocity 0.5 :drive-acceleration 1.0
@@ -13,13 +13,13 @@
 ; The torso lift and its height after start-up.
 (torso :link torso_lift_link :joint torso_lift_joint :start 0.15)
 
-; The neck. Looking turns these two joints so that the pan and tilt links face the point.
+; The neck. Looking moves these two joints so that the pan and tilt links face the point.
 (neck :pan-joint head_pan_joint :pan-link head_pan_link
       :tilt-joint head_tilt_joint :tilt-link head_tilt_link)
 
-; Cameras; the first one is used. An object is seen when the share of its pixels that
-; nothing hides and that lie in the picture reaches :visible-share.
-; 0.872664626 rad are 50 degrees; with 320 x 200 pixels that is 73.45 degrees across.
+; Cameras; the first one is used. An object is seen if the share of its pixels that are in
+; the image and not occluded reaches :visible-share.
+; 0.872664626 rad is 50 degrees; with 320 x 200 pixels the horizontal view is 73.45 degrees.
 (camera narrow-stereo
         :frame narrow_stereo_optical_frame
         :width 320 :height 200 :vertical-view 0.8726646259971648
@@ -33,8 +33,8 @@
 ; its x axis; the rows of :tool-axes turn the axes of a grasp (z forward, x across the
 ; palm) into those of the tool (x forward).
 ; Joints of a posture: shoulder pan, shoulder lift, upper arm roll, elbow flex, forearm
-; roll, wrist flex, wrist roll. The parking posture keeps the hard limits, but breaks the
-; soft ones of elbow and wrist by up to 0.03.
+; roll, wrist flex, wrist roll. The parking posture is within the hard limits, but exceeds
+; the soft limits of elbow and wrist by up to 0.03 rad.
 (arm left
      :base torso_lift_link
      :wrist l_wrist_roll_link
@@ -73,9 +73,9 @@
       (carry-tray -0.5091745531 -0.3407352620 -0.7233501126 -1.1712
                   -0.9034 -1.5575 1.1418)))
 
-; Grippers. One joint moves both fingers. The pads' faces are :pad-face off the tip frames,
-; towards each other; fingers and tips are those that close from the left, then from the
-; right. Asked for an opening in metres, CRAM sets the joint to :joint-per-metre times it.
+; Grippers. One joint moves both fingers. The faces of the pads are :pad-face away from the
+; tip frames, towards each other. :left-finger and :right-finger close from the left and the
+; right. For an opening in metres, CRAM sets the joint to :joint-per-metre times the opening.
 (gripper left
          :palm l_gripper_palm_link
          :joint l_gripper_l_finger_joint
@@ -93,16 +93,16 @@
          :left-finger (r_gripper_l_finger_link r_gripper_l_finger_tip_link)
          :right-finger (r_gripper_r_finger_link r_gripper_r_finger_tip_link))
 
-; Greatest velocity and acceleration of joints. The torso is faster than the URDF's
-; 0.013 m/s, with which 0.3 m would take 23 s. All other joints move at their URDF speed,
-; but no faster than :velocity of the default.
+; Maximum velocity and acceleration of joints. The torso is faster than the URDF's
+; 0.013 m/s, at which 0.3 m would take 23 s. All other joints move at their URDF speed,
+; but no faster than the default :velocity.
 (default-speed :velocity 1.5 :acceleration 4.0)
 (speed torso_lift_joint :velocity 0.1 :acceleration 0.4)
 (speed l_gripper_l_finger_joint :velocity 0.5 :acceleration 4.0)
 (speed r_gripper_l_finger_joint :velocity 0.5 :acceleration 4.0)
 
-; Links that are never judged against each other: neighbours, and links whose primitives
-; overlap by construction.
+; Links that are never checked for collisions with each other: neighbours, and links whose
+; primitives overlap by construction.
 (touching base_link base_bellow_link torso_lift_link head_pan_link laser_tilt_mount_link)
 (touching head_pan_link head_tilt_link)
 (touching torso_lift_link l_shoulder_pan_link)
@@ -126,13 +126,13 @@
           r_gripper_l_finger_link r_gripper_l_finger_tip_link
           r_gripper_r_finger_link r_gripper_r_finger_tip_link)
 
-; Links that roll on the floor: never judged against the floor or the robot.
+; Links that roll on the floor: never checked against the floor or the robot.
 (wheels fl_caster_rotation_link fl_caster_l_wheel_link fl_caster_r_wheel_link
         fr_caster_rotation_link fr_caster_l_wheel_link fr_caster_r_wheel_link
         bl_caster_rotation_link bl_caster_l_wheel_link bl_caster_r_wheel_link
         br_caster_rotation_link br_caster_l_wheel_link br_caster_r_wheel_link)
 
-; Joints that could move but never do.
+; Joints that could move, but never do.
 (idle-joints fl_caster_rotation_joint fl_caster_l_wheel_joint fl_caster_r_wheel_joint
              fr_caster_rotation_joint fr_caster_l_wheel_joint fr_caster_r_wheel_joint
              bl_caster_rotation_joint bl_caster_l_wheel_joint bl_caster_r_wheel_joint

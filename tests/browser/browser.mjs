@@ -1,4 +1,4 @@
-// Drives a headless Chromium over the DevTools protocol, through pipes: no package is needed.
+// Drives a headless Chromium over the DevTools protocol, through pipes; needs no packages.
 
 import { spawn } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -13,7 +13,7 @@ const FLAGS = [
 
 export const sleep = (seconds) => new Promise((done) => setTimeout(done, seconds * 1000));
 
-/** A browser that is gone when `close` is called. */
+/** A browser with a profile of its own; `close` ends it and deletes the profile. */
 export class Browser {
   constructor(executable) {
     this.profile = mkdtempSync(join(tmpdir(), 'planwright-browser-'));
@@ -73,7 +73,7 @@ export class Browser {
   }
 }
 
-/** A tab, with the errors that its page has told. */
+/** A tab, with the errors that its page has reported. */
 export class Tab {
   constructor(browser, session, target) {
     Object.assign(this, { browser, session, target, errors: [] });
@@ -136,7 +136,7 @@ export class Tab {
 
   wheel(x, y, deltaY) { return this.mouse('mouseWheel', x, y, { deltaX: 0, deltaY }); }
 
-  /** Writes what the tab shows into a PNG file. */
+  /** Saves a screenshot of the tab as a PNG file. */
   async picture(file) {
     const { data } = await this.send('Page.captureScreenshot', { format: 'png' });
     writeFileSync(file, Buffer.from(data, 'base64'));

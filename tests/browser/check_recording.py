@@ -1,5 +1,5 @@
-"""Reads a recording of move-bottle with the Python package `mcap` and looks whether it tells
-what happened, in messages that keep to the schemas in the file.
+"""Reads a recording of move-bottle with the Python package `mcap` and checks that it shows
+what happened, in messages that conform to the schemas in the file.
 
     python3 tests/browser/check_recording.py RUN.mcap
 """
@@ -30,12 +30,12 @@ KINDS = {"object": dict, "array": list, "string": str, "boolean": bool, "number"
 
 
 def keep_to(schema, value, where):
-    """Fails unless the value keeps to the schema, as far as our schemas go."""
+    """Fails unless the value conforms to the schema; covers what our schemas use."""
     if "oneOf" in schema:
         assert value in [one["const"] for one in schema["oneOf"]], where
         return
     kind = schema["type"]
-    assert isinstance(value, KINDS[kind]), f"{where}: {value!r} is no {kind}"
+    assert isinstance(value, KINDS[kind]), f"{where}: {value!r} is not of type {kind}"
     if kind in ("number", "integer"):
         assert math.isfinite(value) and value >= schema.get("minimum", -math.inf), where
         assert value <= schema.get("maximum", math.inf), where
@@ -91,7 +91,7 @@ def main(path):
     assert set(counts) == set(SCHEMAS), sorted(counts)
     assert summary.statistics.message_count == sum(counts.values())
     missing = [frame for frame in entities if frame not in frames]
-    assert not missing, f"bodies without a place: {missing}"
+    assert not missing, f"bodies without a transform: {missing}"
     bottle = frames["object/BOTTLE-1"]["translation"]
     assert math.dist((bottle["x"], bottle["y"]), (-0.8, 2.0)) < 0.02 and bottle["z"] > 0.9, bottle
     way = sum(math.dist(a.values(), b.values()) for a, b in zip(base, base[1:]))

@@ -1,4 +1,4 @@
-// Opens the live view in headless Chromium and uses it as a person does.
+// Opens the live view in headless Chromium and uses it as a person would.
 //
 //   node tests/browser/live_view.mjs PLANWRIGHT CHROMIUM [FOLDER FOR PICTURES]
 
@@ -21,7 +21,7 @@ function check(is, what) {
   if (!is) failures += 1;
 }
 
-/** Starts planwright; the address of its page. */
+/** Starts planwright; returns the process and the address of its page. */
 async function start(...args) {
   const child = spawn(program, args, { stdio: ['ignore', 'pipe', 'pipe'] });
   children.push(child);
@@ -48,7 +48,7 @@ async function liveView(browser) {
   await until(tab, '[...scene.nodes.values()].filter((node) => node.mesh).length > 60');
   check(await tab.value('document.querySelector("#link").dataset.state') === 'live', 'the page opens and is connected');
 
-  // What moves.
+  // Movement.
   const before = await get(tab, BASE);
   const measured = await tab.value(`new Promise((done) => {
     const [from, begin, drawn] = [planwright.counts.updates, performance.now(), planwright.counts.drawn];
@@ -66,7 +66,7 @@ async function liveView(browser) {
   const [x, y] = [430, 420];
   let then = await get(tab, '[orbit.azimuth, orbit.elevation]');
   await tab.drag([x, y], [120, 40]);
-  check(far(then, await get(tab, '[orbit.azimuth, orbit.elevation]')) > 0.3, 'dragging with the left button turns');
+  check(far(then, await get(tab, '[orbit.azimuth, orbit.elevation]')) > 0.3, 'dragging with the left button rotates');
   then = await get(tab, 'orbit.at');
   await tab.drag([x, y], [90, 30], 'right');
   check(far(then, await get(tab, 'orbit.at')) > 0.1, 'dragging with the right button moves');
@@ -104,13 +104,13 @@ async function liveView(browser) {
   check(await get(tab, 'past.span[1]') === stopped, 'a pause stops simulated time');
   await tab.press('#play');
   await until(tab, `past.span[1] > ${stopped}`, 10);
-  check(true, 'and it goes on');
+  check(true, 'simulated time goes on after the pause');
   await tab.press('#speeds button:nth-child(3)');
 
-  // Held by the hand.
+  // The object in the hand.
   await until(tab, 'page.shown.held.length > 0', 40);
   await tab.until('/held by\\s+r_gripper/.test(document.querySelector("#card").innerText)', 10);
-  check(true, 'the hand that holds it is told');
+  check(true, 'the page names the hand that holds the bottle');
 
   // The past, while the session goes on.
   const place = await tab.value(`(() => { const b = document.querySelector('#slider').getBoundingClientRect(); return [b.x, b.y + b.height / 2, b.width]; })()`);
@@ -124,20 +124,20 @@ async function liveView(browser) {
   await tab.picture(join(pictures, 'past.png'));
   await tab.click(place[0] + place[2] * 0.6, place[1]);
   await until(tab, `page.time > ${time} + 0.5 && Math.abs(page.shown.t - page.time) < 0.1`, 10);
-  check(true, 'and forth');
+  check(true, 'the slider also goes forward');
   const began = await get(tab, 'page.time');
   await tab.press('#play');
   await until(tab, `page.shown.t > ${began} + 0.5`, 10);
   check(true, 'the past plays');
   await tab.press('#live');
   await until(tab, `page.time === null && scene.live.t - page.shown.t < 1 && page.shown.t > ${end}`, 10);
-  check(true, 'and back to now');
+  check(true, 'the view returns to the present');
 
   // To the end.
   await tab.press('#speeds button:nth-child(6)');
   await tab.until('/The bottle stands at/.test(document.querySelector("#log-lines").innerText)', 60);
   await tab.until('document.querySelector("#task-list .task").classList.contains("succeeded")', 10);
-  check(await tab.value('document.querySelectorAll("#task-list .failed").length') === 0, 'the plan is told to have succeeded');
+  check(await tab.value('document.querySelectorAll("#task-list .failed").length') === 0, 'the page shows that the plan succeeded');
   await tab.picture(join(pictures, 'end.png'));
   check(tab.errors.length === 0, `no error on the console ${tab.errors.join('; ')}`);
   await tab.send('Page.navigate', { url: 'about:blank' });
@@ -156,8 +156,8 @@ async function dark(browser, file) {
     await tab.click(place[0] + place[2] * share, place[1]);
     await until(tab, `Math.abs(page.time / ${span[1]} - ${share}) < 0.1 && Math.abs(page.shown.t - page.time) < 0.1`, 15);
   }
-  check(true, 'a recording is shown, back and forth');
-  check(await tab.value('document.querySelectorAll("#task-list .task").length') > 4, 'with its tasks');
+  check(true, 'a recording is shown, and the slider goes back and forth');
+  check(await tab.value('document.querySelectorAll("#task-list .task").length') > 4, 'the recording shows its tasks');
   await tab.picture(join(pictures, 'recording.png'));
   check(tab.errors.length === 0, `no error on the console ${tab.errors.join('; ')}`);
   child.kill();
