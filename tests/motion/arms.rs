@@ -1,6 +1,6 @@
 //! Arms: joint goals, hand goals of one and of both arms, putting down, and what is refused.
 
-use super::bench::Kitchen;
+use super::fixture::Kitchen;
 use crate::motion::cartesian_path::tcp_in_base;
 use crate::motion::{
     CollisionMode, Motion, MotionFailure, MotionOutcome, MotionStatus, MoveJoints, MoveTcp,

@@ -1,6 +1,6 @@
 //! Driving: what is in the way, and what is said about it.
 
-use super::bench::Kitchen;
+use super::fixture::Kitchen;
 use crate::motion::drive_plan::plan_drive;
 use crate::motion::{Motion, MotionFailure, MotionOutcome, MotionStatus};
 use crate::spatial::pose::{from_xyz_rpy, yaw};

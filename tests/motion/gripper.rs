@@ -1,6 +1,6 @@
 //! Fingers: positions, limits, gripping something, nothing and something else.
 
-use super::bench::Kitchen;
+use super::fixture::Kitchen;
 use crate::motion::{GripperCommand, LetGo, MotionFailure, MotionOutcome, held_objects, take_hold};
 use crate::robot::Side;
 use crate::spatial::pose::from_xyz_rpy;

@@ -1,6 +1,6 @@
 //! Looking and detecting: what the robot of the tutorial sees from the table.
 
-use super::bench::Kitchen;
+use super::fixture::Kitchen;
 use crate::motion::{
     Detect, DetectQuery, Look, LookDirection, LookTarget, MotionFailure, MotionOutcome,
 };

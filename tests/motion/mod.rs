@@ -1,8 +1,8 @@
 //! The atomic motions.
 
 mod arms;
-pub(crate) mod bench;
 mod drive;
+pub(crate) mod fixture;
 mod gripper;
 mod look;
 mod not_finite;

@@ -1,6 +1,6 @@
 //! Goals that are no numbers are refused by every motion, and nothing moves.
 
-use super::bench::Kitchen;
+use super::fixture::Kitchen;
 use crate::motion::{
     CollisionMode, Drive, GripperCommand, Look, LookTarget, Motion, MotionFailure, MotionStatus,
     MoveGripper, MoveJoints, MoveTcp, MoveTorso, PoseGoal, TcpPath,

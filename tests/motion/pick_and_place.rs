@@ -1,7 +1,7 @@
 //! The whole way of a bottle from the table to the island, with the robot starting tucked at
 //! the origin; nothing may ever overlap by more than 2 mm.
 
-use super::bench::{Kitchen, Outcome};
+use super::fixture::{Kitchen, Outcome};
 use crate::motion::{CollisionMode, Detect, DetectQuery, Look, LookTarget, MotionOutcome, TcpPath};
 use crate::robot::Side;
 use crate::spatial::Pose;

@@ -1,7 +1,7 @@
 //! Base, torso and arms moving at the same time from anywhere to anywhere: whatever comes of
 //! it, nothing ever overlaps by more than 2 mm, and a free place is reached.
 
-use super::bench::Kitchen;
+use super::fixture::Kitchen;
 use crate::motion::{MotionFailure, MoveJoints};
 use crate::robot::Side;
 use rand_pcg::Pcg64;

@@ -8,7 +8,7 @@ use crate::picture::{
     CameraPicture, FloorMap, Image, Looks, Scene, View, ViewError, map_scene, render,
 };
 use crate::spatial::Pose;
-use crate::tests::world::kitchen::{at, carry, models};
+use crate::tests::world::fixture::{at, carry, models};
 use crate::world::{PartKey, World};
 use nalgebra::Point3;
 

@@ -5,7 +5,7 @@
 
 use crate::robot::Side;
 use crate::spatial::pose::from_xyz_rpy;
-use crate::tests::world::kitchen::{at, carry, models, set_joint, spawn, tucked};
+use crate::tests::world::fixture::{at, carry, models, set_joint, spawn, tucked};
 use crate::world::{AllowedPairs, BodyName, Models, RobotConfiguration, World};
 
 fn empty_world() -> World {

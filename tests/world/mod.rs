@@ -1,7 +1,7 @@
 //! The physical world.
 
 mod collisions;
-pub(crate) mod kitchen;
+pub(crate) mod fixture;
 mod motion;
 mod objects;
 mod sight;

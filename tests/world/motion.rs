@@ -3,7 +3,7 @@
 use crate::robot::Side;
 use crate::spatial::Pose;
 use crate::spatial::pose::{distance_between, from_xy_yaw};
-use crate::tests::world::kitchen::{at, carry, models, set_joint, spawn, world};
+use crate::tests::world::fixture::{at, carry, models, set_joint, spawn, world};
 use crate::world::{AllowedPairs, BodyName, World};
 
 /// A robot in free space with a bottle in the open right hand, welded to its palm.

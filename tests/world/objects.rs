@@ -1,7 +1,7 @@
 //! Objects in the kitchen: where they come to rest, what moves them.
 
 use crate::spatial::pose::from_xyz_rpy;
-use crate::tests::world::kitchen::{at, spawn, world};
+use crate::tests::world::fixture::{at, spawn, world};
 use crate::world::BodyName;
 use proptest::prelude::*;
 

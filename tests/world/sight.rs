@@ -3,7 +3,7 @@
 use crate::perception::visibility::Border;
 use crate::perception::{Sight, Visibility};
 use crate::robot::JointId;
-use crate::tests::world::kitchen::{at, carry, models, spawn};
+use crate::tests::world::fixture::{at, carry, models, spawn};
 use crate::world::{BodyName, World};
 
 /// The robot in front of the table with bottles A, B and C, its neck panned and tilted

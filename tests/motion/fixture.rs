@@ -1,5 +1,4 @@
-//! A PR2 in the kitchen that carries out motions, for tests and measurements of motions.
-#![allow(dead_code)]
+//! A PR2 in the kitchen that carries out motions, for the tests of motions.
 
 use crate::motion::{
     CollisionMode, Drive, GripperCommand, LetGo, Motion, MotionFailure, MotionOutcome,
@@ -13,7 +12,7 @@ use crate::world::grasp_library::{GRASPS, GraspLibrary, ToolPoses};
 use crate::world::{AllowedPairs, BodyName, RobotConfiguration, World};
 use nalgebra::Translation3;
 
-pub(crate) use crate::tests::world::kitchen::models;
+pub(crate) use crate::tests::world::fixture::models;
 
 /// What a motion came to.
 pub(crate) type Outcome = Result<MotionOutcome, MotionFailure>;

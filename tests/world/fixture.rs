@@ -1,5 +1,4 @@
-//! A PR2 in the kitchen, for tests and measurements of the world.
-#![allow(dead_code)]
+//! A PR2 in the kitchen, for the tests of the world.
 
 use std::sync::Arc;
 
