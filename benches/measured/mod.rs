@@ -4,7 +4,7 @@ use criterion::{BatchSize, Criterion};
 use planwright::measured::Stopwatch;
 
 /// Criterion as a stopwatch.
-pub struct Watch<'a>(pub &'a mut Criterion);
+pub(crate) struct Watch<'a>(pub(crate) &'a mut Criterion);
 
 impl Stopwatch for Watch<'_> {
     fn repeated(&mut self, name: &str, work: &mut dyn FnMut()) {

@@ -1,7 +1,7 @@
 //! Streams of characters: string streams, files, combinations of streams, and the
 //! session's standard output.
 //!
-//! All text that a program writes goes through [`write`]; nothing else prints. Reading at
+//! All text that a program writes goes through [`write()`]; nothing else prints. Reading at
 //! the end gives `None`; who reads decides whether that is an error.
 
 use std::cell::RefCell;

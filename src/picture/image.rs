@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 /// Red, green and blue in eight-bit sRGB.
-pub type Rgb = [u8; 3];
+pub(crate) type Rgb = [u8; 3];
 
 /// A picture in eight-bit sRGB.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! CRAM's plan language: tasks that run in parallel, fluents that they wait for, failures
 //! and how plans handle them.
 //!
-//! [`install`] brings the language into an image; a [`Scheduler`] runs what uses it. The
+//! [`install()`] brings the language into an image; a [`Scheduler`] runs what uses it. The
 //! layer knows nothing of robots: what a task asks of the world is a request that the
 //! scheduler hands to its [`Host`].
 

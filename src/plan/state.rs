@@ -73,7 +73,7 @@ impl Plan {
     /// # Panics
     ///
     /// Never: builtins and requests of the plan language come to an image by
-    /// [`super::install`], which puts this part there first.
+    /// [`super::install()`], which puts this part there first.
     pub(crate) fn of(image: &Image) -> Rc<Plan> {
         match image.extension() {
             Some(plan) => plan,

@@ -20,27 +20,27 @@ const SCROLLBACK: usize = 5000;
 const PATIENCE: Duration = Duration::from_secs(60);
 const POLL: Duration = Duration::from_millis(2);
 
-pub const UP: &str = "\x1b[A";
-pub const DOWN: &str = "\x1b[B";
-pub const LEFT: &str = "\x1b[D";
-pub const TAB: &str = "\t";
-pub const ENTER: &str = "\r";
-pub const CTRL_C: &str = "\x03";
-pub const CTRL_D: &str = "\x04";
-pub const CTRL_J: &str = "\n";
-pub const CTRL_R: &str = "\x12";
+pub(crate) const UP: &str = "\x1b[A";
+pub(crate) const DOWN: &str = "\x1b[B";
+pub(crate) const LEFT: &str = "\x1b[D";
+pub(crate) const TAB: &str = "\t";
+pub(crate) const ENTER: &str = "\r";
+pub(crate) const CTRL_C: &str = "\x03";
+pub(crate) const CTRL_D: &str = "\x04";
+pub(crate) const CTRL_J: &str = "\n";
+pub(crate) const CTRL_R: &str = "\x12";
 
 /// A directory for what a test's sessions keep; removed with the value.
-pub struct State(PathBuf);
+pub(crate) struct State(PathBuf);
 
 impl State {
-    pub fn new(name: &str) -> State {
+    pub(crate) fn new(name: &str) -> State {
         let path = std::env::temp_dir().join(format!("planwright-{}-{name}", std::process::id()));
         std::fs::create_dir_all(&path).expect("a directory");
         State(path)
     }
 
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.0
     }
 }
@@ -52,7 +52,7 @@ impl Drop for State {
 }
 
 /// The program and its screen.
-pub struct Terminal {
+pub(crate) struct Terminal {
     keys: Arc<Pty>,
     screen: Arc<Mutex<vt100::Parser>>,
     child: Child,
@@ -60,14 +60,14 @@ pub struct Terminal {
 
 impl Terminal {
     /// Starts the program and waits for its prompt.
-    pub fn start(state: &State, arguments: &[&str]) -> Terminal {
+    pub(crate) fn start(state: &State, arguments: &[&str]) -> Terminal {
         let terminal = Terminal::spawn(state, arguments);
         terminal.wait_for("CL-USER> ");
         terminal
     }
 
     /// Starts the program where the last session ended.
-    pub fn start_resumed(state: &State) -> Terminal {
+    pub(crate) fn start_resumed(state: &State) -> Terminal {
         Terminal::spawn(state, &["--resume"])
     }
 
@@ -103,20 +103,20 @@ impl Terminal {
     }
 
     /// Types a text, or presses keys.
-    pub fn keys(&self, text: &str) {
+    pub(crate) fn keys(&self, text: &str) {
         (&*self.keys)
             .write_all(text.as_bytes())
             .expect("the program listens");
     }
 
     /// Types a line and presses Enter.
-    pub fn line(&self, text: &str) {
+    pub(crate) fn line(&self, text: &str) {
         self.keys(text);
         self.keys(ENTER);
     }
 
     /// Types a line and waits until a prompt is there again.
-    pub fn evaluate(&self, text: &str) -> String {
+    pub(crate) fn evaluate(&self, text: &str) -> String {
         let before = self.prompts();
         self.line(text);
         self.wait_until("another prompt", |all| {
@@ -126,19 +126,19 @@ impl Terminal {
     }
 
     /// Pastes a text as terminals do.
-    pub fn paste(&self, text: &str) {
+    pub(crate) fn paste(&self, text: &str) {
         self.keys(&format!("\x1b[200~{text}\x1b[201~"));
     }
 
     /// All that is on the screen.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let screen = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
         let contents = screen.screen().contents();
         contents.trim_end().to_owned()
     }
 
     /// The screen with its colours.
-    pub fn formatted(&self) -> String {
+    pub(crate) fn formatted(&self) -> String {
         let screen = self.screen.lock().unwrap_or_else(PoisonError::into_inner);
         String::from_utf8_lossy(&screen.screen().contents_formatted()).into_owned()
     }
@@ -148,19 +148,19 @@ impl Terminal {
     }
 
     /// Waits until the screen shows the text.
-    pub fn wait_for(&self, wanted: &str) {
+    pub(crate) fn wait_for(&self, wanted: &str) {
         self.wait_until(wanted, |all| all.contains(wanted.trim_end()));
     }
 
     /// Waits until the last line of the screen is that.
-    pub fn wait_for_last_line(&self, wanted: &str) {
+    pub(crate) fn wait_for_last_line(&self, wanted: &str) {
         self.wait_until(wanted, |all| {
             all.lines().last().map(str::trim_end) == Some(wanted)
         });
     }
 
     /// Waits until the text on the screen is as wanted.
-    pub fn wait_until(&self, what: &str, is_there: impl Fn(&str) -> bool) {
+    pub(crate) fn wait_until(&self, what: &str, is_there: impl Fn(&str) -> bool) {
         let begin = Instant::now();
         while !is_there(&self.text()) {
             assert!(
@@ -173,13 +173,13 @@ impl Terminal {
     }
 
     /// Ends the program as `kill -9` does.
-    pub fn kill(&mut self) {
+    pub(crate) fn kill(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
 
     /// Waits for the program's end; its exit status.
-    pub fn exit_status(&mut self) -> Option<i32> {
+    pub(crate) fn exit_status(&mut self) -> Option<i32> {
         let begin = Instant::now();
         loop {
             match self.child.try_wait() {

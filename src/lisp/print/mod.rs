@@ -49,7 +49,7 @@ pub(crate) fn write(
     printer::Printer::new(image, settings, calls).print(value, column)
 }
 
-/// Like [`write`], but a method of `print-object` for the value itself is not heard: what
+/// Like [`write()`], but a method of `print-object` for the value itself is not heard: what
 /// the method for everything prints.
 pub(crate) fn write_default(
     image: &Image,
