@@ -1,4 +1,5 @@
-//! What forward and inverse kinematics and reading the robot cost: `cargo bench --bench inverse_kinematics`.
+//! What it costs to compute forward and inverse kinematics and to read the robot: `cargo bench
+//! --bench inverse_kinematics`.
 #![allow(missing_docs)]
 
 mod measured;

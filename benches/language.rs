@@ -1,10 +1,10 @@
-//! How fast the language is: calls, handling failures, reading and compiling plans.
+//! How fast the language is: calls, failure handling, reading and compiling plans.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use planwright::{Evaluate, Event, Outcome, Session, SessionOptions};
 
 fn session() -> Session {
-    // The built-in models are known to be right.
+    // The built-in models are known to be valid.
     Session::new(&SessionOptions::default()).unwrap()
 }
 

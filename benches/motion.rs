@@ -1,4 +1,4 @@
-//! What planning costs, and how soon an interrupt is heard: `cargo bench --bench motion`.
+//! What planning costs, and how soon an interrupt takes effect: `cargo bench --bench motion`.
 #![allow(missing_docs)]
 
 mod measured;
@@ -17,12 +17,12 @@ fn planning(c: &mut Criterion) {
     planwright::measured::arms(&mut Watch(c));
 }
 
-/// There is no way to that place; to find that out takes a while.
+/// No path leads to this goal, and it takes a while to find that out.
 const FAR: &str = "(with-simulated-robot
   (let ((?far (make-pose \"map\" '((3 3 0) (0 0 0 1)))))
     (perform (an action (type going) (target (a location (pose ?far)))))))";
 
-/// The time from Ctrl-C until planning has been given up.
+/// The time from Ctrl-C until planning is abandoned.
 fn interrupts(c: &mut Criterion) {
     let mut session = Session::new(&SessionOptions::default()).expect("a session");
     let outcome = session.evaluate("bench", "(in-package :pp-tut)", &mut |_| {});

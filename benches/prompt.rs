@@ -1,4 +1,4 @@
-//! What a key costs at the prompt: `cargo bench --bench prompt`.
+//! What a keystroke at the prompt costs: `cargo bench --bench prompt`.
 #![allow(missing_docs)]
 
 #[cfg(unix)]

@@ -1,4 +1,5 @@
-//! What steps of the world, snapshots, collision checks and seeing cost: `cargo bench --bench world`.
+//! What world steps, snapshots, collision checks and perception cost: `cargo bench --bench
+//! world`.
 #![allow(missing_docs)]
 
 mod measured;

@@ -1,8 +1,8 @@
 //! "Did you mean …?": the known name that is nearest to a mistyped one.
 
-/// The name among `names` that differs least from `wanted` (letters inserted, dropped,
-/// replaced or swapped with their neighbour; case does not count), or `None` when even
-/// the nearest one differs in more than a third of its letters.
+/// The name among `names` that differs least from `wanted` (letters inserted, dropped, replaced
+/// or swapped with their neighbour; case is ignored), or `None` when even the nearest one
+/// differs in more than a third of its letters.
 ///
 /// Of equally near names the first one wins.
 pub(crate) fn closest_name<'a>(

@@ -1,8 +1,8 @@
 //! planwright: an interactive shell for programming a simulated kitchen robot in a
 //! Common-Lisp-like plan language.
 //!
-//! A program that embeds it makes a [`Session`], has it evaluate texts of the plan language,
-//! and asks where things are afterwards:
+//! A program that embeds it creates a [`Session`], has it evaluate plan-language text, and then
+//! asks where things are:
 //!
 //! ```
 //! use planwright::{Evaluate, Outcome, Session, SessionOptions};
@@ -19,9 +19,9 @@
 //! # Ok::<(), planwright::SessionError>(())
 //! ```
 //!
-//! What happens meanwhile comes as [`Event`]s: output, values, pictures, and the
-//! [`Abort`] of a condition that nobody handled. The same texts after the same
-//! [`seed`](SessionOptions::seed) do the same, to the bit.
+//! What happens during evaluation is reported as [`Event`]s: output, values, pictures, and the
+//! [`Abort`] of an unhandled condition. The same text with the same
+//! [`seed`](SessionOptions::seed) always has the same result, to the bit.
 
 mod closest_name;
 mod front;
@@ -46,7 +46,7 @@ pub use session::dialogue::{Abort, ActionStep, Evaluate, Event, Finding, Outcome
 pub use session::{LogLevel, Session, SessionError, SessionOptions};
 pub use spatial::Pose;
 
-/// The tests that look inside, in one binary; `tests/command_line` has those of the program.
+/// White-box tests, in one binary; `tests/command_line` tests the program.
 #[cfg(test)]
 #[path = "../tests"]
 #[allow(clippy::print_stdout)]

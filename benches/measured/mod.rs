@@ -1,4 +1,4 @@
-//! Measures what the library sets up, with criterion.
+//! Measures with criterion what the library sets up.
 
 use criterion::{BatchSize, Criterion};
 use planwright::measured::Stopwatch;

@@ -4,25 +4,25 @@ use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::spatial::{Pose, trig};
 
-/// A camera in its optical frame: z forward, x to the right of the picture, y down.
+/// A camera; its optical frame has z forward, x to the right of the picture and y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Camera {
     /// Pose of the optical frame in the map frame.
     pub(crate) pose: Pose,
-    /// Pixels per row.
+    /// Width of the picture (pixels).
     pub(crate) width: usize,
-    /// Rows.
+    /// Height of the picture (pixels).
     pub(crate) height: usize,
-    /// Angle (rad) between the upper and the lower border.
+    /// Vertical field of view (rad).
     pub(crate) vertical_fov: f64,
-    /// Nothing nearer than this is seen (m along z).
+    /// Distance (m along z) before which nothing is seen.
     pub(crate) near: f64,
-    /// Nothing farther than this is seen (m along z).
+    /// Distance (m along z) beyond which nothing is seen.
     pub(crate) far: f64,
 }
 
 impl Camera {
-    /// A camera of the robot whose optical frame has the pose.
+    /// A camera of the robot, with its optical frame at the pose.
     pub(crate) fn new(camera: &crate::robot::description::Camera, pose: Pose) -> Self {
         Self {
             pose,
@@ -55,13 +55,13 @@ impl Camera {
         self.height as f64 / 2.0 * c / s
     }
 
-    /// Angle (rad) between the left and the right border.
+    /// Horizontal field of view (rad).
     pub(crate) fn horizontal_fov(&self) -> f64 {
         2.0 * trig::atan2(self.width as f64 / 2.0, self.focal_length())
     }
 
-    /// The pixel (column, row) that shows the point of the map frame (m); `None` for one that
-    /// is not in front of the camera. It may lie outside of the picture.
+    /// The pixel (column, row) that shows the point (m, map frame), possibly outside the
+    /// picture; `None` for a point that is not in front of the camera.
     pub(crate) fn pixel_of(&self, point: &Point3<f64>) -> Option<[f64; 2]> {
         let p = self.pose.inverse_transform_point(point);
         let f = self.focal_length();
@@ -73,15 +73,15 @@ impl Camera {
         })
     }
 
-    /// The same camera at the same place, turned to have the point (map frame, m) in the
-    /// middle of the picture and the horizon level.
+    /// The same camera at the same place, turned so that the point (m, map frame) is in the
+    /// middle of the picture and the horizon is level.
     #[must_use]
     pub(crate) fn turned_to(&self, point: &Point3<f64>) -> Self {
         let origin = Point3::from(self.pose.translation.vector);
         let Some(forward) = (point - origin).try_normalize(1e-9) else {
             return *self;
         };
-        // Straight up or down there is no level: keep the camera's own right hand then.
+        // Straight up or down there is no horizon, so keep the camera's own x axis.
         let right = forward
             .cross(&Vector3::z())
             .try_normalize(1e-6)

@@ -1,21 +1,22 @@
-//! Surfaces of the primitives as triangles.
+//! Triangle meshes of the primitive shapes.
 
 use nalgebra::Point3;
 
 use crate::spatial::{Shape, trig};
 
-/// Corners of the polygon that stands for a circle.
+/// Corners of the polygon that approximates a circle.
 const CIRCLE_CORNERS: u32 = 24;
 
 /// Rings of a ball between its poles.
 const BALL_RINGS: u32 = 12;
 
-/// A closed surface; seen from outside, the corners of a triangle run counter-clockwise.
+/// A closed surface; seen from outside, the corners of a triangle are in counter-clockwise
+/// order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Mesh {
     /// Corners (m) in the shape's frame.
     pub(crate) corners: Vec<Point3<f64>>,
-    /// Triangles as places in `corners`.
+    /// Triangles as indices into `corners`.
     pub(crate) triangles: Vec<[u32; 3]>,
 }
 
@@ -109,8 +110,8 @@ fn turn(i: u32, count: u32) -> f64 {
 mod tests {
     use super::*;
 
-    /// Volume (m³) that the surface encloses, by the divergence theorem; positive only if
-    /// the triangles face outwards.
+    /// Volume (m³) enclosed by the surface, by the divergence theorem; positive only if the
+    /// triangles face outwards.
     fn volume(mesh: &Mesh) -> f64 {
         let corner = |i: u32| mesh.corners[i as usize].coords;
         let six: f64 = mesh

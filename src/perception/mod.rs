@@ -1,6 +1,6 @@
 //! What the robot's camera sees.
 //!
-//! A picture is a z-buffer of body keys: which body each pixel shows, and how far it is.
+//! A picture is a z-buffer of body keys: which body each pixel shows, and how far away it is.
 //! Nothing here moves anything or knows of the plan language.
 
 pub(crate) mod camera;

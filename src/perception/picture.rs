@@ -1,4 +1,4 @@
-//! A z-buffer of who is seen where.
+//! A z-buffer that holds the visible body of each pixel.
 
 use nalgebra::{Point3, Vector3};
 
@@ -20,7 +20,7 @@ pub(crate) struct Picture {
 type Corner = Vector3<f64>;
 
 impl Picture {
-    /// A picture of nothing.
+    /// An empty picture.
     pub(crate) fn new(camera: Camera) -> Self {
         let pixels = camera.width * camera.height;
         Self {
@@ -30,7 +30,7 @@ impl Picture {
         }
     }
 
-    /// The camera that took it.
+    /// The camera that took the picture.
     pub(crate) fn camera(&self) -> &Camera {
         &self.camera
     }
@@ -40,8 +40,8 @@ impl Picture {
         &self.keys
     }
 
-    /// Distance (m along the camera's z) of what the pixel shows; `None` for nothing or for a
-    /// pixel outside of the picture.
+    /// Distance (m along the camera's z) of what the pixel shows; `None` if it shows nothing or
+    /// lies outside the picture.
     pub(crate) fn depth(&self, column: usize, row: usize) -> Option<f64> {
         if column >= self.camera.width {
             return None;
@@ -55,7 +55,7 @@ impl Picture {
         self.keys.iter().filter(|k| **k == Some(key)).count()
     }
 
-    /// Draws a surface that stands at the pose (map frame). Surfaces may be drawn in any order.
+    /// Draws a surface at the pose (map frame). Surfaces may be drawn in any order.
     pub(crate) fn draw(&mut self, key: PartKey, pose: &Pose, mesh: &Mesh) {
         let to_camera = self.camera.pose.inverse() * pose;
         let corners: Vec<Corner> = mesh
@@ -69,7 +69,7 @@ impl Picture {
             return;
         }
         for triangle in &mesh.triangles {
-            // Triangles of a mesh are places in its own list of corners.
+            // A mesh's triangles are indices into its own list of corners.
             let [a, b, c] = triangle.map(|i| corners[i as usize]);
             let outward = (b - a).cross(&(c - a));
             if outward.dot(&a) < 0.0 {
@@ -78,14 +78,14 @@ impl Picture {
         }
     }
 
-    /// Draws what of the triangle lies beyond the near plane.
+    /// Draws the part of the triangle beyond the near plane.
     fn draw_clipped(&mut self, key: PartKey, corners: [Corner; 3]) {
         let near = self.camera.near;
         if corners.iter().all(|c| c.z >= near) {
             self.draw_triangle(key, corners);
             return;
         }
-        // A plane cuts a triangle into at most four corners.
+        // A plane clips a triangle to at most four corners.
         let mut kept = [Corner::zeros(); 4];
         let mut count = 0;
         let mut keep = |corner: Corner| {
@@ -111,7 +111,7 @@ impl Picture {
         let (width, height) = (self.camera.width, self.camera.height);
         let f = self.camera.focal_length();
         let centre = [width as f64 / 2.0, height as f64 / 2.0];
-        // Columns, rows and inverse depths: all of them are linear in the picture.
+        // Columns, rows and inverse depths, all of which are linear in the picture.
         let [a, b, c] = corners.map(|p| {
             [
                 centre[0] + f * p.x / p.z,
@@ -128,7 +128,7 @@ impl Picture {
                 a[axis].min(b[axis]).min(c[axis]),
                 a[axis].max(b[axis]).max(c[axis]),
             );
-            // Pixel centres lie at halves; the casts saturate at the borders.
+            // Pixel centres are at halves; the casts saturate at the borders.
             let first = (lo - 0.5).ceil().max(0.0) as usize;
             let after = ((hi - 0.5).floor() + 1.0).max(0.0) as usize;
             first..after.min(end)
@@ -148,7 +148,7 @@ impl Picture {
                     continue;
                 }
                 let inverse = weights[0] * a[2] + weights[1] * b[2] + weights[2] * c[2];
-                // Rows and columns were cut to the picture above.
+                // Rows and columns were clipped to the picture above.
                 let pixel = row * width + column;
                 if inverse > self.inverse_depth[pixel] && inverse >= farthest {
                     self.inverse_depth[pixel] = inverse;
@@ -159,7 +159,7 @@ impl Picture {
     }
 }
 
-/// Twice the signed area of the triangle of `a`, `b` and the point in the picture.
+/// Twice the signed area of the triangle of `a`, `b` and the point (x, y) in the picture.
 fn cross(a: [f64; 3], b: [f64; 3], x: f64, y: f64) -> f64 {
     (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
 }
@@ -214,7 +214,7 @@ mod tests {
             size: [4.0, 0.1, 4.0],
         });
         picture.draw(NEAR, &Pose::translation(0.0, 0.5, 0.0), &board);
-        // The upper side of the board, 0.45 m below, ends 2 m ahead.
+        // The top of the board, 0.45 m below the camera, ends 2 m ahead.
         let row = (100.0 + picture.camera().focal_length() * 0.45 / 2.0).ceil() as usize;
         assert_eq!(picture.depth(160, row - 2), None);
         assert!((picture.depth(160, 199).unwrap() - 0.45 * 214.45 / 99.5).abs() < 0.01);

@@ -1,4 +1,4 @@
-//! How much of an object the camera sees, and what is in the way.
+//! How much of an object the camera sees, and what hides it.
 
 use std::fmt;
 
@@ -34,20 +34,21 @@ impl fmt::Display for Border {
     }
 }
 
-/// What a look at an object has shown.
+/// The result of looking at an object.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Visibility {
     /// The object's name.
     pub(crate) object: String,
     /// Pixels that show the object.
     pub(crate) visible_pixels: usize,
-    /// Pixels that it would have alone, with the camera turned to it.
+    /// Pixels that would show the object if it were alone and the camera turned towards it.
     pub(crate) full_pixels: usize,
-    /// Bodies in front of the object with the pixels that they take away, most first.
+    /// Bodies in front of the object, each with the number of pixels that it hides, in
+    /// decreasing order.
     pub(crate) occluders: Vec<(BodyName, usize)>,
-    /// Share of the object (0..1) that must be in sight for it to be seen.
+    /// Share of the object (0..1) that must be in sight for the object to count as seen.
     pub(crate) needed_share: f64,
-    /// The border beyond which the object reaches farthest, and by how much (rad).
+    /// The border that the object extends beyond the farthest, and by how much (rad).
     pub(crate) outside: Option<(Border, f64)>,
 }
 
@@ -85,7 +86,7 @@ impl fmt::Display for Visibility {
     }
 }
 
-/// One look into the world.
+/// One look at the world.
 pub(crate) struct Sight<'w> {
     world: &'w World,
     picture: Picture,
@@ -93,20 +94,20 @@ pub(crate) struct Sight<'w> {
 }
 
 impl<'w> Sight<'w> {
-    /// Looks through the camera that the robot uses.
+    /// Looks through the robot's own camera.
     pub(crate) fn of_robot(world: &'w World) -> Self {
         let camera = world.models().description.camera();
         Self::through(world, camera)
     }
 
-    /// Looks through a camera of the robot. The robot's own body may be in the way.
+    /// Looks through one of the robot's cameras. The robot's own body may be in the way.
     pub(crate) fn through(world: &'w World, camera: &crate::robot::description::Camera) -> Self {
         let pose = world.link_pose(camera.frame);
         Self::take(world, Camera::new(camera, pose), camera.visible_share)
     }
 
-    /// Takes a picture of the world from anywhere. An object of which `needed_share` (0..1) is
-    /// in sight counts as seen.
+    /// Takes a picture of the world from anywhere. An object counts as seen if `needed_share`
+    /// (0..1) of it is in sight.
     pub(crate) fn take(world: &'w World, camera: Camera, needed_share: f64) -> Self {
         let mut picture = Picture::new(camera);
         for shape in world.shapes() {
@@ -148,7 +149,7 @@ impl<'w> Sight<'w> {
         })
     }
 
-    /// Who is at the pixels that the object would have alone.
+    /// The bodies at the pixels that would show the object if it were alone.
     fn occluders(&self, key: PartKey, alone: &Picture) -> Vec<(BodyName, usize)> {
         let mut counts: Vec<(PartKey, usize)> = Vec::new();
         for (there, wanted) in self.picture.keys().iter().zip(alone.keys()) {
@@ -170,7 +171,7 @@ impl<'w> Sight<'w> {
             .collect()
     }
 
-    /// How far the object reaches beyond the borders of the picture.
+    /// How far the object extends beyond the borders of the picture.
     fn outside(&self, object: &Object, pose: &crate::spatial::Pose) -> Option<(Border, f64)> {
         let camera = self.picture.camera();
         let to_camera = camera.pose.inverse() * pose;

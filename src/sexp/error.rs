@@ -1,33 +1,33 @@
-//! What can be wrong with a data file.
+//! Errors in data files.
 
 use thiserror::Error;
 
-/// The first thing that is wrong with a data file.
+/// The first error in a data file.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{file}:{line}:{column}: {problem}")]
 pub(crate) struct DataError {
-    /// Name of the file as it was given.
+    /// Name of the file as given.
     pub(crate) file: String,
     /// Line, from 1.
     pub(crate) line: usize,
     /// Column in bytes, from 1.
     pub(crate) column: usize,
-    /// What is wrong.
+    /// The problem.
     pub(crate) problem: Box<DataProblem>,
 }
 
-/// What is wrong with a data file.
+/// A problem in a data file.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub(crate) enum DataProblem {
-    /// The text is not a row of s-expressions.
+    /// The text is not a sequence of s-expressions.
     #[error("{0}")]
     Syntax(String),
-    /// A value of another kind stands there.
+    /// A value of another kind was expected.
     #[error("expected {expected}, found {found}")]
     Unexpected {
-        /// What would be right.
+        /// What was expected.
         expected: String,
-        /// What stands there.
+        /// What was found.
         found: String,
     },
     /// A record lacks a key.
@@ -38,28 +38,28 @@ pub(crate) enum DataProblem {
         /// The key without its colon.
         key: String,
     },
-    /// A record has a key that means nothing.
+    /// A record has an unknown key.
     #[error("({record} …) has no key :{key}; it knows {}{}", keys(.known), did_you_mean(.closest))]
     UnknownKey {
         /// Head of the record.
         record: String,
         /// The key without its colon.
         key: String,
-        /// The keys that it may have.
+        /// The known keys.
         known: Vec<String>,
-        /// The nearest of them.
+        /// The known key nearest to it.
         closest: Option<String>,
     },
-    /// A record has a key twice, or the file has a record twice.
+    /// A key occurs twice in a record, or a record twice in the file.
     #[error("{0} is given twice; keep one")]
     Repeated(String),
     /// The file lacks a record.
     #[error("the file has no ({0} …); add one")]
     MissingRecord(String),
-    /// Something is named that does not exist.
+    /// A name refers to nothing that exists.
     #[error("there is no {kind} named {name}{}", did_you_mean(.closest))]
     UnknownName {
-        /// What is named, such as `link`.
+        /// The kind of thing named, such as `link`.
         kind: String,
         /// The unknown name.
         name: String,

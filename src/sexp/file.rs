@@ -1,4 +1,4 @@
-//! A data file as a row of values with places.
+//! A data file as a sequence of values with places.
 
 use lexpr::Parser;
 use lexpr::datum::Datum;
@@ -14,11 +14,11 @@ pub(crate) struct DataFile {
 }
 
 impl DataFile {
-    /// Reads a text; `file_name` is only used in errors.
+    /// Reads a text; `file_name` is used only in errors.
     pub(crate) fn read(text: &str, file_name: &str) -> Result<Self, DataError> {
         let options = Options::new().with_keyword_syntax(KeywordSyntax::ColonPrefix);
-        // From a reader, not from the string: that counts lines as it goes, while the
-        // string's parser counts them anew from the start for every single value.
+        // From a reader, not from the string: the former counts lines as it goes, while the
+        // parser of strings counts them from the start for every single value.
         let mut parser = Parser::from_reader_custom(text.as_bytes(), options);
         let mut values = Vec::new();
         loop {
@@ -42,7 +42,7 @@ impl DataFile {
         })
     }
 
-    /// The values in their order.
+    /// The values in order.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = Node<'_>> {
         self.values
             .iter()

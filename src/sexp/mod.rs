@@ -1,8 +1,8 @@
 //! Our own data files: s-expressions read with lexpr.
 //!
-//! A file is a row of records `(head thing … :key value …)`. Every value knows its place,
-//! so whatever is wrong with a file is said once, with file, line and column. This is not
-//! the reader of the plan language.
+//! A file is a sequence of records `(head thing … :key value …)`. Every value knows its place,
+//! so errors in a file are reported with file, line and column in one way. This is not the
+//! reader of the plan language.
 
 mod error;
 mod file;

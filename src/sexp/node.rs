@@ -27,7 +27,7 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// The error that another kind of value was expected.
+    /// The error that a value of another kind was expected.
     pub(crate) fn expected(&self, expected: &str) -> DataError {
         self.error(DataProblem::Unexpected {
             expected: expected.to_owned(),
@@ -61,13 +61,13 @@ impl<'a> Node<'a> {
         number.ok_or_else(|| self.expected("a number"))
     }
 
-    /// A finite number above zero.
+    /// A finite number greater than zero.
     pub(crate) fn positive(&self) -> Result<f64, DataError> {
         let number = self.number().ok().filter(|n| *n > 0.0);
         number.ok_or_else(|| self.expected("a number above 0"))
     }
 
-    /// A whole number above zero.
+    /// A whole number greater than zero.
     pub(crate) fn count(&self) -> Result<usize, DataError> {
         let count = self.datum.value().as_u64().filter(|n| *n > 0);
         let count = count.and_then(|n| usize::try_from(n).ok());
@@ -79,7 +79,7 @@ impl<'a> Node<'a> {
         if !self.datum.value().is_list() {
             return Err(self.expected("a list"));
         }
-        // The empty list has no iterator of its own in lexpr.
+        // In lexpr, the empty list has no list iterator.
         let items = self.datum.list_iter().into_iter().flatten();
         Ok(items.map(|d| Node::new(d, self.file)).collect())
     }

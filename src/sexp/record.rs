@@ -3,7 +3,7 @@
 use super::{DataError, DataProblem, Node};
 use crate::closest_name::closest_name;
 
-/// A list that begins with a name, goes on with values and ends with keys and their values.
+/// A list that begins with a name, continues with values and ends with keys and their values.
 #[derive(Clone, Debug)]
 pub(crate) struct Record<'a> {
     node: Node<'a>,
@@ -66,7 +66,7 @@ impl<'a> Record<'a> {
         &self.things
     }
 
-    /// The one value before the first key; `what` says what it would be.
+    /// The single value before the first key; `what` describes it in errors.
     pub(crate) fn thing(&self, what: &str) -> Result<Node<'a>, DataError> {
         match self.things.as_slice() {
             [thing] => Ok(*thing),
@@ -77,13 +77,13 @@ impl<'a> Record<'a> {
         }
     }
 
-    /// The value of a key that may be missing.
+    /// The value of an optional key.
     pub(crate) fn optional(&self, key: &str) -> Option<Node<'a>> {
         let field = self.fields.iter().find(|(k, _)| *k == key);
         field.map(|(_, value)| *value)
     }
 
-    /// The value of a key that must be there.
+    /// The value of a required key.
     pub(crate) fn required(&self, key: &str) -> Result<Node<'a>, DataError> {
         self.optional(key).ok_or_else(|| {
             self.node.error(DataProblem::MissingKey {

@@ -1,7 +1,7 @@
-//! Geometry that every layer shares: poses, shapes and trigonometry that is the
-//! same on every platform.
+//! Geometry shared by all layers: poses, shapes, and trigonometry with the same results on
+//! every platform.
 //!
-//! Lengths are metres, angles radians, quaternions x y z w. Nothing here knows of
+//! Lengths are in metres, angles in radians; quaternions are x y z w. Nothing here knows of
 //! robots, worlds or the plan language.
 
 pub(crate) mod pose;

@@ -4,7 +4,7 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
 use super::trig;
 
-/// A rigid transform, or the pose of a child frame in its parent frame (m, unit quaternion).
+/// A rigid transform: the pose of a child frame in its parent frame (m, unit quaternion).
 pub type Pose = Isometry3<f64>;
 
 /// A pose from a position (m) and a quaternion `[x, y, z, w]`, which is normalised.
@@ -31,7 +31,7 @@ pub(crate) fn from_xyz_rpy(xyz: [f64; 3], rpy: [f64; 3]) -> Pose {
     Pose::from_parts(Translation3::from(xyz), UnitQuaternion::from_quaternion(q))
 }
 
-/// The planar pose (x m, y m, yaw rad) as a pose in space with z = 0.
+/// The planar pose (x m, y m, yaw rad) as a spatial pose with z = 0.
 pub(crate) fn from_xy_yaw(x: f64, y: f64, yaw: f64) -> Pose {
     from_xyz_rpy([x, y, 0.0], [0.0, 0.0, yaw])
 }
@@ -56,8 +56,8 @@ pub(crate) fn distance_between(a: &Pose, b: &Pose) -> f64 {
     (a.translation.vector - b.translation.vector).norm()
 }
 
-/// The pose at `fraction` (0..1) of the way from `a` to `b`: the origin along the straight
-/// line, the orientation turning evenly about one axis, the shorter way.
+/// The pose at `fraction` (0..1) of the motion from `a` to `b`: the origin moves in a straight
+/// line, and the orientation turns uniformly about one axis through the smaller angle.
 pub(crate) fn between(a: &Pose, b: &Pose, fraction: f64) -> Pose {
     let origin = a.translation.vector + (b.translation.vector - a.translation.vector) * fraction;
     let turn = a.rotation.inverse() * b.rotation;

@@ -1,4 +1,4 @@
-//! Convex primitives from which robots, furniture and objects are built.
+//! Convex primitives that robots, furniture and objects are made of.
 
 use super::Pose;
 
@@ -17,20 +17,20 @@ pub(crate) enum Shape {
         /// Length along z (m).
         length: f64,
     },
-    /// A ball centred on the origin.
+    /// A sphere centred on the origin.
     Sphere {
         /// Radius (m).
         radius: f64,
     },
 }
 
-/// A shape with its place in the frame of the link or object that it belongs to.
+/// A shape with its pose in the frame of the link or object that it belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlacedShape {
     /// The solid.
     pub(crate) shape: Shape,
     /// Pose of the solid's frame in the frame of its owner.
     pub(crate) pose: Pose,
-    /// Linear colour, red green blue alpha in 0..1, when the source gives one.
+    /// Linear colour, red green blue alpha in 0..1, if the source gives one.
     pub(crate) color: Option<[f32; 4]>,
 }

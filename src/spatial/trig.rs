@@ -1,4 +1,4 @@
-//! Trigonometry through `libm`, so that a result has the same bits on every platform.
+//! Trigonometry through `libm`, so that results have the same bits on every platform.
 
 /// Sine and cosine of an angle (rad).
 pub(crate) fn sin_cos(a: f64) -> (f64, f64) {
@@ -20,17 +20,17 @@ pub(crate) fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
 
-/// Arc cosine (rad); the argument is clamped into -1..1.
+/// Arc cosine (rad); the argument is clamped to -1..1.
 pub(crate) fn acos(x: f64) -> f64 {
     libm::acos(x.clamp(-1.0, 1.0))
 }
 
-/// Arc sine (rad); the argument is clamped into -1..1.
+/// Arc sine (rad); the argument is clamped to -1..1.
 pub(crate) fn asin(x: f64) -> f64 {
     libm::asin(x.clamp(-1.0, 1.0))
 }
 
-/// The angle brought into -π..π.
+/// The angle normalised to -π..π.
 pub(crate) fn wrap(a: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     if (-PI..=PI).contains(&a) {

@@ -259,7 +259,7 @@ fn ctrl_d_leaves_and_asks_first_when_a_plan_stands_still() {
     terminal.line("(car 5)");
     terminal.wait_for_last_line("CL-USER 1]>");
     terminal.keys(CTRL_D);
-    terminal.wait_for("Leave all the same? (y or n)");
+    terminal.wait_for("Leave anyway? (y or n)");
     terminal.line("n");
     terminal.wait_for_last_line("CL-USER 1]>");
     terminal.line("q");

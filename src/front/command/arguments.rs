@@ -1,4 +1,4 @@
-//! The arguments of the command line; the help is generated from here.
+//! The arguments of the command line, from which its help is generated.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -10,22 +10,22 @@ use super::picture::PictureArguments;
 
 /// Program a simulated kitchen robot in a Common-Lisp-like plan language.
 ///
-/// Without a command: the prompt. With input that is not a terminal: evaluates it and
+/// Without a command, starts the prompt. If the input is not a terminal, evaluates it and
 /// prints what the prompt would print.
 #[derive(Parser, Debug)]
 #[command(
     name = "planwright",
     version,
-    after_help = "Exit status: 0 all is well; 1 a condition was not handled, a transcript \
-                  differs, a check found something; 2 wrong usage, or a file cannot be read."
+    after_help = "Exit status: 0 success; 1 a condition was not handled, a transcript \
+                  differs, or a check found a problem; 2 wrong usage, or a file cannot be read."
 )]
 pub(crate) struct Arguments {
     #[command(flatten)]
     pub(crate) options: Options,
     #[command(flatten)]
     pub(crate) prompt: PromptOptions,
-    /// Show the robot in the browser while it moves; simulated time then passes as fast as
-    /// the real one unless --realtime says otherwise
+    /// Show the robot in the browser while it moves; simulated time then passes in real time
+    /// unless --realtime says otherwise
     #[arg(long)]
     pub(crate) view: bool,
     #[command(subcommand)]
@@ -35,11 +35,11 @@ pub(crate) struct Arguments {
 /// Options of the prompt.
 #[derive(Args, Debug, Default)]
 pub(crate) struct PromptOptions {
-    /// Go on with the last session, or with the one of the journal FILE: everything that was
-    /// typed is evaluated again, to the same state
+    /// Resume the last session, or the one recorded in the journal FILE: evaluate all its
+    /// inputs again, which leads to the same state
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     pub(crate) resume: Option<Option<PathBuf>>,
-    /// Where to note what is typed [default: a file in the state directory]
+    /// File to save the inputs to [default: a file in the state directory]
     #[arg(long, value_name = "FILE", conflicts_with = "resume")]
     pub(crate) journal: Option<PathBuf>,
 }
@@ -47,7 +47,7 @@ pub(crate) struct PromptOptions {
 /// Options of all commands.
 #[derive(Args, Debug)]
 pub(crate) struct Options {
-    /// Seed of everything random
+    /// Seed for everything random
     #[arg(long, global = true, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
     /// Kitchen to load (a URDF file) instead of the built-in one
@@ -56,14 +56,13 @@ pub(crate) struct Options {
     /// Robot to load (a URDF file) instead of the built-in PR2
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) robot: Option<PathBuf>,
-    /// Least severe log lines to show
+    /// Least severe log messages to show
     #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
     pub(crate) log_level: LogLevel,
-    /// Colours: auto is where output goes to a terminal and NO_COLOR is not set
+    /// When to use colours; auto: if the output is a terminal and NO_COLOR is not set
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     pub(crate) color: ColorWhen,
-    /// Let simulated time pass at FACTOR times the real one, instead of as fast as
-    /// possible
+    /// Run simulated time at FACTOR times real time instead of as fast as possible
     #[arg(
         long,
         global = true,
@@ -76,58 +75,58 @@ pub(crate) struct Options {
     pub(crate) realtime: Option<f64>,
 }
 
-/// How a run is watched.
+/// How to watch a run.
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct WatchArguments {
-    /// Show the robot in the browser while it moves; simulated time then passes as fast as
-    /// the real one unless --realtime says otherwise
+    /// Show the robot in the browser while it moves; simulated time then passes in real time
+    /// unless --realtime says otherwise
     #[arg(long)]
     pub(crate) view: bool,
-    /// MCAP file to record into what happens
+    /// MCAP file to record the run to
     #[arg(long, value_name = "MCAP")]
     pub(crate) record: Option<PathBuf>,
 }
 
-/// What to do.
+/// The subcommands.
 #[derive(Subcommand, Debug)]
 pub(crate) enum Command {
-    /// Load plan files, then evaluate forms; stop at a condition that nobody handles
+    /// Load plan files, then evaluate forms; stop at the first unhandled condition
     Run {
-        /// Files to load, in order; their values are not shown
+        /// Files to load, in order; the values of their forms are not shown
         #[arg(value_name = "FILE", required_unless_present = "eval")]
         files: Vec<PathBuf>,
-        /// Form to evaluate after the files; its values are shown
+        /// Form to evaluate after loading the files; its values are shown
         #[arg(long, value_name = "FORM")]
         eval: Vec<String>,
         #[command(flatten)]
         watch: WatchArguments,
     },
-    /// Show a recording in the browser, until Ctrl-C
+    /// Show a recording in the browser until Ctrl-C
     View {
-        /// MCAP file that `run --record` or (record "…") has written
+        /// MCAP file written by `run --record` or (record "…")
         #[arg(value_name = "MCAP")]
         file: PathBuf,
     },
-    /// Run transcripts, each in a fresh world, and compare what they print
+    /// Run transcripts, each in a fresh world, and compare their output
     Replay {
         /// Transcripts, or Markdown files with blocks marked `session`
         #[arg(value_name = "FILE", required = true)]
         files: Vec<PathBuf>,
-        /// Rewrite the expected output where it differs, keeping wildcards that match
+        /// Rewrite the expected output where it differs, keeping wildcards that still match
         #[arg(long)]
         bless: bool,
-        /// Stop after the N-th entry of the one file, and open the prompt there
+        /// Stop after the N-th input of the transcript and open the prompt there
         #[arg(long, value_name = "N", conflicts_with_all = ["bless", "jobs"])]
         stop_at: Option<usize>,
-        /// Files to run at the same time [default: the number of processors]
+        /// Number of files to run in parallel [default: the number of processors]
         #[arg(long, value_name = "N")]
         jobs: Option<NonZeroUsize>,
     },
-    /// Load plan files, then draw the world as it is then; without files: as it is at the start
+    /// Load plan files, then draw the resulting world; without files, draw the initial one
     ///
-    /// The picture is drawn even when a condition was not handled, which exits with 1.
+    /// The picture is drawn even after an unhandled condition; the exit status is then 1.
     Picture(Box<PictureArguments>),
-    /// Look for mistakes that can be found without running anything
+    /// Find mistakes in plan files without running them
     Check {
         /// Plan files
         #[arg(value_name = "FILE", required = true)]
@@ -135,25 +134,25 @@ pub(crate) enum Command {
     },
     /// Print the reference manual in Markdown
     Reference,
-    /// Print the manual page, for `man`: `planwright man | man -l -`
+    /// Print the manual page, as in `planwright man | man -l -`
     Man,
     /// Print a completion script for a shell
     Completions {
-        /// The shell
+        /// The shell to complete for
         shell: Shell,
     },
 }
 
-/// Severity of log lines.
+/// Severity of log messages.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, ValueEnum)]
 pub(crate) enum LogLevel {
     /// Everything
     Debug,
     /// Progress of plans
     Info,
-    /// What may be wrong
+    /// Possible problems
     Warn,
-    /// What is wrong
+    /// Errors
     Error,
     /// Nothing
     None,
@@ -162,7 +161,7 @@ pub(crate) enum LogLevel {
 /// When to use colours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 pub(crate) enum ColorWhen {
-    /// On a terminal
+    /// If the output is a terminal
     Auto,
     /// Always
     Always,
@@ -173,7 +172,7 @@ pub(crate) enum ColorWhen {
 fn positive_factor(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
-        _ => Err("a number greater than zero is needed".to_owned()),
+        _ => Err("expected a number greater than zero".to_owned()),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Looks for mistakes in plan files without running them.
+//! Finds mistakes in plan files without running them.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use super::open::open;
 use super::paint::Paint;
 use crate::session::dialogue::{Evaluate, Finding};
 
-/// Checks the files in order, as they would be loaded, and prints what is wrong.
+/// Checks the files in the order in which they would be loaded and prints the findings.
 pub(crate) fn check(options: &Options, files: &[PathBuf]) -> Result<Status, CommandError> {
     let paint = Paint::new(options.color, &io::stdout());
     let mut session = open(options)?;

@@ -10,16 +10,16 @@ use crate::picture::ViewError;
 use crate::session::WatchError;
 use crate::watch::recording::RecordingError;
 
-/// The end of a command that could do its work.
+/// How a command ended that could do its work.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Status {
-    /// All is well.
+    /// Success.
     Good,
-    /// A condition was not handled, a transcript differs, a check found something.
+    /// A condition was not handled, a transcript differs, or a check found a problem.
     Bad,
     /// The work could not be done.
     Unusable,
-    /// The program left with a status of its own.
+    /// The program exited with a status of its own.
     Left(u8),
 }
 
@@ -37,25 +37,25 @@ impl Status {
 /// Why a command could not do its work.
 #[derive(Debug, Error)]
 pub(crate) enum CommandError {
-    /// Standard output takes no more.
+    /// Standard output cannot be written to.
     #[error("cannot write: {0}")]
     Write(#[from] io::Error),
-    /// A file that the command line names.
+    /// A file named on the command line cannot be read.
     #[error("cannot read {}: {error}", path.display())]
     Read { path: PathBuf, error: io::Error },
-    /// A blessed transcript, or a picture.
+    /// A blessed transcript or a picture cannot be written.
     #[error("cannot write {}: {error}", path.display())]
     Rewrite { path: PathBuf, error: io::Error },
-    /// A picture from nowhere.
+    /// There is no such view to draw.
     #[error("{0}")]
     View(#[from] ViewError),
-    /// A recording.
+    /// A recording cannot be shown.
     #[error("cannot show {}: {error}", path.display())]
     Recording {
         path: PathBuf,
         error: RecordingError,
     },
-    /// There is no port for the page.
+    /// No port is free for the page.
     #[error("the page cannot be served: {0}")]
     Serve(io::Error),
     /// The session cannot be watched.
@@ -64,7 +64,7 @@ pub(crate) enum CommandError {
     /// The robot and its world cannot be set up.
     #[error("{0}")]
     Open(String),
-    /// An earlier session cannot be gone on with.
+    /// An earlier session cannot be resumed.
     #[error("{0}")]
     Resume(#[from] JournalError),
     /// The prompt does not work.
@@ -73,7 +73,7 @@ pub(crate) enum CommandError {
 }
 
 impl CommandError {
-    /// Who reads our output wants no more of it.
+    /// Whether the reader of our output has closed it.
     pub(crate) fn is_broken_pipe(&self) -> bool {
         matches!(
             self,
@@ -83,7 +83,7 @@ impl CommandError {
     }
 }
 
-/// Reads a file that the command line names.
+/// Reads a file named on the command line.
 pub(crate) fn read(path: &PathBuf) -> Result<String, CommandError> {
     std::fs::read_to_string(path).map_err(|error| CommandError::Read {
         path: path.clone(),

@@ -16,7 +16,7 @@ pub(crate) fn print() -> Result<Status, CommandError> {
     Ok(Status::Good)
 }
 
-/// Writes one page for all commands: they share their options, and nobody installs more.
+/// Writes one page for all commands, since they share their options and are installed together.
 fn write_page(page: &mut Vec<u8>) -> io::Result<()> {
     let mut command = Arguments::command().disable_help_subcommand(true);
     command.build();
@@ -52,7 +52,7 @@ fn write_command(page: &mut Vec<u8>, command: &Command) -> io::Result<()> {
     man.render_options_section(&mut text)?;
     writeln!(page, ".SS {}", command.get_name())?;
     for line in String::from_utf8_lossy(&text).lines() {
-        // The command's own headings make way for the one above, with a blank line instead.
+        // One heading stands for the whole command: its own headings become paragraph breaks.
         if line.starts_with(".SH ") {
             writeln!(page, ".PP")?;
         } else if !line.starts_with(".ie ") && !line.starts_with(".el ") {

@@ -1,9 +1,9 @@
 //! The command line: what `planwright` and its subcommands do.
 //!
-//! Exit statuses: 0 all is well; 1 a condition was not handled, a transcript differs, a
-//! check found something; 2 the command line is wrong, a file cannot be read, or the
-//! robot and its world cannot be set up. A reader that closes our output early is no
-//! error. `(quit n)` leaves with its own status.
+//! Exit statuses: 0 success; 1 a condition was not handled, a transcript differs, or a check
+//! found a problem; 2 the command line is wrong, a file cannot be read, or the robot and its
+//! world cannot be set up. It is no error if a reader closes our output early. `(quit n)` exits
+//! with its own status.
 //!
 //! Only this folder and the prompt write to the terminal.
 
@@ -36,7 +36,7 @@ use paint::Paint;
 #[cfg(test)]
 pub(crate) use open::open_default;
 
-/// Bytes of the stack on which commands run: the compiler follows the nesting of forms.
+/// Bytes of stack for a command's thread: the compiler recurses as deep as forms are nested.
 const STACK_BYTES: usize = 64 << 20;
 
 /// Runs the command line of this process.
@@ -57,7 +57,7 @@ fn run_command_line() -> ExitCode {
         Ok(status) => ExitCode::from(status.code()),
         Err(error) if error.is_broken_pipe() => ExitCode::SUCCESS,
         Err(error) => {
-            // Without standard error there is nobody to tell.
+            // If standard error is closed, the message is lost.
             let _ = writeln!(io::stderr(), "{} {error}", errors.bad("error:"));
             ExitCode::from(Status::Unusable.code())
         }

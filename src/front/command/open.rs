@@ -1,4 +1,4 @@
-//! Sets up what evaluates: the one place that knows how.
+//! Sets up evaluators, in this one place.
 
 use std::fs;
 use std::path::Path;
@@ -13,15 +13,15 @@ use super::failure::CommandError;
 use crate::session::dialogue::Evaluate;
 use crate::session::{self, Session, SessionOptions};
 
-/// Bytes of stack that forms may be nested on; the threads of all commands have more.
+/// Bytes of stack for nested forms; the threads of all commands have more.
 const COMPILER_STACK: usize = 48 << 20;
 
-/// A fresh evaluator with a world of its own. For threads with a large stack.
+/// A fresh evaluator with its own world. Call it on a thread with a large stack.
 pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {
     Ok(Box::new(open_session(options)?))
 }
 
-/// As [`open`], for those who want to see the world.
+/// Like [`open`], for callers that need the world.
 pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
     let read = |path: &Path| -> Result<(String, String), CommandError> {
         let text = fs::read_to_string(path)
@@ -47,7 +47,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
     Ok(session)
 }
 
-/// A fresh evaluator as a command line without options has it.
+/// A fresh evaluator, as with no options on the command line.
 #[cfg(test)]
 pub(crate) fn open_default() -> Result<Box<dyn Evaluate>, String> {
     let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;

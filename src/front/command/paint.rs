@@ -4,14 +4,14 @@ use std::io::IsTerminal;
 
 use super::arguments::ColorWhen;
 
-/// Colours text, or leaves it as it is.
+/// Colours text, or leaves it plain.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Paint {
     on: bool,
 }
 
 impl Paint {
-    /// For a stream, as the option and `NO_COLOR` say.
+    /// For output to a stream, following the option and `NO_COLOR`.
     pub(crate) fn new(when: ColorWhen, stream: &impl IsTerminal) -> Self {
         let on = match when {
             ColorWhen::Always => true,
@@ -27,12 +27,12 @@ impl Paint {
         self.on
     }
 
-    /// What went wrong.
+    /// Text about an error.
     pub(crate) fn bad(self, text: &str) -> String {
         self.paint("1;31", text)
     }
 
-    /// A line of a diff, by its mark.
+    /// A line of a diff, coloured by its mark.
     pub(crate) fn diff_line(self, line: &str) -> String {
         match line.as_bytes().first() {
             Some(b'-') => self.paint("31", line),

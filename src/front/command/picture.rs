@@ -16,31 +16,31 @@ use crate::picture::animation::{Shot, write_gif};
 use crate::picture::view::FIELD_OF_VIEW;
 use crate::session::Filming;
 
-/// What to draw, from where, and into which file.
+/// What to draw, from which viewpoint, and to which file.
 #[derive(Args, Debug)]
 pub(crate) struct PictureArguments {
     /// Files to load, in order
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Form to evaluate after the files; its values are shown
+    /// Form to evaluate after loading the files; its values are shown
     #[arg(long, value_name = "FORM")]
     eval: Vec<String>,
-    /// PNG file to write: the world as it is in the end
+    /// PNG file to write, showing the final state of the world
     #[arg(short, long, value_name = "PNG", required_unless_present_any = ["gif", "frames"])]
     output: Option<PathBuf>,
-    /// GIF file to write: the whole run
+    /// GIF file to write, showing the whole run
     #[arg(long, value_name = "GIF")]
     gif: Option<PathBuf>,
-    /// Folder for the whole run as PNG files
+    /// Folder for PNG files of the whole run, one per frame
     #[arg(long, value_name = "FOLDER")]
     frames: Option<PathBuf>,
-    /// Simulated time from one frame to the next
+    /// Simulated time between two frames
     #[arg(long, value_name = "SECONDS", default_value_t = 0.2, value_parser = interval)]
     every: f64,
-    /// How many simulated seconds the GIF shows in a real one
+    /// Simulated seconds per second of the GIF
     #[arg(long, value_name = "FACTOR", default_value_t = 3.0, value_parser = interval)]
     speed: f64,
-    /// What to look at
+    /// View to draw
     #[arg(
         long,
         value_name = "NAME",
@@ -50,19 +50,19 @@ pub(crate) struct PictureArguments {
             .try_map(|name| named(&name))
     )]
     view: View,
-    /// Where the eye is (m, in the map)
+    /// Position of the eye (m, map frame)
     #[arg(long, value_name = "X,Y,Z", requires = "at", allow_hyphen_values = true, value_parser = point)]
     from: Option<Point3<f64>>,
-    /// What is in the middle of the picture (m, in the map)
+    /// Point in the middle of the picture (m, map frame)
     #[arg(long, value_name = "X,Y,Z", requires = "from", allow_hyphen_values = true, value_parser = point)]
     at: Option<Point3<f64>>,
-    /// Angle between the upper and the lower border, with --from
+    /// Vertical field of view, with --from
     #[arg(long, value_name = "DEGREES", requires = "from", value_parser = angle)]
     fov: Option<f64>,
-    /// Pixels per row
+    /// Width in pixels
     #[arg(long, value_name = "N", default_value_t = 640, value_parser = size())]
     width: u16,
-    /// Rows
+    /// Height in pixels
     #[arg(long, value_name = "N", default_value_t = 480, value_parser = size())]
     height: u16,
 }
@@ -111,7 +111,7 @@ pub(crate) fn picture(
             .round()
             .clamp(2.0, 1000.0);
         let mut gif = Vec::new();
-        // The delay is a small number.
+        // The delay is small enough for the cast.
         write_gif(&shots, delay as u16, &mut gif)?;
         write(path, &gif)?;
     }
@@ -144,7 +144,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
 fn interval(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (0.01..=1000.0).contains(&value) => Ok(value),
-        _ => Err("a number from 0.01 to 1000 is needed".to_owned()),
+        _ => Err("expected a number from 0.01 to 1000".to_owned()),
     }
 }
 
@@ -158,7 +158,7 @@ fn named(name: &str) -> Result<View, String> {
 }
 
 fn point(text: &str) -> Result<Point3<f64>, String> {
-    let wrong = || "three numbers with commas between them are needed (m)".to_owned();
+    let wrong = || "expected three numbers separated by commas (m)".to_owned();
     let mut parts = text.split(',').map(|part| part.trim().parse::<f64>());
     match (parts.next(), parts.next(), parts.next(), parts.next()) {
         (Some(Ok(x)), Some(Ok(y)), Some(Ok(z)), None) if (x + y + z).is_finite() => {
@@ -171,7 +171,7 @@ fn point(text: &str) -> Result<Point3<f64>, String> {
 fn angle(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(degrees) if (1.0..=150.0).contains(&degrees) => Ok(degrees),
-        _ => Err("an angle from 1 to 150 degrees is needed".to_owned()),
+        _ => Err("expected an angle from 1 to 150 degrees".to_owned()),
     }
 }
 

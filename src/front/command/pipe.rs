@@ -9,8 +9,8 @@ use super::watching;
 use crate::session::dialogue::screen::input_name;
 use crate::session::dialogue::{Evaluate, Outcome, Screen, evaluate_on, is_whole};
 
-/// Takes inputs as the prompt would, each as soon as it is whole, and prints what the
-/// prompt would print. Goes on after a condition that nobody handled.
+/// Takes inputs as the prompt would, each as soon as it is complete, and prints what the prompt
+/// would print. Continues after an unhandled condition.
 pub(crate) fn evaluate_standard_input(
     options: &Options,
     watch: &WatchArguments,
@@ -52,7 +52,7 @@ fn evaluate_lines(
     }
 }
 
-/// Appends a line; bytes that are no UTF-8 become replacement characters.
+/// Appends a line; bytes that are not UTF-8 become replacement characters.
 fn read_line(lines: &mut impl BufRead, text: &mut String) -> Result<usize, CommandError> {
     let mut bytes = Vec::new();
     let count = lines

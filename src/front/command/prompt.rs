@@ -10,7 +10,7 @@ use super::watching;
 use crate::front::prompt;
 use crate::front::prompt::{Beginning, Earlier, Journal, ReplOptions};
 
-/// Talks to the person at the terminal, in a fresh session or in one that is gone on with.
+/// Runs the prompt, in a fresh session or in a resumed one.
 pub(crate) fn prompt(
     mut options: Options,
     wanted: &PromptOptions,
@@ -42,7 +42,7 @@ pub(crate) fn prompt(
     Ok(Status::Left(status))
 }
 
-/// The journal of this session. Without one the prompt works all the same.
+/// The journal of this session. The prompt also works without one.
 fn journal(
     options: &Options,
     wanted: &PromptOptions,

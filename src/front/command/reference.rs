@@ -6,7 +6,7 @@ use super::failure::{CommandError, Status};
 use crate::front::manual;
 use crate::session::{Session, SessionOptions};
 
-/// Prints the manual of what is built in: options do not change it.
+/// Prints the manual of what is built in; options make no difference.
 pub(crate) fn print() -> Result<Status, CommandError> {
     let session = Session::new(&SessionOptions::default())
         .map_err(|error| CommandError::Open(error.to_string()))?;

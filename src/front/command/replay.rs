@@ -1,4 +1,4 @@
-//! Replays transcripts and tells how they differ.
+//! Replays transcripts and reports how they differ.
 
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
@@ -10,7 +10,7 @@ use super::open::open;
 use super::paint::Paint;
 use crate::front::transcript::{Transcript, Verdict, blessed, replay_all};
 
-/// Replays the files and prints their differences, or rewrites what they expect.
+/// Replays the files and prints the differences, or rewrites the expected output.
 pub(crate) fn replay(
     options: &Options,
     files: &[PathBuf],

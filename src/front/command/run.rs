@@ -13,8 +13,8 @@ use crate::session::dialogue::{
     Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort,
 };
 
-/// Loads the files, then evaluates the forms, up to the first condition that nobody
-/// handles. Output goes to standard output, that condition to standard error.
+/// Loads the files, then evaluates the forms, up to the first unhandled condition. Output goes
+/// to standard output, the condition to standard error.
 pub(crate) fn run(
     options: &Options,
     files: &[PathBuf],
@@ -33,14 +33,14 @@ pub(crate) fn run(
     Ok(status)
 }
 
-/// As [`run`], in what `open` opens, which is handed back.
+/// Like [`run`], in the evaluator that `open` makes, which is returned.
 pub(crate) fn run_in<E: Evaluate>(
     options: &Options,
     files: &[PathBuf],
     forms: &[String],
     open: impl FnOnce() -> Result<E, CommandError>,
 ) -> Result<(Status, E), CommandError> {
-    // A file that cannot be read is told before the robot moves.
+    // Report a file that cannot be read before the robot moves.
     let files: Vec<Text> = files.iter().map(Text::of_file).collect::<Result<_, _>>()?;
     let forms = forms
         .iter()
@@ -57,7 +57,7 @@ pub(crate) fn run_in<E: Evaluate>(
             Ended::Aborted(abort) => {
                 screen.fresh_line()?;
                 screen.flush()?;
-                // Without standard error, the exit status has to do.
+                // If standard error is closed, the exit status must do.
                 let _ = io::stderr().write_all(text.describe(abort.as_ref(), paint).as_bytes());
                 return Ok((Status::Bad, session));
             }
@@ -66,10 +66,10 @@ pub(crate) fn run_in<E: Evaluate>(
     Ok((Status::Good, session))
 }
 
-/// Tells on standard error what looks wrong in the files before anything of them is
-/// evaluated. What cannot be read or compiled is told when it is its turn.
+/// Prints warnings about the files to standard error before any of them is evaluated. Whatever
+/// cannot be read or compiled is reported when its turn comes.
 ///
-/// The files are checked in a world of their own, because their definitions take effect.
+/// The files are checked in a separate world, because their definitions take effect.
 fn warn(options: &Options, files: &[Text], paint: Paint) -> Result<(), CommandError> {
     if files.is_empty() {
         return Ok(());
@@ -79,7 +79,7 @@ fn warn(options: &Options, files: &[Text], paint: Paint) -> Result<(), CommandEr
         for finding in session.check(&file.name, &file.text) {
             if finding.severity == Severity::Warning {
                 let text = format!("warning: {}", described(&file.name, &finding, paint));
-                // Without standard error nobody can be warned.
+                // If standard error is closed, the warning is lost.
                 let _ = io::stderr().write_all(text.as_bytes());
             }
         }
@@ -91,7 +91,7 @@ fn warn(options: &Options, files: &[Text], paint: Paint) -> Result<(), CommandEr
 struct Text {
     name: String,
     text: String,
-    /// Values of forms are shown.
+    /// Whether to show the values of forms.
     echo: bool,
 }
 

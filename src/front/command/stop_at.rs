@@ -1,5 +1,4 @@
-//! Replays the beginning of a transcript, then opens the prompt in the state that this has led
-//! to.
+//! Replays the beginning of a transcript, then opens the prompt in the resulting state.
 
 use std::io;
 use std::path::PathBuf;
@@ -12,7 +11,8 @@ use crate::front::prompt;
 use crate::front::prompt::ReplOptions;
 use crate::front::transcript::{Transcript, replay_first};
 
-/// Replays the file up to and with the `entry`th input, from one, and opens the prompt.
+/// Replays the file up to and including the `entry`th input (counted from one) and opens the
+/// prompt.
 pub(crate) fn stop_at(
     options: &Options,
     files: &[PathBuf],
@@ -27,7 +27,7 @@ pub(crate) fn stop_at(
     let count = transcript.entries.len();
     if entry == 0 || entry > count {
         return Err(CommandError::Open(format!(
-            "{} has no entry {entry}: they are 1 to {count}",
+            "{} has no entry {entry}; its entries are 1 to {count}",
             path.display()
         )));
     }
@@ -40,7 +40,7 @@ pub(crate) fn stop_at(
     );
     if differing > 0 {
         remark.push_str(&format!(
-            "; {differing} of them differ from what is expected"
+            "; {differing} of them differ from the expected output"
         ));
     }
     let paint = Paint::new(options.color, &io::stdout());

@@ -11,7 +11,7 @@ use super::open::open_session;
 use crate::watch::live::{History, Origin, Server, Views, open_in_browser};
 use crate::watch::recording::{RecordingError, read_recording};
 
-/// Serves the page with the recording until somebody interrupts.
+/// Serves the page with the recording until interrupted.
 pub(crate) fn view(options: &Options, file: &Path) -> Result<Status, CommandError> {
     let failed = |error: RecordingError| CommandError::Recording {
         path: file.to_owned(),
@@ -21,7 +21,7 @@ pub(crate) fn view(options: &Options, file: &Path) -> Result<Status, CommandErro
     let history = History::new(Origin::Recording);
     let found = read_recording(&bytes, &history).map_err(failed)?;
     drop(bytes);
-    // The places to look from are those of the kitchen that the options name.
+    // The named views depend on the kitchen that the options select.
     let session = open_session(options)?;
     let world = session.simulation().world();
     let views = Views::new(world, |link| history.link_named(link));
@@ -33,8 +33,8 @@ pub(crate) fn view(options: &Options, file: &Path) -> Result<Status, CommandErro
     } else {
         ""
     };
-    writeln!(out, "{}: {} moments{cut_off}", file.display(), found.frames)?;
-    writeln!(out, "The recording is at {address}\nCtrl-C ends it.")?;
+    writeln!(out, "{}: {} frames{cut_off}", file.display(), found.frames)?;
+    writeln!(out, "The recording is at {address}\nPress Ctrl-C to stop.")?;
     out.flush()?;
     open_in_browser(&address);
     loop {

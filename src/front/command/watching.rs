@@ -1,4 +1,4 @@
-//! Watching a session as the command line asks for it.
+//! Lets a session be watched as the command line asks.
 
 use std::io::{self, Write};
 use std::thread;
@@ -9,26 +9,26 @@ use super::failure::CommandError;
 use crate::session::Session;
 use crate::watch::live::open_in_browser;
 
-/// How long a browser may take to show the page before nobody is waited for.
+/// How long to wait for a browser to show the page.
 const BROWSER_START: Duration = Duration::from_secs(5);
 
-/// Begins the recording that is asked for. Opens the live view if that is asked for, and
-/// tells its address on standard error. Returns whether a browser has been started.
+/// Starts the recording and the live view if they are asked for, and prints the view's address
+/// on standard error. Returns whether a browser was started.
 pub(crate) fn begin(session: &mut Session, watch: &WatchArguments) -> Result<bool, CommandError> {
     if let Some(path) = &watch.record {
         session.begin_recording(path)?;
     }
     if watch.view {
         let address = session.open_view()?;
-        // Without standard error the browser may still show the page.
+        // If standard error is closed, the browser may still show the page.
         let _ = writeln!(io::stderr(), "The live view is at {address}");
         return Ok(open_in_browser(&address));
     }
     Ok(false)
 }
 
-/// Waits as long as somebody looks, so that the end can be looked at, too; at first also for
-/// a browser that has been started.
+/// Waits while there are viewers, so that they can look at the end; also waits for a browser
+/// that is just starting.
 pub(crate) fn linger(session: &Session, has_browser: bool) {
     let Some(server) = session.simulation().view_server() else {
         return;

@@ -9,12 +9,12 @@ use crate::lisp::image::Image;
 use crate::lisp::value::package::PackageId;
 use crate::lisp::value::symbol::Sym;
 
-/// What the manual says about one package.
+/// What the manual says about a package.
 pub(crate) struct PackageChapter {
     pub(crate) name: Rc<str>,
     nicknames: Vec<Rc<str>>,
     doc: Option<Rc<str>>,
-    /// By name.
+    /// Sorted by name.
     pub(crate) entries: Vec<NamedEntry>,
 }
 
@@ -24,13 +24,13 @@ pub(crate) struct NamedEntry {
     entry: Entry,
 }
 
-/// Packages for what macros expand into: nobody writes these names.
+/// Packages of names that macros expand into and that are not for users.
 const LEFT_OUT: &[&str] = &["SYSTEM", "PLAN-SYSTEM"];
 
-/// Packages that people know by another one, which exports their symbols.
+/// Packages that users know by the name of another one, which exports their symbols.
 const SHOWN_AS: &[(&str, &str)] = &[("CRAM-LANGUAGE-IMPLEMENTATION", "CRAM-LANGUAGE")];
 
-/// The packages with functions or operators of their own, `COMMON-LISP` first.
+/// The packages that define functions or operators, `COMMON-LISP` first.
 pub(crate) fn packages(image: &Image) -> Vec<PackageChapter> {
     let mut by_package: BTreeMap<PackageId, BTreeMap<Rc<str>, Entry>> = BTreeMap::new();
     let shown_as = |home: PackageId| {

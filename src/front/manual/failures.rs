@@ -30,7 +30,7 @@ pub(crate) fn write(to: &mut String, image: &Image) {
     }
 }
 
-/// The class and those below it, indented. Superclasses form no circles, so that this ends.
+/// The class and its subclasses, indented. Superclasses form no cycles, so the recursion ends.
 fn write_tree(to: &mut String, image: &Image, root: &Rc<Class>) {
     let mut open = vec![(0, root.clone())];
     while let Some((depth, class)) = open.pop() {

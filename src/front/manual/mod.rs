@@ -1,9 +1,8 @@
-//! The reference manual: Markdown made from the tables that the language itself reads.
+//! The reference manual: Markdown made from the tables that the language itself uses.
 //!
-//! Nothing is told twice: names, lambda lists, texts and examples come from the tables of
-//! builtins and operators, the keys of designators from their schema, the failures from
-//! the classes of the image. Only the chapter on differences from Common Lisp is written
-//! by hand.
+//! Nothing is written twice: names, lambda lists, texts and examples come from the tables of
+//! builtins and operators, the keys of designators from their schema, and the failures from the
+//! classes of the image. Only the chapter on differences from Common Lisp is written by hand.
 
 mod designators;
 mod entries;
@@ -17,7 +16,7 @@ use crate::session::Session;
 const INTRODUCTION: &str = include_str!("introduction.md");
 const DIFFERENCES: &str = include_str!("differences.md");
 
-/// The whole manual of what a session knows.
+/// The whole manual of what is defined in a session.
 pub(crate) fn markdown(session: &Session) -> String {
     let mut to = String::new();
     let (image, simulation) = (session.image(), session.simulation());
@@ -53,18 +52,18 @@ pub(crate) fn markdown(session: &Session) -> String {
     to
 }
 
-/// Adds a line.
+/// Appends a line.
 fn line(to: &mut String, text: &str) {
     // Writing to a string cannot fail.
     let _ = writeln!(to, "{text}");
 }
 
-/// A name for people: lower case, as code.
+/// A name as the manual shows it: in lower case, as code.
 fn code(name: &str) -> String {
     format!("`{}`", name.to_lowercase())
 }
 
-/// Several names for people.
+/// Several names as the manual shows them.
 fn codes<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let shown: Vec<String> = names.into_iter().map(code).collect();
     shown.join(", ")

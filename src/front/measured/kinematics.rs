@@ -1,4 +1,4 @@
-//! Forward and inverse kinematics, and reading the robot.
+//! Forward and inverse kinematics, and reading the robot's description.
 
 use std::hint::black_box;
 
@@ -9,7 +9,7 @@ use crate::robot::{
 use crate::spatial::Pose;
 use crate::spatial::pose::from_xyz_rpy;
 
-/// Shares 0..1 without any dependence on time or platform.
+/// Pseudo-random shares (0..1) that do not depend on the time or the platform.
 struct Shares(u64);
 
 impl Shares {
@@ -21,7 +21,7 @@ impl Shares {
     }
 }
 
-/// Wrist poses in the frame of the torso, of random joint positions within the soft limits.
+/// Wrist poses in the torso's frame, from random joint positions within the soft limits.
 fn reachable_poses(tree: &KinematicTree, pr2: &RobotDescription, side: Side) -> Vec<Pose> {
     let arm = pr2.arm(side);
     let mut shares = Shares(88_172_645_463_325_252);
@@ -38,7 +38,7 @@ fn reachable_poses(tree: &KinematicTree, pr2: &RobotDescription, side: Side) -> 
     poses
 }
 
-/// Where the links are, and which joint positions bring a wrist to a place.
+/// Poses of the links, and joint positions that bring a wrist to a pose.
 pub fn kinematics(stopwatch: &mut dyn Stopwatch) {
     let models = super::models();
     let (tree, pr2) = (&models.robot, &models.description);

@@ -1,7 +1,7 @@
-//! What the benches measure inside of the program.
+//! The program's inner workings that the benches measure.
 //!
-//! A bench is a crate of its own and sees the face alone; so the work is set up here, and
-//! handed to it piece by piece with a name.
+//! A bench is a crate of its own and sees only the public face, so the work is set up here and
+//! handed over piece by piece, each piece with a name.
 
 mod kinematics;
 mod motion;
@@ -21,10 +21,10 @@ use crate::world::{Models, RobotConfiguration, World};
 
 /// Measures pieces of work.
 pub trait Stopwatch {
-    /// Measures work that can be repeated as it is.
+    /// Measures work that can simply be repeated.
     fn repeated(&mut self, name: &str, work: &mut dyn FnMut());
 
-    /// Measures work that needs something fresh each time; making that is not measured.
+    /// Measures work that needs fresh input each time; preparing it is not measured.
     fn prepared(&mut self, name: &str, prepare: &mut dyn FnMut() -> Box<dyn FnOnce()>);
 }
 
@@ -49,7 +49,7 @@ fn parked(models: &Models, [x, y, degrees]: [f64; 3], torso: f64) -> RobotConfig
     }
 }
 
-/// Puts an upright object of the library into the world, at (m, m, m).
+/// Spawns an upright object from the library at a position (m, m, m).
 fn spawn(world: &mut World, name: &str, type_name: &str, at: [f64; 3]) {
     let pose: Pose = from_xyz_rpy(at, [0.0; 3]);
     world

@@ -11,7 +11,7 @@ use crate::spatial::Pose;
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::{RobotConfiguration, World};
 
-/// Times along a path.
+/// Time parametrisation of a path.
 pub fn trajectories(stopwatch: &mut dyn Stopwatch) {
     let points: Vec<Vec<f64>> = (0..16)
         .map(|i| (0..8).map(|j| f64::from(i * j) * 0.01).collect())
@@ -28,7 +28,7 @@ pub fn trajectories(stopwatch: &mut dyn Stopwatch) {
     });
 }
 
-/// Paths of the base.
+/// Planning paths of the base.
 pub fn drives(stopwatch: &mut dyn Stopwatch) {
     use std::f64::consts::{FRAC_PI_2, PI};
     let cases = [
@@ -61,7 +61,7 @@ fn first_tick<M: Motion + Clone + 'static>(
     });
 }
 
-/// Paths of the arms.
+/// Planning paths of the arms.
 pub fn arms(stopwatch: &mut dyn Stopwatch) {
     let models = models();
     let start = RobotConfiguration {

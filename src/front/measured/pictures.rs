@@ -1,4 +1,4 @@
-//! Pictures of 640 × 480, of the kitchen with robot and a bottle.
+//! Pictures of 640 × 480 pixels, of the kitchen with the robot and a bottle.
 
 use std::hint::black_box;
 
@@ -6,7 +6,7 @@ use super::{AT_TABLE, Stopwatch, models, parked, spawn};
 use crate::picture::{Scene, View, render};
 use crate::world::World;
 
-/// The scene, a picture from every view, and writing one.
+/// Building the scene, drawing it from every view, and encoding a picture.
 pub fn pictures(stopwatch: &mut dyn Stopwatch) {
     let models = models();
     let robot = parked(&models, AT_TABLE, 0.3);

@@ -1,4 +1,4 @@
-//! Steps, snapshots and collision checks of the world, and what the robot sees of it.
+//! World steps, snapshots, collision checks, and what the robot sees.
 
 use std::hint::black_box;
 
@@ -39,7 +39,7 @@ fn set_joint(models: &Models, robot: &mut RobotConfiguration, name: &str, positi
     robot.joints.set(joint.expect("the PR2 has it"), position);
 }
 
-/// One step of the world.
+/// A single world step.
 pub fn steps(stopwatch: &mut dyn Stopwatch) {
     let mut world = furnished();
     stopwatch.repeated("step, ten objects asleep", &mut || world.step());
@@ -64,7 +64,7 @@ pub fn steps(stopwatch: &mut dyn Stopwatch) {
     stopwatch.repeated("step, ten objects awake", &mut || world.step());
 }
 
-/// Keeping the world as it is, and going back to that.
+/// Taking a snapshot and restoring it.
 pub fn snapshots(stopwatch: &mut dyn Stopwatch) {
     let mut world = furnished();
     stopwatch.repeated("snapshot and drop", &mut || {
@@ -77,7 +77,7 @@ pub fn snapshots(stopwatch: &mut dyn Stopwatch) {
     });
 }
 
-/// Whether the robot would overlap something.
+/// Whether a robot configuration collides.
 pub fn collisions(stopwatch: &mut dyn Stopwatch) {
     let world = furnished();
     let none = AllowedPairs::none();
@@ -101,7 +101,7 @@ pub fn collisions(stopwatch: &mut dyn Stopwatch) {
             robots.push(parked(world.models(), at, 0.1));
         }
     }
-    // Most of these places are blocked by furniture.
+    // Most of these poses are blocked by furniture.
     let mut places = robots.iter().cycle();
     stopwatch.repeated("check base poses until the first hit", &mut || {
         black_box(
@@ -129,7 +129,7 @@ pub fn collisions(stopwatch: &mut dyn Stopwatch) {
     });
 }
 
-/// What the camera of the robot sees.
+/// What the robot's camera sees.
 pub fn sight(stopwatch: &mut dyn Stopwatch) {
     let world = furnished();
     stopwatch.repeated("what the camera sees", &mut || {

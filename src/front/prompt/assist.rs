@@ -1,4 +1,4 @@
-//! What the line editor asks about the text being typed.
+//! Answers the line editor's questions about the text being typed.
 
 use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
@@ -17,11 +17,11 @@ use crate::session::dialogue::Converse;
 /// The evaluator, which also knows what could be typed.
 pub(crate) type Shared = Rc<RefCell<dyn Converse>>;
 
-/// Tells whether an input is whole, colours it, completes it.
+/// Tells whether an input is complete, colours it and completes it.
 pub(crate) struct Assist {
     evaluator: Shared,
     colored: bool,
-    /// The input is being left as it is: nothing stands out at the cursor any more.
+    /// The input is final: nothing at the cursor is highlighted any more.
     is_settled: Cell<bool>,
 }
 
@@ -37,7 +37,7 @@ impl Assist {
 
 impl Helper for Assist {}
 
-/// The shape of the form that is being typed.
+/// The lambda list or keys of the form being typed.
 pub(crate) struct Shape(String);
 
 impl Hint for Shape {
@@ -50,7 +50,7 @@ impl Hint for Shape {
     }
 }
 
-/// Inputs longer than this have no hint: it would stand far from the cursor.
+/// Longer inputs get no hint: it would be too far from the cursor.
 const LONGEST_HINTED: usize = 4000;
 
 impl Hinter for Assist {
@@ -67,13 +67,13 @@ impl Hinter for Assist {
     }
 }
 
-/// A text that could be typed, with a line about it.
+/// A candidate for completion, with a line of documentation.
 pub(crate) struct Documented {
     text: String,
     shown: String,
 }
 
-/// Characters of a line of the list of candidates.
+/// Width of the list of candidates, in characters.
 const LIST_WIDTH: usize = 78;
 
 impl Documented {
@@ -101,7 +101,7 @@ impl Candidate for Documented {
     }
 }
 
-/// Columns that names take in the list of candidates, at most.
+/// Greatest width of the column of names in the list of candidates.
 const MOST_NAME_WIDTH: usize = 30;
 
 impl Completer for Assist {

@@ -15,9 +15,9 @@ use super::assist::{Assist, Shared};
 use super::history::history_file;
 use super::keys::{Enter, NewLine, SharedHistory, UpOrDown};
 
-/// Inputs kept from earlier sessions.
+/// Number of inputs kept from earlier sessions.
 const HISTORY_SIZE: usize = 2000;
-/// Candidates that are listed without asking.
+/// Number of candidates that are listed without asking.
 const LISTED_CANDIDATES: usize = 60;
 
 /// Reads inputs from the terminal.
@@ -48,7 +48,7 @@ impl LineEditor {
         editor.set_helper(Some(Assist::new(evaluator, colored)));
         let history = history_file();
         if let Some(path) = &history {
-            // There is none the first time, and a broken one must not keep us out.
+            // The first time there is no file, and a broken one must not stop us.
             let _ = editor.load_history(path);
         }
         let entries = SharedHistory::default();
@@ -93,8 +93,8 @@ impl LineEditor {
         }
     }
 
-    /// Reads one input; `name` is shown before the `>` of the prompt. A draft is there to be
-    /// changed.
+    /// Reads one input; `name` is shown before the `>` of the prompt. A draft is offered for
+    /// editing.
     pub(crate) fn read(
         &mut self,
         name: &str,
@@ -108,7 +108,7 @@ impl LineEditor {
             Some(draft) => self.editor.readline_with_initial(&prompt, (draft, ""))?,
             None => self.editor.readline(&prompt)?,
         };
-        // Of what is typed at a level, only forms are worth having again.
+        // Commands of the debugger and the inspector are not worth keeping, only forms.
         let is_kept = !name.contains(' ') || text.trim_start().starts_with('(');
         let is_kept = is_kept && !text.trim().is_empty();
         if is_kept && self.editor.add_history_entry(text.as_str())? {
@@ -116,7 +116,7 @@ impl LineEditor {
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner)
                 .push(text.clone());
-            // Kept at once, for a session may end in any way.
+            // Kept at once, since a session may end at any time.
             if let Some(path) = &self.history
                 && self.editor.append_history(path).is_err()
             {
@@ -126,11 +126,11 @@ impl LineEditor {
         Ok(text)
     }
 
-    /// Asks a question to which the answer may be yes.
+    /// Asks a question; returns whether the answer is yes.
     pub(crate) fn confirm(&mut self, question: &str) -> bool {
         match self.editor.readline(&format!("{question} (y or n) ")) {
             Ok(answer) => matches!(answer.trim(), "y" | "Y" | "yes"),
-            // Ctrl-D once more.
+            // A second Ctrl-D means yes.
             Err(ReadlineError::Eof) => true,
             Err(_) => false,
         }

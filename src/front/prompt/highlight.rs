@@ -11,9 +11,9 @@ const MATCHING: &str = "\x1b[1;34m";
 const UNMATCHED: &str = "\x1b[31m";
 const RESET: &str = "\x1b[0m";
 
-/// The text with escape sequences; the parentheses at the cursor stand out.
+/// The text with escape sequences; the parentheses at the cursor are highlighted.
 ///
-/// `is_type` knows the names of types of designators, which stand out behind `(type`.
+/// `is_type` knows the names of types of designators, which are coloured after `(type`.
 pub(crate) fn highlighted(
     text: &str,
     cursor: Option<usize>,
@@ -46,7 +46,7 @@ pub(crate) fn highlighted(
     colored
 }
 
-/// The colour of a name behind `type`.
+/// The colour of a name after `type`.
 fn type_color(before: &str, text: &str, is_type: impl Fn(&str) -> bool) -> Option<&'static str> {
     let is_key = before.trim_start_matches(':').eq_ignore_ascii_case("type");
     (is_key && is_type(text.trim_start_matches(':'))).then_some(TYPE)
@@ -62,14 +62,15 @@ fn color(kind: TokenKind, text: &str) -> Option<&'static str> {
     }
 }
 
-/// The parentheses that stand out, by the byte after them.
+/// The highlighted parentheses, by the byte offset at which they end.
 struct Parentheses {
     at_cursor: Option<(usize, usize)>,
     unmatched: Vec<usize>,
 }
 
 impl Parentheses {
-    /// Those at the cursor are the pair one of which the cursor is on, or right behind.
+    /// Those at the cursor are the pair that has a parenthesis under the cursor or just before
+    /// it.
     fn of(tokens: &[Token], cursor: Option<usize>) -> Self {
         let mut open: Vec<usize> = Vec::new();
         let mut found = Parentheses {
@@ -83,8 +84,8 @@ impl Parentheses {
                     Some(start) => {
                         let on = |end: usize| cursor.is_some_and(|cursor| end == cursor + 1);
                         if on(start) || on(token.end) || Some(token.end) == cursor {
-                            // The pair right behind which the cursor is comes first; the
-                            // one it is on, later in the text, takes precedence.
+                            // A pair just before the cursor is found first; one under the
+                            // cursor is found later and takes precedence.
                             found.at_cursor = Some((start, token.end));
                         }
                     }
@@ -109,7 +110,7 @@ impl Parentheses {
 mod tests {
     use crate::front::prompt::highlight::*;
 
-    /// With the colours as letters in braces.
+    /// The text with colours shown as letters in braces.
     fn shown(text: &str, cursor: usize) -> String {
         let mut shown = highlighted(text, Some(cursor), |name| name == "going");
         for (code, name) in [

@@ -3,20 +3,20 @@
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// The history file, in a directory that exists; none where there is no place for it.
+/// The history file, in an existing directory; `None` if there is no place for it.
 pub(crate) fn history_file() -> Option<PathBuf> {
     let directory = state_directory()?;
     std::fs::create_dir_all(&directory).ok()?;
     Some(directory.join("history"))
 }
 
-/// Where what is to outlive a session is kept; none where there is no place for it.
+/// The directory for what outlives a session; `None` if there is no place for it.
 pub(crate) fn state_directory() -> Option<PathBuf> {
     state_path(|name| std::env::var_os(name))
 }
 
-/// `$XDG_STATE_HOME/planwright`, or that under `~/.local/state`. Relative paths
-/// are not to be used, says the XDG Base Directory Specification.
+/// `$XDG_STATE_HOME/planwright`, or else the same under `~/.local/state`. The XDG Base
+/// Directory Specification says to ignore relative paths.
 fn state_path(variable: impl Fn(&str) -> Option<OsString>) -> Option<PathBuf> {
     let directory = |name| {
         variable(name)

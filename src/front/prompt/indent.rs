@@ -1,13 +1,12 @@
-//! How far a further line of an input is indented.
+//! How far continuation lines of an input are indented.
 
 use crate::lisp::reader::{Lexer, TokenKind};
 
-/// Blanks to begin the line with that follows `before`, whose first line stands
-/// `first_column` characters to the right, behind the prompt.
+/// Number of blanks at the start of the line after `before`, whose own first line starts at
+/// column `first_column`, after the prompt.
 ///
-/// As Lisp editors do: arguments stand below the first argument, bodies two blanks to the
-/// right of their form, data below the first element. Inside strings and comments
-/// nothing is indented.
+/// Follows Lisp editors: arguments align with the first argument, bodies are indented by two
+/// blanks, data align with the first element. Inside strings and comments nothing is indented.
 pub(crate) fn indentation(before: &str, first_column: usize) -> usize {
     let mut lists: Vec<List<'_>> = Vec::new();
     let mut prefixed = None;
@@ -62,12 +61,12 @@ pub(crate) fn indentation(before: &str, first_column: usize) -> usize {
 /// A list that is still open.
 struct List<'a> {
     line: usize,
-    /// Of the parenthesis.
+    /// Column of the parenthesis.
     column: usize,
     is_data: bool,
     elements: usize,
     operator: Option<&'a str>,
-    /// Of the first argument, when it stands on the line of the parenthesis.
+    /// Column of the first argument, if it is on the same line as the parenthesis.
     argument_column: Option<usize>,
 }
 
@@ -108,7 +107,7 @@ impl<'a> List<'a> {
 
 /// What follows an operator.
 enum Shape {
-    /// Something special, then a body.
+    /// Special arguments, then a body.
     Body,
     /// A body.
     Forms,
@@ -175,7 +174,7 @@ const FORMS: [&str; 9] = [
     "unwind-protect",
 ];
 
-/// Counts lines and columns along a text.
+/// Tracks line and column along a text.
 struct Cursor<'a> {
     rest: &'a str,
     at: usize,
@@ -193,7 +192,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Line and column of byte `to`, which is not before the last one asked for.
+    /// Line and column of byte `to`, which must not be before the previous one.
     fn advance(&mut self, to: usize) -> (usize, usize) {
         let (passed, rest) = self
             .rest

@@ -1,10 +1,11 @@
-//! The journal: every input is on disk before it is evaluated, so that a session that ended
-//! in whatever way can be gone on with.
+//! The journal: every input is on disk before it is evaluated, so that a session can be resumed
+//! however it ended.
 //!
-//! A line per record: a word, a blank, and a text in which `\n` stands for a line break and
-//! `\\` for a backslash. `seed`, `world` and `robot` tell how the session was begun, `input`
-//! what was typed, `pasted` what was typed and did not stop at conditions, and `interrupted` where the input before was interrupted. What is
-//! replayed from a journal comes to the same state, because nothing else has an effect.
+//! Each record is a line: a word, a blank, and a text in which `\n` stands for a line break and
+//! `\\` for a backslash. `seed`, `world` and `robot` say how the session began; `input` is an
+//! input, `pasted` an input that conditions do not stop, and `interrupted` says where the input
+//! before it was interrupted. Replaying a journal leads to the same state, because nothing else
+//! has an effect.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -15,19 +16,19 @@ use thiserror::Error;
 
 use super::history::state_directory;
 
-/// Journals of earlier sessions that are kept.
+/// Number of journals of earlier sessions that are kept.
 const MOST_JOURNALS: usize = 20;
 const FIRST_LINE: &str = "planwright journal 1";
 const EXTENSION: &str = "journal";
 
-/// How a session was begun.
+/// How a session began.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(crate) struct Beginning {
-    /// Seed of everything random.
+    /// Seed for everything random.
     pub(crate) seed: u64,
-    /// A kitchen in place of the built-in one.
+    /// The kitchen used instead of the built-in one.
     pub(crate) world: Option<PathBuf>,
-    /// A robot in place of the built-in one.
+    /// The robot used instead of the built-in one.
     pub(crate) robot: Option<PathBuf>,
 }
 
@@ -38,14 +39,14 @@ pub(crate) struct Recorded {
     pub(crate) text: String,
     /// Where its evaluation was interrupted.
     pub(crate) interrupted_at: Option<u64>,
-    /// Did a condition stop its evaluation, rather than end it?
+    /// Whether a condition stopped its evaluation rather than ending it.
     pub(crate) stops: bool,
 }
 
 /// Why a journal cannot be read.
 #[derive(Debug, Error)]
 pub(crate) enum JournalError {
-    /// There is none.
+    /// There is no journal.
     #[error("there is no journal of an earlier session{}", .0.as_ref().map(|d| format!(" in {}", d.display())).unwrap_or_default())]
     None(Option<PathBuf>),
     /// It cannot be read.
@@ -66,14 +67,14 @@ pub(crate) enum JournalError {
 pub(crate) struct Earlier {
     /// The file.
     pub(crate) path: PathBuf,
-    /// How the session was begun.
+    /// How the session began.
     pub(crate) beginning: Beginning,
-    /// What was typed, in order.
+    /// The inputs, in order.
     pub(crate) inputs: Vec<Recorded>,
 }
 
 impl Earlier {
-    /// Reads a journal; the newest one unless a file is named.
+    /// Reads a journal, by default the newest one.
     pub(crate) fn read(path: Option<&Path>) -> Result<Earlier, JournalError> {
         let path = match path {
             Some(path) => path.to_owned(),
@@ -96,7 +97,7 @@ impl Earlier {
             beginning: Beginning::default(),
             inputs: Vec::new(),
         };
-        // The last line may have been cut off while it was written.
+        // Writing the last line may have been cut short.
         let whole = rest
             .split_inclusive('\n')
             .filter_map(|line| line.strip_suffix('\n'));
@@ -130,7 +131,7 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// A new journal in the state directory; none where there is no place for it.
+    /// A new journal in the state directory; `None` if there is no place for it.
     pub(crate) fn begin(beginning: &Beginning) -> Option<Journal> {
         let directory = directory()?;
         fs::create_dir_all(&directory).ok()?;
@@ -140,7 +141,7 @@ impl Journal {
         Journal::create(&directory.join(name), beginning).ok()
     }
 
-    /// A new journal in a file.
+    /// A new journal in the given file.
     pub(crate) fn create(path: &Path, beginning: &Beginning) -> io::Result<Journal> {
         let mut text = format!("{FIRST_LINE}\n");
         text.push_str(&record("seed", &beginning.seed.to_string()));
@@ -156,14 +157,14 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Goes on with an earlier journal.
+    /// Continues an earlier journal.
     pub(crate) fn go_on(path: &Path) -> io::Result<Journal> {
         let text = fs::read_to_string(path)?;
         let mut journal = Journal {
             file: fs::OpenOptions::new().append(true).open(path)?,
         };
         if !text.ends_with('\n') {
-            // The record that was cut off was never evaluated.
+            // An incomplete record was never evaluated.
             let end = text.rfind('\n').map_or(0, |at| at + 1);
             journal.file.set_len(end as u64)?;
         }
@@ -171,13 +172,13 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Notes an input; it is on disk when this returns.
+    /// Records an input; it is on disk when this returns.
     pub(crate) fn input(&mut self, text: &str, stops: bool) -> io::Result<()> {
         let word = if stops { "input" } else { "pasted" };
         self.write(&record(word, text))
     }
 
-    /// Notes where the last input was interrupted.
+    /// Records where the last input was interrupted.
     pub(crate) fn interrupted(&mut self, at: u64) -> io::Result<()> {
         self.write(&record("interrupted", &at.to_string()))
     }
@@ -217,7 +218,7 @@ fn directory() -> Option<PathBuf> {
     Some(state_directory()?.join("journals"))
 }
 
-/// The journals that there are, oldest first.
+/// The journals in a directory, oldest first.
 fn journals(directory: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(directory).into_iter().flatten().flatten();
     let mut found: Vec<(SystemTime, PathBuf)> = entries
@@ -236,7 +237,7 @@ fn forget_old(directory: &Path) {
     let known = journals(directory);
     let too_many = (known.len() + 1).saturating_sub(MOST_JOURNALS);
     for path in known.iter().take(too_many) {
-        // One that stays does no harm.
+        // A journal that cannot be removed does no harm.
         let _ = fs::remove_file(path);
     }
 }

@@ -1,4 +1,4 @@
-//! What keys do beside what the line editor does by itself.
+//! Key bindings that the line editor does not have itself.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -9,7 +9,7 @@ use rustyline::{Cmd, ConditionalEventHandler, Event, EventContext, RepeatCount};
 use super::indent::indentation;
 use super::pasted::Inputs;
 
-/// A line break with the indentation of what follows.
+/// A line break with the indentation of the next line.
 fn line_break(context: &EventContext<'_>, prompt_width: &AtomicUsize) -> Option<Cmd> {
     let before = context.line().get(..context.pos())?;
     let width = prompt_width.load(Ordering::Relaxed);
@@ -17,9 +17,9 @@ fn line_break(context: &EventContext<'_>, prompt_width: &AtomicUsize) -> Option<
     Some(Cmd::Insert(1, format!("\n{indent}")))
 }
 
-/// What Enter does: indents the next line of an input that is not whole.
+/// Enter: evaluates a complete input, breaks the line of any other.
 pub(crate) struct Enter {
-    /// Columns that the prompt takes.
+    /// Width of the prompt in columns.
     pub(crate) prompt_width: Arc<AtomicUsize>,
 }
 
@@ -38,18 +38,18 @@ impl ConditionalEventHandler for Enter {
     }
 }
 
-/// What Ctrl-J does: begins a new line, even where the input is whole.
+/// Ctrl-J: breaks the line even if the input is complete.
 ///
-/// While something is evaluated, the terminal turns Enter into the same character: what
-/// comes as soon as the prompt is there was typed ahead, and means Enter.
+/// While a form is evaluated, the terminal turns Enter into the same character: if it arrives
+/// right after the prompt, it was typed ahead and means Enter.
 pub(crate) struct NewLine {
-    /// Columns that the prompt takes.
+    /// Width of the prompt in columns.
     pub(crate) prompt_width: Arc<AtomicUsize>,
     /// When the prompt was shown.
     pub(crate) shown: Arc<Mutex<Instant>>,
 }
 
-/// Nobody types this soon after the prompt has come.
+/// A key that arrives sooner after the prompt was typed ahead.
 const TYPED_AHEAD: Duration = Duration::from_millis(120);
 
 impl ConditionalEventHandler for NewLine {
@@ -68,14 +68,14 @@ impl ConditionalEventHandler for NewLine {
     }
 }
 
-/// The inputs of this and earlier sessions, as the handlers see them.
+/// The inputs of this and earlier sessions, shared with the key handlers.
 pub(crate) type SharedHistory = Arc<Mutex<Vec<String>>>;
 
-/// What Up and Down do: within an input of several lines they go from line to line; else
-/// they go through the inputs of before: those that begin with the text before the cursor,
-/// or all of them.
+/// Up and Down: within an input of several lines they move between its lines; otherwise they go
+/// through earlier inputs, either those that begin with the text before the cursor or all of
+/// them.
 pub(crate) struct UpOrDown {
-    /// Up, or down.
+    /// Whether this is Up rather than Down.
     pub(crate) is_up: bool,
     /// All inputs.
     pub(crate) history: SharedHistory,
@@ -103,7 +103,7 @@ impl ConditionalEventHandler for UpOrDown {
         } else {
             !after.contains('\n')
         };
-        // An old input that was fetched as a whole is no prefix to look for.
+        // An earlier input that was fetched whole is not a prefix to search for.
         let is_whole_entry = after.is_empty() && self.is_old_input(line);
         Some(
             match (on_edge && !before.is_empty() && !is_whole_entry, self.is_up) {

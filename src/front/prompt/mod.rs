@@ -1,8 +1,8 @@
-//! The prompt: reads inputs with a line editor, evaluates them, shows what happens.
+//! The prompt: reads inputs with a line editor, evaluates them and shows the results.
 //!
-//! An input may span lines: Enter evaluates it when it is whole and begins a further line
-//! when it is not. Ctrl-C clears the input, or interrupts an evaluation, and never ends
-//! the session; Ctrl-D ends it.
+//! An input may span lines: Enter evaluates a complete input and continues any other on a new
+//! line. Ctrl-C clears the input or interrupts an evaluation and never ends the session; Ctrl-D
+//! ends it.
 
 mod assist;
 mod editor;
@@ -36,14 +36,14 @@ pub(crate) use journal::{Beginning, Earlier, Journal, JournalError, Recorded};
 /// Why the prompt cannot be used.
 #[derive(Debug, Error)]
 pub(crate) enum ReplError {
-    /// Standard output takes no more.
+    /// Standard output cannot be written to.
     #[error("cannot write: {0}")]
     Write(#[from] io::Error),
-    /// The terminal does not do as the line editor needs.
+    /// The terminal lacks something that the line editor needs.
     #[error("the terminal cannot be used: {0}")]
     Terminal(#[from] ReadlineError),
     /// Ctrl-C cannot be caught.
-    #[error("cannot listen to Ctrl-C: {0}")]
+    #[error("cannot listen for Ctrl-C: {0}")]
     Interrupt(#[from] ctrlc::Error),
 }
 
@@ -51,30 +51,29 @@ const BANNER: &str = concat!(
     "planwright ",
     env!("CARGO_PKG_VERSION"),
     ": a simulated PR2 in its kitchen, programmed in plans.\n",
-    "Enter evaluates a whole form; Tab completes; Ctrl-C interrupts, Ctrl-D leaves.\n",
-    "(help) tells what there is, (tour) is a first session.\n",
+    "Enter evaluates a whole form; Tab completes; Ctrl-C interrupts; Ctrl-D leaves.\n",
+    "(help) lists what you can do; (tour) guides you through a first session.\n",
 );
 
-/// When an interrupt takes longer than this to be heard, the person is told why.
+/// If an interrupt takes longer than this, the user is told why.
 const SOON: Duration = Duration::from_millis(90);
 
-/// How the prompt begins.
+/// How the prompt starts.
 #[derive(Debug, Default)]
 pub(crate) struct ReplOptions {
-    /// Are there colours?
+    /// Whether to use colours.
     pub(crate) is_colored: bool,
-    /// Where inputs are noted before they are evaluated.
+    /// Where inputs are saved before they are evaluated.
     pub(crate) journal: Option<Journal>,
-    /// Inputs of an earlier session that are evaluated again first.
+    /// Inputs of an earlier session to evaluate first.
     pub(crate) resume: Vec<Recorded>,
-    /// What is told before the first prompt.
+    /// A remark to print before the first prompt.
     pub(crate) remark: Option<String>,
-    /// Inputs that were evaluated before the prompt.
+    /// Number of inputs evaluated before the prompt.
     pub(crate) inputs_before: usize,
 }
 
-/// Reads and evaluates inputs until the user or the program leaves; returns the exit
-/// status.
+/// Reads and evaluates inputs until the user or the program exits; returns the exit status.
 pub(crate) fn run(
     evaluator: impl Converse + 'static,
     options: ReplOptions,
@@ -87,7 +86,7 @@ pub(crate) fn run(
         handle.store(true, Ordering::Relaxed);
         thread::sleep(SOON);
         if handle.load(Ordering::Relaxed) && evaluating.load(Ordering::Relaxed) {
-            // Without standard error there is nobody to tell.
+            // If standard error is closed, the message is lost.
             let _ = write!(io::stderr(), "\r\n; Stopping …");
         }
     })?;
@@ -125,7 +124,7 @@ pub(crate) fn run(
             let answer = evaluator.answer_to_interrupt();
             (evaluator.prompt(), draft, evaluator.level(), answer)
         };
-        // A second Ctrl-C may come before the line editor listens.
+        // A second Ctrl-C may come before the line editor is ready for it.
         let is_hurried = repl.interrupt.swap(false, Ordering::Relaxed);
         let read = match answer {
             Some(_) if is_hurried => Err(ReadlineError::Interrupted),
@@ -139,7 +138,7 @@ pub(crate) fn run(
             },
             Err(ReadlineError::Eof) if level == 0 => return Ok(0),
             Err(ReadlineError::Eof) => {
-                if editor.confirm("An evaluation stands still. Leave all the same?") {
+                if editor.confirm("An evaluation is suspended. Leave anyway?") {
                     return Ok(0);
                 }
                 continue;
@@ -152,19 +151,19 @@ pub(crate) fn run(
     }
 }
 
-/// What the prompt works with beside the line editor.
+/// What the prompt works with besides the line editor.
 struct Repl {
     evaluator: Shared,
     interrupt: Arc<AtomicBool>,
     is_evaluating: Arc<AtomicBool>,
     screen: Screen<io::Stdout>,
     journal: Option<Journal>,
-    /// Number of the last input.
+    /// Number of the latest input.
     number: usize,
 }
 
 impl Repl {
-    /// Evaluates what was typed or pasted; the exit status if that leaves.
+    /// Evaluates typed or pasted text; returns the exit status if that ends the session.
     fn take(&mut self, text: &str) -> Result<Option<u8>, ReplError> {
         let inputs = Inputs::of(text);
         match inputs.output_lines {
@@ -172,17 +171,17 @@ impl Repl {
             1 => writeln!(io::stdout(), "; 1 line of pasted output is left out")?,
             n => writeln!(io::stdout(), "; {n} lines of pasted output are left out")?,
         }
-        // An interrupt ends the rest of what was pasted, too.
+        // An interrupt also discards the rest of the pasted inputs.
         self.interrupt.store(false, Ordering::Relaxed);
         let count = inputs.inputs.len();
         for (at, input) in inputs.inputs.iter().enumerate() {
             let input = input.trim_end();
             if count > 1 {
-                // What is typed stands behind a prompt already; the others get theirs.
+                // Typed text already follows a prompt; pasted inputs get one each.
                 let prompt = self.evaluator.borrow().prompt();
                 writeln!(io::stdout(), "{prompt}> {input}")?;
             }
-            // A pasted session goes on after a condition, as it did when it was recorded.
+            // A pasted session continues after a condition, as it did when it was recorded.
             let stops = at + 1 == count;
             match self.evaluate(input, stops)? {
                 Outcome::Quit(code) => return Ok(Some(code)),
@@ -219,19 +218,19 @@ impl Repl {
         Ok(outcome)
     }
 
-    /// Writes to the journal; when that cannot be done any more, says so once.
+    /// Writes to the journal; if that fails, says so once and stops writing.
     fn note(&mut self, write: impl FnOnce(&mut Journal) -> io::Result<()>) {
         let Some(journal) = &mut self.journal else {
             return;
         };
         if let Err(error) = write(journal) {
             self.journal = None;
-            // Without standard error there is nobody to tell.
-            let _ = writeln!(io::stderr(), "; The journal cannot be written: {error}");
+            // If standard error is closed, the message is lost.
+            let _ = writeln!(io::stderr(), "; Cannot write the journal any more: {error}");
         }
     }
 
-    /// Evaluates the inputs of an earlier session again, without showing what they show.
+    /// Evaluates the inputs of an earlier session again without showing their output.
     fn resume(&mut self, inputs: &[Recorded]) -> Result<Option<u8>, ReplError> {
         let mut out = io::stdout();
         for (at, input) in inputs.iter().enumerate() {
@@ -264,7 +263,7 @@ impl Repl {
         }
         let mut evaluator = self.evaluator.borrow_mut();
         if evaluator.level() > 0 {
-            // An empty input tells again where the evaluation stands.
+            // An empty input shows again where the evaluation is suspended.
             evaluate_on(
                 &mut self.screen,
                 &mut *evaluator,

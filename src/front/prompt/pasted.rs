@@ -1,4 +1,4 @@
-//! Takes the prompts off text that was copied from a session.
+//! Strips the prompts from text copied from a session.
 
 use std::borrow::Cow;
 
@@ -6,12 +6,12 @@ use crate::front::transcript::Transcript;
 use crate::session::dialogue::is_whole;
 use crate::session::dialogue::prompt_line::prompt_line;
 
-/// The inputs in a text at the prompt.
+/// The inputs found in text typed or pasted at the prompt.
 #[derive(PartialEq, Eq, Debug)]
 pub(crate) struct Inputs<'a> {
-    /// To evaluate one after the other.
+    /// To be evaluated one after the other.
     pub(crate) inputs: Vec<Cow<'a, str>>,
-    /// How many lines were copied along with the inputs, being their output.
+    /// Number of lines of output that were copied along with the inputs.
     pub(crate) output_lines: usize,
 }
 
@@ -40,13 +40,13 @@ impl<'a> Inputs<'a> {
         inputs
     }
 
-    /// Nothing more has to be typed.
+    /// Whether the inputs are complete.
     pub(crate) fn are_whole(&self) -> bool {
         self.inputs.last().is_none_or(|input| is_whole(input))
     }
 }
 
-/// Byte of the first line with a prompt that does not stand within a form.
+/// Offset of the first line with a prompt outside a form.
 fn first_prompt(text: &str) -> Option<usize> {
     let mut start = 0;
     for line in text.split_inclusive('\n') {

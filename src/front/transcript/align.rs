@@ -1,4 +1,4 @@
-//! Lays expected lines with wildcards beside actual lines.
+//! Aligns expected lines, which may be wildcards, with actual lines.
 
 use std::ops::Range;
 
@@ -6,24 +6,24 @@ use similar::{Algorithm, DiffOp, capture_diff_slices};
 
 use super::pattern::{is_any_lines, line_matches};
 
-/// A step along both columns; the numbers count lines from zero.
+/// A step along both columns; line numbers count from zero.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Row {
-    /// The expected line stands for the actual one.
+    /// The expected line matches the actual one.
     Same { expected: usize, actual: usize },
-    /// A wildcard stands for these actual lines.
+    /// A wildcard matches these actual lines.
     Any {
         expected: usize,
         actual: Range<usize>,
     },
-    /// The expected line is not there.
+    /// The expected line is missing.
     Missing { expected: usize },
     /// The actual line is not expected.
     Extra { actual: usize },
 }
 
 impl Row {
-    /// Expected and actual lines agree here.
+    /// Whether expected and actual lines agree here.
     pub(crate) fn agrees(&self) -> bool {
         matches!(self, Row::Same { .. } | Row::Any { .. })
     }
@@ -33,7 +33,7 @@ impl Row {
 /// much that the best alignment does not matter.
 const MOST_PAIRS: usize = 4_000_000;
 
-/// Lays the columns side by side with the fewest differences.
+/// Aligns the columns with the fewest differences.
 pub(crate) fn align(expected: &[String], actual: &[String]) -> Vec<Row> {
     let same = |(e, a): &(&String, &String)| !is_any_lines(e) && line_matches(e, a);
     let head = expected.iter().zip(actual).take_while(same).count();
@@ -78,7 +78,7 @@ fn before_last<T>(lines: &[T], count: usize) -> &[T] {
         .unwrap_or_default()
 }
 
-/// Rows in the making, with the next line of either column.
+/// Rows under construction, with the next line of either column.
 #[derive(Default)]
 struct Rows {
     rows: Vec<Row>,
@@ -126,7 +126,7 @@ impl Rows {
     }
 }
 
-/// How to go on from a pair of lines.
+/// How to continue from a pair of lines.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Move {
     Same,
@@ -139,10 +139,10 @@ enum Move {
     Pass,
 }
 
-/// Differences from each pair of lines on, and the best move there.
+/// The number of differences from each pair of lines on, and the best move there.
 ///
-/// Replacing a line costs as much as leaving one out, so that a wildcard before a line
-/// that has changed does not swallow its successor.
+/// Replacing a line costs as much as omitting one, so that a wildcard before a changed line
+/// does not swallow the line after it.
 struct Costs {
     width: usize,
     moves: Vec<Move>,
@@ -154,7 +154,7 @@ impl Costs {
     fn of(expected: &[String], actual: &[String]) -> Self {
         let width = actual.len() + 1;
         let mut moves = vec![Move::Extra; (expected.len() + 1) * width];
-        // The differences of the row below and of the one being filled, from the right.
+        // The costs of the row below and of the row being filled, from the right.
         let mut below: Vec<u32> = (0..).take(width).collect();
         below.reverse();
         for (row, e) in expected.iter().enumerate().rev() {

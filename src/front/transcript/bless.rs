@@ -4,10 +4,10 @@ use super::align::Row;
 use super::parse::Transcript;
 use super::verdict::{Difference, Verdict};
 
-/// The text of the transcript with the outputs that failed put in place of the expected
-/// ones. Wildcards that still stand for what they are beside are kept.
+/// The text of the transcript, with the actual output of failed entries in place of the
+/// expected output. Wildcards that still match are kept.
 ///
-/// `verdicts` are those of the entries, in order.
+/// `verdicts` are those of all entries, in order.
 pub(crate) fn blessed(transcript: &Transcript, verdicts: &[Verdict]) -> String {
     let mut lines: Vec<&str> = Vec::new();
     let mut next = 0;
@@ -34,7 +34,7 @@ fn new_lines(difference: &Difference) -> Vec<&str> {
     let mut before_agrees = true;
     while let Some(row) = rows.next() {
         let line = match row {
-            // Taking nothing beside a difference, it says nothing any more.
+            // Beside a difference, a wildcard that matches no line says nothing any more.
             Row::Any { actual, .. }
                 if actual.is_empty()
                     && !(before_agrees && rows.peek().is_none_or(|r| r.agrees())) =>

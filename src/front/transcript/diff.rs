@@ -3,7 +3,7 @@
 use super::align::Row;
 use super::verdict::Difference;
 
-/// Lines that agree, shown around those that do not.
+/// Number of agreeing lines shown around those that differ.
 const CONTEXT: usize = 3;
 
 /// The lines of the diff, each with its mark ` `, `-` or `+`, and `@@` before each hunk.
@@ -33,13 +33,13 @@ pub(crate) fn unified(difference: &Difference) -> Vec<String> {
     text
 }
 
-/// A hunk in the making. A line `...` counts as one line on either side.
+/// A hunk under construction. A line `...` counts as one line on either side.
 struct Hunk {
     old_start: usize,
     new_start: usize,
     old: usize,
     new: usize,
-    /// Put behind the removed lines before it.
+    /// Added lines, which follow the removed lines before them.
     added: Vec<String>,
     lines: Vec<String>,
 }
@@ -77,7 +77,7 @@ impl Hunk {
         }
     }
 
-    /// Passes over a row that agrees and is not shown.
+    /// Skips a row that agrees and is not shown.
     fn skip(&mut self) {
         self.old_start += 1;
         self.new_start += 1;

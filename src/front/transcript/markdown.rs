@@ -4,7 +4,7 @@ use std::ops::Range;
 
 /// The lines (from zero) inside each fenced block whose first word is `session`.
 ///
-/// A block that is not closed goes up to the end, as CommonMark says.
+/// An unclosed block extends to the end, as in CommonMark.
 pub(crate) fn session_blocks(lines: &[String]) -> Vec<Range<usize>> {
     let mut blocks = Vec::new();
     let mut open: Option<(Fence<'_>, usize)> = None;
@@ -29,7 +29,7 @@ pub(crate) fn session_blocks(lines: &[String]) -> Vec<Range<usize>> {
     blocks
 }
 
-/// A line of at least three backticks or tildes, and what stands behind them.
+/// A line of at least three backticks or tildes, and the text after them.
 struct Fence<'a> {
     mark: char,
     length: usize,

@@ -1,13 +1,13 @@
-//! Transcripts: what a person sees at the prompt, kept in files and run as tests.
+//! Transcripts: what a user sees at the prompt, kept in files and run as tests.
 //!
-//! A line that begins with a prompt `NAME> ` starts an input, which goes on over further
-//! lines until its parentheses balance; what follows up to the next prompt is the
-//! expected output. Text before the first prompt is a comment. In Markdown, fenced
-//! blocks marked `session` hold transcripts. Blanks at the end of a line and blank lines
-//! before the next prompt are not compared, nor is the prompt's name. A line `...`
-//! stands for any number of lines, `[..]` for any text within a line.
+//! A line that begins with a prompt `NAME> ` starts an input, which continues over further
+//! lines until its parentheses balance; everything up to the next prompt is the expected
+//! output. Text before the first prompt is a comment. In Markdown, fenced blocks marked
+//! `session` hold transcripts. Trailing blanks, blank lines before the next prompt and the name
+//! of the prompt are not compared. A line `...` stands for any number of lines, `[..]` for any
+//! text within a line.
 //!
-//! Nothing in here knows what evaluates the inputs.
+//! This module does not know what evaluates the inputs.
 
 mod align;
 mod bless;

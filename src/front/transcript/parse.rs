@@ -6,10 +6,10 @@ use super::markdown::session_blocks;
 use crate::session::dialogue::is_whole;
 use crate::session::dialogue::prompt_line::{PromptLine, prompt_line};
 
-/// A file of inputs with the output that is expected for each.
+/// A file of inputs, each with its expected output.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Transcript {
-    /// The name of the file, as it was given.
+    /// The name of the file as given.
     pub(crate) name: String,
     /// All lines of the file.
     pub(crate) lines: Vec<String>,
@@ -17,21 +17,21 @@ pub(crate) struct Transcript {
     pub(crate) entries: Vec<Entry>,
 }
 
-/// An input and the output that is expected for it.
+/// An input with its expected output.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Entry {
     /// Line of the prompt, from one.
     pub(crate) line: usize,
-    /// The text after the prompt, up to and with the line on which it is whole.
+    /// The text after the prompt, up to and including the line that completes it.
     pub(crate) input: String,
-    /// The expected lines, without blanks at their ends and without blank last lines.
+    /// The expected lines, without trailing blanks and trailing blank lines.
     pub(crate) expected: Vec<String>,
-    /// Where in the file's lines (from zero) the expected ones are.
+    /// Range of the expected lines among the file's lines, from zero.
     pub(crate) expected_at: Range<usize>,
 }
 
 impl Transcript {
-    /// Reads a transcript; where `name` ends in `.md`, one that is held by Markdown.
+    /// Reads a transcript, from Markdown if `name` ends in `.md`.
     pub(crate) fn parse(name: &str, text: &str) -> Self {
         let lines: Vec<String> = text.lines().map(str::to_owned).collect();
         let is_markdown = name.to_ascii_lowercase().ends_with(".md");
@@ -52,7 +52,7 @@ impl Transcript {
     }
 }
 
-/// The entries in a stretch of lines.
+/// The entries in a range of lines.
 fn entries(lines: &[String], block: Range<usize>) -> Vec<Entry> {
     let prompts: Vec<(usize, PromptLine<'_>)> = lines
         .iter()
@@ -71,7 +71,7 @@ fn entries(lines: &[String], block: Range<usize>) -> Vec<Entry> {
 
 /// The entry whose prompt is on line `number`; the next prompt is on line `end`.
 ///
-/// An input that is not whole at the next prompt ends there: reading it then fails.
+/// An input that is incomplete at the next prompt ends there; reading it then fails.
 fn entry(lines: &[String], number: usize, first: &str, end: usize) -> Entry {
     let mut input = first.to_owned();
     let mut next = number + 1;
@@ -94,7 +94,7 @@ fn entry(lines: &[String], number: usize, first: &str, end: usize) -> Entry {
     }
 }
 
-/// The lines without blanks at their ends and without blank last lines.
+/// The lines without trailing blanks and trailing blank lines.
 pub(crate) fn without_blank_end<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut lines: Vec<String> = lines.map(|line| line.trim_end().to_owned()).collect();
     while lines.last().is_some_and(String::is_empty) {

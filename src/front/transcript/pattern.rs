@@ -5,12 +5,12 @@ const ANY_LINES: &str = "...";
 /// Stands for any text within a line.
 const ANY_TEXT: &str = "[..]";
 
-/// Does this expected line stand for any number of lines?
+/// Whether this expected line stands for any number of lines.
 pub(crate) fn is_any_lines(expected: &str) -> bool {
     expected.trim() == ANY_LINES
 }
 
-/// Does the expected line stand for the actual one?
+/// Whether the expected line matches the actual one.
 pub(crate) fn line_matches(expected: &str, actual: &str) -> bool {
     let expected = expected.trim_end();
     let actual = actual.trim_end();
@@ -20,7 +20,7 @@ pub(crate) fn line_matches(expected: &str, actual: &str) -> bool {
     let Some(mut open) = actual.strip_prefix(head) else {
         return false;
     };
-    // What stands between two wildcards may as well be where it is first found.
+    // Text between two wildcards can be matched where it is first found.
     let mut parts = rest.split(ANY_TEXT).peekable();
     while let Some(part) = parts.next() {
         if parts.peek().is_none() {

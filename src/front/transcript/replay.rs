@@ -13,12 +13,12 @@ use crate::session::dialogue::{Evaluate, Outcome, Screen};
 
 /// Runs the inputs of a transcript one after the other.
 ///
-/// When an input leaves the evaluator, the ones after it put out nothing.
+/// After an input that ends the session, the remaining ones have no output.
 pub(crate) fn replay(transcript: &Transcript, evaluator: &mut impl Evaluate) -> Vec<Verdict> {
     replay_first(transcript, transcript.entries.len(), evaluator)
 }
 
-/// As [`replay`], but only the first `count` inputs.
+/// Like [`replay`], for the first `count` inputs only.
 pub(crate) fn replay_first(
     transcript: &Transcript,
     count: usize,
@@ -48,21 +48,21 @@ fn evaluate(evaluator: &mut impl Evaluate, name: &str, input: &str) -> (String, 
     let mut screen = Screen::new(Vec::new());
     screen.begin_input(name, input);
     let outcome = evaluator.evaluate(name, input, &mut |event| {
-        // Writing into memory does not fail.
+        // Writing to memory does not fail.
         let _ = screen.show(&event);
     });
     let output = String::from_utf8_lossy(&screen.into_inner()).into_owned();
     (output, outcome)
 }
 
-/// Bytes of stack of a thread that runs transcripts.
+/// Bytes of stack for a thread that runs transcripts.
 const STACK_BYTES: usize = 64 << 20;
 
-/// Runs transcripts on up to `jobs` threads, each in an evaluator of its own, and tells
-/// their verdicts in the order of the transcripts, each as soon as it can be told.
+/// Runs transcripts on up to `jobs` threads, each in an evaluator of its own, and reports their
+/// verdicts in the order of the transcripts, each as soon as possible.
 ///
-/// `tell` gets the transcript and the verdicts of its entries in order, or why there is no
-/// evaluator; no further transcript is begun once it returns false.
+/// `tell` gets the transcript and the verdicts of its entries in order, or the reason why there
+/// is no evaluator; once it returns false, no further transcript is started.
 pub(crate) fn replay_all<V, E>(
     transcripts: &[Transcript],
     jobs: NonZeroUsize,
@@ -89,7 +89,7 @@ pub(crate) fn replay_all<V, E>(
                     }
                 }
             };
-            // Forms may be nested deeply. Where no thread can be had, others do the work.
+            // Forms may be nested deeply. If no thread can be created, the others do the work.
             let _ = thread::Builder::new()
                 .stack_size(STACK_BYTES)
                 .spawn_scoped(scope, run);

@@ -1,4 +1,4 @@
-//! What the comparison of an entry came to.
+//! The result of comparing an entry with its output.
 
 use super::align::{Row, align};
 use super::diff::unified;
@@ -7,9 +7,9 @@ use super::parse::{Entry, without_blank_end};
 /// Whether an entry's output is as expected.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Verdict {
-    /// As expected.
+    /// The output is as expected.
     Passed,
-    /// Not as expected.
+    /// The output differs.
     Failed(Difference),
 }
 
@@ -22,22 +22,22 @@ pub(crate) struct Difference {
     pub(crate) line: usize,
     /// The first line of the input.
     pub(crate) input: String,
-    /// What was put out, without blanks at the ends of lines and blank last lines.
+    /// The output, without trailing blanks and trailing blank lines.
     pub(crate) actual: Vec<String>,
     pub(crate) expected: Vec<String>,
     pub(crate) rows: Vec<Row>,
-    /// The line of the first expected line, from one.
+    /// Line of the first expected line in the file, from one.
     pub(crate) first_line: usize,
 }
 
-/// What the prompt prints for a form without a value.
+/// What the prompt prints for a form that returns no value.
 const NO_VALUE: &str = "; No value";
 
 impl Verdict {
-    /// Compares the output of an entry with what it expects.
+    /// Compares an entry's expected output with the actual one.
     pub(crate) fn of(entry: &Entry, output: &str) -> Self {
         let mut actual = without_blank_end(output.lines());
-        // That a form has no value may be said or left out.
+        // The remark that a form has no value is optional.
         if entry.expected.last().map(String::as_str) != Some(NO_VALUE) {
             actual.retain(|line| line != NO_VALUE);
         }
@@ -62,14 +62,14 @@ impl Verdict {
         })
     }
 
-    /// The output is as expected.
+    /// Whether the output is as expected.
     pub(crate) fn passed(&self) -> bool {
         *self == Verdict::Passed
     }
 }
 
 impl Difference {
-    /// The difference as a unified diff, whose line numbers are those of the file.
+    /// The difference as a unified diff, with line numbers of the file.
     pub(crate) fn unified(&self) -> Vec<String> {
         unified(self)
     }

@@ -8,7 +8,8 @@ use crate::session::dialogue::{Event, Outcome};
 use crate::session::simulation::parts::View;
 
 /// What can be typed, for people.
-const REMARK: &str = "; A number goes into a part, b back, q leaves; * is what is looked at.";
+const REMARK: &str =
+    "; A number inspects a part, b goes back, q leaves; * is the value being inspected.";
 
 impl Session {
     /// Takes an input that is for the inspector; none if it is not, or if nothing is being
