@@ -65,8 +65,6 @@ pub(crate) struct Image {
     pub(crate) new_symbols: Option<PackageId>,
     /// Made-up addresses of objects that were printed.
     pub(crate) printed: RefCell<super::print::identity::Identities>,
-    /// How many motions of the robot have been begun.
-    pub(crate) motions: u64,
     /// What layers above the language keep in the image: one value per type.
     extensions: Vec<Rc<dyn Any>>,
 }
@@ -153,7 +151,6 @@ impl Image {
             entries: IndexMap::new(),
             library: Installed::default(),
             new_symbols: None,
-            motions: 0,
             extensions: Vec::new(),
         }
     }

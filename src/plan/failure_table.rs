@@ -11,8 +11,8 @@ use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
+use super::Result;
 use super::names::Packages;
-use super::step::Result;
 
 /// A class of failures.
 struct Failure {

@@ -23,7 +23,6 @@ pub(crate) mod prolog;
 mod request;
 mod scheduler;
 mod state;
-mod step;
 mod task;
 mod tree;
 
@@ -31,8 +30,10 @@ pub(crate) use fluent::{Fluent, FluentRef};
 pub(crate) use host::{Advance, Host, NullHost, Outcome, Reply, Ticket};
 pub(crate) use install::install;
 pub(crate) use journal::TaskChange;
-pub(crate) use overview::overview_step;
+pub(crate) use overview::tell_overview;
 pub(crate) use scheduler::{Evaluation, Scheduler, TaskInfo};
 pub(crate) use state::Plan;
 pub(crate) use task::{Status, Task, TaskId, TaskName, TaskRef};
 pub(crate) use tree::{NodeObject, TreeNode};
+
+type Result<T> = std::result::Result<T, Box<crate::lisp::value::raise::Raise>>;

@@ -1,16 +1,24 @@
 //! `tasks`: tells what runs.
 
 use super::request::Request;
-use super::step::request_then;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::run;
+use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
 /// Asks the scheduler for the tree of tasks and writes it.
-pub(crate) fn overview_step() -> Step {
-    request_then("TASKS", Request::Overview, |machine, text| {
-        let output = &mut machine.image.output;
-        output.fresh_line();
-        output.write(&text.as_text().unwrap_or_default());
-        Ok(Step::Return(Value::values(Vec::new())))
+pub(crate) fn tell_overview(machine: &mut Machine<'_>) -> Result<Step, Box<Raise>> {
+    run(machine, "TASKS", |calls| async move {
+        let text = calls.request(Request::Overview).await;
+        let text = text.as_text().unwrap_or_default();
+        calls
+            .with(move |machine| {
+                let output = &mut machine.image.output;
+                output.fresh_line();
+                output.write(&text);
+            })
+            .await;
+        Ok(Value::values(Vec::new()))
     })
 }

@@ -1,6 +1,5 @@
 //! The package `ALEXANDRIA`: the parts of that library that plans use. Functions.
 
-use super::calls::{Args, Calls, callable, run};
 use super::criterion::{Key, Test};
 use super::hash_tables::table;
 use super::keywords;
@@ -16,6 +15,8 @@ use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::callable::callable;
+use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -1,12 +1,13 @@
 //! What an element must satisfy to be found, counted, removed or replaced: `:test`,
 //! `:test-not`, `:key`, or a predicate.
 
-use super::calls::{Calls, builtin_name, callable};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::equality;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::callable::{builtin_name, callable};
+use crate::lisp::vm::calls::Calls;
 
 /// A function that is applied to elements before they are looked at; none is the identity.
 #[derive(Clone)]

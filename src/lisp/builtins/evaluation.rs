@@ -10,8 +10,9 @@ use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::FunctionCell;
+use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -160,33 +161,19 @@ pub(crate) static TABLE: &[Builtin] = &[
 ];
 
 /// Evaluates forms one after the other, so that each sees what the ones before defined.
-struct Sequence {
-    rest: Value,
-}
-
-impl Resume for Sequence {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step> {
-        evaluate_sequence(machine, self.rest)
-    }
-
-    fn name(&self) -> &'static str {
-        "EVAL"
-    }
-}
-
 fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
-    let Value::Cons(cons) = &forms else {
+    let mut forms: Vec<Value> = forms.iter_list().collect();
+    let Some(last) = forms.pop() else {
         return Ok(Step::Return(Value::NIL));
     };
-    let rest = cons.cdr();
-    if rest.is_nil() {
-        return evaluate(machine, &cons.car());
+    if forms.is_empty() {
+        return evaluate(machine, &last);
     }
-    let function = Value::Symbol(known::EVAL);
-    Ok(Step::Call {
-        function,
-        args: vec![cons.car()],
-        then: Box::new(Sequence { rest }),
+    run(machine, "EVAL", |calls| async move {
+        for form in forms {
+            calls.call1(&known::EVAL.into(), form).await;
+        }
+        calls.with(move |machine| evaluate(machine, &last)).await
     })
 }
 
@@ -265,29 +252,17 @@ fn constantly(_: &mut Image, args: &[Value]) -> Result<Value> {
     )))
 }
 
-struct Negate;
-
-impl Resume for Negate {
-    fn resume(self: Box<Self>, _: &mut Machine<'_>, value: Value) -> Result<Step> {
-        Ok(Step::Return(value.is_nil().into()))
-    }
-
-    fn name(&self) -> &'static str {
-        "COMPLEMENT"
-    }
-}
-
 fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
     let function = args[0].clone();
     let name = known::COMPLEMENT;
     Ok(Value::Function(Function::made_control(
         name,
         (0, None),
-        move |_, args| {
-            Ok(Step::Call {
-                function: function.clone(),
-                args,
-                then: Box::new(Negate),
+        move |machine, args| {
+            let function = function.clone();
+            run(machine, "COMPLEMENT", |calls| async move {
+                let value = calls.call(&function, Args::Many(args)).await;
+                Ok(Value::bool(value.is_nil()))
             })
         },
     )))

@@ -8,8 +8,9 @@ use crate::lisp::stream;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 /// Builtins of package `COMMON-LISP`.
 pub(crate) static TABLE: &[Builtin] = &[control(
@@ -103,13 +104,13 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
             let target = std::rc::Rc::new(stream::Stream::to_text());
             let mut call = vec![Value::Stream(target.clone())];
             call.extend(args.iter().skip(2).cloned());
-            Ok(Step::Call {
-                function: function.clone(),
-                args: call,
-                then: Box::new(ByFunction {
-                    target,
-                    destination,
-                }),
+            let function = function.clone();
+            run(machine, "FORMAT", |calls| async move {
+                calls.call(&function, Args::Many(call)).await;
+                let text = target.take_text().unwrap_or_default();
+                calls
+                    .with(|machine| destination.take(machine.image, text))
+                    .await
             })
         }
         other => Err(Raise::type_error(
@@ -120,23 +121,6 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
                 known::FUNCTION.into(),
             ]),
         )),
-    }
-}
-
-/// After the call of a function in place of a control string.
-struct ByFunction {
-    target: std::rc::Rc<stream::Stream>,
-    destination: Destination,
-}
-
-impl Resume for ByFunction {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
-        let text = self.target.take_text().unwrap_or_default();
-        self.destination.take(machine.image, text).map(Step::Return)
-    }
-
-    fn name(&self) -> &'static str {
-        "FORMAT"
     }
 }
 

@@ -2,7 +2,6 @@
 
 use std::rc::Rc;
 
-use super::calls::{builtin_name, callable, run};
 use super::keywords;
 use super::lists::size;
 use super::shown::shown;
@@ -13,6 +12,8 @@ use crate::lisp::value::hash_table::{HashTable, HashTest};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::callable::{builtin_name, callable};
+use crate::lisp::vm::calls::run;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

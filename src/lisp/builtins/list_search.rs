@@ -1,6 +1,5 @@
 //! Searching in lists and association lists: `member`, `assoc`, `rassoc`, `pairlis`.
 
-use super::calls::{Calls, run};
 use super::criterion::{Criterion, Key, Test};
 use super::keywords;
 use super::sequence::ListWalk;
@@ -9,6 +8,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -2,7 +2,6 @@
 
 use std::rc::Rc;
 
-use super::calls::{Calls, run};
 use super::criterion::{Criterion, Key, Test};
 use super::keywords;
 use super::sequence::ListWalk;
@@ -11,6 +10,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::cons::Cons;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

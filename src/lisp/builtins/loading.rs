@@ -3,13 +3,14 @@
 use std::path::{Component, Path, PathBuf};
 
 use crate::lisp::builtin::{Builtin, control};
-use crate::lisp::reader::{Outcome, ReadError, Reader};
+use crate::lisp::reader::{Outcome, Reader};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::run;
 use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -22,52 +23,43 @@ pub(crate) static TABLE: &[Builtin] = &[control(
     load,
 )];
 
-/// A file of which some forms have been evaluated.
-pub(crate) struct Loading {
-    reader: Reader,
-}
-
-impl Loading {
-    /// The step that evaluates all forms of a text, which places call by a name.
-    pub(crate) fn start(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
-        let source = machine.image.sources.add(name, text);
-        let reader = Reader::new(machine.image, source);
-        // The file may choose its package; the caller's is in force again afterwards.
-        let package = machine.image.special(known::V_PACKAGE).clone();
-        machine
-            .fiber
-            .dynamic
-            .push(Dynamic::Bind(known::V_PACKAGE, package));
-        Box::new(Loading { reader }).next(machine)
-    }
-
-    fn next(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step> {
-        let outcome = self.reader.next(machine.image);
-        self.go_on(machine, outcome)
-    }
-
-    fn go_on(
-        self: Box<Self>,
-        machine: &mut Machine<'_>,
-        outcome: std::result::Result<Outcome, ReadError>,
-    ) -> Result<Step> {
-        match outcome.map_err(|error| error.raise())? {
-            Outcome::Form(form, _) => Ok(Step::Call {
-                function: known::EVAL.into(),
-                args: vec![form],
-                then: self,
-            }),
-            Outcome::Evaluate(form) => Ok(Step::Call {
-                function: known::EVAL.into(),
-                args: vec![form],
-                then: Box::new(Supplying { loading: self }),
-            }),
-            Outcome::End => {
-                restore_package(machine);
-                Ok(Step::Return(Value::T))
-            }
+/// Evaluates all forms of a text, which places call by a name.
+pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
+    let source = machine.image.sources.add(name, text);
+    let mut reader = Reader::new(machine.image, source);
+    // The file may choose its package; the caller's is in force again afterwards.
+    let package = machine.image.special(known::V_PACKAGE).clone();
+    machine
+        .fiber
+        .dynamic
+        .push(Dynamic::Bind(known::V_PACKAGE, package));
+    run(machine, "LOAD", |calls| async move {
+        let eval = Value::from(known::EVAL);
+        let mut supplied = None;
+        loop {
+            let outcome;
+            (reader, outcome) = calls
+                .with(move |machine| {
+                    let outcome = match supplied {
+                        Some(value) => reader.supply(machine.image, value),
+                        None => reader.next(machine.image),
+                    };
+                    (reader, outcome)
+                })
+                .await;
+            supplied = match outcome.map_err(|error| error.raise())? {
+                Outcome::Form(form, _) => {
+                    calls.call1(&eval, form).await;
+                    None
+                }
+                Outcome::Evaluate(form) => Some(calls.call1(&eval, form).await),
+                Outcome::End => {
+                    calls.with(restore_package).await;
+                    return Ok(Value::T);
+                }
+            };
         }
-    }
+    })
 }
 
 /// Undoes the binding of `*package*` that loading made: the innermost dynamic entry.
@@ -79,39 +71,13 @@ fn restore_package(machine: &mut Machine<'_>) {
     }
 }
 
-impl Resume for Loading {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step> {
-        self.next(machine)
-    }
-
-    fn name(&self) -> &'static str {
-        "LOAD"
-    }
-}
-
-/// A file whose reader waits for the value of a `#.` form.
-struct Supplying {
-    loading: Box<Loading>,
-}
-
-impl Resume for Supplying {
-    fn resume(mut self: Box<Self>, machine: &mut Machine<'_>, value: Value) -> Result<Step> {
-        let outcome = self.loading.reader.supply(machine.image, value);
-        self.loading.go_on(machine, outcome)
-    }
-
-    fn name(&self) -> &'static str {
-        "LOAD"
-    }
-}
-
 fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let Some(path) = args[0].as_text() else {
         return Err(Raise::type_error(&args[0], known::STRING));
     };
     let path = beside(machine, &path).unwrap_or(path);
     let text = read_file(&path)?;
-    Loading::start(machine, &path, &text)
+    load_text(machine, &path, &text)
 }
 
 /// The file of that name in the folder of the file whose form is being evaluated, if there

@@ -1,13 +1,14 @@
 //! The functions that map over lists: `mapcar`, `mapc`, `mapcan`, `maplist`, `mapl`,
 //! `mapcon`.
 
-use super::calls::{Args, Calls, callable, run};
 use super::lists::nconc_all;
 use super::sequence::ListBuilder;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::callable::callable;
+use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

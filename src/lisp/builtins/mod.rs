@@ -7,7 +7,6 @@ pub(crate) mod array_index;
 pub(crate) mod array_make;
 pub(crate) mod arrays;
 pub(crate) mod bits;
-pub(crate) mod calls;
 pub(crate) mod characters;
 mod composing;
 pub(crate) mod conditions;

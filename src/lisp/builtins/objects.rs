@@ -315,18 +315,16 @@ fn change_class(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
             machine.image.name(class.name)
         )));
     }
-    Ok(update::change_class(
-        machine.image,
-        instance,
-        &class,
-        initargs,
-    ))
+    update::change_class(machine, instance, &class, initargs)
 }
 
-fn update_for_different_class(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+fn update_for_different_class(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
     let previous = instance_argument(&args[0])?;
     let current = instance_argument(&args[1])?;
-    Ok(update::initialize_new_slots(previous, current, &args[2..]))
+    update::initialize_new_slots(machine, previous, current, &args[2..])
 }
 
 /// The parts of `(with-… (entries…) instance body…)`.

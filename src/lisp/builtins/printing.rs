@@ -12,8 +12,9 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -455,23 +456,6 @@ fn expand_standard_syntax(_: &mut Image, form: &Value) -> Outcome {
     ))
 }
 
-/// After the body of `print-unreadable-object`: the end of the text.
-struct CloseUnreadable {
-    stream: Value,
-    end: String,
-}
-
-impl Resume for CloseUnreadable {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
-        stream::write(machine.image, &self.stream, &self.end)?;
-        Ok(Step::Return(Value::NIL))
-    }
-
-    fn name(&self) -> &'static str {
-        "PRINT-UNREADABLE-OBJECT"
-    }
-}
-
 fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let [object, target, with_type, with_identity, body] = args.as_slice() else {
         return Err(Raise::program(format!(
@@ -501,12 +485,12 @@ fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
     }
     stream::write(image, target, &start)?;
     let end = if end == ">" { end } else { format!(" {end}") };
-    Ok(Step::Call {
-        function: body.clone(),
-        args: Vec::new(),
-        then: Box::new(CloseUnreadable {
-            stream: target.clone(),
-            end,
-        }),
+    let (body, target) = (body.clone(), target.clone());
+    run(machine, "PRINT-UNREADABLE-OBJECT", |calls| async move {
+        calls.call(&body, Args::Many(Vec::new())).await;
+        calls
+            .with(move |machine| stream::write(machine.image, &target, &end))
+            .await?;
+        Ok(Value::NIL)
     })
 }

@@ -13,8 +13,9 @@ use crate::lisp::stream::{self, Stream};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::computation::{Computation, Progress, compute};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -180,63 +181,76 @@ fn end_of_file(image: &Image, stream: &Value) -> Box<Raise> {
         .with(known::K_STREAM, stream.clone())
 }
 
-impl Reading {
-    fn next(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step, Box<Raise>> {
-        if let After::List { end, .. } = &self.then {
-            let rest = self.reader.rest();
-            let blanks = rest.len() - rest.trim_start().len();
-            if rest.trim_start().starts_with(*end) {
-                let consumed = blanks + end.len_utf8();
-                return self.finish_list(machine, consumed);
+impl Computation for Reading {
+    type Output = Value;
+
+    fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<Progress<Value>, Box<Raise>> {
+        let image = &mut *machine.image;
+        if let Some(value) = answer {
+            let outcome = self.reader.supply(image, value);
+            if let Some(progress) = self.take(image, outcome)? {
+                return Ok(progress);
             }
         }
-        let outcome = self.reader.next(machine.image);
-        self.take(machine, outcome)
+        loop {
+            if let Some(list) = self.end_of_list(image)? {
+                return Ok(Progress::Done(list));
+            }
+            let outcome = self.reader.next(image);
+            if let Some(progress) = self.take(image, outcome)? {
+                return Ok(progress);
+            }
+        }
     }
+}
 
+impl Reading {
+    /// Takes what the reader has read; nothing if it is to read on.
     fn take(
-        mut self: Box<Self>,
-        machine: &mut Machine<'_>,
+        &mut self,
+        image: &mut Image,
         outcome: Result<crate::lisp::reader::Outcome, ReadError>,
-    ) -> Result<Step, Box<Raise>> {
+    ) -> Result<Option<Progress<Value>>, Box<Raise>> {
         use crate::lisp::reader::Outcome;
         let form = match outcome {
             Ok(Outcome::Evaluate(form)) => {
-                return Ok(Step::Call {
+                return Ok(Some(Progress::Call {
                     function: known::EVAL.into(),
                     args: vec![form],
-                    then: self,
-                });
+                }));
             }
             Ok(Outcome::Form(form, _)) => Some(form),
             Ok(Outcome::End) => None,
             Err(error) => {
-                self.advance(machine.image)?;
+                self.advance_stream(image)?;
                 return Err(error.raise());
             }
         };
-        let image = &mut *machine.image;
-        match (&mut self.then, form) {
+        let value = match (&mut self.then, form) {
             (After::List { items, .. }, Some(form)) => {
                 items.push(form);
-                self.next(machine)
+                return Ok(None);
             }
             (After::List { stream, .. }, None) => {
                 let error = end_of_file(image, stream);
-                self.advance(image)?;
-                Err(error)
+                self.advance_stream(image)?;
+                return Err(error);
             }
             (After::Stream(from), Some(form)) => {
                 if !from.preserve_whitespace {
                     self.reader.skip_one_blank();
                 }
-                self.advance(image)?;
-                Ok(Step::Return(form))
+                self.advance_stream(image)?;
+                form
             }
             (After::Stream(from), None) => {
                 let value = from.eof.value(image);
-                self.advance(image)?;
-                value.map(Step::Return)
+                self.advance_stream(image)?;
+                value?
             }
             (
                 After::String {
@@ -257,16 +271,14 @@ impl Reading {
                 };
                 let read = self.reader.text().get(..self.reader.position());
                 let position = *before + read.map_or(0, |text| text.chars().count());
-                Ok(Step::Return(Value::values(vec![
-                    value,
-                    Value::from(position),
-                ])))
+                Value::values(vec![value, Value::from(position)])
             }
-        }
+        };
+        Ok(Some(Progress::Done(value)))
     }
 
     /// Tells the stream how much was read.
-    fn advance(&self, image: &mut Image) -> Result<(), Box<Raise>> {
+    fn advance_stream(&self, image: &mut Image) -> Result<(), Box<Raise>> {
         let stream = match &self.then {
             After::Stream(from) => &from.stream,
             After::List { stream, .. } => stream,
@@ -276,49 +288,35 @@ impl Reading {
         stream::advance(image, stream, consumed)
     }
 
-    fn finish_list(
-        self: Box<Self>,
-        machine: &mut Machine<'_>,
-        consumed: usize,
-    ) -> Result<Step, Box<Raise>> {
-        let read = self.reader.position().saturating_sub(self.start) + consumed;
-        match self.then {
-            After::List { items, stream, .. } => {
-                stream::advance(machine.image, &stream, read)?;
-                Ok(Step::Return(Value::list(items)))
-            }
-            _ => Ok(Step::Return(Value::NIL)),
+    /// The list, if what is being read is one and its end comes next.
+    fn end_of_list(&mut self, image: &mut Image) -> Result<Option<Value>, Box<Raise>> {
+        let After::List { end, items, stream } = &mut self.then else {
+            return Ok(None);
+        };
+        let rest = self.reader.rest();
+        let blanks = rest.len() - rest.trim_start().len();
+        if !rest.trim_start().starts_with(*end) {
+            return Ok(None);
         }
+        let consumed = blanks + end.len_utf8();
+        let read = self.reader.position().saturating_sub(self.start) + consumed;
+        stream::advance(image, stream, read)?;
+        Ok(Some(Value::list(std::mem::take(items))))
     }
 }
 
-impl Resume for Reading {
-    fn resume(
-        mut self: Box<Self>,
-        machine: &mut Machine<'_>,
-        value: Value,
-    ) -> Result<Step, Box<Raise>> {
-        let outcome = self.reader.supply(machine.image, value);
-        self.take(machine, outcome)
-    }
-
-    fn name(&self) -> &'static str {
-        "READ"
-    }
-}
-
-fn reading_of_stream(image: &Image, then: After) -> Result<Box<Reading>, Box<Raise>> {
+fn reading_of_stream(image: &Image, then: After) -> Result<Reading, Box<Raise>> {
     let stream = match &then {
         After::Stream(from) => &from.stream,
         After::List { stream, .. } => stream,
         After::String { .. } => &Value::NIL,
     };
     let (text, start) = stream::rest(image, stream)?;
-    Ok(Box::new(Reading {
+    Ok(Reading {
         reader: Reader::of_text(text).at(start),
         start,
         then,
-    }))
+    })
 }
 
 fn read(
@@ -335,7 +333,8 @@ fn read(
         stream,
         preserve_whitespace: preserve_whitespace || is_recursive,
     });
-    reading_of_stream(machine.image, then)?.next(machine)
+    let reading = reading_of_stream(machine.image, then)?;
+    compute(machine, "READ", reading)
 }
 
 fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
@@ -362,7 +361,7 @@ fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
         }
     };
     let stream = Value::Stream(Rc::new(Stream::from_text(text.clone())));
-    let reading = Box::new(Reading {
+    let reading = Reading {
         reader: Reader::of_text(text),
         start: 0,
         then: After::String {
@@ -370,8 +369,8 @@ fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
             eof: Eof::of(args.get(1..).unwrap_or(&[]), stream),
             preserve_whitespace: preserve_whitespace.is_some_and(|v| v.is_true()),
         },
-    });
-    reading.next(machine)
+    };
+    compute(machine, "READ", reading)
 }
 
 fn read_delimited_list(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
@@ -385,7 +384,7 @@ fn read_delimited_list(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<St
     };
     let mut reading = reading_of_stream(machine.image, then)?;
     reading.reader = reading.reader.with_terminator(end);
-    reading.next(machine)
+    compute(machine, "READ", reading)
 }
 
 fn character(value: &Value) -> Result<char, Box<Raise>> {

@@ -1,7 +1,6 @@
 //! Removing and replacing elements: `remove`, `delete`, `substitute`, `nsubstitute` and
 //! their `-if` forms.
 
-use super::calls::{Calls, run};
 use super::criterion::{Criterion, Key, Test};
 use super::keywords;
 use super::sequence::{Bounds, Sequence, conses, relink, text_of};
@@ -10,6 +9,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

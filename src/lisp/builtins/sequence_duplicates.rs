@@ -2,7 +2,6 @@
 
 use std::collections::HashSet;
 
-use super::calls::{Calls, run};
 use super::criterion::{Key, Test};
 use super::keywords;
 use super::sequence::{Bounds, Sequence};
@@ -12,6 +11,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::hash_table::{HashKey, HashTest};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -1,7 +1,6 @@
 //! Finding and counting elements of sequences: `find`, `position`, `count` and their
 //! `-if` forms.
 
-use super::calls::{Calls, run};
 use super::criterion::{Criterion, Key, Test};
 use super::keywords;
 use super::sequence::{Bounds, Sequence};
@@ -10,6 +9,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -1,7 +1,6 @@
 //! Functions over the elements of sequences: `map`, `map-into`, `every`, `some`, `notany`,
 //! `notevery`, `reduce`.
 
-use super::calls::{Args, Calls, callable, run};
 use super::criterion::Key;
 use super::keywords;
 use super::sequence::{Bounds, Sequence, Walk};
@@ -10,6 +9,8 @@ use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::callable::callable;
+use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -1,6 +1,5 @@
 //! Comparing sequences: `search` and `mismatch`.
 
-use super::calls::{Calls, run};
 use super::criterion::{Key, Test};
 use super::keywords;
 use super::sequence::{Bounds, Sequence};
@@ -8,6 +7,7 @@ use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

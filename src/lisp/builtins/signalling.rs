@@ -5,13 +5,15 @@ use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::stream;
 use crate::lisp::value::Value;
+use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::restart::Restart;
 use crate::lisp::vm::signal::Declined;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -163,58 +165,30 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     ),
 ];
 
-/// Continues with the condition that a datum and arguments designate.
-fn with_condition(
-    machine: &mut Machine<'_>,
-    args: Vec<Value>,
-    default: Sym,
-    then: Box<dyn Resume>,
-) -> Result<Step> {
+/// The condition that a datum and arguments designate.
+async fn designated_condition(calls: &Calls, args: Vec<Value>, default: Sym) -> Result<Value> {
     let mut args = args.into_iter();
     let datum = args.next().unwrap_or(Value::NIL);
-    let rest: Vec<Value> = args.collect();
-    let (function, args) = match &datum {
+    let mut initargs: Vec<Value>;
+    match &datum {
         Value::Str(_) | Value::Function(_) => {
-            let initargs = vec![
+            initargs = vec![
                 Value::Symbol(default),
                 known::K_FORMAT_CONTROL.into(),
                 datum.clone(),
                 known::K_FORMAT_ARGUMENTS.into(),
-                Value::list(rest),
+                Value::list(args),
             ];
-            (known::MAKE_CONDITION, initargs)
         }
         Value::Symbol(_) | Value::Class(_) => {
-            let mut initargs = vec![datum.clone()];
-            initargs.extend(rest);
-            (known::MAKE_CONDITION, initargs)
+            initargs = vec![datum.clone()];
+            initargs.extend(args);
         }
-        Value::Instance(i) if i.is_a(known::CONDITION) => {
-            return then.resume(machine, datum.clone());
-        }
+        Value::Instance(i) if i.is_a(known::CONDITION) => return Ok(datum),
         other => return Err(Raise::type_error(other, known::CONDITION)),
-    };
-    Ok(Step::Call {
-        function: function.into(),
-        args,
-        then,
-    })
-}
-
-struct SignalNext {
-    declined: Declined,
-}
-
-impl Resume for SignalNext {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, condition: Value) -> Result<Step> {
-        let place = machine.place();
-        machine.note_place(&condition, place);
-        machine.signal(condition, self.declined)
     }
-
-    fn name(&self) -> &'static str {
-        "SIGNAL"
-    }
+    let make = known::MAKE_CONDITION.into();
+    Ok(calls.call(&make, Args::Many(initargs)).await)
 }
 
 /// Makes the condition that arguments designate and signals it.
@@ -224,7 +198,27 @@ pub(crate) fn signal_with(
     default: Sym,
     declined: Declined,
 ) -> Result<Step> {
-    with_condition(machine, args, default, Box::new(SignalNext { declined }))
+    if let Some(Value::Instance(i)) = args.first()
+        && i.is_a(known::CONDITION)
+    {
+        return signal_here(
+            machine,
+            args.into_iter().next().unwrap_or_default(),
+            declined,
+        );
+    }
+    run(machine, "SIGNAL", |calls| async move {
+        let condition = designated_condition(&calls, args, default).await?;
+        calls
+            .with(move |machine| signal_here(machine, condition, declined))
+            .await
+    })
+}
+
+fn signal_here(machine: &mut Machine<'_>, condition: Value, declined: Declined) -> Result<Step> {
+    let place = machine.place();
+    machine.note_place(&condition, place);
+    machine.signal(condition, declined)
 }
 
 fn signal_break(machine: &mut Machine<'_>, args: &[Value]) -> Result<Step> {
@@ -232,17 +226,10 @@ fn signal_break(machine: &mut Machine<'_>, args: &[Value]) -> Result<Step> {
     if args.is_empty() {
         args.push("break".into());
     }
-    struct Stop;
-    impl Resume for Stop {
-        fn resume(self: Box<Self>, _: &mut Machine<'_>, condition: Value) -> Result<Step> {
-            Ok(Step::Unhandled(condition))
-        }
-
-        fn name(&self) -> &'static str {
-            "BREAK"
-        }
-    }
-    with_condition(machine, args, known::SIMPLE_CONDITION, Box::new(Stop))
+    run(machine, "BREAK", |calls| async move {
+        let condition = designated_condition(&calls, args, known::SIMPLE_CONDITION).await?;
+        Ok(Step::Unhandled(condition))
+    })
 }
 
 /// Wraps a call in one restart that takes no argument and makes the call return `NIL`.
@@ -288,92 +275,55 @@ fn cerror(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     ))
 }
 
-struct WarnNext;
-
-impl Resume for WarnNext {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, condition: Value) -> Result<Step> {
+fn warn(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    run(machine, "WARN", |calls| async move {
+        let condition = designated_condition(&calls, args, known::SIMPLE_WARNING).await?;
         if !matches!(&condition, Value::Instance(i) if i.is_a(known::WARNING)) {
             return Err(Raise::type_error(&condition, known::WARNING));
         }
-        let function = crate::lisp::value::function::Function::made_control(
-            known::WARN,
-            (1, Some(1)),
-            |machine, args| {
-                let condition = args[0].clone();
-                let then = Box::new(PrintWarning {
-                    condition: condition.clone(),
-                });
-                let signalling = crate::lisp::value::function::Function::made_control(
-                    known::SIGNAL,
-                    (1, Some(1)),
-                    |machine, args| machine.signal(args[0].clone(), Declined::Return),
-                );
-                let _ = machine;
-                Ok(Step::Call {
-                    function: Value::Function(signalling),
-                    args: vec![condition],
-                    then,
-                })
-            },
-        );
-        Ok(with_restart(
-            machine,
-            known::MUFFLE_WARNING,
-            "Skip warning.".into(),
-            Value::Function(function),
-            vec![condition],
-        ))
-    }
-
-    fn name(&self) -> &'static str {
-        "WARN"
-    }
+        let function = Function::made_control(known::WARN, (1, Some(1)), |machine, args| {
+            signal_and_print(machine, args[0].clone())
+        });
+        let (report, function) = ("Skip warning.".into(), Value::Function(function));
+        calls
+            .with(|machine| {
+                let name = known::MUFFLE_WARNING;
+                Ok(with_restart(
+                    machine,
+                    name,
+                    report,
+                    function,
+                    vec![condition],
+                ))
+            })
+            .await
+    })
 }
 
-struct PrintWarning {
-    condition: Value,
-}
-
-impl Resume for PrintWarning {
-    fn resume(self: Box<Self>, _: &mut Machine<'_>, _: Value) -> Result<Step> {
-        Ok(Step::Call {
-            function: known::PRINC_TO_STRING.into(),
-            args: vec![self.condition.clone()],
-            then: Box::new(WriteWarning {
-                condition: self.condition,
-            }),
-        })
-    }
-
-    fn name(&self) -> &'static str {
-        "WARN"
-    }
-}
-
-struct WriteWarning {
-    condition: Value,
-}
-
-impl Resume for WriteWarning {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, text: Value) -> Result<Step> {
-        let kind = match &self.condition {
+fn signal_and_print(machine: &mut Machine<'_>, condition: Value) -> Result<Step> {
+    run(machine, "WARN", |calls| async move {
+        let signal = Function::made_control(known::SIGNAL, (1, Some(1)), |machine, args| {
+            machine.signal(args[0].clone(), Declined::Return)
+        });
+        calls
+            .call1(&Value::Function(signal), condition.clone())
+            .await;
+        let report = known::PRINC_TO_STRING.into();
+        let text = calls.call1(&report, condition.clone()).await;
+        let kind = match &condition {
             Value::Instance(i) if i.is_a(known::STYLE_WARNING) => "STYLE-WARNING",
             _ => "WARNING",
         };
         let text = text.as_text().unwrap_or_default();
-        let output = machine.image.special(known::V_STANDARD_OUTPUT).clone();
-        stream::fresh_line(machine.image, &output)?;
-        stream::write(machine.image, &output, &format!("{kind}: {text}\n"))?;
-        Ok(Step::Return(Value::NIL))
-    }
-
-    fn name(&self) -> &'static str {
-        "WARN"
-    }
-}
-
-fn warn(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    with_condition(machine, args, known::SIMPLE_WARNING, Box::new(WarnNext))
+        calls
+            .with(move |machine| {
+                let output = machine.image.special(known::V_STANDARD_OUTPUT).clone();
+                stream::fresh_line(machine.image, &output)?;
+                stream::write(machine.image, &output, &format!("{kind}: {text}\n"))?;
+                Ok(Value::NIL)
+            })
+            .await
+    })
 }
 
 fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {

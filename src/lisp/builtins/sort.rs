@@ -1,6 +1,5 @@
 //! Sorting: `sort`, `stable-sort`, `merge`. Both sorts are stable.
 
-use super::calls::{Calls, builtin_name, callable, run};
 use super::criterion::Key;
 use super::keywords;
 use super::sequence::{Sequence, conses, relink};
@@ -9,6 +8,8 @@ use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::callable::{builtin_name, callable};
+use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 

@@ -1,6 +1,5 @@
 //! Symbols: names, values, functions, fresh symbols.
 
-use super::calls::callable;
 use super::property_lists::symbol;
 use super::sequence::index;
 use super::strings::string;
@@ -12,6 +11,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::lisp::vm::callable::callable;
 
 type Outcome = Result<Value, Box<Raise>>;
 

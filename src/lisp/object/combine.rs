@@ -9,9 +9,9 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::generic::{Combination, Method};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Args, run as run_calls};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 /// How far a call has come.
 #[derive(Clone, Copy)]
@@ -27,6 +27,7 @@ pub(crate) const START: Stage = Stage::Around(0);
 
 /// Runs a call from a stage on.
 pub(crate) fn run(
+    machine: &mut Machine<'_>,
     effective: &Rc<Effective>,
     stage: Stage,
     args: Vec<Value>,
@@ -40,7 +41,7 @@ pub(crate) fn run(
             combination,
         } => (around, before, primary, after, *combination),
         Shape::Single(method) | Shape::Read(_, method) | Shape::Write(_, method) => {
-            return Ok(call(method, || Value::NIL, args));
+            return Ok(invoke(effective, method, None, args));
         }
         // Callers deal with it.
         Shape::NotApplicable => return Err(nothing_to_run()),
@@ -52,18 +53,12 @@ pub(crate) fn run(
                 return Ok(invoke(effective, method, Some(next), args));
             }
             if !combination.is_standard() {
-                return operate(effective, combination, primary, args);
+                return operate(machine, effective, combination, primary, args);
             }
             if before.is_empty() && after.is_empty() {
-                return run(effective, Stage::Primary(0), args);
+                return run(machine, effective, Stage::Primary(0), args);
             }
-            let main = Box::new(Standard {
-                effective: effective.clone(),
-                args,
-                done: 0,
-                result: None,
-            });
-            main.next()
+            standard(machine, effective.clone(), args)
         }
         Stage::Primary(i) => match primary.get(i) {
             Some(method) => {
@@ -94,116 +89,77 @@ fn invoke(
     next: Option<Stage>,
     args: Vec<Value>,
 ) -> Step {
-    let next_args = if method.takes_next && next.is_some() {
-        args.clone()
-    } else {
-        Vec::new()
-    };
-    call(
-        method,
-        || match next {
-            Some(stage) => Value::Function(next_function(effective.clone(), stage, next_args)),
-            None => Value::NIL,
-        },
-        args,
-    )
+    let (function, args) = invocation(effective, method, next, args);
+    Step::TailCall { function, args }
 }
 
-fn call(method: &Rc<Method>, next: impl FnOnce() -> Value, mut args: Vec<Value>) -> Step {
+/// The function of a method and the arguments that it is called with.
+fn invocation(
+    effective: &Rc<Effective>,
+    method: &Rc<Method>,
+    next: Option<Stage>,
+    mut args: Vec<Value>,
+) -> (Value, Vec<Value>) {
     if method.takes_next {
-        args.insert(0, next());
+        let next = match next {
+            Some(stage) => Value::Function(next_function(effective.clone(), stage, args.clone())),
+            None => Value::NIL,
+        };
+        args.insert(0, next);
     }
-    Step::TailCall {
-        function: Value::Function(method.function.clone()),
-        args,
-    }
+    (Value::Function(method.function.clone()), args)
 }
 
 /// The function behind `call-next-method`: without arguments it uses those of the call.
 fn next_function(effective: Rc<Effective>, stage: Stage, args: Vec<Value>) -> Rc<Function> {
-    Function::made_control(known::CALL_NEXT_METHOD, (0, None), move |_, given| {
+    Function::made_control(known::CALL_NEXT_METHOD, (0, None), move |machine, given| {
         let args = if given.is_empty() {
             args.clone()
         } else {
             given
         };
-        run(&effective, stage, args)
+        run(machine, &effective, stage, args)
     })
 }
 
-/// Before methods, the primary method, after methods; the value is that of the primary one.
-struct Standard {
+/// Runs before methods, the primary method, after methods; the values are those of the
+/// primary one.
+fn standard(
+    machine: &mut Machine<'_>,
     effective: Rc<Effective>,
     args: Vec<Value>,
-    /// Number of methods that have run.
-    done: usize,
-    result: Option<Value>,
-}
-
-impl Standard {
-    fn next(mut self: Box<Self>) -> Result<Step, Box<Raise>> {
-        let effective = self.effective.clone();
-        let Shape::Combined { before, after, .. } = &effective.shape else {
+) -> Result<Step, Box<Raise>> {
+    run_calls(machine, "CALL-METHOD", |calls| async move {
+        let Shape::Combined {
+            before,
+            primary,
+            after,
+            ..
+        } = &effective.shape
+        else {
             return Err(nothing_to_run());
         };
-        let index = self.done;
-        self.done += 1;
-        if index == before.len() {
-            let step = run(&effective, Stage::Primary(0), self.args.clone())?;
-            return Ok(then(step, true, self));
+        for method in before {
+            let (function, args) = invocation(&effective, method, None, args.clone());
+            calls.call(&function, Args::Many(args)).await;
         }
-        let method = if index < before.len() {
-            before.get(index)
-        } else {
-            after.get(index - before.len() - 1)
+        let Some(main) = primary.first() else {
+            return Err(nothing_to_run());
         };
-        match method {
-            Some(method) => {
-                let step = call(method, || Value::NIL, self.args.clone());
-                Ok(then(step, false, self))
-            }
-            None => Ok(Step::Return(self.result.unwrap_or(Value::NIL))),
+        let next = (primary.len() > 1).then_some(Stage::Primary(1));
+        let (function, main_args) = invocation(&effective, main, next, args.clone());
+        let values = calls.call_for_values(&function, main_args).await;
+        for method in after {
+            let (function, args) = invocation(&effective, method, None, args.clone());
+            calls.call(&function, Args::Many(args)).await;
         }
-    }
-}
-
-impl Resume for Standard {
-    fn resume(mut self: Box<Self>, _: &mut Machine<'_>, value: Value) -> Result<Step, Box<Raise>> {
-        let is_primary = match &self.effective.shape {
-            Shape::Combined { before, .. } => self.done == before.len() + 1,
-            _ => false,
-        };
-        if is_primary {
-            self.result = Some(value);
-        }
-        self.next()
-    }
-
-    fn name(&self) -> &'static str {
-        "CALL-METHOD"
-    }
-}
-
-/// Turns the tail call of a method into a call whose value goes to `next`.
-fn then(step: Step, all_values: bool, next: Box<dyn Resume>) -> Step {
-    match step {
-        Step::TailCall { function, args } if all_values => Step::CallForValues {
-            function,
-            args,
-            then: next,
-        },
-        Step::TailCall { function, args } => Step::Call {
-            function,
-            args,
-            then: next,
-        },
-        // Methods are always tail calls.
-        other => other,
-    }
+        Ok(values)
+    })
 }
 
 /// Runs all methods of an operator combination and combines their values.
 fn operate(
+    machine: &mut Machine<'_>,
     effective: &Rc<Effective>,
     combination: Combination,
     methods: &[Rc<Method>],
@@ -214,58 +170,27 @@ fn operate(
     {
         return Ok(invoke(effective, only, None, args));
     }
-    Box::new(Operation {
-        effective: effective.clone(),
-        operator: combination.operator,
-        args,
-        values: Vec::new(),
-    })
-    .next()
-}
-
-struct Operation {
-    effective: Rc<Effective>,
-    operator: Sym,
-    args: Vec<Value>,
-    values: Vec<Value>,
-}
-
-impl Operation {
-    fn next(self: Box<Self>) -> Result<Step, Box<Raise>> {
-        let Shape::Combined { primary, .. } = &self.effective.shape else {
-            return Err(nothing_to_run());
-        };
-        let Some(method) = primary.get(self.values.len()) else {
-            return Ok(match self.operator {
-                known::PROGN | known::AND | known::OR => {
-                    Step::Return(self.values.last().cloned().unwrap_or(Value::NIL))
-                }
-                operator => Step::TailCall {
-                    function: Value::Symbol(operator),
-                    args: self.values,
-                },
-            });
-        };
-        let step = invoke(&self.effective, method, None, self.args.clone());
-        Ok(then(step, false, self))
-    }
-}
-
-impl Resume for Operation {
-    fn resume(mut self: Box<Self>, _: &mut Machine<'_>, value: Value) -> Result<Step, Box<Raise>> {
-        let decided = match self.operator {
-            known::AND => value.is_nil(),
-            known::OR => value.is_true(),
-            _ => false,
-        };
-        if decided {
-            return Ok(Step::Return(value));
+    let (effective, methods) = (effective.clone(), methods.to_vec());
+    run_calls(machine, "CALL-METHOD", |calls| async move {
+        let mut values = Vec::new();
+        for method in &methods {
+            let (function, args) = invocation(&effective, method, None, args.clone());
+            let value = calls.call(&function, Args::Many(args)).await;
+            let decided = match combination.operator {
+                known::AND => value.is_nil(),
+                known::OR => value.is_true(),
+                _ => false,
+            };
+            if decided {
+                return Ok(Step::Return(value));
+            }
+            values.push(value);
         }
-        self.values.push(value);
-        self.next()
-    }
-
-    fn name(&self) -> &'static str {
-        "CALL-METHOD"
-    }
+        Ok(match combination.operator {
+            known::PROGN | known::AND | known::OR => {
+                Step::Return(values.pop().unwrap_or(Value::NIL))
+            }
+            operator => Step::tail_call(operator, values),
+        })
+    })
 }

@@ -198,7 +198,7 @@ pub(crate) fn call_generic(
         Shape::Single(_) | Shape::Combined { .. } => {}
         Shape::NotApplicable => return no_applicable_method(machine.image, function, args),
     }
-    combine::run(&effective, combine::START, args)
+    combine::run(machine, &effective, combine::START, args)
 }
 
 #[inline]

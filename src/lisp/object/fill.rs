@@ -7,8 +7,9 @@ use crate::lisp::value::class::{Initform, Instance};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 /// Which slots may get the value of their initform.
 pub(crate) enum Which {
@@ -44,7 +45,8 @@ pub(crate) enum Finish {
 }
 
 impl Finish {
-    fn step(self) -> Step {
+    /// The step that does it.
+    pub(crate) fn step(self) -> Step {
         match self {
             Finish::Return(value) => Step::Return(value),
             Finish::Call(function, args) => Step::TailCall { function, args },
@@ -55,11 +57,12 @@ impl Finish {
 /// Sets the slots that initargs (keywords and values in turn) name; slots among `which`
 /// that are still unbound get their initial values.
 pub(crate) fn fill(
+    machine: &mut Machine<'_>,
     instance: &Rc<Instance>,
     which: &Which,
     initargs: &[Value],
     finish: Finish,
-) -> Step {
+) -> Result<Step, Box<Raise>> {
     let mut pending = Vec::new();
     let class = instance.class();
     for (index, slot) in class.slots.borrow().iter().enumerate() {
@@ -84,15 +87,17 @@ pub(crate) fn fill(
         }
     }
     if pending.is_empty() {
-        return finish.step();
+        return Ok(finish.step());
     }
-    pending.reverse();
-    Box::new(Pending {
-        instance: instance.clone(),
-        pending,
-        finish,
+    let instance = instance.clone();
+    run(machine, "SHARED-INITIALIZE", |calls| async move {
+        for (name, initform) in pending {
+            let initform = Value::Function(initform);
+            let value = calls.call(&initform, Args::Many(Vec::new())).await;
+            instance.set_slot(name, value);
+        }
+        Ok(finish.step())
     })
-    .next()
 }
 
 fn store(
@@ -123,38 +128,5 @@ fn is_unbound(
             .borrow()
             .get(index)
             .is_some_and(Value::is_unbound),
-    }
-}
-
-/// Slots whose initial values are being computed, the next one last.
-struct Pending {
-    instance: Rc<Instance>,
-    pending: Vec<(Sym, Rc<Function>)>,
-    finish: Finish,
-}
-
-impl Pending {
-    fn next(self: Box<Self>) -> Step {
-        match self.pending.last() {
-            Some((_, function)) => Step::Call {
-                function: Value::Function(function.clone()),
-                args: Vec::new(),
-                then: self,
-            },
-            None => self.finish.step(),
-        }
-    }
-}
-
-impl Resume for Pending {
-    fn resume(mut self: Box<Self>, _: &mut Machine<'_>, value: Value) -> Result<Step, Box<Raise>> {
-        if let Some((name, _)) = self.pending.pop() {
-            self.instance.set_slot(name, value);
-        }
-        Ok(self.next())
-    }
-
-    fn name(&self) -> &'static str {
-        "SHARED-INITIALIZE"
     }
 }

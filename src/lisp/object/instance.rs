@@ -13,8 +13,9 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 /// `(make-instance class initargs…)`.
 pub(crate) fn make_instance(
@@ -28,7 +29,81 @@ pub(crate) fn make_instance(
     if !initargs.len().is_multiple_of(2) {
         return Err(Raise::program("odd number of &KEY arguments"));
     }
-    Box::new(Making::new(class, initargs)).next(machine.image)
+    let (initargs, pending) = with_default_initargs(&class, initargs);
+    if pending.is_empty() {
+        return make(machine, class, initargs);
+    }
+    run(machine, "MAKE-INSTANCE", |calls| async move {
+        let mut initargs = initargs;
+        for (key, initform) in pending {
+            let initform = Value::Function(initform);
+            let value = calls.call(&initform, Args::Many(Vec::new())).await;
+            initargs.extend([Value::Symbol(key), value]);
+        }
+        calls
+            .with(move |machine| make(machine, class, initargs))
+            .await
+    })
+}
+
+/// Initargs, and default ones that are still to be computed, with their keywords.
+type WithDefaults = (Vec<Value>, Vec<(Sym, Rc<Function>)>);
+
+/// The initargs with those default ones that are constant.
+fn with_default_initargs(class: &Class, mut initargs: Vec<Value>) -> WithDefaults {
+    let mut pending = Vec::new();
+    let given = initargs.len();
+    for (key, form) in class.default_initargs.borrow().iter() {
+        if has_key(&initargs[..given], *key) {
+            continue;
+        }
+        match form {
+            Initform::Value(value) => initargs.extend([Value::Symbol(*key), value.clone()]),
+            Initform::Function(function) => pending.push((*key, function.clone())),
+        }
+    }
+    (initargs, pending)
+}
+
+/// Makes an instance and has it initialised.
+fn make(
+    machine: &mut Machine<'_>,
+    class: Rc<Class>,
+    initargs: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    let instance = Rc::new(Instance::new(class.clone()));
+    let object = Value::Instance(instance.clone());
+    if class.kind != ClassKind::Condition {
+        let protocol = [
+            known::MAKE_INSTANCE,
+            known::INITIALIZE_INSTANCE,
+            known::SHARED_INITIALIZE,
+        ];
+        check_initargs(machine.image, &object, &protocol, &initargs)?;
+    }
+    let initialize = extended_function(machine.image, known::INITIALIZE_INSTANCE);
+    let shared = extended_function(machine.image, known::SHARED_INITIALIZE);
+    if initialize.is_none() && shared.is_none() {
+        let finish = Finish::Return(object);
+        return fill(machine, &instance, &Which::All, &initargs, finish);
+    }
+    let function = initialize.unwrap_or(Value::Symbol(known::INITIALIZE_INSTANCE));
+    let mut args = vec![object.clone()];
+    args.extend(initargs);
+    call_and_return(machine, function, args, object)
+}
+
+/// Calls a function of the initialization protocol and returns the object.
+fn call_and_return(
+    machine: &mut Machine<'_>,
+    function: Value,
+    args: Vec<Value>,
+    object: Value,
+) -> Result<Step, Box<Raise>> {
+    run(machine, "MAKE-INSTANCE", |calls| async move {
+        calls.call(&function, Args::Many(args)).await;
+        Ok(object)
+    })
 }
 
 /// The class that a class or a class name designates.
@@ -75,98 +150,6 @@ fn check_instantiable(image: &Image, class: &Class) -> Result<(), Box<Raise>> {
         )));
     }
     Ok(())
-}
-
-/// An instance in the making: default initargs are being computed.
-struct Making {
-    class: Rc<Class>,
-    initargs: Vec<Value>,
-    /// Default initargs still to be computed, the next one last.
-    pending: Vec<(Sym, Rc<Function>)>,
-}
-
-impl Making {
-    fn new(class: Rc<Class>, mut initargs: Vec<Value>) -> Making {
-        let mut pending = Vec::new();
-        let given = initargs.len();
-        for (key, form) in class.default_initargs.borrow().iter() {
-            if has_key(&initargs[..given], *key) {
-                continue;
-            }
-            match form {
-                Initform::Value(value) => initargs.extend([Value::Symbol(*key), value.clone()]),
-                Initform::Function(function) => pending.push((*key, function.clone())),
-            }
-        }
-        pending.reverse();
-        Making {
-            class,
-            initargs,
-            pending,
-        }
-    }
-
-    fn next(self: Box<Self>, image: &Image) -> Result<Step, Box<Raise>> {
-        if let Some((_, function)) = self.pending.last() {
-            return Ok(Step::Call {
-                function: Value::Function(function.clone()),
-                args: Vec::new(),
-                then: self,
-            });
-        }
-        let instance = Rc::new(Instance::new(self.class.clone()));
-        let object = Value::Instance(instance.clone());
-        if self.class.kind != ClassKind::Condition {
-            let protocol = [
-                known::MAKE_INSTANCE,
-                known::INITIALIZE_INSTANCE,
-                known::SHARED_INITIALIZE,
-            ];
-            check_initargs(image, &object, &protocol, &self.initargs)?;
-        }
-        let initialize = extended_function(image, known::INITIALIZE_INSTANCE);
-        let shared = extended_function(image, known::SHARED_INITIALIZE);
-        if initialize.is_none() && shared.is_none() {
-            let finish = Finish::Return(object);
-            return Ok(fill(&instance, &Which::All, &self.initargs, finish));
-        }
-        let mut args = vec![object.clone()];
-        args.extend(self.initargs);
-        Ok(Step::Call {
-            function: initialize.unwrap_or(Value::Symbol(known::INITIALIZE_INSTANCE)),
-            args,
-            then: Box::new(ReturnInstance(object)),
-        })
-    }
-}
-
-impl Resume for Making {
-    fn resume(
-        mut self: Box<Self>,
-        machine: &mut Machine<'_>,
-        value: Value,
-    ) -> Result<Step, Box<Raise>> {
-        if let Some((key, _)) = self.pending.pop() {
-            self.initargs.extend([Value::Symbol(key), value]);
-        }
-        self.next(machine.image)
-    }
-
-    fn name(&self) -> &'static str {
-        "MAKE-INSTANCE"
-    }
-}
-
-struct ReturnInstance(Value);
-
-impl Resume for ReturnInstance {
-    fn resume(self: Box<Self>, _: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
-        Ok(Step::Return(self.0))
-    }
-
-    fn name(&self) -> &'static str {
-        "MAKE-INSTANCE"
-    }
 }
 
 fn has_key(initargs: &[Value], key: Sym) -> bool {
@@ -275,18 +258,17 @@ fn share(machine: &mut Machine<'_>, args: Vec<Value>, names: Value) -> Result<St
     match extended_function(machine.image, known::SHARED_INITIALIZE) {
         Some(function) => {
             let object = all.first().cloned().unwrap_or(Value::NIL);
-            Ok(Step::Call {
-                function,
-                args: all,
-                then: Box::new(ReturnInstance(object)),
-            })
+            call_and_return(machine, function, all, object)
         }
         None => shared_initialize(machine, all),
     }
 }
 
 /// The default `shared-initialize`: `(instance slot-names initargs…)`.
-pub(crate) fn shared_initialize(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+pub(crate) fn shared_initialize(
+    machine: &mut Machine<'_>,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
     let [object, names, initargs @ ..] = args.as_slice() else {
         return Err(Raise::program("invalid number of arguments: 1"));
     };
@@ -300,7 +282,8 @@ pub(crate) fn shared_initialize(_: &mut Machine<'_>, args: Vec<Value>) -> Result
         return Err(Raise::program("odd number of &KEY arguments"));
     }
     let finish = Finish::Return(object.clone());
-    Ok(fill(instance, &Which::from_value(names), initargs, finish))
+    let which = Which::from_value(names);
+    fill(machine, instance, &which, initargs, finish)
 }
 
 /// `(allocate-instance class …)`: an instance whose slots are unbound.

@@ -4,14 +4,14 @@ use std::rc::Rc;
 
 use super::fill::{Finish, Which, fill};
 use super::method::extended_function;
-use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, Instance};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 /// What a change of layout did.
 struct Change {
@@ -34,7 +34,8 @@ pub(crate) fn then_call(
     let finish = Finish::Call(function, args);
     let Some(update) = extended_function(machine.image, known::UPDATE_INSTANCE_FOR_REDEFINED_CLASS)
     else {
-        return Ok(fill(instance, &Which::Only(change.added), &[], finish));
+        let added = Which::Only(change.added);
+        return fill(machine, instance, &added, &[], finish);
     };
     let names = |names: &[Sym]| Value::list(names.iter().map(|n| Value::Symbol(*n)));
     let gone: Vec<Sym> = change.discarded.iter().map(|(n, _)| *n).collect();
@@ -49,27 +50,21 @@ pub(crate) fn then_call(
         names(&gone),
         Value::list(plist),
     ];
-    Ok(Step::Call {
-        function: update,
-        args: update_args,
-        then: Box::new(Then(finish)),
-    })
+    call_then(machine, update, update_args, finish)
 }
 
-/// Calls a function when the update is done.
-struct Then(Finish);
-
-impl Resume for Then {
-    fn resume(self: Box<Self>, _: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
-        Ok(match self.0 {
-            Finish::Return(value) => Step::Return(value),
-            Finish::Call(function, args) => Step::TailCall { function, args },
-        })
-    }
-
-    fn name(&self) -> &'static str {
-        "UPDATE-INSTANCE-FOR-REDEFINED-CLASS"
-    }
+/// Calls the function that updates an instance, then does what comes after it.
+fn call_then(
+    machine: &mut Machine<'_>,
+    update: Value,
+    args: Vec<Value>,
+    finish: Finish,
+) -> Result<Step, Box<Raise>> {
+    let name = "UPDATE-INSTANCE-FOR-REDEFINED-CLASS";
+    run(machine, name, |calls| async move {
+        calls.call(&update, Args::Many(args)).await;
+        Ok(finish.step())
+    })
 }
 
 /// Lays out the slots of an instance as its class has them now.
@@ -120,11 +115,11 @@ fn lay_out(instance: &Instance, old_names: &[Sym], class: &Class) -> Change {
 /// `change-class`: makes the instance one of another class. Slots of the same name keep
 /// their values, others are initialised.
 pub(crate) fn change_class(
-    image: &Image,
+    machine: &mut Machine<'_>,
     instance: &Rc<Instance>,
     class: &Rc<Class>,
     initargs: Vec<Value>,
-) -> Step {
+) -> Result<Step, Box<Raise>> {
     let object = Value::Instance(instance.clone());
     let old_class = instance.class();
     let previous = Rc::new(Instance {
@@ -136,20 +131,17 @@ pub(crate) fn change_class(
     let change = lay_out(instance, &old_names, class);
     *instance.class.borrow_mut() = class.clone();
     instance.generation.set(class.generation.get());
-    let update = extended_function(image, known::UPDATE_INSTANCE_FOR_DIFFERENT_CLASS);
+    let update = extended_function(machine.image, known::UPDATE_INSTANCE_FOR_DIFFERENT_CLASS);
     match update {
         None => {
             let finish = Finish::Return(object);
-            fill(instance, &Which::Only(change.added), &initargs, finish)
+            let added = Which::Only(change.added);
+            fill(machine, instance, &added, &initargs, finish)
         }
         Some(function) => {
             let mut args = vec![Value::Instance(previous), object.clone()];
             args.extend(initargs);
-            Step::Call {
-                function,
-                args,
-                then: Box::new(Then(Finish::Return(object))),
-            }
+            call_then(machine, function, args, Finish::Return(object))
         }
     }
 }
@@ -157,10 +149,11 @@ pub(crate) fn change_class(
 /// The default `update-instance-for-different-class`: slots that the previous instance did
 /// not have are initialised.
 pub(crate) fn initialize_new_slots(
+    machine: &mut Machine<'_>,
     previous: &Instance,
     instance: &Rc<Instance>,
     initargs: &[Value],
-) -> Step {
+) -> Result<Step, Box<Raise>> {
     let old = previous.class();
     let added = instance
         .class()
@@ -171,5 +164,5 @@ pub(crate) fn initialize_new_slots(
         .filter(|name| old.slot_index(*name).is_none())
         .collect();
     let finish = Finish::Return(Value::Instance(instance.clone()));
-    fill(instance, &Which::Only(added), initargs, finish)
+    fill(machine, instance, &Which::Only(added), initargs, finish)
 }

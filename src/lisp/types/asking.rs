@@ -4,8 +4,9 @@ use super::specifier::{Answers, Stop};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::computation::{Computation, Progress, compute};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 /// An operation that may stop for a call.
 pub(crate) type Operation = fn(&mut Image, &[Value], &mut Answers) -> Result<Value, Stop>;
@@ -17,47 +18,37 @@ pub(crate) fn run(
     operation: Operation,
     args: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
-    Box::new(Asking {
-        name,
+    let asking = Asking {
         operation,
         args,
         answers: Answers::default(),
-    })
-    .advance(machine)
+    };
+    compute(machine, name, asking)
 }
 
+/// An operation with the answers to the calls that it has asked for so far. It starts anew
+/// with each of them.
 struct Asking {
-    name: &'static str,
     operation: Operation,
     args: Vec<Value>,
     answers: Answers,
 }
 
-impl Asking {
-    fn advance(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step, Box<Raise>> {
-        match (self.operation)(machine.image, &self.args, &mut self.answers) {
-            Ok(value) => Ok(Step::Return(value)),
-            Err(Stop::Raise(raise) | Stop::UnknownType(raise)) => Err(raise),
-            Err(Stop::Call { function, args }) => Ok(Step::Call {
-                function,
-                args,
-                then: self,
-            }),
-        }
-    }
-}
+impl Computation for Asking {
+    type Output = Value;
 
-impl Resume for Asking {
-    fn resume(
-        mut self: Box<Self>,
+    fn advance(
+        &mut self,
         machine: &mut Machine<'_>,
-        value: Value,
-    ) -> Result<Step, Box<Raise>> {
-        self.answers.add(value);
-        self.advance(machine)
-    }
-
-    fn name(&self) -> &'static str {
-        self.name
+        answer: Option<Value>,
+    ) -> Result<Progress<Value>, Box<Raise>> {
+        if let Some(answer) = answer {
+            self.answers.add(answer);
+        }
+        match (self.operation)(machine.image, &self.args, &mut self.answers) {
+            Ok(value) => Ok(Progress::Done(value)),
+            Err(Stop::Raise(raise) | Stop::UnknownType(raise)) => Err(raise),
+            Err(Stop::Call { function, args }) => Ok(Progress::Call { function, args }),
+        }
     }
 }

@@ -5,15 +5,15 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
+use super::calls::run;
 use super::fiber::Dynamic;
 use super::machine::Machine;
-use super::step::{Resume, Step};
+use super::step::Step;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::Foreign;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// How an evaluation on top of a stopped fiber stands.
@@ -74,13 +74,14 @@ impl Aside {
         let state = self.state.clone();
         let call = move |machine: &mut Machine<'_>, _| {
             machine.fiber.dynamic.push(Dynamic::HandlerMask(0));
-            Ok(Step::CallForValues {
-                function: function.clone(),
-                args: args.clone(),
-                then: Box::new(Back {
-                    state: state.clone(),
-                    condition: condition.clone(),
-                }),
+            let back = Back(state.clone());
+            let (function, args) = (function.clone(), args.clone());
+            let condition = condition.clone();
+            run(machine, "DEBUGGER", |calls| async move {
+                let values = calls.call_for_values(&function, args).await;
+                calls.with(|machine| machine.unmask_handlers()).await;
+                back.returned(values);
+                Ok(Step::Unhandled(condition))
             })
         };
         Value::Function(Function::made_control(known::EVAL, (0, Some(0)), call))
@@ -104,37 +105,21 @@ impl Default for Aside {
 }
 
 /// The way back to the debugger.
-struct Back {
-    state: Rc<RefCell<AsideState>>,
-    condition: Value,
-}
+struct Back(Rc<RefCell<AsideState>>);
 
-impl Resume for Back {
-    fn resume(
-        self: Box<Self>,
-        machine: &mut Machine<'_>,
-        value: Value,
-    ) -> Result<Step, Box<Raise>> {
-        if matches!(machine.fiber.dynamic.last(), Some(Dynamic::HandlerMask(_))) {
-            machine.fiber.dynamic.pop();
-        }
-        let mut state = self.state.borrow_mut();
+impl Back {
+    fn returned(&self, values: Value) {
+        let mut state = self.0.borrow_mut();
         if matches!(*state, AsideState::Running) {
-            *state = AsideState::Returned(value.into_values());
+            *state = AsideState::Returned(values.into_values());
         }
-        drop(state);
-        Ok(Step::Unhandled(self.condition.clone()))
-    }
-
-    fn name(&self) -> &'static str {
-        "DEBUGGER"
     }
 }
 
 impl Drop for Back {
-    /// Dropped without having been resumed: something has left it.
+    /// Dropped before the evaluation has returned: something has left it.
     fn drop(&mut self) {
-        let mut state = self.state.borrow_mut();
+        let mut state = self.0.borrow_mut();
         if matches!(*state, AsideState::Running) {
             *state = AsideState::Left;
         }

@@ -1,6 +1,9 @@
 //! The frames of a fiber that stands still, as a debugger shows them: who was called with
 //! what, and the variables that were in force.
 
+use std::rc::Rc;
+
+use super::calls::Annotation;
 use super::fiber::{Fiber, Frame, FrameKind};
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
@@ -17,10 +20,8 @@ pub(crate) struct FrameView {
     pub(crate) arguments: Vec<Value>,
     /// The place in the source of what it was doing.
     pub(crate) place: Place,
-    /// The action that a plan carries out, if the frame is `PERFORM`'s.
-    pub(crate) action: Option<Value>,
-    /// How many motions had been begun before that action.
-    pub(crate) motions_before: u64,
+    /// What the layer that made the call says of it.
+    pub(crate) annotation: Option<Rc<Annotation>>,
 }
 
 /// A variable of a frame.
@@ -79,10 +80,13 @@ impl Fiber {
             FrameKind::Native { then, .. } => FrameView {
                 index,
                 name: then.name().into(),
-                arguments: then.subject().cloned().into_iter().collect(),
+                arguments: then
+                    .annotation()
+                    .iter()
+                    .map(|a| a.subject.clone())
+                    .collect(),
                 place: Place::NONE,
-                action: then.subject().cloned(),
-                motions_before: then.motions_before().unwrap_or(0),
+                annotation: then.annotation().cloned(),
             },
             FrameKind::Code { function, pc } => match &function.body {
                 Body::Closure { code, .. } => {
@@ -97,8 +101,7 @@ impl Fiber {
                         name: code.name.clone(),
                         arguments: values.filter(|value| !value.is_unbound()).collect(),
                         place: code.place_at(pc.saturating_sub(1)),
-                        action: None,
-                        motions_before: 0,
+                        annotation: None,
                     }
                 }
                 _ => FrameView {
@@ -106,8 +109,7 @@ impl Fiber {
                     name: Value::NIL,
                     arguments: Vec::new(),
                     place: Place::NONE,
-                    action: None,
-                    motions_before: 0,
+                    annotation: None,
                 },
             },
         }

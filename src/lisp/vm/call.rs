@@ -11,7 +11,7 @@ use crate::lisp::value::function::Body;
 pub(crate) struct Call {
     /// The place in the source of what it was doing; none for a builtin.
     pub(crate) place: Place,
-    /// What a builtin is about: the action that a plan carries out.
+    /// What the call is about, if the layer that made it says so.
     pub(crate) subject: Option<Value>,
 }
 
@@ -35,9 +35,9 @@ impl Machine<'_> {
                     }
                     _ => None,
                 },
-                FrameKind::Native { then, .. } => then.subject().map(|subject| Call {
+                FrameKind::Native { then, .. } => then.annotation().map(|annotation| Call {
                     place: Place::NONE,
-                    subject: Some(subject.clone()),
+                    subject: Some(annotation.subject.clone()),
                 }),
             })
             .collect()

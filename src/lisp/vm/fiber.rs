@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::step::Resume;
+use super::calls::Suspended;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Function;
@@ -34,7 +34,7 @@ pub(crate) enum FrameKind {
     /// A builtin that waits for a value.
     Native {
         /// The rest of the builtin.
-        then: Box<dyn Resume>,
+        then: Box<Suspended>,
         /// Does it want all values?
         all: bool,
     },

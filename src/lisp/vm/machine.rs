@@ -8,9 +8,10 @@ use std::any::Any;
 use std::rc::Rc;
 use std::sync::atomic::Ordering;
 
+use super::calls::Suspended;
 use super::code::{Capture, Code, Op};
 use super::fiber::{Dynamic, Fiber, Frame, FrameKind, Handler};
-use super::step::{Resume, Step};
+use super::step::Step;
 use crate::lisp::image::Image;
 use crate::lisp::library;
 use crate::lisp::object;
@@ -193,18 +194,11 @@ impl<'a> Machine<'a> {
             Step::Call {
                 function,
                 args,
+                all,
                 then,
             } => {
-                self.push_native(then, false, multi);
-                self.call_value(function, args, false)
-            }
-            Step::CallForValues {
-                function,
-                args,
-                then,
-            } => {
-                self.push_native(then, true, multi);
-                self.call_value(function, args, true)
+                self.push_native(then, all, multi);
+                self.call_value(function, args, all)
             }
             Step::TailCall { function, args } => self.call_value(function, args, multi),
             Step::Request(request) => {
@@ -224,7 +218,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn push_native(&mut self, then: Box<dyn Resume>, all: bool, multi: bool) {
+    fn push_native(&mut self, then: Box<Suspended>, all: bool, multi: bool) {
         let height = self.fiber.stack.len();
         self.fiber.frames.push(Frame {
             kind: FrameKind::Native { then, all },

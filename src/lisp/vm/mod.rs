@@ -3,7 +3,10 @@
 pub(crate) mod aside;
 pub(crate) mod backtrace;
 pub(crate) mod call;
+pub(crate) mod callable;
+pub(crate) mod calls;
 pub(crate) mod code;
+pub(crate) mod computation;
 pub(crate) mod fiber;
 pub(crate) mod machine;
 pub(crate) mod restart;

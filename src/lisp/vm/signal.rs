@@ -3,9 +3,10 @@
 use std::rc::Rc;
 
 use super::call::Call;
+use super::calls::run;
 use super::fiber::{Dynamic, Handler};
 use super::machine::{Machine, Next};
-use super::step::{Resume, Step};
+use super::step::Step;
 use crate::lisp::condition;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
@@ -18,16 +19,6 @@ pub(crate) enum Declined {
     Return,
     /// `error`: the machine stops, with the stack as it is.
     Stop,
-}
-
-/// A signalling under way.
-struct Signalling {
-    condition: Value,
-    declined: Declined,
-    /// Entries at and above this index have been searched.
-    position: usize,
-    /// Handlers of the entry at `position` that have been tried, if it is being searched.
-    tried: usize,
 }
 
 impl Machine<'_> {
@@ -76,19 +67,56 @@ impl Machine<'_> {
         condition: Value,
         declined: Declined,
     ) -> Result<Step, Box<Raise>> {
-        let position = self.fiber.dynamic.len();
-        let signalling = Signalling {
+        let mut search = Search {
             condition,
-            declined,
-            position,
+            position: self.fiber.dynamic.len(),
             tried: 0,
         };
-        Box::new(signalling).search(self)
+        let Some(first) = search.next(self)? else {
+            return Ok(declined.step(search.condition));
+        };
+        run(self, "SIGNAL", |calls| async move {
+            let mut handler = first;
+            loop {
+                let args = vec![search.condition.clone()];
+                calls.call_in_frame(&handler, args).await;
+                let next;
+                (search, next) = calls
+                    .with(move |machine| {
+                        machine.unmask_handlers();
+                        let next = search.next(machine);
+                        (search, next)
+                    })
+                    .await;
+                match next? {
+                    Some(next) => handler = next,
+                    None => return Ok(declined.step(search.condition)),
+                }
+            }
+        })
+    }
+
+    /// Ends the masking of handlers that the innermost dynamic entry is.
+    pub(super) fn unmask_handlers(&mut self) {
+        if matches!(self.fiber.dynamic.last(), Some(Dynamic::HandlerMask(_))) {
+            self.fiber.dynamic.pop();
+        }
     }
 }
 
-impl Signalling {
-    fn search(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step, Box<Raise>> {
+/// The search for handlers of a condition, from the innermost outwards.
+struct Search {
+    condition: Value,
+    /// Entries at and above this index have been searched.
+    position: usize,
+    /// Handlers of the entry at `position` that have been tried, if it is being searched.
+    tried: usize,
+}
+
+impl Search {
+    /// The next handler that takes conditions of this type. The handlers from its own on
+    /// inwards are masked for its call.
+    fn next(&mut self, machine: &mut Machine<'_>) -> Result<Option<Value>, Box<Raise>> {
         loop {
             let handlers = if self.tried > 0 {
                 match machine.fiber.dynamic.get(self.position) {
@@ -97,7 +125,7 @@ impl Signalling {
                 }
             } else {
                 let Some(position) = self.position.checked_sub(1) else {
-                    return Ok(self.decline());
+                    return Ok(None);
                 };
                 self.position = position;
                 match machine.fiber.dynamic.get(position) {
@@ -110,16 +138,9 @@ impl Signalling {
                 }
             };
             if let Some(function) = self.next_match(machine, &handlers)? {
-                let args = vec![self.condition.clone()];
-                machine
-                    .fiber
-                    .dynamic
-                    .push(Dynamic::HandlerMask(self.position));
-                return Ok(Step::Call {
-                    function,
-                    args,
-                    then: self,
-                });
+                let mask = Dynamic::HandlerMask(self.position);
+                machine.fiber.dynamic.push(mask);
+                return Ok(Some(function));
             }
             self.tried = 0;
         }
@@ -138,24 +159,13 @@ impl Signalling {
         }
         Ok(None)
     }
-
-    fn decline(self) -> Step {
-        match self.declined {
-            Declined::Return => Step::Return(Value::NIL),
-            Declined::Stop => Step::Unhandled(self.condition),
-        }
-    }
 }
 
-impl Resume for Signalling {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, _: Value) -> Result<Step, Box<Raise>> {
-        if matches!(machine.fiber.dynamic.last(), Some(Dynamic::HandlerMask(_))) {
-            machine.fiber.dynamic.pop();
+impl Declined {
+    fn step(self, condition: Value) -> Step {
+        match self {
+            Declined::Return => Step::Return(Value::NIL),
+            Declined::Stop => Step::Unhandled(condition),
         }
-        self.search(machine)
-    }
-
-    fn name(&self) -> &'static str {
-        "SIGNAL"
     }
 }

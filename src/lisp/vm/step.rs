@@ -2,32 +2,25 @@
 
 use std::any::Any;
 
+use super::calls::Suspended;
 use super::fiber::Target;
-use super::machine::Machine;
 use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
 
 /// The next step of a control builtin.
 pub(crate) enum Step {
     /// Return a value (`Value::values` for several).
     Return(Value),
-    /// Call a function (or a symbol that names one) and hand its primary value to `then`.
+    /// Call a function (or a symbol that names one) and hand its value to `then`.
     Call {
         /// The function.
         function: Value,
         /// The arguments.
         args: Vec<Value>,
+        /// Does `then` get all values (`Value::Multiple` unless exactly one), or the primary
+        /// one?
+        all: bool,
         /// What goes on afterwards.
-        then: Box<dyn Resume>,
-    },
-    /// Like `Call`, but `then` gets all values (`Value::Multiple` unless exactly one).
-    CallForValues {
-        /// The function.
-        function: Value,
-        /// The arguments.
-        args: Vec<Value>,
-        /// What goes on afterwards.
-        then: Box<dyn Resume>,
+        then: Box<Suspended>,
     },
     /// Call a function in place of this builtin.
     TailCall {
@@ -40,30 +33,30 @@ pub(crate) enum Step {
     /// the fiber is resumed with.
     Request(Box<dyn Any>),
     /// Like `Request`; the answer goes to `then`.
-    RequestThen(Box<dyn Any>, Box<dyn Resume>),
+    RequestThen(Box<dyn Any>, Box<Suspended>),
     /// Leave everything inside a target, with a value.
     Unwind(Target, Value),
     /// Stop: a condition has found no handler.
     Unhandled(Value),
 }
 
-/// The rest of a control builtin that waits for the value of a call.
-pub(crate) trait Resume {
-    /// Goes on with the value.
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, value: Value)
-    -> Result<Step, Box<Raise>>;
-
-    /// The builtin's name, for backtraces.
-    fn name(&self) -> &'static str;
-
-    /// What the builtin is about, if that is worth telling when something goes wrong
-    /// inside it: the action that a plan carries out.
-    fn subject(&self) -> Option<&Value> {
-        None
+impl Step {
+    /// Calls a function in place of this builtin.
+    pub(crate) fn tail_call(function: impl Into<Value>, args: Vec<Value>) -> Step {
+        Step::TailCall {
+            function: function.into(),
+            args,
+        }
     }
 
-    /// How many motions had been begun before it, if that is worth knowing.
-    fn motions_before(&self) -> Option<u64> {
-        None
+    /// Makes a request whose answer is this builtin's value.
+    pub(crate) fn request(request: impl Any) -> Step {
+        Step::Request(Box::new(request))
+    }
+}
+
+impl From<Value> for Step {
+    fn from(value: Value) -> Step {
+        Step::Return(value)
     }
 }

@@ -103,7 +103,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 /// The step that sleeps.
 pub(super) fn sleep(args: &[Value]) -> Result<Step> {
     let seconds = seconds(&args[0])?;
-    Ok(Step::Request(Box::new(Request::Sleep(seconds))))
+    Ok(Step::request(Request::Sleep(seconds)))
 }
 
 /// A number of seconds that is not negative.

@@ -6,11 +6,11 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::signal::Declined;
 use crate::lisp::vm::step::Step;
+use crate::plan::Result;
 use crate::plan::fluent::FluentRef;
 use crate::plan::request::{Call, GroupKind, Request};
 use crate::plan::scheduler;
 use crate::plan::state::Plan;
-use crate::plan::step::Result;
 use crate::plan::task::TaskRef;
 
 /// Builtins of package `PLAN-SYSTEM`.
@@ -101,11 +101,11 @@ fn group(
     functions: Vec<Call>,
 ) -> Result<Step> {
     check_plan(machine, name)?;
-    Ok(Step::Request(Box::new(Request::Group {
+    Ok(Step::request(Request::Group {
         kind,
         functions,
         name,
-    })))
+    }))
 }
 
 fn start(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
@@ -113,10 +113,10 @@ fn start(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     if machine.image.special(current).is_true() {
         return Err(Raise::simple("top-level calls cannot be nested."));
     }
-    Ok(Step::Request(Box::new(Request::TopLevel {
+    Ok(Step::request(Request::TopLevel {
         name: args[0].as_symbol().filter(|_| args[0].is_true()),
         function: args[1].clone(),
-    })))
+    }))
 }
 
 fn par_loop(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {

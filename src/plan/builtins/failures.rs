@@ -12,8 +12,8 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::signal::Declined;
 use crate::lisp::vm::step::Step;
+use crate::plan::Result;
 use crate::plan::state::Plan;
-use crate::plan::step::Result;
 
 /// The builtins.
 pub(crate) static TABLE: &[Builtin] = &[control(

@@ -3,19 +3,21 @@
 use super::arithmetic::seconds;
 use super::networks::fluent_argument;
 use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::builtins::calls::builtin_name;
 use crate::lisp::builtins::keywords;
 use crate::lisp::image::Image;
+use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::equality;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::callable::builtin_name;
+use crate::lisp::vm::calls::run;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::plan::Result;
 use crate::plan::fluent::{self, FluentRef};
 use crate::plan::request::Request;
 use crate::plan::state::Plan;
-use crate::plan::step::{Result, call_then, request_then};
 use crate::plan::task::TaskRef;
 
 /// The builtins.
@@ -156,13 +158,14 @@ fn set_value(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         Some(known::EQUAL) => equality::equal(&old, &new),
         Some(known::EQUALP) => equality::equalp(&old, &new),
         _ => {
-            let args = vec![old, new.clone()];
-            return Ok(call_then("VALUE", test, args, move |machine, same| {
-                if same.is_true() {
+            return run(machine, "VALUE", |calls| async move {
+                if calls.call2(&test, old, new.clone()).await.is_true() {
                     return Ok(Step::Return(new));
                 }
-                fluent::store(machine, &fluent, new)
-            }));
+                calls
+                    .with(move |machine| fluent::store(machine, &fluent, new))
+                    .await
+            });
         }
     };
     if same {
@@ -206,34 +209,36 @@ fn wait_until_true(
     fluent: FluentRef,
     until: Option<f64>,
 ) -> Result<Step> {
-    fluent::then_read(machine, &fluent.clone(), move |machine, value| {
-        if value.is_true() {
-            return Ok(Step::Return(value));
+    run(machine, "WAIT-FOR", |calls| async move {
+        loop {
+            let value = fluent::value(&calls, &fluent).await?;
+            if value.is_true() {
+                return Ok(value);
+            }
+            if let Some(until) = until
+                && until <= calls.with(|machine| Plan::of(machine.image).now()).await
+            {
+                return Ok(Value::NIL);
+            }
+            let fluent = fluent.clone();
+            calls.request(Request::Wait { fluent, until }).await;
         }
-        let now = Plan::of(machine.image).now();
-        if until.is_some_and(|until| until <= now) {
-            return Ok(Step::Return(Value::NIL));
-        }
-        let request = Request::Wait {
-            fluent: fluent.clone(),
-            until,
-        };
-        Ok(request_then("WAIT-FOR", request, move |machine, _| {
-            wait_until_true(machine, fluent, until)
-        }))
     })
 }
 
 fn register_callback(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let fluent = fluent_argument(machine, &args[0])?;
-    // Changes of a network are told from its value now.
-    fluent::then_read(machine, &fluent.clone(), move |machine, _| {
+    run(machine, "VALUE", |calls| async move {
+        // Changes of a network are told from its value now.
+        fluent::value(&calls, &fluent).await?;
         if fluent.get().add_callback(&args[1], &args[2]) {
-            return Ok(Step::Return(args[2].clone()));
+            return Ok(args[2].clone());
         }
-        let name = crate::lisp::print::to_string(machine.image, &args[1], false);
+        let name = args[1].clone();
+        let name = calls.with(move |machine| print::to_string(machine.image, &name, false));
         Err(Raise::simple(format!(
-            "Callback with name {name} is already registered."
+            "Callback with name {} is already registered.",
+            name.await
         )))
     })
 }

@@ -10,8 +10,8 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::plan::Result;
 use crate::plan::state::{Goal, Plan};
-use crate::plan::step::Result;
 
 /// The builtins.
 pub(crate) static TABLE: &[Builtin] = &[pure(

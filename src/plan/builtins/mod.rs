@@ -17,11 +17,11 @@ use crate::lisp::builtin::Builtin;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::step::Step;
 
 use super::request::{Call, Request};
 use super::state::Plan;
-use super::step::{call_then, request_then};
 
 /// Functions of package `CRAM-LANGUAGE-IMPLEMENTATION`, which `CRAM-LANGUAGE` exports, too.
 pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
@@ -55,26 +55,23 @@ pub(crate) static COMMON_LISP: &[Builtin] = common::TABLE;
 
 /// A function that waits for fluents, one after the other, and then calls another one.
 pub(super) fn constrained(plan: &Plan, call: Call, constraints: Vec<Value>) -> Value {
-    let wait_for = plan.names.wait_for;
+    let wait_for = Value::from(plan.names.wait_for);
     Value::Function(Function::made_control(
         plan.names.sys_run_constrained,
         (0, Some(0)),
-        move |_, _| Ok(wait_for_all(wait_for, constraints.clone(), call.clone())),
+        move |machine, _| {
+            let (function, args) = call.clone();
+            let (wait_for, constraints) = (wait_for.clone(), constraints.clone());
+            run(machine, "WAIT-FOR", |calls| async move {
+                for constraint in constraints.into_iter().rev() {
+                    calls.call1(&wait_for, constraint).await;
+                }
+                // If what it waited for has failed, its parent comes first and ends it.
+                calls.request(Request::Sleep(0.0)).await;
+                Ok(Step::tail_call(function, args))
+            })
+        },
     ))
-}
-
-fn wait_for_all(wait_for: Sym, mut constraints: Vec<Value>, call: Call) -> Step {
-    match constraints.pop() {
-        Some(constraint) => call_then("WAIT-FOR", wait_for, vec![constraint], move |_, _| {
-            Ok(wait_for_all(wait_for, constraints, call))
-        }),
-        // If what it waited for has failed, its parent comes first and ends it.
-        None => request_then("SLEEP", Request::Sleep(0.0), |_, _| Ok(tail_call(call))),
-    }
-}
-
-fn tail_call((function, args): Call) -> Step {
-    Step::TailCall { function, args }
 }
 
 /// A variable, the function that computes its value for a task, and its arguments.
@@ -86,20 +83,20 @@ pub(super) fn initialised(plan: &Plan, call: Call, initialisers: Vec<Initialiser
     Value::Function(Function::made_control(
         plan.names.sys_run_constrained,
         (0, Some(0)),
-        move |_, _| Ok(initialise_all(initialisers.clone(), call.clone())),
-    ))
-}
-
-fn initialise_all(mut initialisers: Vec<Initialiser>, call: Call) -> Step {
-    match initialisers.pop() {
-        Some((variable, init, args)) => {
-            call_then("INITIALISE", init, args, move |machine, value| {
-                machine.image.set_special(variable, value);
-                Ok(initialise_all(initialisers, call))
+        move |machine, _| {
+            let (function, args) = call.clone();
+            let initialisers = initialisers.clone();
+            run(machine, "INITIALISE", |calls| async move {
+                for (variable, init, args) in initialisers.into_iter().rev() {
+                    let value = calls.call(&init, Args::Many(args)).await;
+                    calls
+                        .with(move |machine| machine.image.set_special(variable, value))
+                        .await;
+                }
+                Ok(Step::tail_call(function, args))
             })
-        }
-        None => tail_call(call),
-    }
+        },
+    ))
 }
 
 /// A function that calls a suspended task's hooks, innermost first, and then waits on.
@@ -107,17 +104,14 @@ pub(super) fn hook_runner(plan: &Plan, hooks: Vec<Value>) -> Value {
     Value::Function(Function::made_control(
         plan.names.sys_hook,
         (0, Some(0)),
-        move |_, _| Ok(run_hooks(hooks.clone())),
+        move |machine, _| {
+            let hooks = hooks.clone();
+            run(machine, "ON-SUSPENSION", |calls| async move {
+                for hook in hooks.into_iter().rev() {
+                    calls.call(&hook, Args::Many(Vec::new())).await;
+                }
+                Ok(calls.request(Request::HooksDone).await)
+            })
+        },
     ))
-}
-
-fn run_hooks(mut hooks: Vec<Value>) -> Step {
-    match hooks.pop() {
-        Some(hook) => call_then("ON-SUSPENSION", hook, Vec::new(), |_, _| {
-            Ok(run_hooks(hooks))
-        }),
-        None => request_then("ON-SUSPENSION", Request::HooksDone, |_, value| {
-            Ok(Step::Return(value))
-        }),
-    }
 }

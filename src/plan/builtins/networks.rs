@@ -7,11 +7,12 @@ use crate::lisp::value::Value;
 use crate::lisp::value::function::PureFn;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::run;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::plan::Result;
 use crate::plan::fluent::{self, FluentRef, Missed, Operation};
 use crate::plan::state::Plan;
-use crate::plan::step::{Result, call_then};
 
 /// The builtins.
 pub(crate) static TABLE: &[Builtin] = &[
@@ -206,7 +207,10 @@ fn make(
         return Ok(Step::Return(net.value()));
     }
     let value = net.value();
-    fluent::then_read(machine, &net, move |_, _| Ok(Step::Return(value)))
+    run(machine, "VALUE", |calls| async move {
+        fluent::value(&calls, &net).await?;
+        Ok(value)
+    })
 }
 
 fn fl_funcall(machine: &mut Machine<'_>, mut args: Vec<Value>) -> Result<Step> {
@@ -252,12 +256,10 @@ fn pulsed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
             }
         },
     };
-    // Counting pulses of a network starts with its value now.
-    fluent::then_read(machine, &source.clone(), move |machine, _| {
-        let plan = Plan::of(machine.image);
-        Ok(Step::Return(
-            FluentRef::pulses(&plan, &source, mode).value(),
-        ))
+    run(machine, "VALUE", |calls| async move {
+        // Counting pulses of a network starts with its value now.
+        fluent::value(&calls, &source).await?;
+        Ok(FluentRef::pulses(&plan, &source, mode).value())
     })
 }
 
@@ -267,16 +269,11 @@ fn value_changed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let wanted = [plan.names.test, plan.names.key];
     let [test, key] = keywords::parse(machine.image, &args[1..], wanted)?;
     let (test, key) = (test.unwrap_or(Value::NIL), key.unwrap_or(Value::NIL));
-    fluent::then_read(machine, &source.clone(), move |machine, value| {
-        let function = key.clone();
-        let make = move |machine: &mut Machine<'_>, old| {
-            let plan = Plan::of(machine.image);
-            let made = FluentRef::change(&plan, &source, test, key, old);
-            Ok(Step::Return(made.value()))
-        };
-        if function.is_nil() {
-            return make(machine, value);
+    run(machine, "FL-VALUE-CHANGED", |calls| async move {
+        let mut old = fluent::value(&calls, &source).await?;
+        if key.is_true() {
+            old = calls.call1(&key, old).await;
         }
-        Ok(call_then("FL-VALUE-CHANGED", function, vec![value], make))
+        Ok(FluentRef::change(&plan, &source, test, key, old).value())
     })
 }

@@ -12,8 +12,8 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::plan::Result;
 use crate::plan::state::Plan;
-use crate::plan::step::Result;
 
 /// A policy.
 pub(crate) struct Policy {

@@ -7,12 +7,13 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::run;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::plan::Result;
 use crate::plan::fluent::{FluentRef, Operation};
 use crate::plan::request::Request;
 use crate::plan::state::Plan;
-use crate::plan::step::{Result, request_then};
 use crate::plan::task::{Status, TaskRef};
 
 /// The builtins.
@@ -118,7 +119,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[],
         |m, args| {
             let task = told(m, &args)?;
-            Ok(Step::Request(Box::new(Request::Suspend(task))))
+            Ok(Step::request(Request::Suspend(task)))
         },
     ),
     control(
@@ -128,7 +129,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[],
         |m, args| {
             let task = told(m, &args)?;
-            Ok(Step::Request(Box::new(Request::WakeUp(task))))
+            Ok(Step::request(Request::WakeUp(task)))
         },
     ),
     control(
@@ -138,7 +139,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &["(cpl:top-level (cpl:with-tags (:tag a 5) (cpl:join-task a))) => 5"],
         |m, args| {
             let task = task(m.image, &args[0])?;
-            Ok(Step::Request(Box::new(Request::Join(task))))
+            Ok(Step::request(Request::Join(task)))
         },
     ),
     pure(
@@ -164,18 +165,14 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         "function",
         "Calls the function when the current task is suspended.",
         &[],
-        |_, args| {
-            Ok(Step::Request(Box::new(Request::Hook(
-                args.into_iter().next(),
-            ))))
-        },
+        |_, args| Ok(Step::request(Request::Hook(args.into_iter().next()))),
     ),
     control(
         "POP-SUSPENSION-HOOK",
         "",
         "Forgets the last hook.",
         &[],
-        |_, _| Ok(Step::Request(Box::new(Request::Hook(None)))),
+        |_, _| Ok(Step::request(Request::Hook(None))),
     ),
     control(
         "ALLOW-SCHEDULING",
@@ -187,7 +184,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
                 Value::Int(n) if n < 0 => -1,
                 _ => 1,
             };
-            Ok(Step::Request(Box::new(Request::Scheduling(change))))
+            Ok(Step::request(Request::Scheduling(change)))
         },
     ),
     control(
@@ -251,21 +248,22 @@ fn evaporate(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let [_, sync] = keywords::parse(machine.image, &args[1..], [names.reason, names.sync])?;
     let task = task(machine.image, &args[0])?;
     let sync = sync.is_none_or(|sync| sync.is_true());
-    Ok(Step::Request(Box::new(Request::Evaporate { task, sync })))
+    Ok(Step::request(Request::Evaporate { task, sync }))
 }
 
 fn wait_until_suspended(machine: &mut Machine<'_>, task: TaskRef) -> Result<Step> {
-    let status = task.get().status();
-    if status == Status::Suspended || status.is_dead() {
-        return Ok(Step::Return(Value::NIL));
-    }
-    let request = Request::Wait {
-        fluent: task.get().fluent(&Plan::of(machine.image)).clone(),
-        until: None,
-    };
-    Ok(request_then("WITH-TASK-SUSPENDED", request, |m, _| {
-        wait_until_suspended(m, task)
-    }))
+    let fluent = task.get().fluent(&Plan::of(machine.image)).clone();
+    run(machine, "WITH-TASK-SUSPENDED", |calls| async move {
+        loop {
+            let status = task.get().status();
+            if status == Status::Suspended || status.is_dead() {
+                return Ok(Value::NIL);
+            }
+            let fluent = fluent.clone();
+            let until = None;
+            calls.request(Request::Wait { fluent, until }).await;
+        }
+    })
 }
 
 fn define_task_variable(image: &mut Image, args: &[Value]) -> Result<Value> {

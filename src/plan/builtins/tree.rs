@@ -7,9 +7,9 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::step::Step;
+use crate::plan::Result;
 use crate::plan::request::Request;
 use crate::plan::state::Plan;
-use crate::plan::step::Result;
 use crate::plan::task::{Status, TaskName, TaskRef};
 use crate::plan::tree::{NodeObject, TreeNode};
 use std::rc::Rc;
@@ -119,7 +119,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         |m, args| {
             let task = super::tasks::task(m.image, &args[0])?;
             let function = args[1].clone();
-            Ok(Step::Request(Box::new(Request::Run { task, function })))
+            Ok(Step::request(Request::Run { task, function }))
         },
     ),
     control(
@@ -132,7 +132,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
             let number = Plan::of(m.image).fresh_number();
             let task = task_at(m.image, TaskName::Numbered(what.into(), number), &args[0])?;
             let function = args[2].clone();
-            Ok(Step::Request(Box::new(Request::Run { task, function })))
+            Ok(Step::request(Request::Run { task, function }))
         },
     ),
 ];

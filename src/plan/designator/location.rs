@@ -5,7 +5,6 @@
 //! (`*location-generator-max-retries*`) the search ends.
 
 use super::check;
-use super::continuation::{Next, Result, call};
 use super::failure;
 use super::failure::Unresolved;
 use super::object;
@@ -19,10 +18,9 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
-use crate::plan::packages;
+use crate::lisp::vm::calls::{Args, Calls};
 use crate::plan::pose::value::as_placement;
+use crate::plan::{Result, packages};
 
 /// Where generators are kept: a list of `(priority function documentation enabled)`.
 const GENERATORS: &str = "*LOCATION-GENERATORS*";
@@ -191,86 +189,89 @@ fn enabled(image: &mut Image, list: &str) -> Vec<Value> {
         .collect()
 }
 
-/// A search for solutions of one location.
-struct Search {
-    /// The description.
-    designator: Value,
-    /// The designator that gets the solution.
-    owner: Value,
-    /// Poses that were generated and not looked at.
-    samples: Vec<Value>,
-    /// Generators that have not run.
-    generators: Vec<Value>,
-    rejections: i64,
-    next: Next,
-    missing: Missing,
+/// What a search comes to.
+enum Found {
+    /// A pose.
+    Pose(Value),
+    /// Nothing, for this reason.
+    Nothing(String),
 }
 
-/// What a search that finds nothing ends in.
-enum Missing {
-    /// An error of the designator.
-    Error,
-    /// A plan failure with a text.
-    Failure(String),
-    /// `NIL`.
-    Nil,
+/// Resolves a location: its pose.
+pub(crate) async fn reference(calls: &Calls, designator: &Value) -> Result<Value> {
+    match first_solution(calls, designator).await? {
+        Found::Pose(pose) => Ok(pose),
+        Found::Nothing(reason) => {
+            let designator = designator.clone();
+            let error = calls.with(move |machine| {
+                let shown = print::to_string(machine.image, &designator, false);
+                let text = format!("Unable to resolve designator `{shown}'");
+                let why = Unresolved::new(reason);
+                failure::designator_error(machine.image, &designator, &text, &why)
+            });
+            Err(error.await)
+        }
+    }
 }
 
-/// Resolves a location and goes on with its pose.
-pub(crate) fn reference(machine: &mut Machine<'_>, designator: &Value, next: Next) -> Result<Step> {
-    first_solution(machine, designator, next, Missing::Error)
-}
-
-/// The same, with a plan failure if there is no solution.
-pub(crate) fn try_reference(
-    machine: &mut Machine<'_>,
+/// The same, with a plan failure if there is no solution; it says the message, if there is
+/// one, in place of the reason.
+pub(crate) async fn try_reference(
+    calls: &Calls,
     designator: &Value,
     message: String,
-    next: Next,
-) -> Result<Step> {
-    first_solution(machine, designator, next, Missing::Failure(message))
+) -> Result<Value> {
+    match first_solution(calls, designator).await? {
+        Found::Pose(pose) => Ok(pose),
+        Found::Nothing(reason) => {
+            let reason = if message.is_empty() { reason } else { message };
+            let designator = designator.clone();
+            let failure = calls.with(move |machine| {
+                let why = Unresolved::new(reason);
+                failure::reference_failure(machine.image, &designator, &why)
+            });
+            Err(failure.await)
+        }
+    }
 }
 
-fn first_solution(
-    machine: &mut Machine<'_>,
-    designator: &Value,
-    next: Next,
-    missing: Missing,
-) -> Result<Step> {
-    let target = value::designator(machine.image, designator)?;
-    if let Some(data) = target.data.borrow().clone() {
-        return next(machine, data);
+/// The pose that a location is resolved to, is given, or is found first.
+async fn first_solution(calls: &Calls, designator: &Value) -> Result<Found> {
+    let location = designator.clone();
+    let known = calls.with(move |machine| known_pose(machine.image, &location));
+    if let Some(pose) = known.await? {
+        return Ok(Found::Pose(pose));
     }
-    check::check_inside(machine.image, designator, 2)?;
-    if let Some(pose) = given_pose(machine.image, target) {
+    let functor = calls.with(|machine| variable(machine.image, "LOCATION-GROUNDING"));
+    let grounded = solutions_of(calls, functor.await, None, designator).await?;
+    let mut generators = calls
+        .with(|machine| enabled(machine.image, GENERATORS))
+        .await;
+    generators.reverse();
+    let mut samples: Vec<Value> = grounded.iter_list().collect();
+    samples.reverse();
+    let search = Search {
+        designator: designator.clone(),
+        owner: designator.clone(),
+        samples,
+        generators,
+    };
+    search.run(calls).await
+}
+
+/// The pose of a location that need not be searched for.
+fn known_pose(image: &mut Image, designator: &Value) -> Result<Option<Value>> {
+    let target = value::designator(image, designator)?;
+    if let Some(data) = target.data.borrow().clone() {
+        return Ok(Some(data));
+    }
+    check::check_inside(image, designator, 2)?;
+    let pose = given_pose(image, target);
+    if let Some(pose) = &pose {
         *target.data.borrow_mut() = Some(pose.clone());
         *target.solutions.borrow_mut() = Some(Value::NIL);
-        return next(machine, pose);
     }
-    let designator = designator.clone();
-    let functor = variable(machine.image, "LOCATION-GROUNDING");
-    solutions_of(
-        machine,
-        functor,
-        None,
-        &designator.clone(),
-        Box::new(move |machine, grounded| {
-            let mut generators = enabled(machine.image, GENERATORS);
-            generators.reverse();
-            let mut samples: Vec<Value> = grounded.iter_list().collect();
-            samples.reverse();
-            let search = Search {
-                owner: designator.clone(),
-                designator,
-                samples,
-                generators,
-                rejections: 0,
-                next,
-                missing,
-            };
-            search.go_on(machine)
-        }),
-    )
+    Ok(pose)
 }
 
 /// The pose that a location says itself, or that of the object it is the location of.
@@ -289,160 +290,127 @@ fn given_pose(image: &Image, target: &Designator) -> Option<Value> {
     }
 }
 
+/// A search for solutions of one location.
+struct Search {
+    /// The description.
+    designator: Value,
+    /// The designator that gets the solution.
+    owner: Value,
+    /// Poses that were generated and not looked at, the next one last.
+    samples: Vec<Value>,
+    /// Generators that have not run, the next one last.
+    generators: Vec<Value>,
+}
+
 impl Search {
-    /// Looks at the next sample, or asks the next generator for some.
-    fn go_on(mut self, machine: &mut Machine<'_>) -> Result<Step> {
-        if let Some(sample) = self.samples.pop() {
-            let mut validators = enabled(machine.image, VALIDATORS);
-            validators.reverse();
-            return self.validate(machine, sample, validators, Verdict::default());
-        }
-        let Some(generator) = self.generators.pop() else {
-            return self.end(machine);
-        };
-        let args = vec![self.designator.clone()];
-        Ok(call(
-            generator,
-            args,
-            "REFERENCE",
-            Box::new(move |machine, poses| {
+    /// Looks at samples until one is accepted; generators are asked for more.
+    async fn run(mut self, calls: &Calls) -> Result<Found> {
+        let mut rejections = 0;
+        loop {
+            let Some(sample) = self.samples.pop() else {
+                let Some(generator) = self.generators.pop() else {
+                    return Ok(Found::Nothing(reason(rejections)));
+                };
+                let poses = calls.call1(&generator, self.designator.clone()).await;
                 self.samples = match &poses {
                     Value::Cons(_) => poses.iter_list().collect(),
                     Value::Symbol(known::NIL) => Vec::new(),
                     single => vec![single.clone()],
                 };
                 self.samples.reverse();
-                self.go_on(machine)
-            }),
-        ))
-    }
-
-    /// Asks the validators that are left about a sample.
-    fn validate(
-        self,
-        machine: &mut Machine<'_>,
-        sample: Value,
-        mut validators: Vec<Value>,
-        verdict: Verdict,
-    ) -> Result<Step> {
-        let Some(validator) = validators.pop() else {
-            if verdict.is_rejected() {
-                return self.reject(machine);
+                continue;
+            };
+            if self.is_accepted(calls, &sample).await {
+                self.settle(&sample);
+                return Ok(Found::Pose(sample));
             }
-            return self.accept(machine, sample);
-        };
-        let args = vec![self.designator.clone(), sample.clone()];
-        Ok(call(
-            validator,
-            args,
-            "REFERENCE",
-            Box::new(move |machine, answer| {
-                let mut verdict = verdict;
-                let answer = answer.as_symbol().map(|s| machine.image.name(s));
-                match answer {
-                    Some("ACCEPT") => verdict.accepted = true,
-                    Some("MAYBE-REJECT") => verdict.maybe_rejected = true,
-                    Some("UNKNOWN") => {}
-                    _ => return self.reject(machine),
-                }
-                self.validate(machine, sample, validators, verdict)
-            }),
-        ))
-    }
-
-    fn reject(mut self, machine: &mut Machine<'_>) -> Result<Step> {
-        self.rejections += 1;
-        let most = variable(machine.image, MOST_RETRIES);
-        let most = match machine.image.special(most) {
-            Value::Int(most) => *most,
-            _ => RETRIES,
-        };
-        if self.rejections >= most {
-            return self.end(machine);
+            rejections += 1;
+            if rejections >= calls.with(|machine| most_retries(machine.image)).await {
+                return Ok(Found::Nothing(reason(rejections)));
+            }
         }
-        self.go_on(machine)
     }
 
-    fn accept(self, machine: &mut Machine<'_>, sample: Value) -> Result<Step> {
-        let target = value::designator(machine.image, &self.owner)?;
-        *target.data.borrow_mut() = Some(sample.clone());
-        let rest = Value::cons(Value::list(self.samples), Value::list(self.generators));
-        *target.solutions.borrow_mut() = Some(rest);
-        (self.next)(machine, sample)
+    /// Asks the validators about a sample.
+    async fn is_accepted(&self, calls: &Calls, sample: &Value) -> bool {
+        let validators = calls.with(|machine| enabled(machine.image, VALIDATORS));
+        let mut is_sure = false;
+        let mut is_doubtful = false;
+        for validator in validators.await {
+            let args = Args::Two([self.designator.clone(), sample.clone()]);
+            let answer = calls.call(&validator, args).await;
+            let answer = calls.with(move |machine| {
+                let sym = answer.as_symbol();
+                sym.map(|sym| machine.image.name(sym).to_owned())
+            });
+            match answer.await.as_deref() {
+                Some("ACCEPT") => is_sure = true,
+                Some("MAYBE-REJECT") => is_doubtful = true,
+                Some("UNKNOWN") => {}
+                _ => return false,
+            }
+        }
+        is_sure || !is_doubtful
     }
 
-    fn end(self, machine: &mut Machine<'_>) -> Result<Step> {
-        let image = &mut *machine.image;
-        let reason = match self.rejections {
-            0 => "Nothing generates such a location: write (a location (pose ?pose)).".to_owned(),
-            n => format!(
-                "{n} candidate{} rejected.",
-                if n == 1 { " was" } else { "s were" }
-            ),
-        };
-        match self.missing {
-            Missing::Nil => Ok(Step::Return(Value::NIL)),
-            Missing::Failure(message) => {
-                let reason = if message.is_empty() { reason } else { message };
-                let why = Unresolved::new(reason);
-                Err(failure::reference_failure(image, &self.designator, &why))
-            }
-            Missing::Error => {
-                let shown = print::to_string(image, &self.designator, false);
-                let text = format!("Unable to resolve designator `{shown}'");
-                let why = Unresolved::new(reason);
-                Err(failure::designator_error(
-                    image,
-                    &self.designator,
-                    &text,
-                    &why,
-                ))
-            }
+    /// Makes a sample what the owner stands for, and keeps what has not been looked at.
+    fn settle(self, sample: &Value) {
+        if let Some(target) = value::as_designator(&self.owner) {
+            *target.data.borrow_mut() = Some(sample.clone());
+            let rest = Value::cons(Value::list(self.samples), Value::list(self.generators));
+            *target.solutions.borrow_mut() = Some(rest);
         }
     }
 }
 
-/// What the validators said of a sample so far.
-#[derive(Clone, Copy, Default)]
-struct Verdict {
-    accepted: bool,
-    maybe_rejected: bool,
+/// How many rejections in a row end a search.
+fn most_retries(image: &mut Image) -> i64 {
+    let most = variable(image, MOST_RETRIES);
+    match image.special(most) {
+        Value::Int(most) => *most,
+        _ => RETRIES,
+    }
 }
 
-impl Verdict {
-    fn is_rejected(self) -> bool {
-        self.maybe_rejected && !self.accepted
+/// Why a search has found nothing.
+fn reason(rejections: i64) -> String {
+    match rejections {
+        0 => "Nothing generates such a location: write (a location (pose ?pose)).".to_owned(),
+        1 => "1 candidate was rejected.".to_owned(),
+        n => format!("{n} candidates were rejected."),
     }
 }
 
 /// The next solution, as a designator that is equated with this one; `NIL` if there is none.
-pub(crate) fn next_solution(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
-    let designator = designator.clone();
-    first_solution(
-        machine,
-        &designator.clone(),
-        Box::new(move |machine, _| {
-            let target = value::designator(machine.image, &designator)?;
-            if let Some(next) = target.successor.borrow().clone() {
-                return Ok(Step::Return(next));
-            }
-            let rest = target.solutions.borrow().clone().unwrap_or(Value::NIL);
-            let owner = same_description(machine.image, target);
-            let search = Search {
-                designator: designator.clone(),
-                owner: owner.clone(),
-                // Both are kept in reverse.
-                samples: rest.car_or_nil().iter_list().collect(),
-                generators: rest.cdr_or_nil().iter_list().collect(),
-                rejections: 0,
-                next: Box::new(move |_, _| {
-                    value::equate(&designator, &owner);
-                    Ok(Step::Return(owner))
-                }),
-                missing: Missing::Nil,
-            };
-            search.go_on(machine)
-        }),
-        Missing::Nil,
-    )
+pub(crate) async fn next_solution(calls: &Calls, designator: &Value) -> Result<Value> {
+    if let Found::Nothing(_) = first_solution(calls, designator).await? {
+        return Ok(Value::NIL);
+    }
+    let Some(target) = value::as_designator(designator) else {
+        return Ok(Value::NIL);
+    };
+    if let Some(next) = target.successor.borrow().clone() {
+        return Ok(next);
+    }
+    let rest = target.solutions.borrow().clone().unwrap_or(Value::NIL);
+    let location = designator.clone();
+    let owner = calls.with(move |machine| {
+        let target = value::designator(machine.image, &location)?;
+        Ok::<_, Box<Raise>>(same_description(machine.image, target))
+    });
+    let owner = owner.await?;
+    let search = Search {
+        designator: designator.clone(),
+        owner: owner.clone(),
+        // Both are kept in reverse.
+        samples: rest.car_or_nil().iter_list().collect(),
+        generators: rest.cdr_or_nil().iter_list().collect(),
+    };
+    Ok(match search.run(calls).await? {
+        Found::Pose(_) => {
+            value::equate(designator, &owner);
+            owner
+        }
+        Found::Nothing(_) => Value::NIL,
+    })
 }

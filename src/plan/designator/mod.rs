@@ -5,7 +5,6 @@
 
 pub(crate) mod access;
 pub(crate) mod check;
-mod continuation;
 pub(crate) mod failure;
 pub(crate) mod ground;
 pub(crate) mod lint;

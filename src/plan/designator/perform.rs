@@ -1,6 +1,5 @@
 //! `perform`: an action calls its plan, a motion becomes a request to whoever runs the plan.
 
-use super::continuation::{Next, Result, call, call_for, done};
 use super::failure;
 use super::failure::Unresolved;
 use super::ground;
@@ -18,9 +17,10 @@ use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::FunctionCell;
+use crate::lisp::vm::calls::{Annotation, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
-use crate::plan::packages;
+use crate::plan::{Result, packages};
 
 /// Functions of package `CRAM-EXECUTIVE`.
 pub(crate) static TABLE: &[Builtin] = &[control(
@@ -52,10 +52,13 @@ fn perform(machine: &mut Machine<'_>, argument: &Value) -> Result<Step> {
             .with(known::K_DATUM, Value::NIL)
             .with(known::K_EXPECTED_TYPE, expected.into()));
     }
-    match class {
-        Class::Action => perform_action(machine, argument),
-        _ => perform_motion(machine, argument),
-    }
+    let designator = argument.clone();
+    run(machine, "PERFORM", |calls| async move {
+        match class {
+            Class::Action => perform_action(&calls, &designator).await.map(Step::Return),
+            _ => perform_motion(&calls, &designator).await,
+        }
+    })
 }
 
 fn not_performable(image: &mut Image, argument: &Value) -> Box<Raise> {
@@ -71,109 +74,112 @@ fn not_performable(image: &mut Image, argument: &Value) -> Box<Raise> {
 }
 
 /// With a goal: nothing if it holds already, and a failure if it does not hold afterwards.
-fn perform_action(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
-    let image = &mut *machine.image;
-    let goal = crate::plan::designator::property(image, designator, "GOAL");
-    let holds = packages::symbol(image, "CRAM-OCCASIONS-EVENTS", "HOLDS");
-    let goal = goal.filter(|_| image.function(holds).is_some());
-    let Some(goal) = goal else {
-        return run_action(machine, designator, done());
+async fn perform_action(calls: &Calls, designator: &Value) -> Result<Value> {
+    let action = designator.clone();
+    let goal = calls.with(move |machine| goal_of(machine.image, &action));
+    let Some((goal, holds)) = goal.await else {
+        return run_action(calls, designator).await;
     };
-    let designator = designator.clone();
-    let question = vec![goal.clone()];
-    Ok(call(
-        holds.into(),
-        question.clone(),
-        "PERFORM",
-        Box::new(move |machine, holding| {
-            let shown = print::to_string(machine.image, &goal, true);
-            if holding.is_true() {
+    let is_achieved = calls.call1(&holds, goal.clone()).await.is_true();
+    let stated = goal.clone();
+    let goal_text = calls
+        .with(move |machine| {
+            let text = print::to_string(machine.image, &stated, true);
+            if is_achieved {
                 let output = &mut machine.image.output;
                 output.fresh_line();
                 output.write(&format!(
-                    "WARNING: Action goal `{shown}' already achieved.\n"
+                    "WARNING: Action goal `{text}' already achieved.\n"
                 ));
-                return Ok(Step::Return(Value::NIL));
             }
-            let action = designator.clone();
-            let after: Next = Box::new(move |_, _| {
-                Ok(call(
-                    holds.into(),
-                    question,
-                    "PERFORM",
-                    Box::new(move |machine, holding| {
-                        if holding.is_true() {
-                            return Ok(Step::Return(Value::NIL));
-                        }
-                        let action = print::to_string(machine.image, &action, false);
-                        Err(failure::simple_failure(
-                            machine.image,
-                            format!("Goal `{shown}' of action `{action}' was not achieved."),
-                        ))
-                    }),
-                ))
-            });
-            run_action(machine, &designator, after)
-        }),
-    ))
+            text
+        })
+        .await;
+    if is_achieved {
+        return Ok(Value::NIL);
+    }
+    run_action(calls, designator).await?;
+    if calls.call1(&holds, goal).await.is_true() {
+        return Ok(Value::NIL);
+    }
+    let action = designator.clone();
+    calls
+        .with(move |machine| {
+            let action = print::to_string(machine.image, &action, false);
+            Err(failure::simple_failure(
+                machine.image,
+                format!("Goal `{goal_text}' of action `{action}' was not achieved."),
+            ))
+        })
+        .await
+}
+
+/// The goal of an action, and the function that tells whether it holds.
+fn goal_of(image: &mut Image, action: &Value) -> Option<(Value, Value)> {
+    let goal = crate::plan::designator::property(image, action, "GOAL")?;
+    let holds = packages::symbol(image, "CRAM-OCCASIONS-EVENTS", "HOLDS");
+    image.function(holds)?;
+    Some((goal, holds.into()))
 }
 
 /// Resolves an action and calls its plan.
-fn run_action(machine: &mut Machine<'_>, designator: &Value, next: Next) -> Result<Step> {
-    let designator = designator.clone();
-    let target = value::designator(machine.image, &designator)?;
-    let known = target.data.borrow().clone();
-    if let Some(Value::Cons(command)) = known {
-        return run_command(machine, &designator, command.car(), command.cdr(), next);
-    }
-    groundings(
-        machine,
-        &designator.clone(),
-        Box::new(move |machine, found| {
-            let target = value::designator(machine.image, &designator)?;
-            if let Value::Cons(cons) = &found {
-                *target.data.borrow_mut() = Some(cons.car());
-                *target.solutions.borrow_mut() = Some(cons.cdr());
-                let command = cons.car();
-                let (plan, args) = (command.car_or_nil(), command.cdr_or_nil());
-                return run_command(machine, &designator, plan, args, next);
-            }
-            match ground::ground(machine.image, target) {
-                Ok(grounding) => {
-                    let (plan, args) = ground::plan_call(machine.image, &grounding);
-                    call_plan(machine, &designator, plan, args, next)
-                }
-                Err(refusal) => {
-                    let why = refusal.reason()?;
-                    Err(failure::reference_failure(machine.image, &designator, &why))
-                }
-            }
-        }),
-    )
+async fn run_action(calls: &Calls, designator: &Value) -> Result<Value> {
+    let known = value::as_designator(designator).and_then(|d| d.data.borrow().clone());
+    let (plan, args) = match known {
+        Some(Value::Cons(command)) => commanded(calls, command.car(), command.cdr()).await,
+        _ => resolve_action(calls, designator).await?,
+    };
+    call_plan(calls, designator, plan, args).await
 }
 
-/// Calls what a rule says: `(plan argument…)`. A plan that takes keywords and is given
-/// nothing but an action gets that action's properties.
-fn run_command(
-    machine: &mut Machine<'_>,
-    designator: &Value,
-    plan: Value,
-    args: Value,
-    next: Next,
-) -> Result<Step> {
-    let args: Vec<Value> = args.iter_list().collect();
-    if let [only] = args.as_slice()
-        && let Some(action) = value::as_class(only, Class::Action)
-        && takes_keywords(machine.image, &plan)
-    {
-        let mut keywords = Vec::new();
-        for (key, values) in action.properties() {
-            keywords.push(key);
-            keywords.push(values.car_or_nil());
+/// The plan of an action that is not resolved yet, and its arguments: by a rule, or else by
+/// the table.
+async fn resolve_action(calls: &Calls, designator: &Value) -> Result<PlanCall> {
+    let found = groundings(calls, designator).await?;
+    let action = designator.clone();
+    if let Value::Cons(found) = &found {
+        if let Some(target) = value::as_designator(&action) {
+            *target.data.borrow_mut() = Some(found.car());
+            *target.solutions.borrow_mut() = Some(found.cdr());
         }
-        return call_plan(machine, designator, plan, keywords, next);
+        let command = found.car();
+        return Ok(commanded(calls, command.car_or_nil(), command.cdr_or_nil()).await);
     }
-    call_plan(machine, designator, plan, args, next)
+    calls
+        .with(move |machine| {
+            let target = value::designator(machine.image, &action)?;
+            match ground::ground(machine.image, target) {
+                Ok(grounding) => Ok(ground::plan_call(machine.image, &grounding)),
+                Err(refusal) => {
+                    let why = refusal.reason()?;
+                    Err(failure::reference_failure(machine.image, &action, &why))
+                }
+            }
+        })
+        .await
+}
+
+/// The function of a plan, and its arguments.
+type PlanCall = (Value, Vec<Value>);
+
+/// The call that a rule's `(plan argument…)` says. A plan that takes keywords and is given
+/// nothing but an action gets that action's properties.
+async fn commanded(calls: &Calls, plan: Value, args: Value) -> PlanCall {
+    let args: Vec<Value> = args.iter_list().collect();
+    let [only] = args.as_slice() else {
+        return (plan, args);
+    };
+    let Some(action) = value::as_class(only, Class::Action) else {
+        return (plan, args);
+    };
+    let function = plan.clone();
+    let takes_keywords = calls.with(move |machine| takes_keywords(machine.image, &function));
+    if !takes_keywords.await {
+        return (plan, args);
+    }
+    let properties = action.properties().into_iter();
+    let keywords = properties.flat_map(|(key, values)| [key, values.car_or_nil()]);
+    (plan, keywords.collect())
 }
 
 /// Does the function take keyword arguments and nothing else?
@@ -190,61 +196,85 @@ fn takes_keywords(image: &Image, plan: &Value) -> bool {
     }
 }
 
-/// Calls the function of a plan.
-fn call_plan(
-    machine: &mut Machine<'_>,
+/// How many motions have been begun; the image keeps it for [`Performance`].
+pub(crate) struct MotionsBegun(pub(crate) u64);
+
+/// What there is to know about the call of an action's plan.
+pub(crate) struct Performance {
+    /// How many motions had been begun before it.
+    pub(crate) motions_before: u64,
+}
+
+/// Calls the function of a plan. The frame of the call tells the action.
+async fn call_plan(
+    calls: &Calls,
     designator: &Value,
     plan: Value,
     args: Vec<Value>,
-    next: Next,
-) -> Result<Step> {
-    let image = &mut *machine.image;
-    if let Some(name) = plan.as_symbol()
-        && !matches!(image.symbol(name).function, FunctionCell::Function(_))
-    {
-        let shown = print::to_string(image, designator, false);
-        let name = image.name(name).to_owned();
-        return Err(failure::simple_failure(
-            image,
-            format!(
-                "Action designator `{shown}' resolved to cram function `{name}', but it isn't defined. Cannot perform action."
-            ),
-        ));
+) -> Result<Value> {
+    let (function, action) = (plan.clone(), designator.clone());
+    let performance = calls.with(move |machine| {
+        let image = &mut *machine.image;
+        check_defined(image, &action, &function)?;
+        let motions_before = image.extension::<MotionsBegun>().map_or(0, |begun| begun.0);
+        Ok::<_, Box<Raise>>(Performance { motions_before })
+    });
+    let annotation = Annotation {
+        note: Box::new(performance.await?),
+        subject: designator.clone(),
+    };
+    Ok(calls.call_about(annotation, &plan, args).await)
+}
+
+fn check_defined(image: &mut Image, designator: &Value, plan: &Value) -> Result<()> {
+    let Some(name) = plan.as_symbol() else {
+        return Ok(());
+    };
+    if matches!(image.symbol(name).function, FunctionCell::Function(_)) {
+        return Ok(());
     }
-    let action = (designator.clone(), image.motions);
-    Ok(call_for(action, plan, args, next))
+    let shown = print::to_string(image, designator, false);
+    let name = image.name(name).to_owned();
+    Err(failure::simple_failure(
+        image,
+        format!(
+            "Action designator `{shown}' resolved to cram function `{name}', but it isn't defined. Cannot perform action."
+        ),
+    ))
 }
 
 /// A process module of the plan's own, or a request to whoever runs the plan.
-fn perform_motion(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
+async fn perform_motion(calls: &Calls, designator: &Value) -> Result<Step> {
+    let symbols = calls.with(|machine| {
+        let names = [
+            "MATCHING-PROCESS-MODULE",
+            "AVAILABLE-PROCESS-MODULE",
+            "PM-EXECUTE",
+        ];
+        names.map(|name| packages::symbol(machine.image, "CRAM-PROCESS-MODULES", name))
+    });
+    let [matching, available, execute] = symbols.await;
+    let modules = solutions_of(calls, matching, Some(available), designator).await?;
+    let module = calls.with(move |machine| {
+        modules.iter_list().find(|module| {
+            let name = module.as_symbol();
+            name.is_some_and(|s| machine.image.function(s).is_some())
+        })
+    });
+    if let Some(module) = module.await {
+        let execute = Value::from(execute);
+        let value = calls.call2(&execute, module, designator.clone()).await;
+        return Ok(Step::Return(value));
+    }
     let motion = designator.clone();
-    let symbol = |image: &mut Image, name| packages::symbol(image, "CRAM-PROCESS-MODULES", name);
-    let matching = symbol(machine.image, "MATCHING-PROCESS-MODULE");
-    let available = symbol(machine.image, "AVAILABLE-PROCESS-MODULE");
-    let execute = symbol(machine.image, "PM-EXECUTE");
-    solutions_of(
-        machine,
-        matching,
-        Some(available),
-        designator,
-        Box::new(move |machine, modules| {
-            let module = modules.iter_list().find(|module| {
-                let name = module.as_symbol();
-                name.is_some_and(|s| machine.image.function(s).is_some())
-            });
-            match module {
-                Some(module) => {
-                    let args = vec![module, motion];
-                    Ok(call(execute.into(), args, "PERFORM", done()))
-                }
-                None => request_motion(machine, &motion),
-            }
-        }),
-    )
+    let mut request = calls
+        .with(move |machine| motion_request(machine.image, &motion))
+        .await?;
+    resolve_places(calls, &mut request).await?;
+    Ok(Step::request(request))
 }
 
-fn request_motion(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
-    let image = &mut *machine.image;
+fn motion_request(image: &mut Image, designator: &Value) -> Result<MotionRequest> {
     let motion = value::designator(image, designator)?;
     let grounding = match ground::ground(image, motion) {
         Ok(grounding) => grounding,
@@ -265,12 +295,11 @@ fn request_motion(machine: &mut Machine<'_>, designator: &Value) -> Result<Step>
             return Err(failure::reference_failure(image, designator, &why));
         }
     };
-    let request = MotionRequest {
+    Ok(MotionRequest {
         designator: designator.clone(),
         motion_type: grounding.row.name.to_owned(),
         properties: grounding.properties,
-    };
-    resolve_places(machine, request, 0)
+    })
 }
 
 fn no_module(image: &mut Image, designator: &Value, why: &Unresolved) -> Box<Raise> {
@@ -278,36 +307,32 @@ fn no_module(image: &mut Image, designator: &Value, why: &Unresolved) -> Box<Rai
     failure::no_process_module(image, &format!("{shown}\n{}", why.reason))
 }
 
-/// Puts poses in place of locations that must be searched for, then makes the request.
-fn resolve_places(
-    machine: &mut Machine<'_>,
-    mut request: MotionRequest,
-    index: usize,
-) -> Result<Step> {
-    let Some((_, place)) = request.properties.get(index).cloned() else {
-        return Ok(Step::Request(Box::new(request)));
-    };
-    let is_symbolic = value::as_class(&place, Class::Location)
-        .is_some_and(|location| location.property_named(machine.image, "POSE").is_none());
-    if !is_symbolic {
-        return resolve_places(machine, request, index + 1);
+/// Puts poses in place of locations that must be searched for.
+async fn resolve_places(calls: &Calls, request: &mut MotionRequest) -> Result<()> {
+    for (_, place) in &mut request.properties {
+        let location = place.clone();
+        let is_symbolic = calls.with(move |machine| {
+            value::as_class(&location, Class::Location)
+                .is_some_and(|l| l.property_named(machine.image, "POSE").is_none())
+        });
+        if !is_symbolic.await {
+            continue;
+        }
+        let message = "The location is not known.".to_owned();
+        let pose = location::try_reference(calls, place, message).await?;
+        let (motion, symbolic) = (request.designator.clone(), place.clone());
+        (*place, request.designator) = calls
+            .with(move |machine| {
+                let found = value::make(machine.image, Class::Location, &[("POSE", pose)]);
+                let resolved = match value::as_designator(&motion) {
+                    Some(d) => with_place(machine.image, d, &symbolic, &found),
+                    None => motion.clone(),
+                };
+                (found, resolved)
+            })
+            .await;
     }
-    let message = "The location is not known.".to_owned();
-    location::try_reference(
-        machine,
-        &place.clone(),
-        message,
-        Box::new(move |machine, pose| {
-            let found = value::make(machine.image, Class::Location, &[("POSE", pose)]);
-            if let Some(property) = request.properties.get_mut(index) {
-                property.1 = found.clone();
-            }
-            if let Some(motion) = value::as_designator(&request.designator) {
-                request.designator = with_place(machine.image, motion, &place, &found);
-            }
-            resolve_places(machine, request, index + 1)
-        }),
-    )
+    Ok(())
 }
 
 /// The motion with another location in place of one.

@@ -3,7 +3,6 @@
 //! Rules of plans (`action-grounding`, `motion-grounding`) come first, then the schema.
 //! Locations are sampled and validated, see [`crate::plan::designator::location`].
 
-use super::continuation::{Next, Result, done};
 use super::failure;
 use super::failure::Unresolved;
 use super::ground;
@@ -18,12 +17,13 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
-use crate::plan::packages;
 use crate::plan::prolog::builtins::solve;
 use crate::plan::prolog::engine::Engine;
 use crate::plan::prolog::facts;
+use crate::plan::{Result, packages};
 
 /// Groundings of one designator that are looked for.
 const MOST_GROUNDINGS: usize = 64;
@@ -37,14 +37,22 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[
             "(desig:reference (desig:an action (type parking-arms))) => (CRAM-MOBILE-PICK-PLACE-PLANS::PARKING-ARMS)",
         ],
-        |machine, args| reference(machine, &args[0], done()),
+        |machine, args| {
+            run(machine, "REFERENCE", |calls| async move {
+                reference(&calls, &args[0]).await
+            })
+        },
     ),
     control(
         "NEXT-SOLUTION",
         "designator",
         "A designator like this one with the next thing that it may stand for, equated; NIL if there is none.",
         &["(desig:next-solution (desig:an object)) => NIL"],
-        |machine, args| next_solution(machine, &args[0]),
+        |machine, args| {
+            run(machine, "NEXT-SOLUTION", |calls| async move {
+                next_solution(&calls, &args[0]).await
+            })
+        },
     ),
 ];
 
@@ -57,118 +65,129 @@ pub(crate) static EXECUTIVE_TABLE: &[Builtin] = &[control(
     try_reference,
 )];
 
-/// Resolves a designator and goes on with what it stands for.
-pub(crate) fn reference(machine: &mut Machine<'_>, designator: &Value, next: Next) -> Result<Step> {
-    let found = value::designator(machine.image, designator)?;
-    if let Some(data) = found.data.borrow().clone() {
-        return next(machine, data);
+/// What a designator stands for.
+pub(crate) async fn reference(calls: &Calls, designator: &Value) -> Result<Value> {
+    let subject = designator.clone();
+    let known = calls.with(move |machine| {
+        let found = value::designator(machine.image, &subject)?;
+        let data = found.data.borrow().clone();
+        Ok::<_, Box<Raise>>((found.class, data))
+    });
+    let (class, data) = known.await?;
+    if let Some(data) = data {
+        return Ok(data);
     }
-    let image = &mut *machine.image;
-    let shown = || print::to_string(image, designator, false);
-    let (text, why) = match found.class {
-        Class::Location => return location::reference(machine, designator, next),
+    match class {
+        Class::Location => location::reference(calls, designator).await,
         Class::Action | Class::Motion => {
-            let designator = designator.clone();
-            return groundings(
-                machine,
-                &designator.clone(),
-                Box::new(move |machine, found| resolved(machine, &designator, &found, next)),
-            );
+            let found = groundings(calls, designator).await?;
+            let subject = designator.clone();
+            calls
+                .with(move |machine| resolved(machine.image, &subject, &found))
+                .await
         }
-        Class::Object => (
-            format!("Designator `{}' does not reference an object.", shown()),
-            "It must be detected first.",
-        ),
-        Class::Human => (
-            format!("Designator `{}' does not reference an human.", shown()),
-            "",
-        ),
-    };
-    let why = Unresolved::new(why);
-    Err(failure::designator_error(image, designator, &text, &why))
+        Class::Object | Class::Human => {
+            let subject = designator.clone();
+            let error = calls.with(move |machine| unknown(machine.image, &subject, class));
+            Err(error.await)
+        }
+    }
 }
 
-/// Goes on with the list of groundings that rules of plans give an action or a motion.
-pub(crate) fn groundings(
-    machine: &mut Machine<'_>,
-    designator: &Value,
-    next: Next,
-) -> Result<Step> {
+/// The error that nothing is known of an object or a person.
+fn unknown(image: &mut Image, designator: &Value, class: Class) -> Box<Raise> {
+    let shown = print::to_string(image, designator, false);
+    let (kind, why) = match class {
+        Class::Human => ("human", ""),
+        _ => ("object", "It must be detected first."),
+    };
+    let text = format!("Designator `{shown}' does not reference an {kind}.");
+    failure::designator_error(image, designator, &text, &Unresolved::new(why))
+}
+
+/// The list of groundings that rules of plans give an action or a motion.
+pub(crate) async fn groundings(calls: &Calls, designator: &Value) -> Result<Value> {
     let is_action = value::as_class(designator, Class::Action).is_some();
     let name = if is_action {
         "ACTION-GROUNDING"
     } else {
         "MOTION-GROUNDING"
     };
-    let functor = packages::symbol(machine.image, "CRAM-DESIGNATORS", name);
-    solutions_of(machine, functor, None, designator, next)
+    let functor = calls
+        .with(|machine| packages::symbol(machine.image, "CRAM-DESIGNATORS", name))
+        .await;
+    solutions_of(calls, functor, None, designator).await
 }
 
-/// Goes on with the list of values that rules `(functor designator ?value)` give, and of
-/// which `(condition ?value)` holds if rules speak of that.
-pub(crate) fn solutions_of(
-    machine: &mut Machine<'_>,
+/// The list of values that rules `(functor designator ?value)` give, and of which
+/// `(condition ?value)` holds if rules speak of that.
+pub(crate) async fn solutions_of(
+    calls: &Calls,
     functor: Sym,
     condition: Option<Sym>,
     designator: &Value,
-    next: Next,
-) -> Result<Step> {
-    let image = &mut *machine.image;
+) -> Result<Value> {
+    let subject = designator.clone();
+    let query = calls.with(move |machine| query(machine.image, functor, condition, subject));
+    let Some((engine, variable)) = query.await? else {
+        return Ok(Value::NIL);
+    };
+    let solutions = solve(calls, engine, MOST_GROUNDINGS).await?;
+    let values: Vec<Value> = solutions
+        .iter_list()
+        .filter_map(|bindings| {
+            bindings
+                .iter_list()
+                .find(|pair| pair.car_or_nil().as_symbol() == Some(variable))
+                .map(|pair| pair.cdr_or_nil())
+        })
+        .collect();
+    Ok(Value::list(values))
+}
+
+/// The query for those values, and its variable; none if no rule speaks of the functor.
+fn query(
+    image: &mut Image,
+    functor: Sym,
+    condition: Option<Sym>,
+    designator: Value,
+) -> Result<Option<(Engine, Sym)>> {
     if !facts::of(image).knows(functor) {
-        return next(machine, Value::NIL);
+        return Ok(None);
     }
     let id = packages::ensure(image, "CRAM-DESIGNATORS", &["DESIG"]);
     let variable = image.intern(id, "?GROUNDING");
-    let mut query = Value::list([functor.into(), designator.clone(), variable.into()]);
+    let mut query = Value::list([functor.into(), designator, variable.into()]);
     if let Some(condition) = condition.filter(|c| facts::of(image).knows(*c)) {
         let condition = Value::list([condition.into(), variable.into()]);
         query = Value::list([known::AND.into(), query, condition]);
     }
-    let engine = Engine::new(image, &query)?;
-    let finish = Box::new(move |machine: &mut Machine<'_>, solutions: Value| {
-        let values: Vec<Value> = solutions
-            .iter_list()
-            .filter_map(|bindings| {
-                bindings
-                    .iter_list()
-                    .find(|pair| pair.car_or_nil().as_symbol() == Some(variable))
-                    .map(|pair| pair.cdr_or_nil())
-            })
-            .collect();
-        next(machine, Value::list(values))
-    });
-    solve(engine, MOST_GROUNDINGS, finish).go_on(machine)
+    Ok(Some((Engine::new(image, &query)?, variable)))
 }
 
 /// The first grounding by rules, or what the schema says.
-fn resolved(
-    machine: &mut Machine<'_>,
-    designator: &Value,
-    found: &Value,
-    next: Next,
-) -> Result<Step> {
-    let target = value::designator(machine.image, designator)?;
+fn resolved(image: &mut Image, designator: &Value, found: &Value) -> Result<Value> {
+    let target = value::designator(image, designator)?;
     if let Value::Cons(cons) = found {
         *target.data.borrow_mut() = Some(cons.car());
         *target.solutions.borrow_mut() = Some(cons.cdr());
-        return next(machine, cons.car());
+        return Ok(cons.car());
     }
-    let command = match ground::ground(machine.image, target) {
+    match ground::ground(image, target) {
         Ok(grounding) if target.class == Class::Action => {
-            let (plan, args) = ground::plan_call(machine.image, &grounding);
-            Value::list_with_tail([plan], Value::list(args))
+            let (plan, args) = ground::plan_call(image, &grounding);
+            Ok(Value::list_with_tail([plan], Value::list(args)))
         }
         Ok(grounding) => {
-            let command = machine.image.keyword(grounding.row.name);
+            let command = image.keyword(grounding.row.name);
             let values: Vec<Value> = grounding.properties.into_iter().map(|(_, v)| v).collect();
-            Value::list_with_tail([command.into()], Value::list(values))
+            Ok(Value::list_with_tail([command.into()], Value::list(values)))
         }
-        Err(Refusal::Error(raise)) => return Err(raise),
+        Err(Refusal::Error(raise)) => Err(raise),
         Err(Refusal::UnknownType(why) | Refusal::Incomplete(why)) => {
-            return Err(unresolved(machine.image, designator, target, &why));
+            Err(unresolved(image, designator, target, &why))
         }
-    };
-    next(machine, command)
+    }
 }
 
 fn unresolved(
@@ -183,36 +202,41 @@ fn unresolved(
     failure::designator_error(image, designator, &text, why)
 }
 
-fn next_solution(machine: &mut Machine<'_>, designator: &Value) -> Result<Step> {
-    let target = value::designator(machine.image, designator)?;
-    match target.class {
-        Class::Location => location::next_solution(machine, designator),
-        Class::Object | Class::Human => Ok(Step::Return(Value::NIL)),
+/// A designator for the next thing that a designator may stand for; `NIL` if there is none.
+async fn next_solution(calls: &Calls, designator: &Value) -> Result<Value> {
+    let subject = designator.clone();
+    let class =
+        calls.with(move |machine| value::designator(machine.image, &subject).map(|d| d.class));
+    match class.await? {
+        Class::Location => location::next_solution(calls, designator).await,
+        Class::Object | Class::Human => Ok(Value::NIL),
         Class::Action | Class::Motion => {
-            let designator = designator.clone();
-            reference(
-                machine,
-                &designator.clone(),
-                Box::new(move |machine, _| {
-                    let target = value::designator(machine.image, &designator)?;
-                    if let Some(next) = target.successor.borrow().clone() {
-                        return Ok(Step::Return(next));
-                    }
-                    let rest = target.solutions.borrow().clone().unwrap_or(Value::NIL);
-                    let Value::Cons(rest) = rest else {
-                        return Ok(Step::Return(Value::NIL));
-                    };
-                    let other = same_description(machine.image, target);
-                    value::equate(&designator, &other);
-                    if let Some(new) = value::as_designator(&other) {
-                        *new.data.borrow_mut() = Some(rest.car());
-                        *new.solutions.borrow_mut() = Some(rest.cdr());
-                    }
-                    Ok(Step::Return(other))
-                }),
-            )
+            reference(calls, designator).await?;
+            let subject = designator.clone();
+            calls
+                .with(move |machine| next_grounding(machine.image, &subject))
+                .await
         }
     }
+}
+
+/// The same for an action or a motion, from the groundings that it was resolved with.
+fn next_grounding(image: &mut Image, designator: &Value) -> Result<Value> {
+    let target = value::designator(image, designator)?;
+    if let Some(next) = target.successor.borrow().clone() {
+        return Ok(next);
+    }
+    let rest = target.solutions.borrow().clone().unwrap_or(Value::NIL);
+    let Value::Cons(rest) = rest else {
+        return Ok(Value::NIL);
+    };
+    let other = same_description(image, target);
+    value::equate(designator, &other);
+    if let Some(new) = value::as_designator(&other) {
+        *new.data.borrow_mut() = Some(rest.car());
+        *new.solutions.borrow_mut() = Some(rest.cdr());
+    }
+    Ok(other)
 }
 
 /// A designator with the same description.
@@ -226,16 +250,21 @@ pub(crate) fn same_description(image: &mut Image, target: &Designator) -> Value 
 fn try_reference(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let designator = args[0].clone();
     let message = args.get(1).and_then(Value::as_text).unwrap_or_default();
-    let target = value::designator(machine.image, &designator)?;
-    // Locations end their search in the same failure.
-    let class = target.class;
-    if class == Class::Location {
-        return location::try_reference(machine, &designator, message, done());
-    }
-    match reference(machine, &designator, done()) {
-        Ok(step) => Ok(step),
-        Err(raise) => Err(as_failure(machine.image, &designator, raise, &message)),
-    }
+    let class = value::designator(machine.image, &designator)?.class;
+    run(machine, "REFERENCE", |calls| async move {
+        // Locations end their search in the same failure.
+        if class == Class::Location {
+            return location::try_reference(&calls, &designator, message).await;
+        }
+        match reference(&calls, &designator).await {
+            Ok(value) => Ok(value),
+            Err(raise) => {
+                let failure = calls
+                    .with(move |machine| as_failure(machine.image, &designator, raise, &message));
+                Err(failure.await)
+            }
+        }
+    })
 }
 
 /// An error of a designator as a plan failure; other errors as they are.

@@ -7,8 +7,10 @@ use super::{FluentRef, Kind, Missed, Operation};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::Calls;
+use crate::lisp::vm::computation::{Computation, Progress, compute};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -26,12 +28,6 @@ struct Frame {
     values: Vec<Value>,
     /// The function of the network has been called.
     is_called: bool,
-}
-
-/// How far a computation has come.
-pub(crate) enum Progress {
-    Done(Value),
-    Call { function: Value, args: Vec<Value> },
 }
 
 impl Reading {
@@ -73,7 +69,11 @@ impl Reading {
     }
 
     /// Goes on; `answer` is the value of the call that it stopped at.
-    pub(crate) fn advance(&mut self, image: &mut Image, answer: Option<Value>) -> Result<Progress> {
+    pub(super) fn go_on(
+        &mut self,
+        image: &mut Image,
+        answer: Option<Value>,
+    ) -> Result<Progress<Value>> {
         let mut incoming = answer;
         loop {
             let Some(frame) = self.stack.last_mut() else {
@@ -243,68 +243,30 @@ fn change_step(
     ChangeStep::Value { now, is_same }
 }
 
-/// Reads a fluent in the middle of a builtin, then goes on with the value.
-pub(crate) fn then_read(
-    machine: &mut Machine<'_>,
-    fluent: &FluentRef,
-    then: impl FnOnce(&mut Machine<'_>, Value) -> Result<Step> + 'static,
-) -> Result<Step> {
-    if let Some(value) = fluent.get().known_value() {
-        return then(machine, value);
+impl Computation for Reading {
+    type Output = Value;
+
+    fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<Progress<Value>> {
+        self.go_on(machine.image, answer)
     }
-    Box::new(ThenRead {
-        reading: Reading::new(fluent, false, false),
-        then,
-    })
-    .go_on(machine, None)
+}
+
+/// The value of a fluent, in the middle of a builtin.
+pub(crate) async fn value(calls: &Calls, fluent: &FluentRef) -> Result<Value> {
+    match fluent.get().known_value() {
+        Some(value) => Ok(value),
+        None => calls.compute(Reading::new(fluent, false, false)).await,
+    }
 }
 
 /// The step that returns the value of a fluent.
 pub(crate) fn read(machine: &mut Machine<'_>, fluent: &FluentRef, peek: bool) -> Result<Step> {
-    if let Some(value) = fluent.get().known_value() {
-        return Ok(Step::Return(value));
-    }
-    Box::new(ThenRead {
-        reading: Reading::new(fluent, peek, false),
-        then: |_: &mut Machine<'_>, value| Ok(Step::Return(value)),
-    })
-    .go_on(machine, None)
-}
-
-struct ThenRead<F> {
-    reading: Reading,
-    then: F,
-}
-
-impl<F> ThenRead<F>
-where
-    F: FnOnce(&mut Machine<'_>, Value) -> Result<Step> + 'static,
-{
-    fn go_on(
-        mut self: Box<Self>,
-        machine: &mut Machine<'_>,
-        answer: Option<Value>,
-    ) -> Result<Step> {
-        match self.reading.advance(machine.image, answer)? {
-            Progress::Done(value) => (self.then)(machine, value),
-            Progress::Call { function, args } => Ok(Step::Call {
-                function,
-                args,
-                then: self,
-            }),
-        }
-    }
-}
-
-impl<F> Resume for ThenRead<F>
-where
-    F: FnOnce(&mut Machine<'_>, Value) -> Result<Step> + 'static,
-{
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, value: Value) -> Result<Step> {
-        self.go_on(machine, Some(value))
-    }
-
-    fn name(&self) -> &'static str {
-        "VALUE"
+    match fluent.get().known_value() {
+        Some(value) => Ok(Step::Return(value)),
+        None => compute(machine, "VALUE", Reading::new(fluent, peek, false)),
     }
 }

@@ -23,7 +23,7 @@ use crate::lisp::value::function::PureFn;
 use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::Sym;
 
-pub(crate) use evaluation::{read, then_read};
+pub(crate) use evaluation::{read, value};
 pub(crate) use propagation::{Propagation, pulse, settle, store};
 pub(crate) use reference::FluentRef;
 

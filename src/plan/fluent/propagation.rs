@@ -3,13 +3,14 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::rc::Rc;
 
-use super::evaluation::{Progress, Reading};
+use super::evaluation::Reading;
 use super::{FluentRef, Kind};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::computation::{Computation, Progress, compute};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 use crate::plan::state::Plan;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -57,9 +58,9 @@ fn spread(machine: &mut Machine<'_>, fluent: &FluentRef, result: Value) -> Resul
         wake(&plan, fluent);
         return Ok(Step::Return(result));
     }
-    let mut propagation = Box::new(Propagation::new(plan, result));
+    let mut propagation = Propagation::new(plan, result);
     propagation.pulse(fluent, None);
-    propagation.go_on(machine, None)
+    propagation.spread(machine)
 }
 
 /// Stores a value and spreads the change as far as no Lisp function is needed; what is
@@ -71,7 +72,7 @@ pub(crate) fn settle(image: &mut Image, fluent: &FluentRef, new: Value) -> Optio
     }
     let mut propagation = Propagation::new(plan, Value::NIL);
     propagation.pulse(fluent, Some(new));
-    match propagation.advance(image, None) {
+    match propagation.go_on(image, None) {
         Ok(None) => None,
         Ok(Some((function, args))) => {
             // The call has been taken out: put it back as the next one.
@@ -129,14 +130,14 @@ impl Propagation {
     }
 
     /// Does what can be done; a call that is needed, or nothing when all is done.
-    fn advance(
+    fn go_on(
         &mut self,
         image: &mut Image,
         mut answer: Option<Value>,
     ) -> Result<Option<(Value, Vec<Value>)>> {
         loop {
             if let Some((fluent, before, mut reading, purpose)) = self.current.take() {
-                match reading.advance(image, answer.take()) {
+                match reading.go_on(image, answer.take()) {
                     Ok(Progress::Done(value)) => match purpose {
                         Purpose::Report => {
                             for (_, function) in fluent.get().callbacks.borrow().iter() {
@@ -207,30 +208,24 @@ impl Propagation {
     }
 
     /// Goes on in a fiber.
-    pub(crate) fn go_on(
-        mut self: Box<Self>,
-        machine: &mut Machine<'_>,
-        answer: Option<Value>,
-    ) -> Result<Step> {
-        match self.advance(machine.image, answer)? {
-            None => Ok(Step::Return(std::mem::take(&mut self.result))),
-            Some((function, args)) => Ok(Step::Call {
-                function,
-                args,
-                then: self,
-            }),
-        }
+    pub(crate) fn spread(self, machine: &mut Machine<'_>) -> Result<Step> {
+        compute(machine, "PULSE", self)
     }
 }
 
-impl Resume for Propagation {
-    fn resume(self: Box<Self>, machine: &mut Machine<'_>, value: Value) -> Result<Step> {
-        // Without a network under way, the value is that of a callback.
-        let answer = self.current.is_some().then_some(value);
-        self.go_on(machine, answer)
-    }
+impl Computation for Propagation {
+    type Output = Value;
 
-    fn name(&self) -> &'static str {
-        "PULSE"
+    fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<Progress<Value>> {
+        // Without a network under way, the value is that of a callback.
+        let answer = answer.filter(|_| self.current.is_some());
+        Ok(match self.go_on(machine.image, answer)? {
+            None => Progress::Done(std::mem::take(&mut self.result)),
+            Some((function, args)) => Progress::Call { function, args },
+        })
     }
 }

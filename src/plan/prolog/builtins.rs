@@ -4,8 +4,10 @@ use super::engine::{Engine, Progress};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::Calls;
+use crate::lisp::vm::computation::{self, Computation, compute};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -39,53 +41,51 @@ pub(crate) static TABLE: &[Builtin] = &[
 
 fn start(machine: &mut Machine<'_>, query: &Value, most: usize) -> Result<Step> {
     let engine = Engine::new(machine.image, query)?;
-    let solutions = solve(engine, most, Box::new(|_, found| Ok(Step::Return(found))));
-    solutions.go_on(machine)
+    compute(machine, "PROLOG", Solve::new(engine, most))
 }
 
-/// What is done with the solutions.
-type Finish = Box<dyn FnOnce(&mut Machine<'_>, Value) -> Result<Step>>;
+/// The list of the bindings of at most so many solutions.
+pub(crate) async fn solve(calls: &Calls, engine: Engine, most: usize) -> Result<Value> {
+    calls.compute(Solve::new(engine, most)).await
+}
 
 /// The search for solutions of a query.
-pub(crate) struct Solve {
+struct Solve {
     engine: Engine,
     found: Vec<Value>,
     most: usize,
-    finish: Finish,
-}
-
-/// A search for at most so many solutions; `finish` gets the list of their bindings.
-pub(crate) fn solve(engine: Engine, most: usize, finish: Finish) -> Box<Solve> {
-    Box::new(Solve {
-        engine,
-        found: Vec::new(),
-        most,
-        finish,
-    })
 }
 
 impl Solve {
-    /// Starts the search.
-    pub(crate) fn go_on(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step> {
-        let progress = self.engine.run(machine.image)?;
-        self.take(machine, progress)
+    fn new(engine: Engine, most: usize) -> Solve {
+        Solve {
+            engine,
+            found: Vec::new(),
+            most,
+        }
     }
+}
 
-    fn take(mut self: Box<Self>, machine: &mut Machine<'_>, progress: Progress) -> Result<Step> {
-        let mut progress = progress;
+impl Computation for Solve {
+    type Output = Value;
+
+    fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<computation::Progress<Value>> {
+        let mut progress = match answer {
+            Some(value) => self.engine.deliver(machine.image, value)?,
+            None => self.engine.run(machine.image)?,
+        };
         loop {
             match progress {
                 Progress::Call { function, args } => {
-                    return Ok(Step::Call {
-                        function,
-                        args,
-                        then: self,
-                    });
+                    return Ok(computation::Progress::Call { function, args });
                 }
                 Progress::Failed => break,
                 Progress::Proved => {
-                    let solution = self.engine.solution()?;
-                    self.found.push(solution);
+                    self.found.push(self.engine.solution()?);
                     if self.found.len() >= self.most {
                         break;
                     }
@@ -93,17 +93,7 @@ impl Solve {
             }
             progress = self.engine.run(machine.image)?;
         }
-        (self.finish)(machine, Value::list(self.found))
-    }
-}
-
-impl Resume for Solve {
-    fn resume(mut self: Box<Self>, machine: &mut Machine<'_>, value: Value) -> Result<Step> {
-        let progress = self.engine.deliver(machine.image, value)?;
-        self.take(machine, progress)
-    }
-
-    fn name(&self) -> &'static str {
-        "PROLOG"
+        let found = Value::list(std::mem::take(&mut self.found));
+        Ok(computation::Progress::Done(found))
     }
 }

@@ -126,10 +126,10 @@ impl Scheduler {
     /// A fiber of its own for what a change of status sets off in Lisp functions.
     fn add_helper(&mut self, image: &Image, rest: fluent::Propagation) {
         let names = Plan::of(image).names;
-        let rest = std::cell::Cell::new(Some(Box::new(rest)));
+        let rest = std::cell::Cell::new(Some(rest));
         let function = Function::made_control(names.sys_propagate, (0, Some(0)), move |m, _| {
             match rest.take() {
-                Some(rest) => rest.go_on(m, None),
+                Some(rest) => rest.spread(m),
                 None => Ok(crate::lisp::vm::step::Step::Return(Value::NIL)),
             }
         });

@@ -7,6 +7,7 @@ use crate::lisp::compile;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::plan::designator::perform::Performance;
 use crate::plan::designator::value::{Class, as_class};
 use crate::plan::packages;
 use crate::session::{Session, on_one_line};
@@ -78,13 +79,15 @@ impl Session {
     fn actions_to_retry(&self) -> Vec<Action> {
         let frames = self.frames();
         let action = |told: &Told| {
-            let designator = told.view.action.clone()?;
+            let annotation = told.view.annotation.as_ref()?;
+            let performance = annotation.note.downcast_ref::<Performance>()?;
+            let designator = annotation.subject.clone();
             let text = print::to_string(&self.image, &designator, false);
             Some(Action {
                 frame: (told.link, told.view.index),
                 shown: shortened(&on_one_line(&text)),
                 designator,
-                motions_before: told.view.motions_before,
+                motions_before: performance.motions_before,
             })
         };
         frames.iter().filter_map(action).collect()

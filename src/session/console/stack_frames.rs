@@ -90,7 +90,7 @@ impl Session {
     pub(super) fn open_actions(&self) -> Vec<ActionStep> {
         let frames = self.frames();
         let actions = frames.iter().enumerate().filter_map(|(at, told)| {
-            let action = told.view.action.as_ref()?;
+            let action = &told.view.annotation.as_ref()?.subject;
             let outer = frames.get(at + 1..).unwrap_or_default();
             let places = outer.iter().map(|told| told.view.place);
             Some(ActionStep {
@@ -186,7 +186,7 @@ impl Session {
 
 fn is_hidden(view: &FrameView) -> bool {
     match &view.name {
-        Value::Str(name) => view.action.is_none() && HIDDEN.contains(&name.text().as_str()),
+        Value::Str(name) => view.annotation.is_none() && HIDDEN.contains(&name.text().as_str()),
         _ => false,
     }
 }

@@ -21,12 +21,12 @@ pub(crate) struct HostCall {
 macro_rules! host {
     ($function:path) => {
         |_, args| {
-            Ok($crate::lisp::vm::step::Step::Request(Box::new(
+            Ok($crate::lisp::vm::step::Step::request(
                 $crate::session::simulation::call::HostCall {
                     call: $function,
                     args,
                 },
-            )))
+            ))
         }
     };
 }

@@ -13,6 +13,7 @@ use super::held::Held;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
+use crate::plan::designator::perform::MotionsBegun;
 use crate::world;
 
 /// Forms at top level that can be taken back.
@@ -246,6 +247,6 @@ impl Simulation {
     /// The number of motions that were begun, for the image: what happens later is told
     /// from what happened before by it.
     pub(super) fn note_motions(&self, image: &mut Image) {
-        image.motions = self.next_ticket;
+        image.extend(MotionsBegun(self.next_ticket));
     }
 }

@@ -10,10 +10,10 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::step::{Resume, Step};
+use crate::lisp::vm::calls::run;
 use crate::plan::designator::schema;
 use crate::plan::designator::value::Class;
-use crate::plan::{Plan, Reply, overview_step};
+use crate::plan::{Plan, Reply, tell_overview};
 use crate::session::simulation::call::{done, host};
 use crate::session::simulation::names::{name_text, type_text};
 use crate::session::simulation::parts::View;
@@ -56,7 +56,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "",
         "Tells the tasks that are alive, and those of the last plan that have ended, as a tree with their status.",
         &[],
-        |_, _| Ok(overview_step()),
+        |machine, _| tell_overview(machine),
     ),
     control(
         "INSPECT",
@@ -74,14 +74,15 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
     "Calls a function and tells how long that took, in real and in simulated time.",
     &[],
     |machine, args| {
-        let now = Plan::of(machine.image).now();
-        Ok(Step::CallForValues {
-            function: args[0].clone(),
-            args: Vec::new(),
-            then: Box::new(Timing {
-                begin: Instant::now(),
-                now,
-            }),
+        let plan = Plan::of(machine.image);
+        let (begin, now) = (Instant::now(), plan.now());
+        run(machine, "TIME", |calls| async move {
+            let values = calls.call_for_values(&args[0], Vec::new()).await;
+            let simulated = plan.now() - now;
+            let real = begin.elapsed().as_secs_f64();
+            let text = format!("; {simulated:.3} s simulated, {real:.3} s real");
+            calls.with(move |machine| say(machine.image, &text)).await;
+            Ok(values)
         })
     },
 )];
@@ -94,32 +95,6 @@ pub(crate) static OPERATORS: &[Operator] = &[Operator {
     examples: &[],
     expand: Some(expand_doc),
 }];
-
-/// The rest of `time`.
-struct Timing {
-    begin: Instant,
-    now: f64,
-}
-
-impl Resume for Timing {
-    fn resume(
-        self: Box<Self>,
-        machine: &mut crate::lisp::vm::machine::Machine<'_>,
-        value: Value,
-    ) -> Result<Step> {
-        let simulated = Plan::of(machine.image).now() - self.now;
-        let real = self.begin.elapsed().as_secs_f64();
-        say(
-            machine.image,
-            &format!("; {simulated:.3} s simulated, {real:.3} s real"),
-        );
-        Ok(Step::Return(value))
-    }
-
-    fn name(&self) -> &'static str {
-        "TIME"
-    }
-}
 
 fn expand_doc(image: &mut Image, form: &Value) -> Result<Value> {
     let name = form.cdr_or_nil().car_or_nil();
