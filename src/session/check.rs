@@ -24,7 +24,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known as names;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::VariableKind;
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 impl Session {
     /// The mistakes in a text, in its order.
@@ -98,7 +98,7 @@ impl Session {
             }
         };
         let notes = self.image.notes.take();
-        let result = machine::call_nested(&mut self.image, names::EVAL.into(), vec![form]);
+        let result = nested::call_nested(&mut self.image, names::EVAL.into(), vec![form]);
         self.image.output.take();
         self.image.notes = notes;
         if let (Effect::Reading, Err(raise)) = (effect, result) {

@@ -10,7 +10,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::call::Call;
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 /// Actions that are told around a condition.
 const MOST_ACTIONS: usize = 8;
@@ -95,7 +95,7 @@ impl Session {
     /// fail, by the printer alone.
     fn printed_by(&mut self, function: Sym, value: &Value) -> String {
         let args = vec![value.clone()];
-        machine::call_nested(&mut self.image, function.into(), args)
+        nested::call_nested(&mut self.image, function.into(), args)
             .ok()
             .and_then(|text| text.as_text())
             .unwrap_or_else(|| {

@@ -8,7 +8,7 @@ use crate::lisp::reader::Reader;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 impl Session {
     /// Evaluates all forms of a text. Each is read after those before it have been
@@ -115,6 +115,6 @@ impl Session {
 
     fn evaluate_now(&mut self, form: &Value) -> Result<Value, Box<Raise>> {
         let eval = crate::lisp::value::known::EVAL.into();
-        machine::call_nested(&mut self.image, eval, vec![form.clone()])
+        nested::call_nested(&mut self.image, eval, vec![form.clone()])
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::lisp::reader;
 use crate::lisp::value::known;
-use crate::lisp::{Image, Value, print, vm::machine};
+use crate::lisp::{Image, Value, print, vm::nested};
 use crate::plan::{self, Evaluation, NullHost, Scheduler};
 
 /// An image with the plan language, in a package that uses it.
@@ -34,7 +34,7 @@ impl Prompt {
     }
 
     fn shown(&mut self, value: &Value, function: crate::lisp::Sym) -> String {
-        machine::call_nested(&mut self.image, function.into(), vec![value.clone()])
+        nested::call_nested(&mut self.image, function.into(), vec![value.clone()])
             .ok()
             .and_then(|text| text.as_text())
             .unwrap_or_else(|| print::to_string(&self.image, value, true))

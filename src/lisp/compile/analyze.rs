@@ -20,7 +20,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::lisp::vm::code::{Code, Parameters};
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 /// Result of compiling.
 pub(super) type Compiled<T> = Result<T, Box<Raise>>;
@@ -367,7 +367,7 @@ impl<'a> Compiler<'a> {
         scope: &Scope,
     ) -> Compiled<Value> {
         let args = vec![form.clone(), Environment::value(scope)];
-        let expansion = machine::call_nested(self.image, Value::Function(function.clone()), args)
+        let expansion = nested::call_nested(self.image, Value::Function(function.clone()), args)
             .map_err(|r| r.at(self.place))?;
         keep_place(form, &expansion);
         Ok(expansion)

@@ -7,7 +7,7 @@ use crate::lisp::value::foreign::Foreign;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 /// The scope of a macro call, as a value.
 pub(super) struct Environment(Scope);
@@ -54,7 +54,7 @@ pub(super) fn expand_locally(
                 Some(FunctionMeaning::Macro(function)) => {
                     let function = Value::Function(function.clone());
                     let args = vec![form.clone(), environment.clone()];
-                    machine::call_nested(image, function, args).map(|e| Some(Some(e)))
+                    nested::call_nested(image, function, args).map(|e| Some(Some(e)))
                 }
                 Some(FunctionMeaning::Local(_)) => Ok(Some(None)),
                 None => Ok(None),

@@ -6,7 +6,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::FunctionCell;
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 /// Expands a form once with global macros; `None` if it is no macro call.
 pub(crate) fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, Box<Raise>> {
@@ -32,7 +32,7 @@ pub(crate) fn macroexpand_1_in(
                 FunctionCell::Macro(function) => {
                     let function = Value::Function(function.clone());
                     let args = vec![form.clone(), environment.clone()];
-                    machine::call_nested(image, function, args)?
+                    nested::call_nested(image, function, args)?
                 }
                 FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {
                     Some(expand) => expand(image, form)?,

@@ -6,7 +6,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 /// How `setf` of a form with a certain operator is carried out, where no function
 /// `(setf name)` does it.
@@ -295,7 +295,7 @@ fn user_expansion(
             let stores: Vec<Value> = (0..store_count).map(|_| gensym(image, "NEW")).collect();
             let mut call_args = vec![Value::list(stores.clone())];
             call_args.extend(temps.iter().cloned());
-            let setter = machine::call_nested(image, function, call_args)?;
+            let setter = nested::call_nested(image, function, call_args)?;
             Ok(Expansion {
                 getter: Value::cons(name, Value::list(temps.clone())),
                 temps,
@@ -306,7 +306,7 @@ fn user_expansion(
         }
         SetfExpander::Expander(function) => {
             let result =
-                machine::call_nested_values(image, function, vec![place.clone(), Value::NIL])?;
+                nested::call_nested_values(image, function, vec![place.clone(), Value::NIL])?;
             let mut parts = result.into_iter();
             let mut next = || parts.next().unwrap_or(Value::NIL);
             let (temps, values, stores) = (next(), next(), next());

@@ -11,7 +11,7 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::{Sym, VariableKind};
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 /// Analyses the rest of a form after its operator.
 pub(super) type SpecialForm = fn(&mut Compiler<'_>, &Value, &Scope) -> Compiled<Node>;
@@ -547,7 +547,7 @@ fn eval_when(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node
 fn load_time_value(c: &mut Compiler<'_>, rest: &Value, _: &Scope) -> Compiled<Node> {
     let code = super::compile_form(c.image, &rest.car_or_nil())?;
     let function = crate::lisp::value::function::Function::closure(code, Vec::new());
-    let value = machine::call_nested(c.image, Value::Function(Rc::new(function)), Vec::new())?;
+    let value = nested::call_nested(c.image, Value::Function(Rc::new(function)), Vec::new())?;
     Ok(Node::Const(value))
 }
 

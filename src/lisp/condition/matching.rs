@@ -5,7 +5,7 @@ use crate::lisp::types::specifier::{Answers, Stop};
 use crate::lisp::types::typep_with;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 /// Is the condition of the type?
 pub(crate) fn is_of_type(
@@ -24,7 +24,7 @@ pub(crate) fn is_of_type(
             Ok(answer) => return Ok(answer),
             Err(Stop::Raise(raise) | Stop::UnknownType(raise)) => return Err(raise),
             Err(Stop::Call { function, args }) => {
-                answers.add(machine::call_nested(image, function, args)?);
+                answers.add(nested::call_nested(image, function, args)?);
             }
         }
     }

@@ -16,7 +16,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 /// The function of a definition, compiled if that has not happened.
 pub(crate) fn force(image: &mut Image, deferred: &Deferred) -> Result<Rc<Function>, Box<Raise>> {
@@ -91,7 +91,7 @@ pub(super) fn evaluate(
         .collect();
     let notes = image.notes.take();
     let evaluated = read(image, definition)
-        .and_then(|form| machine::call_nested(image, known::EVAL.into(), vec![form]));
+        .and_then(|form| nested::call_nested(image, known::EVAL.into(), vec![form]));
     image.notes = notes;
     for (variable, value) in outside {
         image.set_special(variable, value);

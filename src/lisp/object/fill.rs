@@ -4,7 +4,6 @@ use std::rc::Rc;
 
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Initform, Instance};
-use crate::lisp::value::function::Function;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::{Args, run};

@@ -4,7 +4,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 
 /// An image as sessions start with.
 pub(crate) fn image() -> Image {
@@ -17,7 +17,7 @@ pub(crate) fn eval_values(image: &mut Image, text: &str) -> Result<Vec<Value>, S
     let mut last = Vec::new();
     while let Some((form, _)) = reader.next_form(image).map_err(|e| e.to_string())? {
         let eval = Value::Symbol(known::EVAL);
-        last = machine::call_nested_values(image, eval, vec![form])
+        last = nested::call_nested_values(image, eval, vec![form])
             .map_err(|raise| name_of(image, &raise))?;
     }
     Ok(last)

@@ -9,7 +9,7 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::machine;
+use crate::lisp::vm::nested;
 use crate::lisp::vm::restart::Restart;
 use crate::lisp::vm::step::Step;
 use crate::session::dialogue::Event;
@@ -118,7 +118,7 @@ impl Session {
                 compiled
                     .and_then(|show| {
                         let show = Value::Function(show);
-                        machine::call_nested(&mut self.image, show, vec![function.clone()]).ok()
+                        nested::call_nested(&mut self.image, show, vec![function.clone()]).ok()
                     })
                     .and_then(|text| text.as_text())
             }

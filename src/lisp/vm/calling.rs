@@ -1,0 +1,241 @@
+//! Calls: finding the function, arranging its arguments, entering its code.
+
+use std::rc::Rc;
+
+use super::code::Code;
+use super::fiber::{Dynamic, Frame, FrameKind};
+use super::machine::{Machine, Next};
+use crate::lisp::image::Image;
+use crate::lisp::library;
+use crate::lisp::object;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::function::{Body, Function, NativeCall};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+
+/// Calls that may be open at once.
+const MOST_FRAMES: usize = 1_000_000;
+/// Calls beyond that limit for the handlers of the error that it causes.
+const SPARE_FRAMES: usize = 10_000;
+
+impl Machine<'_> {
+    /// Calls a function, or the function of a symbol, with arguments in a vector.
+    pub(super) fn call_value(&mut self, function: Value, args: Vec<Value>, multi: bool) -> Next {
+        let function = match self.image.coerce_to_function(&function) {
+            Ok(f) => f,
+            Err(raise) => return self.raise(raise),
+        };
+        let cut = self.fiber.stack.len();
+        match &function.body {
+            Body::Native(native) => {
+                if args.len() < usize::from(native.min)
+                    || native.max.is_some_and(|max| args.len() > usize::from(max))
+                {
+                    return self.raise(wrong_count(args.len()));
+                }
+                match native.call.clone() {
+                    NativeCall::Pure(f) => match f(self.image, &args) {
+                        Ok(value) => Next::Deliver(if multi { value } else { value.primary() }),
+                        Err(raise) => self.raise(raise),
+                    },
+                    NativeCall::Made(f) => match f(self.image, &args) {
+                        Ok(value) => Next::Deliver(if multi { value } else { value.primary() }),
+                        Err(raise) => self.raise(raise),
+                    },
+                    NativeCall::Control(f) => match f(self, args) {
+                        Ok(step) => self.take_step(step, multi),
+                        Err(raise) => self.raise(raise),
+                    },
+                    NativeCall::MadeControl(f) => match f(self, args) {
+                        Ok(step) => self.take_step(step, multi),
+                        Err(raise) => self.raise(raise),
+                    },
+                }
+            }
+            Body::Generic(_) => match object::dispatch::call_generic(self, &function, args) {
+                Ok(step) => self.take_step(step, multi),
+                Err(raise) => self.raise(raise),
+            },
+            Body::Deferred(deferred) => match library::deferred::force(self.image, deferred) {
+                Ok(function) => self.call_value(Value::Function(function), args, multi),
+                Err(raise) => self.raise(raise),
+            },
+            Body::Closure { code, .. } => {
+                let code = code.clone();
+                let count = args.len();
+                self.fiber.stack.extend(args);
+                match self.enter_closure(function, &code, count, cut, multi) {
+                    Ok(()) => Next::Run,
+                    Err(raise) => {
+                        self.fiber.stack.truncate(cut);
+                        self.raise(raise)
+                    }
+                }
+            }
+        }
+    }
+
+    /// Enters a closure whose arguments are on the stack.
+    fn enter_closure(
+        &mut self,
+        function: Rc<Function>,
+        code: &Rc<Code>,
+        count: usize,
+        cut: usize,
+        multi: bool,
+    ) -> Result<(), Box<Raise>> {
+        let frames = self.fiber.frames.len();
+        if frames >= MOST_FRAMES {
+            self.check_depth(frames)?;
+        }
+        let parameters = &code.parameters;
+        if parameters.is_simple() {
+            if count != usize::from(parameters.required) {
+                return Err(wrong_count(count));
+            }
+        } else {
+            self.arrange_arguments(code, count)?;
+        }
+        let slots = code.parameters.slots();
+        self.fiber.frames.push(Frame {
+            kind: FrameKind::Code { function, pc: 0 },
+            base: self.fiber.stack.len() - slots,
+            cut,
+            dynamic: self.fiber.dynamic.len(),
+            multi,
+        });
+        Ok(())
+    }
+
+    fn check_depth(&self, frames: usize) -> Result<(), Box<Raise>> {
+        let handling = self
+            .fiber
+            .dynamic
+            .iter()
+            .any(|d| matches!(d, Dynamic::HandlerMask(_) | Dynamic::Unwind { .. }));
+        let limit = MOST_FRAMES + if handling { SPARE_FRAMES } else { 0 };
+        if frames < limit {
+            return Ok(());
+        }
+        Err(Raise::new(
+            known::CONTROL_STACK_EXHAUSTED,
+            format!(
+                "Control stack exhausted: {MOST_FRAMES} calls are open. Is there a recursion that never ends?"
+            ),
+        ))
+    }
+
+    /// Brings arguments on the stack into the order of the parameters' slots.
+    fn arrange_arguments(&mut self, code: &Code, count: usize) -> Result<(), Box<Raise>> {
+        let parameters = &code.parameters;
+        let required = usize::from(parameters.required);
+        let optional = usize::from(parameters.optional);
+        let positional = required + optional;
+        let takes_more = parameters.rest || parameters.has_keys;
+        if count < required || (count > positional && !takes_more) {
+            return Err(wrong_count(count));
+        }
+        let stack = &mut self.fiber.stack;
+        let start = stack.len() - count;
+        if count < positional {
+            stack.resize(start + positional, Value::Unbound);
+            if parameters.rest {
+                stack.push(Value::NIL);
+            }
+            stack.resize(stack.len() + parameters.keys.len(), Value::Unbound);
+            return Ok(());
+        }
+        let more: Vec<Value> = stack.drain(start + positional..).collect();
+        if parameters.has_keys {
+            check_keywords(self.image, code, &more)?;
+        }
+        let stack = &mut self.fiber.stack;
+        if parameters.rest {
+            stack.push(Value::list(more.iter().cloned()));
+        }
+        for key in &parameters.keys {
+            let value = more
+                .chunks_exact(2)
+                .find(|pair| pair[0].as_symbol() == Some(*key))
+                .map_or(Value::Unbound, |pair| pair[1].clone());
+            stack.push(value);
+        }
+        Ok(())
+    }
+
+    /// Calls a function whose arguments are the topmost `count` values; the call's result
+    /// takes the place of everything from `cut`.
+    pub(super) fn call_on_stack(
+        &mut self,
+        function: Rc<Function>,
+        count: usize,
+        cut: usize,
+        multi: bool,
+    ) -> Next {
+        if let Body::Closure { code, .. } = &function.body {
+            let code = code.clone();
+            return match self.enter_closure(function, &code, count, cut, multi) {
+                Ok(()) => Next::Run,
+                Err(raise) => {
+                    self.fiber.stack.truncate(cut);
+                    self.raise(raise)
+                }
+            };
+        }
+        if let Body::Deferred(deferred) = &function.body {
+            return match library::deferred::force(self.image, deferred) {
+                Ok(function) => self.call_on_stack(function, count, cut, multi),
+                Err(raise) => {
+                    self.fiber.stack.truncate(cut);
+                    self.raise(raise)
+                }
+            };
+        }
+        let start = self.fiber.stack.len() - count;
+        let args: Vec<Value> = self.fiber.stack.drain(start..).collect();
+        self.fiber.stack.truncate(cut);
+        match self.call_value(Value::Function(function), args, multi) {
+            Next::Deliver(value)
+                if matches!(
+                    self.fiber.frames.last(),
+                    Some(Frame {
+                        kind: FrameKind::Code { .. },
+                        ..
+                    })
+                ) =>
+            {
+                self.fiber.stack.push(value);
+                Next::Run
+            }
+            next => next,
+        }
+    }
+}
+
+fn wrong_count(count: usize) -> Box<Raise> {
+    Raise::program(format!("invalid number of arguments: {count}"))
+}
+
+fn check_keywords(image: &Image, code: &Code, more: &[Value]) -> Result<(), Box<Raise>> {
+    if !more.len().is_multiple_of(2) {
+        return Err(Raise::program("odd number of &KEY arguments"));
+    }
+    let others_allowed = code.parameters.allow_other_keys
+        || more.chunks_exact(2).any(|pair| {
+            pair[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS) && pair[1].is_true()
+        });
+    if others_allowed {
+        return Ok(());
+    }
+    for pair in more.chunks_exact(2) {
+        let is_known = pair[0]
+            .as_symbol()
+            .is_some_and(|s| s == known::K_ALLOW_OTHER_KEYS || code.parameters.keys.contains(&s));
+        if !is_known {
+            let shown = print::to_string(image, &pair[0], true);
+            return Err(Raise::program(format!("Unknown &KEY argument: {shown}")));
+        }
+    }
+    Ok(())
+}

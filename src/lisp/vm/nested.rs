@@ -1,0 +1,66 @@
+//! Calls outside any plan, to the end: of macro functions and the like, which cannot wait.
+
+use std::sync::atomic::Ordering;
+
+use super::fiber::Fiber;
+use super::machine::{Event, Machine};
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+
+/// Nested runs of macro functions.
+const MOST_NESTED: usize = 64;
+
+/// Calls a function to the end; the primary value.
+pub(crate) fn call_nested(
+    image: &mut Image,
+    function: Value,
+    args: Vec<Value>,
+) -> Result<Value, Box<Raise>> {
+    run_nested(image, function, args).map(Value::primary)
+}
+
+/// Like [`call_nested`], with all values.
+pub(crate) fn call_nested_values(
+    image: &mut Image,
+    function: Value,
+    args: Vec<Value>,
+) -> Result<Vec<Value>, Box<Raise>> {
+    run_nested(image, function, args).map(Value::into_values)
+}
+
+fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Value, Box<Raise>> {
+    if image.nesting >= MOST_NESTED {
+        return Err(Raise::new(
+            known::CONTROL_STACK_EXHAUSTED,
+            "Macro expansion is nested too deeply. Does a macro expand into itself?",
+        ));
+    }
+    image.nesting += 1;
+    let mut fiber = Fiber::default();
+    let mut machine = Machine::new(image, &mut fiber);
+    let mut event = machine.start(function, args);
+    let result = loop {
+        match event {
+            Event::Done(value) => break Ok(value),
+            Event::Unhandled(condition) => {
+                machine.unwind_all();
+                break Err(Box::new(Raise::Condition(condition)));
+            }
+            Event::Request(_) => {
+                event = machine.resume_with_error(Raise::control(
+                    "A macro function cannot wait, move the robot or start tasks.",
+                ));
+            }
+            Event::Interrupted => {
+                machine.image.interrupt.store(true, Ordering::Relaxed);
+                machine.unwind_all();
+                break Err(Raise::new(known::INTERACTIVE_INTERRUPT, "Interrupted."));
+            }
+            Event::Unwound => break Ok(Value::NIL),
+        }
+    };
+    image.nesting -= 1;
+    result
+}
