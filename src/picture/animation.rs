@@ -1,4 +1,4 @@
-//! A run as a moving picture: GIF with one palette, of which each frame tells only what has
+//! A run as an animation: a GIF with a single palette, in which each frame holds only what has
 //! changed.
 
 use std::borrow::Cow;
@@ -12,19 +12,19 @@ use super::render::render;
 use super::scene::Scene;
 use crate::perception::Camera;
 
-/// Colours; one place is left for what does not change.
+/// Number of colours; one entry of the palette is reserved for unchanged pixels.
 const COLORS: usize = 255;
 const SAME: u8 = 255;
 
-/// Frames whose colours decide on the palette.
-const TASTED: usize = 12;
+/// Number of frames from which the palette is made.
+const PALETTE_FRAMES: usize = 12;
 
-/// A moment to be drawn.
+/// One frame of the animation, to be drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Shot {
-    /// What there is to be seen.
+    /// What to draw.
     pub(crate) scene: Scene,
-    /// From where.
+    /// The camera to draw it from.
     pub(crate) camera: Camera,
 }
 
@@ -35,15 +35,15 @@ impl Shot {
     }
 }
 
-/// Writes the shots, which are all of the same size, as a GIF that is shown again and again,
-/// each for so many hundredths of a second.
+/// Writes the shots, which must all have the same size, as a GIF that repeats for ever and
+/// shows each for `delay` hundredths of a second.
 pub(crate) fn write_gif(shots: &[Shot], delay: u16, to: impl Write) -> io::Result<()> {
     let Some(first) = shots.first() else {
         return Ok(());
     };
     let size = |length: usize| u16::try_from(length).map_err(io::Error::other);
     let (width, height) = (first.camera.width, first.camera.height);
-    let stride = shots.len().div_ceil(TASTED);
+    let stride = shots.len().div_ceil(PALETTE_FRAMES);
     let tasted: Vec<Image> = shots.iter().step_by(stride).map(Shot::image).collect();
     let palette = Palette::of(tasted.iter(), COLORS);
     let mut colors: Vec<u8> = palette.colors().concat();
@@ -59,7 +59,7 @@ pub(crate) fn write_gif(shots: &[Shot], delay: u16, to: impl Write) -> io::Resul
             None => Some(([0, 0], [width, height])),
         };
         let Some(([left, top], [columns, rows])) = change else {
-            // Nothing has changed: what is shown stays longer.
+            // Nothing has changed, so the frame before is shown longer.
             if let Some(frame) = &mut waiting {
                 frame.delay = frame.delay.saturating_add(delay);
             }
@@ -71,7 +71,7 @@ pub(crate) fn write_gif(shots: &[Shot], delay: u16, to: impl Write) -> io::Resul
         let mut buffer = Vec::with_capacity(columns * rows);
         for row in top..top + rows {
             let place = row * width + left;
-            // The rectangle is inside of the picture.
+            // The rectangle is inside the picture.
             let new = &places[place..place + columns];
             match &shown {
                 Some(shown) => {
@@ -100,7 +100,7 @@ pub(crate) fn write_gif(shots: &[Shot], delay: u16, to: impl Write) -> io::Resul
     }
 }
 
-/// Corner and size of the smallest rectangle that holds all differences.
+/// Corner and size of the smallest rectangle that contains all differences.
 fn changed(old: &[u8], new: &[u8], width: usize) -> Option<([usize; 2], [usize; 2])> {
     let differences = old.iter().zip(new).enumerate().filter(|(_, (a, b))| a != b);
     let mut bounds: Option<[usize; 4]> = None;

@@ -1,8 +1,8 @@
-//! What the robot's own camera sees, for people: colours, distances, and which pixels count
-//! as what. The object that is looked for is outlined even where something hides it, so that
-//! it can be understood why it is not seen.
+//! What the robot's own camera sees, drawn for users: colours, distances, and which pixels
+//! count as which body. The object that is sought is outlined even where something hides it,
+//! which explains why it is not seen.
 //!
-//! Distances and segmentation come from the very picture by which perception decides.
+//! Distances and segmentation come from the same picture that perception uses.
 
 use nalgebra::Point3;
 
@@ -14,13 +14,13 @@ use crate::perception::mesh::Mesh;
 use crate::perception::{Camera, Picture, Sight, Visibility};
 use crate::world::{Object, PartKey, World};
 
-/// Pixels per row where nothing else is asked for.
+/// Width of the picture (pixels) by default.
 pub(crate) const WIDTH: usize = 960;
 
-/// Fewest pixels per row that leave room for three panels.
+/// Least width (pixels) that leaves room for three panels.
 pub(crate) const LEAST_WIDTH: usize = 240;
 
-/// Letters and ground of the strip below the panels.
+/// Colours of the background and the text of the strip below the panels.
 const PAPER: Rgb = [24, 26, 30];
 const INK: Rgb = [226, 228, 232];
 
@@ -28,7 +28,7 @@ const INK: Rgb = [226, 228, 232];
 const SEEN: Rgb = [64, 235, 120];
 const UNSEEN: Rgb = [255, 96, 208];
 
-/// Colours of objects in the segmentation, in the order in which they appeared.
+/// Colours of objects in the segmentation, in the order in which the objects appeared.
 const OBJECT_COLORS: [Rgb; 12] = [
     [230, 70, 60],
     [70, 150, 240],
@@ -46,10 +46,10 @@ const OBJECT_COLORS: [Rgb; 12] = [
 const ROBOT_COLOR: Rgb = [222, 220, 210];
 const NOTHING_COLOR: Rgb = [14, 15, 18];
 
-/// Columns of the list of objects.
+/// Number of columns in the list of objects.
 const LIST_COLUMNS: usize = 3;
 
-/// Distances (m) at which the colours of the depth panel begin and end.
+/// Distances (m) at which the colours of the depth panel start and end.
 const DEPTHS: [f64; 2] = [0.4, 3.0];
 
 /// Colours from near to far.
@@ -62,18 +62,18 @@ const DEPTH_COLORS: [[f64; 3]; 6] = [
     [18.0, 18.0, 48.0],
 ];
 
-/// What the robot's camera sees.
+/// The picture of the robot's camera.
 #[derive(Clone, Debug)]
 pub(crate) struct CameraPicture {
-    /// Three panels, and below them what they show.
+    /// Three panels with a legend below them.
     pub(crate) image: Image,
-    /// How much of each object that was looked for is in sight, in the order asked for.
+    /// How much of each sought object is in sight, in the order given.
     pub(crate) sought: Vec<Visibility>,
 }
 
 impl CameraPicture {
-    /// What the camera sees now, about so many pixels wide; objects of these names are looked
-    /// for. Names that there are not are left out.
+    /// What the camera sees now, about `width` pixels wide, with the objects of these names
+    /// sought. Names of objects that do not exist are ignored.
     pub(crate) fn take(world: &World, looks: &Looks, sought: &[String], width: usize) -> Self {
         let sight = Sight::of_robot(world);
         let through = world.models().description.camera();
@@ -110,10 +110,10 @@ impl CameraPicture {
         ];
         for (panel, [left, top], title) in &mut panels {
             let camera = resized([panel.width(), panel.height()]);
-            // Names are told once, in the large panel.
+            // Names are written once, in the large panel.
             let mut names = ([*left, *top] == [0, 0]).then(Vec::new);
             for one in &seen {
-                // A visibility comes from an object of the world.
+                // A visibility always belongs to an object of the world.
                 if let Ok(object) = world.object(&one.object) {
                     let color = if one.is_seen() { SEEN } else { UNSEEN };
                     outline(panel, world, object, &camera, color, names.as_mut());
@@ -135,7 +135,7 @@ impl CameraPicture {
     }
 }
 
-/// The pixel of the picture that a pixel of a panel of that size shows.
+/// The pixel of the picture shown by a pixel of a panel of this size.
 fn shown(picture: &Picture, size: [usize; 2], column: usize, row: usize) -> [usize; 2] {
     let camera = picture.camera();
     [
@@ -183,7 +183,7 @@ fn depths(picture: &Picture, size: [usize; 2]) -> Image {
 fn depth_color(depth: f64) -> Rgb {
     let share = ((depth - DEPTHS[0]) / (DEPTHS[1] - DEPTHS[0])).clamp(0.0, 1.0);
     let place = share * (DEPTH_COLORS.len() - 1) as f64;
-    // The share is within the table, the last colour has itself as its neighbour.
+    // The share is within the table; the last colour is its own neighbour.
     let first = (place as usize).min(DEPTH_COLORS.len() - 2);
     let (near, far) = (DEPTH_COLORS[first], DEPTH_COLORS[first + 1]);
     let mix = |i: usize| near[i] + (far[i] - near[i]) * (place - first as f64);
@@ -202,21 +202,21 @@ fn segment_color(world: &World, key: Option<PartKey>) -> Rgb {
     match key {
         None | Some(PartKey::Floor) => NOTHING_COLOR,
         Some(PartKey::Robot(_)) => ROBOT_COLOR,
-        // Greys that tell one link from its neighbours.
+        // Greys that distinguish a link from its neighbours.
         Some(PartKey::Furniture(link)) => {
             let shade = 54 + (link.wrapping_mul(47) % 80) as u8;
             [shade, shade + 4, shade + 12]
         }
         Some(key) => {
             let place = world.objects().position(|object| object.key() == key);
-            // A remainder is within the table.
+            // A remainder is always within the table.
             OBJECT_COLORS[place.unwrap_or(0) % OBJECT_COLORS.len()]
         }
     }
 }
 
-/// Draws a line around the object as it would be with nothing in front of it; an arrow at
-/// the border where it is outside.
+/// Outlines the object as it would appear with nothing in front of it, or draws an arrow at the
+/// border if it is outside.
 fn outline(
     image: &mut Image,
     world: &World,
@@ -300,7 +300,7 @@ impl Plate {
     }
 }
 
-/// The place moved up as far as it covers no other name, if there is room.
+/// The place moved up until it covers no other name, if there is room.
 fn free_place(others: &[Plate], wanted: Plate) -> Plate {
     let mut plate = wanted;
     while let Some(other) = others.iter().find(|other| other.overlaps(&plate)) {
@@ -316,7 +316,8 @@ fn is_within(place: f64, end: usize) -> bool {
     (0.0..end as f64).contains(&place)
 }
 
-/// An arrow at the border that points to a place outside of the picture; where its name goes.
+/// Draws an arrow at the border that points to a place outside the picture; returns where the
+/// name goes.
 fn arrow(
     image: &mut Image,
     camera: &Camera,
@@ -357,7 +358,7 @@ fn arrow(
         tip[0] - x * size * 2.0 - name.width() as f64 * (0.5 + 0.5 * x),
         tip[1] - y * size * 2.0 - name.height() as f64 * (0.5 + 0.5 * y),
     ];
-    // Casts cut off at zero; both borders are far enough from the largest number.
+    // Casts saturate at zero; both borders are far below the largest number.
     let place = |axis: usize, end: usize, size: usize| {
         (text[axis] as usize).min(end.saturating_sub(size + 4 * name.scale))
     };
@@ -367,10 +368,10 @@ fn arrow(
     ])
 }
 
-/// What is written below the panels.
+/// The legend below the panels.
 struct Strip {
     scale: usize,
-    /// What is told about objects that were looked for.
+    /// Lines about the sought objects.
     lines: Vec<(Rgb, String)>,
     /// Objects in the picture.
     seen: Vec<(Rgb, String)>,
@@ -395,7 +396,7 @@ impl Strip {
         self.lines.push((color, text));
     }
 
-    /// Which objects the camera sees anything of, in the colours of the segmentation.
+    /// Adds the objects of which the camera sees anything, in the colours of the segmentation.
     fn list(&mut self, world: &World, picture: &Picture) {
         for object in world.objects() {
             let count = picture.count(object.key());
@@ -435,7 +436,7 @@ impl Strip {
         11 * self.scale
     }
 
-    /// Rows of the list of objects.
+    /// Number of rows in the list of objects.
     fn rows(&self) -> usize {
         self.seen.len().div_ceil(LIST_COLUMNS)
     }

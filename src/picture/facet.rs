@@ -11,14 +11,14 @@ pub(crate) struct Facet {
     pub(crate) points: [Vector3<f64>; 3],
     /// Unit normals at the corners.
     pub(crate) normals: [Vector3<f64>; 3],
-    /// Away from the solid, of unit length.
+    /// Unit vector away from the solid.
     pub(crate) outward: Vector3<f64>,
-    /// Place of its body in the scene.
+    /// Index of its body in the scene.
     pub(crate) body: usize,
 }
 
 impl Facet {
-    /// A triangle; none for one without area.
+    /// A triangle; `None` if it has no area.
     pub(crate) fn new(
         points: [Vector3<f64>; 3],
         normals: [Vector3<f64>; 3],
@@ -34,18 +34,18 @@ impl Facet {
     }
 }
 
-/// Bodies that are shorter (m) than this take no light from the sky away, nor do thin ones.
+/// Bodies that are shorter (m) than this, or thin, do not block light from the sky.
 const SHORT: f64 = 0.08;
 const THIN: f64 = 0.03;
 
-/// The same of the robot's parts, which are many and close together.
+/// The same for the robot's parts, which are many and close together.
 const SHORT_PART: f64 = 0.17;
 
-/// All triangles, sorted by what they do to the light: those of the floor, which takes none
-/// away, of small bodies, and of the others, each in the order of the scene.
+/// All triangles, sorted by how they block light: those of the floor, which blocks none, of
+/// small bodies, and of the others, each group in the order of the scene.
 pub(crate) struct Facets {
     pub(crate) all: Vec<Facet>,
-    /// Where small and where large bodies begin.
+    /// Indices at which small and large bodies start.
     starts: [usize; 2],
 }
 
@@ -76,18 +76,18 @@ impl Facets {
 
     /// The triangles that cast shadows.
     pub(crate) fn solid(&self) -> &[Facet] {
-        // The start is within all.
+        // The start is a valid index.
         &self.all[self.starts[0]..]
     }
 
-    /// The triangles that hide parts of the sky.
+    /// The triangles that block light from the sky.
     pub(crate) fn large(&self) -> &[Facet] {
-        // The start is within all.
+        // The start is a valid index.
         &self.all[self.starts[1]..]
     }
 }
 
-/// Whether a body takes hardly any light from the sky away.
+/// Whether a body blocks hardly any light from the sky.
 fn is_small(body: &Body) -> bool {
     let points = || {
         body.surface
@@ -121,7 +121,7 @@ fn add(
         (point, body.pose.rotation * corner.normal)
     }));
     all.extend(body.surface.triangles.iter().filter_map(|triangle| {
-        // A triangle that names a corner that there is not is left out.
+        // A triangle with an index that is out of range is omitted.
         let [a, b, c] = triangle.map(|i| points.get(i as usize).copied());
         let (a, b, c) = (a?, b?, c?);
         Facet::new([a.0, b.0, c.0], [a.1, b.1, c.1], place)

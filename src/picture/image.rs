@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-/// Red, green and blue in eight-bit sRGB.
+/// Red, green and blue in 8-bit sRGB.
 pub(crate) type Rgb = [u8; 3];
 
-/// A picture in eight-bit sRGB.
+/// A picture in 8-bit sRGB.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     width: usize,
@@ -29,44 +29,44 @@ impl Image {
         }
     }
 
-    /// Paints a rectangle; what is outside of the picture is cut off.
+    /// Paints a rectangle, clipped to the picture.
     pub(crate) fn fill(&mut self, [left, top]: [usize; 2], size: [usize; 2], color: Rgb) {
         let right = left.saturating_add(size[0]).min(self.width);
         let bottom = top.saturating_add(size[1]).min(self.height);
         for row in top..bottom {
             let row = row * self.width;
             if left < right {
-                // Inside of the picture, see above.
+                // Clipped to the picture above.
                 let bytes = &mut self.bytes[(row + left) * 3..(row + right) * 3];
                 bytes.as_chunks_mut().0.fill(color);
             }
         }
     }
 
-    /// Paints one pixel; nothing outside of the picture.
+    /// Paints one pixel; does nothing outside the picture.
     pub(crate) fn set(&mut self, column: usize, row: usize, color: Rgb) {
         self.fill([column, row], [1; 2], color);
     }
 
-    /// Copies a picture with its upper left corner to the pixel; what is outside is cut off.
+    /// Copies a picture with its upper left corner at the pixel, clipped to this picture.
     pub(crate) fn paste(&mut self, other: &Self, left: usize, top: usize) {
         let columns = other.width.min(self.width.saturating_sub(left));
         let rows = other.height.min(self.height.saturating_sub(top));
         for row in 0..rows {
             let from = row * other.width * 3;
             let to = ((top + row) * self.width + left) * 3;
-            // Rows and columns of both pictures, see above.
+            // Rows and columns are within both pictures, as computed above.
             self.bytes[to..to + columns * 3]
                 .copy_from_slice(&other.bytes[from..from + columns * 3]);
         }
     }
 
-    /// Pixels per row.
+    /// Width (pixels).
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Rows.
+    /// Height (pixels).
     pub fn height(&self) -> usize {
         self.height
     }
@@ -76,12 +76,12 @@ impl Image {
         &self.bytes
     }
 
-    /// The same, to be painted on.
+    /// As [`bytes`](Self::bytes), for painting.
     pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         &mut self.bytes
     }
 
-    /// Red, green and blue of a pixel; `None` outside of the picture.
+    /// Red, green and blue of a pixel; `None` outside the picture.
     pub fn pixel(&self, column: usize, row: usize) -> Option<Rgb> {
         if column >= self.width {
             return None;
@@ -91,14 +91,14 @@ impl Image {
         Some([bytes[0], bytes[1], bytes[2]])
     }
 
-    /// The picture as the bytes of a PNG file.
+    /// The picture encoded as a PNG file.
     pub fn to_png(&self) -> io::Result<Vec<u8>> {
         let mut png = Vec::new();
         self.write_png(&mut png)?;
         Ok(png)
     }
 
-    /// Writes the picture as a PNG file, the same bytes for the same picture.
+    /// Writes the picture as a PNG file; the same picture always gives the same bytes.
     pub fn write_png(&self, to: impl Write) -> io::Result<()> {
         let size = |length: usize| u32::try_from(length).map_err(io::Error::other);
         let mut encoder = png::Encoder::new(to, size(self.width)?, size(self.height)?);

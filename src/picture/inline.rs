@@ -1,11 +1,11 @@
-//! Pictures between the lines of a terminal, in the three ways that terminals know.
+//! Pictures between the lines of a terminal, by the three protocols in use.
 
 use std::io::{self, Write};
 
 use super::image::Image;
 use super::palette::Palette;
 
-/// How a terminal takes pictures.
+/// The protocol by which a terminal shows pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum InlinePictures {
     /// Kitty's graphics protocol: PNG in base 64, in chunks.
@@ -16,18 +16,18 @@ pub(crate) enum InlinePictures {
     Sixel,
 }
 
-/// Most bytes of base 64 in one of Kitty's chunks.
+/// Greatest number of base-64 bytes in one of Kitty's chunks.
 const CHUNK: usize = 4096;
 
-/// Colours that every terminal with sixels has.
+/// Number of colours that every terminal with sixels has.
 const SIXEL_COLORS: usize = 255;
 
 impl InlinePictures {
-    /// What the terminal can do, as far as the variables of its environment tell.
+    /// The protocol that the terminal understands, as far as its environment variables tell.
     pub(crate) fn detect(variable: impl Fn(&str) -> Option<String>) -> Option<Self> {
         let value = |name: &str| variable(name).unwrap_or_default().to_lowercase();
         let (term, program) = (value("TERM"), value("TERM_PROGRAM"));
-        // A multiplexer swallows what it does not know.
+        // A multiplexer swallows escape sequences that it does not know.
         if term.starts_with("screen") || term.starts_with("tmux") || !value("TMUX").is_empty() {
             return None;
         }
@@ -42,8 +42,8 @@ impl InlinePictures {
         is_one.then_some(Self::Sixel)
     }
 
-    /// The bytes that show the picture where the cursor is; the cursor is below it then. Empty
-    /// if the picture cannot be told so.
+    /// The bytes that show the picture at the cursor, which is below it afterwards. Empty if
+    /// the picture cannot be encoded.
     pub(crate) fn encoded(self, picture: &Image) -> Vec<u8> {
         let mut bytes = Vec::new();
         let told = match self {
@@ -119,7 +119,7 @@ fn sixel(picture: &Image, to: &mut Vec<u8>) -> io::Result<()> {
 }
 
 fn write_run(to: &mut Vec<u8>, (bits, count): (u8, usize)) -> io::Result<()> {
-    // Six bits above the question mark are letters and signs of ASCII.
+    // Six bits added to the question mark give a printable ASCII character.
     let letter = char::from(b'?' + bits);
     match count {
         0 => Ok(()),
@@ -135,7 +135,7 @@ fn base_64(bytes: &[u8]) -> String {
         let bits = [0, 1, 2].map(|i| u32::from(group.get(i).copied().unwrap_or(0)));
         let bits = bits[0] << 16 | bits[1] << 8 | bits[2];
         for digit in 0..4 {
-            // Six bits are a place in the table.
+            // Six bits are a valid index into the table.
             let place = (bits >> (18 - 6 * digit) & 63) as usize;
             text.push(match digit <= group.len() {
                 true => char::from(DIGITS[place]),

@@ -1,29 +1,29 @@
-//! Where light comes from, and what stands in its way.
+//! Where light comes from, and what blocks it.
 
 use nalgebra::Vector3;
 
 use super::facet::Facet;
 use super::raster::Patch;
 
-/// A far light, with the height of what it shines upon at every place of a grid across its
-/// direction.
+/// A distant light, with a shadow map: for each cell of a grid across the light's direction,
+/// the height of the surface that it lights.
 pub(crate) struct Lamp {
     /// Unit vector towards the light.
     pub(crate) towards: Vector3<f64>,
     across: Vector3<f64>,
     up: Vector3<f64>,
-    /// Where the grid begins (m along `across` and `up`).
+    /// Origin of the grid (m along `across` and `up`).
     origin: [f64; 2],
-    /// Places per metre.
+    /// Cells per metre.
     scale: f64,
     size: usize,
-    /// Height (m along `towards`) of the surface that is lit; least where there is none.
+    /// Height (m along `towards`) of the lit surface; the least value where there is none.
     heights: Vec<f32>,
 }
 
 impl Lamp {
-    /// A light from the direction (not zero) that shines upon the triangles; its grid has
-    /// `size` rows and columns.
+    /// A light from the direction `towards` (not zero) on the triangles; its grid has `size`
+    /// rows and columns.
     pub(crate) fn new(towards: Vector3<f64>, size: usize, facets: &[Facet]) -> Self {
         let towards = towards.normalize();
         let aside = if towards.z.abs() < 0.9 {
@@ -41,7 +41,7 @@ impl Lamp {
             }
         }
         let extent = bounds.iter().fold(0.0, |e: f64, b| e.max(b[1] - b[0]));
-        // Without triangles, or with all of them in one point, any scale will do.
+        // Without triangles, or if they all coincide in a point, any scale will do.
         let scale = if extent > 0.0 && extent.is_finite() {
             (size as f64 - 4.0) / extent
         } else {
@@ -82,7 +82,7 @@ impl Lamp {
                 continue;
             }
             let (start, slope) = patch.nearness(columns.start, row);
-            // Rows and columns were cut to the grid by the patch.
+            // Rows and columns were clipped to the grid by the patch.
             let heights = &mut self.heights[row * self.size..][columns];
             for (i, height) in heights.iter_mut().enumerate() {
                 *height = height.max(start + slope * i as f32);
@@ -90,21 +90,21 @@ impl Lamp {
         }
     }
 
-    /// How far apart (m) places of the grid are.
+    /// Distance (m) between cells of the grid.
     pub(crate) fn grain(&self) -> f64 {
         1.0 / self.scale
     }
 
-    /// Share (0..1) of the light that reaches the neighbourhood of the point (m, map frame) of
-    /// a surface with the unit normal, over `COUNT` less one places of the grid and the
-    /// fraction of one more.
+    /// Share (0..1) of the light that reaches the neighbourhood of the point (m, map frame) on
+    /// a surface with the unit normal, averaged over `COUNT` - 1 cells of the grid and a
+    /// fraction of another one.
     pub(crate) fn reaches<const COUNT: usize>(
         &self,
         point: &Vector3<f64>,
         normal: &Vector3<f64>,
     ) -> f32 {
         let width = (COUNT - 1) as f64;
-        // So far off the surface that a slanting one does not shade itself.
+        // Far enough off the surface that a slanting one does not shade itself.
         let cosine = self.towards.dot(normal) as f32;
         let sine = f64::from((1.0 - cosine * cosine).max(0.0).sqrt());
         let lift = (0.3 + (0.7 * width + 0.7) * sine) / self.scale;
@@ -126,7 +126,7 @@ impl Lamp {
         let height = height as f32;
         let mut sum = 0.0;
         for (j, down) in down.into_iter().enumerate() {
-            // Both ends of the neighbourhood are inside of the grid, see above.
+            // Both ends of the neighbourhood are inside the grid, as computed above.
             let heights = &self.heights[(row + j) * self.size + column..][..COUNT];
             let mut lit = 0.0;
             for (there, weight) in heights.iter().zip(across) {

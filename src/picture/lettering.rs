@@ -1,13 +1,13 @@
-//! Short words on pictures, in letters of five by seven dots.
+//! Short texts on pictures, in letters of five by seven dots.
 
 use super::image::{Image, Rgb};
 
-/// Dots of a letter across and down, and dots from one letter to the next.
+/// Width and height of a letter (dots), and the distance from one letter to the next.
 const ACROSS: usize = 5;
 const DOWN: usize = 7;
 const ADVANCE: usize = 6;
 
-/// Rows of dots from the top; the highest of five bits is on the left.
+/// Rows of dots from the top; the highest of the five bits is on the left.
 #[rustfmt::skip]
 const LETTERS: &[(char, [u8; DOWN])] = &[
     ('A', [0b01110, 0b10001, 0b10001, 0b11111, 0b10001, 0b10001, 0b10001]),
@@ -68,7 +68,7 @@ const LETTERS: &[(char, [u8; DOWN])] = &[
     (';', [0b00000, 0b01100, 0b01100, 0b00000, 0b01100, 0b00100, 0b01000]),
 ];
 
-/// Drawn for letters that are not in the table.
+/// Drawn for characters that are not in the table.
 const UNKNOWN: [u8; DOWN] = [
     0b11111, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b11111,
 ];
@@ -76,7 +76,7 @@ const UNKNOWN: [u8; DOWN] = [
 /// A line of text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line<'a> {
-    /// The text; small letters are drawn as capitals.
+    /// The text; lower-case letters are drawn as capitals.
     pub(crate) text: &'a str,
     /// Pixels per dot.
     pub(crate) scale: usize,
@@ -84,18 +84,18 @@ pub(crate) struct Line<'a> {
 }
 
 impl Line<'_> {
-    /// Pixels from the left edge of the first letter to the right edge of the last.
+    /// Width (pixels) from the left edge of the first letter to the right edge of the last.
     pub(crate) fn width(&self) -> usize {
         let dots = self.text.chars().count() * ADVANCE;
         dots.saturating_sub(ADVANCE - ACROSS) * self.scale
     }
 
-    /// Pixels from the top to the bottom of its letters.
+    /// Height (pixels) of the letters.
     pub(crate) fn height(&self) -> usize {
         DOWN * self.scale
     }
 
-    /// Draws the line with its upper left corner at the pixel; what is outside is cut off.
+    /// Draws the line with its upper left corner at the pixel, clipped to the picture.
     pub(crate) fn draw(&self, image: &mut Image, column: usize, row: usize) {
         for (place, letter) in self.text.chars().enumerate() {
             let left = column + place * ADVANCE * self.scale;
@@ -111,8 +111,8 @@ impl Line<'_> {
         }
     }
 
-    /// Draws the line on a dark plate that is two dots larger, its upper left corner at the
-    /// pixel, moved so far that it is inside of the picture.
+    /// Draws the line on a dark plate that is two dots larger, with the plate's upper left
+    /// corner at the pixel, or moved to be inside the picture.
     pub(crate) fn draw_on_plate(&self, image: &mut Image, column: usize, row: usize) {
         let border = 2 * self.scale;
         let size = [self.width() + 2 * border, self.height() + 2 * border];

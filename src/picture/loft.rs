@@ -1,4 +1,4 @@
-//! Bodies that are given by their sections: covers of robots, cartons, spoons, tubes.
+//! Bodies defined by cross-sections: covers of robots, cartons, spoons, tubes.
 
 use nalgebra::{Point3, Vector3};
 
@@ -6,17 +6,17 @@ use super::smooth::smoothed;
 use super::surface::Surface;
 use crate::spatial::trig;
 
-/// Corners of a quarter of a section's outline, less one.
+/// Segments in a quarter of a section's outline.
 const QUARTER: u32 = 3;
 
 /// Steps by which the end of a body is rounded.
 const END_STEPS: u32 = 2;
 
-/// Corners of the section of a tube.
+/// Corners of a tube's section.
 const TUBE: u32 = 10;
 
-/// The axis along which sections follow each other. The first and second direction of
-/// a section are the next two axes: y, z for x; z, x for y; x, y for z.
+/// The axis along which sections follow each other. The first and second directions of a
+/// section are the next two axes: y, z for x; z, x for y; x, y for z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Along {
     X,
@@ -34,20 +34,20 @@ impl Along {
     }
 }
 
-/// A rectangle with round corners across the axis.
+/// A rectangle with rounded corners, perpendicular to the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Section {
-    /// Where on the axis (m).
+    /// Position on the axis (m).
     pub(crate) along: f64,
-    /// Its middle (m).
+    /// Its centre (m).
     pub(crate) middle: [f64; 2],
     /// Half of its edge lengths (m).
     pub(crate) half: [f64; 2],
-    /// Radius of its corners (m); not more than the shorter half counts.
+    /// Radius of its corners (m), at most its shorter half length.
     pub(crate) round: f64,
 }
 
-/// A section around the axis itself.
+/// A section centred on the axis.
 pub(crate) fn section(along: f64, half: [f64; 2], round: f64) -> Section {
     let middle = [0.0; 2];
     Section {
@@ -59,7 +59,7 @@ pub(crate) fn section(along: f64, half: [f64; 2], round: f64) -> Section {
 }
 
 impl Section {
-    /// The section elsewhere.
+    /// The section with another centre.
     pub(crate) fn at(self, middle: [f64; 2]) -> Self {
         Self { middle, ..self }
     }
@@ -93,8 +93,8 @@ impl Section {
     }
 }
 
-/// The body through the sections, which go up the axis, with flat ends whose edges are rounded
-/// (m) at the first and the last section.
+/// The body through the sections, which ascend along the axis, with flat ends whose edges are
+/// rounded by `ends` (m) at the first and the last section.
 pub(crate) fn lofted(axis: Along, sections: &[Section], ends: [f64; 2]) -> Surface {
     let (Some(first), Some(last)) = (sections.first(), sections.last()) else {
         return Surface::default();
@@ -127,7 +127,7 @@ pub(crate) fn lofted(axis: Along, sections: &[Section], ends: [f64; 2]) -> Surfa
     smoothed(&points, &ring_triangles(all.len() as u32, around))
 }
 
-/// The sections of a rounded end from the outermost to the full one.
+/// The sections of a rounded end, from the outermost to the full one.
 fn rounded_end(section: &Section, radius: f64, direction: f64) -> Vec<Section> {
     if radius <= 0.0 {
         return Vec::new();
@@ -141,7 +141,7 @@ fn rounded_end(section: &Section, radius: f64, direction: f64) -> Vec<Section> {
     (0..=END_STEPS).map(step).collect()
 }
 
-/// The triangles of `rings` rings of `around` points each, and of the two ends, whose middles
+/// The triangles of `rings` rings of `around` points each, and of the two ends, whose centres
 /// are the last two points.
 fn ring_triangles(rings: u32, around: u32) -> Vec<[u32; 3]> {
     let mut triangles = Vec::new();
@@ -159,8 +159,8 @@ fn ring_triangles(rings: u32, around: u32) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// A tube along points of a plane, round at both ends. `aside` (of unit length) is at right
-/// angles to the plane; every point has its own radius (m).
+/// A tube along points in a plane, rounded at both ends. `aside` (a unit vector) is
+/// perpendicular to the plane; each point has its own radius (m).
 pub(crate) fn tube(path: &[([f64; 3], f64)], aside: [f64; 3]) -> Surface {
     let aside = Vector3::from(aside);
     let point = |i: usize| path.get(i).map(|(p, _)| Vector3::from(*p));

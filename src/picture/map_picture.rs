@@ -1,9 +1,9 @@
-//! The kitchen from above, with the floor in two colours: where the base may stand, and
-//! where something is in the way.
+//! The kitchen from above, with the floor in two colours: where the base can stand, and where
+//! something is in the way.
 //!
-//! The robot is taken as it stands, its arms and what they hold included; only its base is
-//! moved and turned. A place counts as free if the robot touches nothing there in one
-//! direction at least.
+//! The robot is taken in its current configuration, including what its hands hold; only its
+//! base is moved and turned. A place counts as free if the robot touches nothing there in at
+//! least one direction.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -18,48 +18,48 @@ use super::surface::{Corner, Surface};
 use crate::spatial::{Pose, pose};
 use crate::world::{AllowedPairs, BodyName, World};
 
-/// Edge length (m) of the squares that are judged.
+/// Edge length (m) of the squares that are checked.
 const SQUARE: f64 = 0.05;
 
-/// Directions of the base that are tried at a place.
+/// Number of directions of the base that are tried at a place.
 const TURNS: usize = 8;
 
-/// Height (m) of the colours over the floor.
+/// Height (m) of the coloured areas above the floor.
 const HEIGHT: f64 = 0.004;
 
 /// Linear colours of free and of blocked floor.
 pub(crate) const FREE: [f32; 4] = [0.10, 0.46, 0.16, 0.62];
 pub(crate) const BLOCKED: [f32; 4] = [0.70, 0.07, 0.05, 0.62];
 
-/// Names of the two areas as bodies of a scene.
+/// Name of the area that is free, as a body of a scene.
 pub(crate) const FREE_NAME: &str = "free";
 /// Name of the area that is blocked.
 pub(crate) const BLOCKED_NAME: &str = "blocked";
 
-/// The floor as squares where the base may stand or may not.
+/// A grid of squares where the base can stand or cannot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct FloorMap {
     columns: usize,
     rows: usize,
-    /// Corner with the least x and y, in squares.
+    /// The corner with the least x and y (squares).
     first: [i32; 2],
-    /// Row by row, from the least y.
+    /// The squares row by row, from the least y.
     free: Vec<bool>,
 }
 
 impl FloorMap {
-    /// Judges the floor from one corner to the other (m, map frame).
+    /// Checks the floor between two corners (m, map frame).
     pub(crate) fn of(world: &World, from: [f64; 2], to: [f64; 2]) -> Self {
         let square = |value: f64| (value / SQUARE).floor() as i32;
         let first = from.map(square);
         let size = [0, 1].map(|i| (square(to[i]) - first[i]).clamp(0, 400) as usize);
-        let mut judge = Judge::new(world);
+        let mut checker = BaseChecker::new(world);
         let middle =
             |axis: usize, place: usize| (f64::from(first[axis]) + place as f64 + 0.5) * SQUARE;
         let mut free = Vec::with_capacity(size[0] * size[1]);
         for row in 0..size[1] {
             for column in 0..size[0] {
-                free.push(judge.is_free(middle(0, column), middle(1, row)));
+                free.push(checker.is_free(middle(0, column), middle(1, row)));
             }
         }
         Self {
@@ -70,8 +70,8 @@ impl FloorMap {
         }
     }
 
-    /// Whether the base may stand at the place (m, map frame); `None` for a place that was not
-    /// judged.
+    /// Whether the base can stand at the place (m, map frame); `None` for a place that was not
+    /// checked.
     #[cfg(test)]
     pub(crate) fn is_free(&self, x: f64, y: f64) -> Option<bool> {
         let place = |value: f64, first: i32| {
@@ -84,11 +84,11 @@ impl FloorMap {
         self.free.get(row * self.columns + column).copied()
     }
 
-    /// The squares of one kind as a surface; neighbours in a row are one rectangle.
+    /// The squares of one kind as a surface; neighbours in a row form one rectangle.
     fn surface(&self, free: bool) -> Surface {
         let mut surface = Surface::default();
         for row in 0..self.rows {
-            // The rows are parts of the squares.
+            // The rows are ranges of the squares.
             let squares = &self.free[row * self.columns..(row + 1) * self.columns];
             let mut start = 0;
             for run in squares.chunk_by(|a, b| a == b) {
@@ -116,7 +116,7 @@ impl FloorMap {
     }
 }
 
-/// The world with the floor coloured, to be seen from above.
+/// The world with the floor coloured, as seen from above.
 pub(crate) fn map_scene(world: &World, looks: &Looks, map: &FloorMap) -> Scene {
     let mut scene = looks.scene(world);
     for (free, name, color) in [(true, FREE_NAME, FREE), (false, BLOCKED_NAME, BLOCKED)] {
@@ -131,7 +131,7 @@ pub(crate) fn map_scene(world: &World, looks: &Looks, map: &FloorMap) -> Scene {
     scene
 }
 
-/// Writes below the picture what its colours mean.
+/// Writes the meaning of the colours below the picture.
 pub(crate) fn add_legend(image: &mut Image) {
     let scale = 1 + image.width() / 800;
     let entries = [
@@ -156,17 +156,17 @@ pub(crate) fn add_legend(image: &mut Image) {
     }
 }
 
-/// Judges places of the base.
-struct Judge<'w> {
+/// Checks where the base can stand.
+struct BaseChecker<'w> {
     checker: crate::world::CollisionChecker<'w>,
     robot: crate::world::RobotConfiguration,
-    /// Pairs that belong to the robot and ride along.
+    /// Pairs of bodies that belong to the robot and move with it.
     own: AllowedPairs,
-    /// The turn that was free last: the next place is likely to be so, too.
+    /// The direction that was free last, which is likely to be free at the next place, too.
     last: usize,
 }
 
-impl<'w> Judge<'w> {
+impl<'w> BaseChecker<'w> {
     fn new(world: &'w World) -> Self {
         let mut checker = world.collision_checker();
         let robot = world.robot_configuration().clone();

@@ -1,8 +1,8 @@
-//! Pictures of the world, from any place, without a display or a graphics card.
+//! Pictures of the world from any viewpoint, without a display or a graphics card.
 //!
-//! A [`Scene`] says what there is to be seen of a [`World`](crate::world::World), a [`View`]
-//! from where, [`render`](render::render) makes an [`Image`] of the two. Nothing here changes
-//! the world. The same world and view give the same bytes, however many threads draw.
+//! A [`Scene`] describes what is visible of a [`World`](crate::world::World), a [`View`] the
+//! viewpoint, and [`render`](render::render) makes an [`Image`] of the two. Nothing here
+//! changes the world. The same world and view give the same bytes, however many threads draw.
 
 pub(crate) mod animation;
 pub(crate) mod camera_picture;

@@ -1,7 +1,7 @@
-//! A picture in few colours: which ones, and which of them each pixel gets.
+//! A picture in few colours: which colours, and which of them each pixel gets.
 //!
-//! Colours are told apart in five bits per channel; boxes of them are split where they are
-//! widest until there are enough. Nothing depends on anything but the pictures.
+//! Colours are distinguished by five bits per channel; boxes of them are split where they are
+//! widest until there are enough. The result depends only on the pictures.
 
 use super::image::{Image, Rgb};
 
@@ -9,14 +9,14 @@ use super::image::{Image, Rgb};
 const BITS: u32 = 5;
 const CELLS: usize = 1 << (3 * BITS);
 
-/// Few colours that stand for many.
+/// A few colours that stand for many.
 pub(crate) struct Palette {
     colors: Vec<Rgb>,
-    /// For each cell of the colour cube its place among the colours.
+    /// For each cell of the colour cube, the index of its colour.
     nearest: Vec<u8>,
 }
 
-/// How often a cell is seen, and the sum of what was seen in it.
+/// How often a cell occurs, and the sum of the colours seen in it.
 #[derive(Clone, Copy, Default)]
 struct Cell {
     count: u64,
@@ -24,12 +24,12 @@ struct Cell {
 }
 
 impl Palette {
-    /// At most so many (1 to 256) colours for the pictures.
+    /// At most `most` (1 to 256) colours for the pictures.
     pub(crate) fn of<'a>(pictures: impl Iterator<Item = &'a Image>, most: usize) -> Self {
         let mut cells = vec![Cell::default(); CELLS];
         for picture in pictures {
             for pixel in picture.bytes().as_chunks().0 {
-                // A cell of the cube, see below.
+                // The cell is within the cube, see below.
                 let cell = &mut cells[cell_of(*pixel)];
                 cell.count += 1;
                 for (sum, value) in cell.sum.iter_mut().zip(pixel) {
@@ -59,7 +59,7 @@ impl Palette {
         palette
     }
 
-    /// Colours that no picture had get the nearest one.
+    /// Colours that occur in no picture get the nearest colour.
     fn assign_unseen(&mut self, cells: &[Cell]) {
         for (i, cell) in cells.iter().enumerate() {
             if cell.count > 0 {
@@ -82,7 +82,7 @@ impl Palette {
         &self.colors
     }
 
-    /// The place among the colours for every pixel, row by row.
+    /// The index of each pixel's colour, row by row.
     pub(crate) fn places(&self, picture: &Image) -> Vec<u8> {
         let pixels = picture.bytes().as_chunks().0.iter();
         pixels.map(|pixel| self.nearest[cell_of(*pixel)]).collect()
@@ -98,12 +98,12 @@ fn cell_of(pixel: Rgb) -> usize {
 /// The colour in the middle of a cell.
 fn middle_of(cell: usize) -> [i32; 3] {
     let mask = (1 << BITS) - 1;
-    // Five bits are a small number.
+    // Five bits make a small number.
     let part = |shift: u32| ((cell >> shift & mask) as i32) * (1 << (8 - BITS)) + 4;
     [part(2 * BITS), part(BITS), part(0)]
 }
 
-/// The cells in at most so many boxes.
+/// The cells in at most `most` boxes.
 fn boxes(cells: &[Cell], used: Vec<usize>, most: usize) -> Vec<Vec<usize>> {
     if used.is_empty() {
         return vec![used];
@@ -112,7 +112,7 @@ fn boxes(cells: &[Cell], used: Vec<usize>, most: usize) -> Vec<Vec<usize>> {
     while boxes.len() < most {
         let spreads = boxes.iter().map(|members| spread(cells, members));
         let widest = spreads.enumerate().max_by(|(i, a), (j, b)| {
-            // Of equals the first.
+            // Of equal boxes, the first.
             a.0.total_cmp(&b.0).then(j.cmp(i))
         });
         let Some((place, (width, axis))) = widest else {
@@ -137,7 +137,7 @@ fn boxes(cells: &[Cell], used: Vec<usize>, most: usize) -> Vec<Vec<usize>> {
     boxes
 }
 
-/// How badly the box needs to be split, and along which channel; zero for one cell.
+/// How much the box needs to be split, and along which channel; zero for a single cell.
 fn spread(cells: &[Cell], members: &[usize]) -> (f64, usize) {
     let mut widest = (0.0, 0);
     if members.len() < 2 {

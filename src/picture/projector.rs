@@ -6,23 +6,23 @@ use super::facet::Facet;
 use super::raster::{Corner, Patch, twice_area};
 use crate::perception::camera::Camera;
 
-/// Places (samples) per pixel along rows and columns.
+/// Samples per pixel, along rows and columns.
 pub(crate) const SAMPLES: usize = 2;
 
-/// A triangle, or what of it lies before the camera, in the grid of samples.
+/// A triangle, or the part of it in front of the camera, in the grid of samples.
 pub(crate) struct Seen {
     pub(crate) patch: Patch,
     corners: [Corner; 3],
-    /// One over twice the area that the corners enclose.
+    /// One over twice the triangle's area.
     per_area: f64,
     points: [Vector3<f64>; 3],
     normals: [Vector3<f64>; 3],
-    /// Away from the solid, of unit length.
+    /// Unit vector away from the solid.
     outward: Vector3<f32>,
     pub(crate) body: usize,
 }
 
-/// Cosine of the bend up to which a surface counts as one.
+/// Cosine of the greatest bend across which a surface counts as one.
 const GENTLE: f32 = 0.97;
 
 impl Seen {
@@ -31,7 +31,7 @@ impl Seen {
         self.body == other.body && self.outward.dot(&other.outward) > GENTLE
     }
 
-    /// Place (m, map frame) and normal of what is seen at the column and row of the grid.
+    /// Position (m, map frame) and normal of what is seen at the column and row of the grid.
     pub(crate) fn at(&self, x: f64, y: f64) -> (Vector3<f64>, Vector3<f64>) {
         let [a, b, c] = self.corners;
         let here = [x, y, 0.0];
@@ -53,7 +53,7 @@ impl Seen {
     }
 }
 
-/// A corner on its way into the picture.
+/// A corner being projected.
 #[derive(Clone, Copy)]
 struct Vertex {
     camera: Vector3<f64>,
@@ -61,7 +61,7 @@ struct Vertex {
     normal: Vector3<f64>,
 }
 
-/// Projects into the grid of samples of a camera's picture.
+/// Projects onto the grid of samples of a camera's picture.
 pub(crate) struct Projector {
     pub(crate) eye: Vector3<f64>,
     to_camera: Matrix3<f64>,
@@ -85,14 +85,14 @@ impl Projector {
         }
     }
 
-    /// Direction (map frame, not of unit length) in which the place of the grid looks.
+    /// Direction (map frame, not normalised) in which the place of the grid looks.
     pub(crate) fn ray(&self, x: f64, y: f64) -> Vector3<f64> {
         let across = (x - self.width as f64 / 2.0) / self.focal;
         let down = (y - self.height as f64 / 2.0) / self.focal;
         self.to_camera.tr_mul(&Vector3::new(across, down, 1.0))
     }
 
-    /// The parts of the triangles that may be seen, in their order.
+    /// The parts of the triangles that may be visible, in order.
     pub(crate) fn project(&self, facets: &[Facet]) -> Vec<Seen> {
         let mut seen = Vec::with_capacity(facets.len() / 2);
         for facet in facets {
@@ -118,7 +118,7 @@ impl Projector {
             seen.extend(self.patch(corners, facet));
             return;
         }
-        // A plane cuts a triangle into at most four corners.
+        // A plane clips a triangle to at most four corners.
         let mut kept = Vec::with_capacity(4);
         for i in 0..3 {
             let (from, to) = (corners[i], corners[(i + 1) % 3]);
@@ -152,7 +152,7 @@ impl Projector {
         Some(Seen {
             patch: Patch::new(corners, self.width, self.height)?,
             corners,
-            // A patch has an area.
+            // A patch has a positive area.
             per_area: 1.0 / twice_area(a, b, c),
             points: vertices.map(|v| v.point),
             normals: vertices.map(|v| v.normal),

@@ -1,14 +1,14 @@
 //! Which places of a grid a triangle covers, and how near it is there.
 //!
-//! Triangles that share an edge cover every place along it exactly once. What a row gets does
-//! not depend on which other rows are filled.
+//! Triangles that share an edge cover every place along it exactly once. The result for a row
+//! does not depend on which other rows are filled.
 
 use std::ops::Range;
 
-/// Column, row, and a nearness that grows towards the eye and is linear in the picture.
+/// Column, row, and a nearness that increases towards the eye and is linear in the picture.
 pub(crate) type Corner = [f64; 3];
 
-/// A line as the column where it crosses a row: `slope * row + base`.
+/// An edge as the column where it crosses a row: `slope * row + base`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Line {
     slope: f64,
@@ -37,12 +37,12 @@ pub(crate) struct Patch {
     rows: Range<usize>,
     left: [Line; 2],
     right: [Line; 2],
-    /// Change of the nearness per column and row, and its value at the grid's corner.
+    /// Change of the nearness per column and per row, and its value at the grid's origin.
     nearness: [f64; 3],
 }
 
 impl Patch {
-    /// The part of the triangle in a grid of that size; `None` when it covers no place.
+    /// The part of the triangle in a grid of this size; `None` if it covers no place.
     pub(crate) fn new(corners: [Corner; 3], width: usize, height: usize) -> Option<Self> {
         let [a, mut b, mut c] = corners;
         let mut area = twice_area(a, b, c);
@@ -59,8 +59,8 @@ impl Patch {
         if rows.is_empty() || columns.is_empty() || area.is_nan() || area <= 0.0 {
             return None;
         }
-        // Going round a triangle of positive area, inside is to the left of edges that go
-        // down the picture; level edges limit rows only.
+        // Going round a triangle of positive area, the inside is to the left of edges that go
+        // down the picture; horizontal edges limit only the rows.
         let mut lines = [[None; 2]; 2];
         for (from, to) in [(a, b), (b, c), (c, a)] {
             if from[1] != to[1] {
@@ -89,12 +89,12 @@ impl Patch {
         })
     }
 
-    /// Rows that it may cover.
+    /// The rows that it may cover.
     pub(crate) fn rows(&self) -> &Range<usize> {
         &self.rows
     }
 
-    /// Columns below `width` that it covers in the row.
+    /// The columns below `width` that it covers in the row.
     pub(crate) fn columns(&self, row: usize, width: usize) -> Range<usize> {
         let y = row as f64 + 0.5;
         let left = self.left[0].at(y).max(self.left[1].at(y));

@@ -1,8 +1,8 @@
 //! Draws a scene.
 //!
-//! Every pixel has 2 x 2 samples, which smooths edges; a surface is shaded once per pixel that
-//! it covers. The picture is drawn in bands of rows, each by whichever thread is free: what
-//! a band shows depends on nothing but the scene.
+//! Each pixel has 2 x 2 samples, which smooths edges; a surface is shaded once for each pixel
+//! that it covers. The picture is drawn in bands of rows, each by whichever thread is free: a
+//! band depends only on the scene.
 
 use std::ops::Range;
 use std::sync::Mutex;
@@ -18,16 +18,16 @@ use crate::perception::camera::Camera;
 /// Rows of pixels in a band; a multiple of [`BLOCK`].
 const BAND: usize = 16;
 
-/// Pixels along the sides of a square in which a surface has the same light from the sky.
+/// Edge length (pixels) of a square in which a surface gets the same light from the sky.
 const BLOCK: usize = 2;
 
-/// Light beyond which brightness grows more slowly, so that nothing is plain white.
+/// Brightness above which it grows more slowly, so that nothing is plain white.
 const SHOULDER: f32 = 0.72;
 
-/// Steps of the table that turns light into bytes.
+/// Number of steps in the table that converts light to bytes.
 const TONES: usize = 4096;
 
-/// The scene as the camera sees it. The camera's far limit does not count.
+/// The scene as the camera sees it. The camera's far limit is ignored.
 pub(crate) fn render(scene: &Scene, camera: &Camera) -> Image {
     render_with(
         scene,
@@ -61,8 +61,8 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
     image
 }
 
-/// Which body every pixel shows, as a place in the scene, row by row from the top; none for
-/// the background. The first of a pixel's samples decides.
+/// The body that each pixel shows, as an index into the scene, row by row from the top; `None`
+/// for the background. The first of a pixel's samples decides.
 #[cfg(test)]
 pub(crate) fn segments(scene: &Scene, camera: &Camera) -> Vec<Option<usize>> {
     let projector = Projector::new(camera);
@@ -75,7 +75,7 @@ pub(crate) fn segments(scene: &Scene, camera: &Camera) -> Vec<Option<usize>> {
         .collect()
 }
 
-/// Does the work on every item, on as many threads; results in the order of the items.
+/// Applies `work` to every item, on several threads; the results are in the order of the items.
 fn in_parallel<I: Send, R: Send>(
     threads: usize,
     items: Vec<I>,
@@ -118,7 +118,7 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    /// Draws the rows of pixels from `first` that fit into the bytes.
+    /// Draws rows of pixels, from `first` on, as many as fit into `bytes`.
     fn paint(&self, first: usize, bytes: &mut [u8]) {
         let width = self.projector.width;
         let pixels = width / SAMPLES;
@@ -162,7 +162,7 @@ impl Painter<'_> {
             if samples[..i].contains(id) {
                 continue;
             }
-            // Where on the surface: the middle of the samples that show it.
+            // The position on the surface is the mean of the samples that show it.
             let (mut x, mut y, mut count) = (0.0, 0.0, 0.0);
             for (j, _) in samples.iter().enumerate().filter(|(_, s)| *s == id) {
                 x += (j % SAMPLES) as f64 + 0.5;
@@ -179,7 +179,7 @@ impl Painter<'_> {
         sum
     }
 
-    /// What the place of the grid of samples shows, which is that triangle or none.
+    /// The light at a place in the grid of samples that shows the triangle, or the background.
     fn light(&self, id: u32, x: f64, y: f64, known: &mut Vec<(u32, Reach)>) -> Color {
         match self.seen.get(id as usize) {
             None => background(&self.projector.ray(x, y)),
@@ -187,10 +187,10 @@ impl Painter<'_> {
         }
     }
 
-    /// The samples with neighbours on a gently bent surface taken as one.
+    /// The samples, with neighbours on a gently bent surface merged.
     fn merged(&self, mut samples: [u32; 4]) -> [u32; 4] {
         for i in 1..4 {
-            // What is not a triangle is not within those that are seen.
+            // An ID that is no triangle's is not among those that are seen.
             let Some(here) = self.seen.get(samples[i] as usize) else {
                 continue;
             };
@@ -204,7 +204,7 @@ impl Painter<'_> {
         samples
     }
 
-    /// The light of a triangle at the column and row of the grid of samples.
+    /// The light of a triangle at a column and row of the grid of samples.
     fn surface(
         &self,
         id: u32,
@@ -228,25 +228,25 @@ impl Painter<'_> {
                 reach
             }
         };
-        // Every triangle comes from a body of the scene.
+        // Every triangle belongs to a body of the scene.
         let body = &self.scene.bodies[seen.body];
         self.lights.shade(body, &point, &normal, eye, reach, grain)
     }
 
     fn byte(&self, light: f32) -> u8 {
         let step = (unit(light) * (TONES - 1) as f32 + 0.5) as usize;
-        // Steps of the unit interval are within the table.
+        // The index of a value in 0..1 is within the table.
         self.tones[step]
     }
 }
 
-/// The nearest triangle at every sample of the rows.
+/// The nearest triangle at each sample of the rows.
 fn samples(scene: &Scene, seen: &[Seen], width: usize, rows: Range<usize>) -> Vec<u32> {
     let mut nearness = vec![0f32; rows.len() * width];
     let mut nearest = vec![NOTHING; rows.len() * width];
     for (i, seen) in (0u32..).zip(seen) {
         let covered = seen.patch.rows();
-        // Every triangle comes from a body of the scene.
+        // Every triangle belongs to a body of the scene.
         let alpha = unit(scene.bodies[seen.body].color[3]);
         for row in covered.start.max(rows.start)..covered.end.min(rows.end) {
             let columns = seen.patch.columns(row, width);
@@ -255,7 +255,7 @@ fn samples(scene: &Scene, seen: &[Seen], width: usize, rows: Range<usize>) -> Ve
             }
             let (start, slope) = seen.patch.nearness(columns.start, row);
             let places = (row - rows.start) * width..;
-            // Rows and columns were cut to the grid by the patch.
+            // Rows and columns were clipped to the grid by the patch.
             let nearness = &mut nearness[places.clone()][columns.clone()];
             let nearest = &mut nearest[places][columns.clone()];
             let places = nearness.iter_mut().zip(nearest).enumerate();
@@ -279,8 +279,8 @@ fn samples(scene: &Scene, seen: &[Seen], width: usize, rows: Range<usize>) -> Ve
     nearest
 }
 
-/// Whether a half-transparent surface is drawn at the sample: the better it covers, the more
-/// samples of every pixel show it.
+/// Whether a translucent surface is drawn at the sample: the more opaque it is, the more
+/// samples of each pixel show it.
 fn shows(column: usize, row: usize, alpha: f32) -> bool {
     let rank = match (column % 2, row % 2) {
         (0, 0) => 0.125,
@@ -291,7 +291,7 @@ fn shows(column: usize, row: usize, alpha: f32) -> bool {
     rank < alpha
 }
 
-/// Brings light of any strength into 0..1.
+/// Maps light of any strength into 0..1.
 fn tone(light: f32) -> f32 {
     if light <= SHOULDER {
         return light;
@@ -301,7 +301,7 @@ fn tone(light: f32) -> f32 {
     SHOULDER + room * over / (1.0 + over)
 }
 
-/// The bytes of sRGB for linear light in equal steps.
+/// The sRGB bytes for linear light in equal steps.
 fn tones() -> Vec<u8> {
     (0..TONES)
         .map(|step| {

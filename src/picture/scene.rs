@@ -1,9 +1,9 @@
-//! What there is to be seen: the surfaces of kitchen, robot and objects where they are now,
-//! the floor, and coordinate axes that somebody wants to see.
+//! What is visible: the surfaces of kitchen, robot and objects at their current poses, the
+//! floor, and the coordinate axes that the user wants to see.
 //!
-//! This is the one description that every renderer draws: a body is a surface in its own
-//! frame, a pose, a colour and a name. Surfaces are shared, so that a renderer that keeps
-//! them needs only the poses of the next scene.
+//! All renderers draw this one description: a body is a surface in its own frame, a pose, a
+//! colour and a name. Surfaces are shared, so a renderer that keeps them needs only the poses
+//! of the next scene.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::world::{Object, World};
 /// Thickness of coordinate axes as a share of their length.
 const AXIS_THICKNESS: f64 = 0.04;
 
-/// How a surface takes the light.
+/// How a surface reflects light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Finish {
     /// Scatters light evenly.
@@ -28,71 +28,71 @@ pub(crate) enum Finish {
     Satin,
     /// With a clear reflection of the lamp.
     Gloss,
-    /// Floor boards; casts no shadow and fades into the background far away.
+    /// Floor boards: cast no shadow and fade into the background with distance.
     Boards,
 }
 
-/// What kind of thing a body is a part of.
+/// The kind of thing that a body is part of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Kind {
     /// The floor.
     Floor,
-    /// The kitchen; the name is that of a link.
+    /// The kitchen; the name is a link's.
     Furniture,
-    /// The robot; the name is that of a link.
+    /// The robot; the name is a link's.
     Robot,
-    /// An object; the name is that under which it was spawned.
+    /// An object; the name is the one with which it was spawned.
     Object,
-    /// Something that only people see, such as coordinate axes.
+    /// Something that only users see, such as coordinate axes.
     Sign,
 }
 
-/// Whose part a body is.
+/// The thing that a body is part of.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Owner {
-    /// What kind of thing.
+    /// Its kind.
     pub(crate) kind: Kind,
-    /// Its name, which is unique among those of the same kind.
+    /// Its name, unique among things of the same kind.
     pub(crate) name: Arc<str>,
 }
 
 impl Owner {
-    /// A thing of the kind with the name.
+    /// The thing of this kind and name.
     pub(crate) fn new(kind: Kind, name: &str) -> Self {
         let name = name.into();
         Self { kind, name }
     }
 }
 
-/// A surface with its place and colour.
+/// A surface with its pose and colour.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
-    /// Whose part it is. A thing may have several bodies.
+    /// The thing that it is part of. A thing may have several bodies.
     pub(crate) owner: Owner,
-    /// The surface in its own frame; the same allocation as long as it does not change.
+    /// The surface in its own frame; the same allocation for as long as it does not change.
     pub(crate) surface: Arc<Surface>,
     /// Pose of that frame in the map frame.
     pub(crate) pose: Pose,
     /// Linear colour, red green blue alpha in 0..1.
     pub(crate) color: [f32; 4],
-    /// How it takes the light.
+    /// How it reflects light.
     pub(crate) finish: Finish,
 }
 
-/// Everything that is to be drawn.
+/// Everything to be drawn.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scene {
-    /// The bodies; the order decides only between surfaces at exactly the same place.
+    /// The bodies; the order matters only between surfaces at exactly the same place.
     pub(crate) bodies: Vec<Body>,
 }
 
 impl Scene {
-    /// The world as it is now. Whoever draws it again and again keeps the [`Looks`].
+    /// The world as it is now. To draw it repeatedly, keep the [`Looks`] instead.
     pub(crate) fn of(world: &World) -> Self {
         Looks::of(world.models()).scene(world)
     }
 
-    /// What is seen of a link, in the link's frame.
+    /// The appearance of a link, in the link's frame.
     pub(crate) fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
         let kind = if is_robot {
             Kind::Robot
@@ -102,7 +102,7 @@ impl Scene {
         looks::link_scene(tree, link, kind)
     }
 
-    /// What is seen of an object, in its own frame.
+    /// The appearance of an object, in its own frame.
     pub(crate) fn of_object(object: &Object) -> Self {
         looks::object_scene(object)
     }

@@ -1,5 +1,5 @@
 //! How much light a surface sends to the eye: a lamp with a shadow, light from the sky where
-//! nothing hides it, and a little from everywhere.
+//! nothing blocks it, and a little ambient light.
 
 use nalgebra::Vector3;
 
@@ -8,35 +8,35 @@ use super::lamp::Lamp;
 use super::scene::{Body, Finish};
 use crate::spatial::trig;
 
-/// Linear red, green and blue; 1 is white paper in the light.
+/// Linear red, green and blue; 1 is white paper in full light.
 pub(crate) type Color = [f32; 3];
 
-/// Towards the lamp.
+/// Direction towards the lamp.
 const KEY: [f64; 3] = [-0.55, -0.42, 1.25];
 const KEY_COLOR: Color = [0.80, 0.74, 0.65];
 const KEY_GRID: usize = 1100;
 
-/// Colours of the sky's light, of the light that comes back from the floor, and of the rest.
+/// Colours of the sky's light, of light reflected by the floor, and of ambient light.
 const SKY_COLOR: Color = [0.42, 0.45, 0.50];
 const BOUNCE_COLOR: Color = [0.14, 0.12, 0.10];
 const REST: f32 = 0.05;
 const SKY_GRID: usize = 320;
 
-/// Rings of directions of the sky: how many, their height over the horizon (degrees), and
-/// where the first one is (degrees).
+/// Rings of directions of the sky: how many, their elevation above the horizon (degrees), and
+/// the azimuth of the first one (degrees).
 const SKY: [(usize, f64, f64); 2] = [(5, 28.0, 20.0), (3, 62.0, 75.0)];
 
-/// The colours of the floor and of the far distance.
+/// Colours of the floor and of the far distance.
 const BOARD: Color = [0.40, 0.27, 0.165];
 const HORIZON: Color = [0.62, 0.66, 0.70];
 const ZENITH: Color = [0.36, 0.44, 0.55];
 
-/// Width and length of a floor board (m), and of the gap between two of them.
+/// Width and length (m) of a floor board, and width of the gap between two boards.
 const BOARD_WIDTH: f64 = 0.16;
 const BOARD_LENGTH: f64 = 1.9;
 const BOARD_GAP: f64 = 0.005;
 
-/// From where to where (m from the eye, along the floor) the floor fades.
+/// Distances (m from the eye, along the floor) between which the floor fades out.
 const FADE: [f64; 2] = [7.0, 22.0];
 
 /// The light that reaches a place.
@@ -44,7 +44,7 @@ const FADE: [f64; 2] = [7.0, 22.0];
 pub(crate) struct Reach {
     /// Share (0..1) of the sky's light.
     open: f32,
-    /// Share (0 or 1) of the lamp's light, where it is the same all around.
+    /// Share (0 or 1) of the lamp's light, if it is the same all around.
     key: Option<f32>,
 }
 
@@ -55,7 +55,7 @@ pub(crate) struct Lights {
 }
 
 impl Lights {
-    /// Directions and grids of all lamps, the key lamp first.
+    /// Directions and grid sizes of all lamps, the key lamp first.
     pub(crate) fn plan() -> Vec<(Vector3<f64>, usize)> {
         let mut plan = vec![(Vector3::from(KEY), KEY_GRID)];
         for (count, height, first) in SKY {
@@ -78,7 +78,7 @@ impl Lights {
         Lamp::new(towards, grid, facets)
     }
 
-    /// The lights from the lamps of the plan, in its order.
+    /// The lights, from the lamps of the plan in its order.
     pub(crate) fn new(lamps: Vec<Lamp>) -> Option<Self> {
         let mut lamps = lamps.into_iter();
         Some(Self {
@@ -87,8 +87,7 @@ impl Lights {
         })
     }
 
-    /// The light that reaches the place with the normal and its neighbours up to `grain` (m)
-    /// away.
+    /// The light that reaches the point with this normal and its neighbourhood of `grain` (m).
     pub(crate) fn reach(&self, point: &Vector3<f64>, normal: &Vector3<f64>, grain: f64) -> Reach {
         let (mut open, mut full) = (0.0, 0.0);
         for lamp in &self.sky {
@@ -105,8 +104,8 @@ impl Lights {
         Reach { open, key }
     }
 
-    /// The light that the place of the body sends to the eye; `reach` is the light that
-    /// reaches it, `grain` the size (m) of a pixel there.
+    /// The light that the point of the body sends to the eye; `reach` is the light that reaches
+    /// the point, `grain` the size (m) of a pixel there.
     pub(crate) fn shade(
         &self,
         body: &Body,
@@ -146,7 +145,7 @@ impl Lights {
         color
     }
 
-    /// Light of the lamp that is mirrored to the eye.
+    /// The lamp's light reflected to the eye.
     fn gloss(&self, finish: Finish, normal: &Vector3<f64>, view: &Vector3<f64>) -> f32 {
         let strength = match finish {
             Finish::Matt => return 0.0,
@@ -158,7 +157,7 @@ impl Lights {
             return 0.0;
         };
         let mut power = half.dot(normal).max(0.0);
-        // To the power of 32.
+        // Raises it to the power of 32.
         for _ in 0..5 {
             power *= power;
         }
@@ -166,13 +165,13 @@ impl Lights {
     }
 }
 
-/// What is seen in the direction where nothing is.
+/// The colour of a direction in which nothing is visible.
 pub(crate) fn background(ray: &Vector3<f64>) -> Color {
     let height = ray.z / ray.norm();
     mix(HORIZON, ZENITH, smooth(height * 1.6) as f32)
 }
 
-/// The colour of the floor, evened out where a pixel shows much of it.
+/// The colour of the floor, averaged where a pixel shows much of it.
 fn boards(point: &Vector3<f64>, grain: f64) -> Color {
     let row = (point.y / BOARD_WIDTH).floor();
     let shift = tone(row, 0.0);
@@ -190,7 +189,7 @@ fn boards(point: &Vector3<f64>, grain: f64) -> Color {
     BOARD.map(|c| c * light as f32)
 }
 
-/// A number in 0..1 that looks random but is always the same for a board.
+/// A pseudo-random number in 0..1 that is always the same for a board.
 fn tone(row: f64, column: f64) -> f64 {
     let mut bits = (row as i64 as u64)
         .wrapping_mul(0x9E37_79B9_7F4A_7C15)
@@ -201,12 +200,12 @@ fn tone(row: f64, column: f64) -> f64 {
     f64::from((bits & 0xFFFF) as u16) / 65535.0
 }
 
-/// The number brought into 0..1; 0 for what is no number.
+/// The number clamped to 0..1; 0 for NaN.
 pub(crate) fn unit(value: f32) -> f32 {
     value.clamp(0.0, 1.0)
 }
 
-/// From 0 to 1 without a kink, as the value goes from 0 to 1.
+/// A smooth step from 0 to 1 as the value goes from 0 to 1.
 fn smooth(value: f64) -> f64 {
     let v = value.clamp(0.0, 1.0);
     v * v * (3.0 - 2.0 * v)

@@ -1,17 +1,17 @@
-//! Normals for surfaces that are given by points alone: gentle bends are round, sharp ones
-//! stay edges.
+//! Normals for surfaces given only by points: gentle bends are shaded as round, sharp ones as
+//! edges.
 
 use nalgebra::{Point3, Vector3};
 
 use super::surface::{Corner, Surface};
 
-/// Cosine of the bend from which on an edge stays an edge.
+/// Cosine of the bend beyond which an edge stays an edge.
 const EDGE: f64 = 0.62;
 
-/// Normals that differ by less are one.
+/// Normals that differ by less than this are merged.
 const SAME: f64 = 1e-9;
 
-/// The surface of the triangles (places in `points`); those without area are left out.
+/// The surface of the triangles (indices into `points`); those without area are omitted.
 pub(crate) fn smoothed(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Surface {
     let point = |i: u32| points.get(i as usize).copied();
     let known: Vec<_> = triangles
@@ -25,7 +25,7 @@ pub(crate) fn smoothed(points: &[Point3<f64>], triangles: &[[u32; 3]]) -> Surfac
         .collect();
     let mut around: Vec<Vec<u32>> = vec![Vec::new(); points.len()];
     for (place, (triangle, ..)) in (0u32..).zip(&known) {
-        // The triangles name points, see above.
+        // The triangles have valid indices, see above.
         triangle
             .iter()
             .for_each(|i| around[*i as usize].push(place));

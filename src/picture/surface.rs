@@ -1,5 +1,5 @@
-//! Surfaces of shapes as triangles with normals: round things look round, edges are broken
-//! a little, as on real things, so that they catch the light.
+//! Surfaces of shapes as triangles with normals: round things look round, and edges are slightly
+//! bevelled, as on real things, so that they catch the light.
 
 use std::f64::consts::TAU;
 
@@ -13,23 +13,24 @@ const BALL_RINGS: u32 = 16;
 /// A corner of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corner {
-    /// Where (m), in the shape's frame.
+    /// Position (m), in the shape's frame.
     pub(crate) point: Point3<f64>,
     /// Unit vector away from the solid, for shading.
     pub(crate) normal: Vector3<f64>,
 }
 
-/// A closed surface; seen from outside, the corners of a triangle run counter-clockwise.
+/// A closed surface; seen from outside, the corners of a triangle are in counter-clockwise
+/// order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Surface {
     /// Corners.
     pub(crate) corners: Vec<Corner>,
-    /// Triangles as places in `corners`.
+    /// Triangles as indices into `corners`.
     pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 impl Surface {
-    /// The surface of a shape whose edges are broken by at most `bevel` (m).
+    /// The surface of a shape whose edges are bevelled by at most `bevel` (m).
     pub(crate) fn of(shape: &Shape, bevel: f64) -> Self {
         match shape {
             Shape::Box { size } => {
@@ -44,7 +45,7 @@ impl Surface {
         }
     }
 
-    /// A horizontal square around the origin, to be seen from above; `half` its edge length (m).
+    /// A horizontal square around the origin, facing up; `half` is half its edge length (m).
     pub(crate) fn ground(half: f64) -> Self {
         let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
         let corner = |[x, y]: [f64; 2]| Corner {
@@ -59,8 +60,8 @@ impl Surface {
 
     fn cuboid(half: [f64; 3], bevel: f64) -> Self {
         let mut surface = Self::default();
-        // Corner 0..8 has bit i set where its coordinate i is positive; it is split into one
-        // corner per face that meets there.
+        // Corner 0..8 has bit i set if its coordinate i is positive; it is split into one
+        // corner for each face that meets there.
         for corner in 0..8u32 {
             for face in 0..3 {
                 let sign = |axis: usize| if corner >> axis & 1 == 1 { 1.0 } else { -1.0 };
@@ -102,7 +103,7 @@ impl Surface {
         surface
     }
 
-    /// Adds a flat polygon of a convex solid around the origin, turned to be seen from outside.
+    /// Adds a flat polygon of a convex solid around the origin, oriented outwards.
     fn add_outward<const N: usize>(&mut self, polygon: [u32; N]) {
         let point = |i: u32| self.corners[i as usize].point.coords;
         let [a, b, c] = [point(polygon[0]), point(polygon[1]), point(polygon[2])];
@@ -138,9 +139,9 @@ impl Surface {
         Self::turned(rings.windows(2).map(|pair| [pair[0], pair[1]]))
     }
 
-    /// The surface that a line beside the z axis leaves when it is turned about the axis.
-    /// The line is given by its points, as distance from the axis and height (m); the solid
-    /// is to the left of it as it goes up.
+    /// The surface of revolution of a line about the z axis. The line is given by its points,
+    /// as distances from the axis and heights (m); the solid is to the left of it as it
+    /// ascends.
     pub(crate) fn lathed(line: &[[f64; 2]]) -> Self {
         let pieces: Vec<_> = line
             .windows(2)
@@ -153,7 +154,7 @@ impl Surface {
         let piece = |place: Option<usize>| pieces.get(place?);
         Self::turned(pieces.iter().enumerate().map(|(i, (from, to, own))| {
             let end = |point: &Vector2<f64>, neighbour: Option<usize>| {
-                // Gentle bends are rounded, sharp ones stay edges.
+                // Gentle bends are rounded; sharp ones stay edges.
                 let other = piece(neighbour).map(|p| p.2).filter(|n| n.dot(own) > 0.6);
                 let normal = (own + other.unwrap_or(*own)).normalize();
                 Profile::new(point.x, point.y, normal.x, normal.y)
@@ -162,7 +163,7 @@ impl Surface {
         }))
     }
 
-    /// The surface that straight pieces beside the z axis leave when they are turned about it.
+    /// The surface of revolution of straight pieces about the z axis.
     fn turned(pieces: impl Iterator<Item = [Profile; 2]> + Clone) -> Self {
         let widest = pieces
             .clone()
@@ -201,12 +202,12 @@ impl Surface {
     }
 }
 
-/// A point of a line that is turned about the z axis.
+/// A point of a line that is revolved about the z axis.
 #[derive(Clone, Copy)]
 struct Profile {
     radius: f64,
     z: f64,
-    /// The normal's parts away from the axis and along it.
+    /// The normal's components away from the axis and along it.
     out: f64,
     up: f64,
 }
@@ -219,7 +220,7 @@ impl Profile {
 
 #[cfg(test)]
 impl Surface {
-    /// Volume (m³) that the surface encloses; positive only if the triangles face outwards.
+    /// Volume (m³) enclosed by the surface; positive only if the triangles face outwards.
     pub(crate) fn volume(&self) -> f64 {
         let corner = |i: u32| self.corners[i as usize].point.coords;
         let six: f64 = self
@@ -241,7 +242,8 @@ mod tests {
             size: [1.0, 2.0, 3.0],
         };
         assert!((Surface::of(&cuboid, 0.0).volume() - 6.0).abs() < 1e-12);
-        // Twelve edges of together 24 m lose a prism each, eight corners a bit more.
+        // Twelve edges with a total length of 24 m lose a prism each, the eight corners a bit
+        // more.
         let bevelled = Surface::of(&cuboid, 0.01).volume();
         assert!((bevelled - (6.0 - 24.0 * 0.01 * 0.01 / 2.0)).abs() < 1e-5);
         let cylinder = Shape::Cylinder {
@@ -252,7 +254,7 @@ mod tests {
         assert!((share - 1.0).abs() < 0.01);
         let ball = Surface::of(&Shape::Sphere { radius: 1.0 }, 0.0).volume();
         assert!((ball / (TAU * 2.0 / 3.0) - 1.0).abs() < 0.02);
-        // A cup with walls and a bottom of 0.1 m.
+        // A cup with walls and a bottom 0.1 m thick.
         let cup = [
             [0.0, 0.0],
             [1.0, 0.0],

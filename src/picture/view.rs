@@ -1,4 +1,4 @@
-//! From where the world is looked at.
+//! The views from which the world can be drawn.
 
 use std::fmt;
 
@@ -9,16 +9,16 @@ use crate::perception::camera::Camera;
 use crate::spatial::{Pose, trig};
 use crate::world::World;
 
-/// Angle (rad) between the upper and the lower border where nothing else is asked for.
+/// Vertical field of view (rad) by default.
 pub(crate) const FIELD_OF_VIEW: f64 = 0.72;
 
-/// Nothing nearer to a viewer than this is seen (m).
+/// Distance (m) from the eye before which nothing is seen.
 const NEAR: f64 = 0.05;
 
-/// A place to look from.
+/// A viewpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum View {
-    /// The whole kitchen from its open corner.
+    /// The whole kitchen, from its open corner.
     Kitchen,
     /// Straight down, x to the right.
     Top,
@@ -31,15 +31,15 @@ pub(crate) enum View {
     Table,
     /// The kitchen island.
     Island,
-    /// The robot, from the side to which the kitchen is open.
+    /// The robot, from the open side of the kitchen.
     Follow,
     /// From anywhere.
     Free {
-        /// Where the eye is (m, map frame).
+        /// Position of the eye (m, map frame).
         from: Point3<f64>,
-        /// What is in the middle of the picture (m, map frame).
+        /// The point in the middle of the picture (m, map frame).
         at: Point3<f64>,
-        /// Angle (rad) between the upper and the lower border.
+        /// Vertical field of view (rad).
         vertical_fov: f64,
     },
 }
@@ -49,7 +49,7 @@ pub(crate) enum View {
 pub(crate) enum ViewError {
     /// The kitchen lacks what the view looks at.
     #[error(
-        "the view {view} looks at {link}, which this kitchen lacks; say --from and --at instead"
+        "the view {view} looks at {link}, which this kitchen lacks; use --from and --at instead"
     )]
     NothingThere {
         /// The view.
@@ -57,32 +57,33 @@ pub(crate) enum ViewError {
         /// The link that it looks at.
         link: &'static str,
     },
-    /// The eye is where it looks.
+    /// The eye and the point that it looks at coincide.
     #[error("the view is from and at the same place, ({}, {}, {})", .0.x, .0.y, .0.z)]
     NoDirection(Point3<f64>),
-    /// A coordinate is no number or far too large, or the field of view is no angle that
-    /// a picture can have.
-    #[error("{0} is impossible for a view")]
+    /// A coordinate is not finite or far too large, or the field of view is not an angle that a
+    /// picture can have.
+    #[error("{0} is out of range for a view")]
     Impossible(f64),
 }
 
-/// Where the eye of [`View::Follow`] is, and where it looks (m, seen from the robot's base but
-/// along the axes of the map): it turns with nothing, and no wall is in between.
+/// Position of the eye of [`View::Follow`], and of the point it looks at (m, relative to the
+/// robot's base but along the axes of the map): it never turns, and no wall is in between.
 const FOLLOW_FROM: [f64; 3] = [-2.05, -1.7, 2.0];
 const FOLLOW_AT: [f64; 3] = [0.0, 0.05, 0.82];
 
-/// Height (m) of the eye of [`View::Map`]: from so far away nothing looks nearer than the floor.
+/// Height (m) of the eye of [`View::Map`]: from so far away, nothing looks nearer than the
+/// floor.
 const MAP_EYE: f64 = 400.0;
 
-/// What is in the middle of [`View::Map`], and how far it is from there to the upper border (m).
+/// The point in the middle of [`View::Map`], and its distance to the upper border (m).
 const MAP_MIDDLE: [f64; 2] = [-1.0, 0.55];
 const MAP_HALF: f64 = 2.94;
 
-/// Coordinates (m) beyond which there is nothing to be seen.
+/// Coordinates (m) beyond which there is nothing to see.
 const REACH: f64 = 1000.0;
 
 impl View {
-    /// All views that have a name.
+    /// All named views.
     pub(crate) const NAMED: [Self; 7] = [
         Self::Kitchen,
         Self::Top,
@@ -107,13 +108,14 @@ impl View {
         }
     }
 
-    /// Corners (m, map frame) of the floor that [`View::Map`] shows in a picture of that size.
+    /// Corners (m, map frame) of the floor area that [`View::Map`] shows in a picture of this
+    /// size.
     pub(crate) fn map_area(width: usize, height: usize) -> [[f64; 2]; 2] {
         let half = [MAP_HALF * width as f64 / height.max(1) as f64, MAP_HALF];
         [-1.0, 1.0].map(|sign| [0, 1].map(|i| MAP_MIDDLE[i] + sign * half[i]))
     }
 
-    /// The camera that has the view, for a picture of that size (pixels).
+    /// The camera of the view, for a picture of this size (pixels).
     pub(crate) fn camera(
         &self,
         world: &World,
@@ -180,7 +182,7 @@ impl View {
         }
     }
 
-    /// A point of a link of the kitchen, in the map frame.
+    /// A point on a link of the kitchen, in the map frame.
     fn furniture(
         self,
         world: &World,
@@ -200,8 +202,8 @@ impl fmt::Display for View {
     }
 }
 
-/// The optical frame of an eye that looks from one point to the other (m, map frame), with
-/// `up` upwards in the picture as far as possible.
+/// The optical frame of an eye that looks from one point to the other (m, map frame), with `up`
+/// as far up in the picture as possible.
 fn looking(from: Point3<f64>, at: Point3<f64>, up: Vector3<f64>) -> Result<Pose, ViewError> {
     let forward = (at - from)
         .try_normalize(1e-6)
@@ -214,7 +216,7 @@ fn looking(from: Point3<f64>, at: Point3<f64>, up: Vector3<f64>) -> Result<Pose,
     Ok(Pose::from_parts(from.into(), rotation(&axes)))
 }
 
-/// The rotation with these axes, which are at right angles; the same bits on every platform.
+/// The rotation with these axes, which are orthogonal; the same bits on every platform.
 fn rotation(axes: &Matrix3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*axes))
 }

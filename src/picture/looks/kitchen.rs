@@ -1,4 +1,4 @@
-//! What the kitchen's model leaves out: the rings of the stove. They are seen only.
+//! What the kitchen's model omits: the rings of the stove. They are purely visual.
 
 use super::look::Look;
 use crate::picture::loft::Along;
@@ -6,7 +6,7 @@ use crate::picture::loft::Along;
 /// Linear colour of the rings, which hardly stand out from the glass.
 const RING: [f32; 4] = [0.16, 0.16, 0.165, 1.0];
 
-/// Middle (m), in the stove's frame, and radius (m) of the rings; the glass ends at 2 mm.
+/// Centre (m, in the stove's frame) and radius (m) of each ring; the glass ends at 2 mm.
 const RINGS: [([f64; 2], f64); 4] = [
     ([-0.115, -0.14], 0.075),
     ([0.12, -0.14], 0.10),
@@ -16,7 +16,7 @@ const RINGS: [([f64; 2], f64); 4] = [
 const TOP: f64 = 0.0023;
 const WIDTH: f64 = 0.005;
 
-/// What a link shows beside its model.
+/// What a link shows in addition to its model.
 pub(crate) fn extras_of(link: &str) -> Vec<Look> {
     if link != "kitchen_island_stove" {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! A surface that a thing wears.
+//! A surface that a link or an object shows.
 
 use std::sync::Arc;
 
@@ -8,14 +8,14 @@ use crate::picture::surface::Surface;
 use crate::spatial::pose::from_xyz_rpy;
 use crate::spatial::{PlacedShape, Pose};
 
-/// Linear colour of what has no colour of its own.
+/// Linear colour of things without a colour of their own.
 pub(crate) const PLAIN: [f32; 4] = [0.6, 0.6, 0.6, 1.0];
 
-/// A surface that a link or an object wears.
+/// A surface that a link or an object shows.
 #[derive(Clone, Debug)]
 pub(crate) struct Look {
     pub(crate) surface: Arc<Surface>,
-    /// Pose of the surface's frame in that of the link or object.
+    /// Pose of the surface's frame in the frame of the link or object.
     pub(crate) at: Pose,
     /// Its own colour, if it has one.
     pub(crate) color: Option<[f32; 4]>,
@@ -23,7 +23,7 @@ pub(crate) struct Look {
 }
 
 impl Look {
-    /// A shape as it is, its edges broken by at most `bevel` (m).
+    /// The shape itself, its edges bevelled by at most `bevel` (m).
     pub(crate) fn of_shape(placed: &PlacedShape, bevel: f64, finish: Finish) -> Self {
         Self {
             surface: Arc::new(Surface::of(&placed.shape, bevel)),
@@ -43,8 +43,9 @@ impl Look {
         }
     }
 
-    /// What a line leaves that is turned about an axis through `middle` (m; y, z for x;
-    /// z, x for y; x, y for z). The line is given by distances from the axis and places along it.
+    /// The surface of revolution of a line about an axis through `middle` (m; y, z for x; z, x
+    /// for y; x, y for z). The line is given by distances from the axis and positions along it
+    /// (m).
     pub(crate) fn turned(
         along: Along,
         line: &[[f64; 2]],
@@ -64,7 +65,7 @@ impl Look {
         }
     }
 
-    /// The body that a thing at the pose (map frame) shows; `color` is the thing's.
+    /// The body shown by a thing at the pose (map frame); `color` is the thing's own.
     pub(crate) fn body(&self, owner: &Owner, pose: &Pose, color: [f32; 4]) -> Body {
         Body {
             owner: owner.clone(),

@@ -1,6 +1,6 @@
-//! How things look: the surfaces by which people recognise what the world knows as a few
-//! boxes and cylinders. Nothing here touches anything: neither physics nor the robot's camera
-//! know of looks.
+//! How things look: surfaces by which users recognise what the world knows as a few boxes and
+//! cylinders. Looks have no effect on anything: neither physics nor the robot's camera knows of
+//! them.
 
 mod kitchen;
 mod look;
@@ -19,14 +19,15 @@ use crate::spatial::Pose;
 use crate::world::{Models, Object, World};
 use look::{Look, PLAIN};
 
-/// Half the edge length (m) of the floor that is drawn.
+/// Half the edge length (m) of the drawn floor.
 const FLOOR_HALF: f64 = 30.0;
 
-/// Greatest width (m) of broken edges.
+/// Greatest width (m) of bevelled edges.
 const FURNITURE_BEVEL: f64 = 0.003;
 const ROBOT_BEVEL: f64 = 0.022;
 
-/// The looks of everything that a world may hold; made once, they serve any number of scenes.
+/// The looks of everything that a world may contain; made once, they serve any number of
+/// scenes.
 pub(crate) struct Looks {
     floor: Arc<Surface>,
     furniture: Vec<Dressed>,
@@ -81,7 +82,7 @@ impl Looks {
             if let Ok(pose) = world.object_pose(object.name()) {
                 match self.objects.get(object.type_name()) {
                     Some(looks) => add_object(object, looks, &pose, &mut bodies),
-                    // Of a type that these looks were not made for.
+                    // Of a type for which these looks were not made.
                     None => bodies.extend(object_scene(object).bodies),
                 }
             }
@@ -90,7 +91,7 @@ impl Looks {
     }
 }
 
-/// What is seen of a link, in the link's frame.
+/// The appearance of a link, in the link's frame.
 pub(crate) fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scene {
     let mut scene = Scene::default();
     let dressed = Dressed::new(tree, link, tree.link(link), kind);
@@ -98,7 +99,7 @@ pub(crate) fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scen
     scene
 }
 
-/// What is seen of an object, in its own frame.
+/// The appearance of an object, in its own frame.
 pub(crate) fn object_scene(object: &Object) -> Scene {
     let mut scene = Scene::default();
     let looks = objects::looks_of(object.type_name(), object.shapes());
@@ -139,7 +140,7 @@ fn dressed(tree: &KinematicTree, kind: Kind) -> Vec<Dressed> {
         .collect()
 }
 
-/// The shapes that the model gives.
+/// The shapes given by the model.
 fn as_modelled(link: &Link, kind: Kind) -> Vec<Look> {
     let (bevel, finish) = match kind {
         Kind::Robot => (ROBOT_BEVEL, Finish::Gloss),

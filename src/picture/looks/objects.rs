@@ -1,7 +1,7 @@
-//! How objects look: a bottle has a neck, a bowl is hollow, a mug has a handle. Types that are
-//! not told here look as the library describes them, with rings of boxes as vessels.
+//! How objects look: a bottle has a neck, a bowl is hollow, a mug has a handle. Types not
+//! listed here look as the library describes them, with rings of boxes drawn as vessels.
 //!
-//! What has no colour here has that of the object.
+//! Surfaces without a colour here have that of the object.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::picture::scene::Finish;
 use crate::picture::surface::Surface;
 use crate::spatial::{PlacedShape, trig};
 
-/// Greatest width (m) of broken edges.
+/// Greatest width (m) of bevelled edges.
 const BEVEL: f64 = 0.006;
 
 /// Linear colours.
@@ -22,7 +22,7 @@ const DARK: [f32; 4] = [0.03, 0.03, 0.033, 1.0];
 const STEEL: [f32; 4] = [0.48, 0.49, 0.50, 1.0];
 const SUN: [f32; 4] = [0.80, 0.42, 0.03, 1.0];
 
-/// The looks of an object of the type with these shapes.
+/// The looks of an object of this type with these shapes.
 pub(crate) fn looks_of(kind: &str, shapes: &[PlacedShape]) -> Vec<Look> {
     match kind {
         "bottle" => bottle(),
@@ -43,7 +43,7 @@ pub(crate) fn looks_of(kind: &str, shapes: &[PlacedShape]) -> Vec<Look> {
     }
 }
 
-/// The shapes as they are, hollow where they are rings.
+/// The shapes themselves, hollow where they form rings.
 fn as_described(shapes: &[PlacedShape]) -> Vec<Look> {
     let look = |part| match part {
         Part::Shape(placed) => Look::of_shape(placed, BEVEL, Finish::Gloss),
@@ -57,7 +57,7 @@ fn as_described(shapes: &[PlacedShape]) -> Vec<Look> {
     parts_of(shapes).into_iter().map(look).collect()
 }
 
-/// In the object's own colour.
+/// A surface in the object's own colour.
 fn own(surface: Surface) -> Look {
     Look {
         color: None,
@@ -69,7 +69,7 @@ fn painted(surface: Surface, color: [f32; 4]) -> Look {
     Look::of_surface(surface, color, Finish::Gloss)
 }
 
-/// Something turned about an upright axis through (x, y).
+/// A surface of revolution about an upright axis through (x, y).
 fn turned(line: &[[f64; 2]], at: [f64; 2], color: Option<[f32; 4]>) -> Look {
     let look = Look::turned(Along::Z, line, at, color.unwrap_or(PAPER));
     Look { color, ..look }
@@ -235,8 +235,9 @@ fn cereal() -> Vec<Look> {
     looks
 }
 
-/// The vessel that the shapes begin with, with a handle along x between two heights (m) that
-/// reaches from one distance of the axis to the other; boxes that stand for it are left out.
+/// The vessel that the shapes start with, and a handle in the direction of x between two
+/// heights (m) and two distances from the axis (m); boxes that stand for the handle are
+/// omitted.
 fn with_handle(
     shapes: &[PlacedShape],
     [inner, outer]: [f64; 2],
@@ -455,7 +456,7 @@ mod tests {
                 .map(|s| Look::of_shape(s, 0.0, Finish::Matt))
                 .collect();
             let (seen, touched) = (bounds(&looks_of(&kind.name, &kind.shapes)), bounds(&plain));
-            // A cup's handle is for people only; cutlery is drawn thinner than its boxes.
+            // A cup's handle is only drawn; cutlery is drawn thinner than its boxes.
             let most = if kind.name == "cup" { 0.022 } else { 0.012 };
             for axis in 0..3 {
                 let low = seen[0][axis] - touched[0][axis];

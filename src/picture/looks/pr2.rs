@@ -1,8 +1,7 @@
 //! How the PR2 looks: white covers with round edges over dark joints, sensors in the head, and
-//! shoulders and grippers in a colour for each side, blue on the left and orange on the right.
-//!
-//! Proportions are those of the boxes and cylinders of its model, which the covers fill; they
-//! stay inside of them but for a few millimetres.
+//! shoulders and grippers coloured by side, blue on the left and orange on the right.
+//! The proportions are those of the boxes and cylinders of its model, which the covers fill and
+//! exceed by a few millimetres at most.
 
 use super::look::Look;
 use crate::picture::loft::{Along, Section, lofted, section};
@@ -23,7 +22,7 @@ const RED: Paint = [0.55, 0.02, 0.02, 1.0];
 const LEFT: Paint = [0.015, 0.16, 0.42, 1.0];
 const RIGHT: Paint = [0.72, 0.20, 0.01, 1.0];
 
-/// The looks of a link; none for one that looks as its model says.
+/// The looks of a link; `None` if it looks as its model says.
 pub(crate) fn looks_of(link: &str) -> Option<Vec<Look>> {
     let of_arm = |name: &str, paint: Paint| arm_link(name, paint);
     match link {
@@ -63,7 +62,7 @@ fn cover(along: Along, sections: &[Section], ends: [f64; 2], paint: Paint) -> Lo
     Look::of_surface(lofted(along, sections, ends), paint, Finish::Gloss)
 }
 
-/// A straight body from one place of the axis to another.
+/// A straight body from one position on the axis to another.
 fn bar(
     along: Along,
     [from, to]: [f64; 2],
@@ -78,7 +77,7 @@ fn bar(
     cover(along, &sections, [end; 2], paint)
 }
 
-/// A disc across the axis.
+/// A disc perpendicular to the axis.
 fn disc(along: Along, [from, to]: [f64; 2], radius: f64, middle: [f64; 2], paint: Paint) -> Look {
     let bevel = (0.2 * (to - from)).min(0.006);
     let line = [
@@ -102,7 +101,7 @@ fn base() -> Vec<Look> {
     vec![
         cover(Z, &skirt, [0.008, 0.02], WHITE),
         bar(Z, [-0.012, 0.02], [0.0; 2], [0.312, 0.312], 0.075, BLACK),
-        // The slot of the base's laser, and the laser.
+        // The laser of the base in its slot.
         bar(
             X,
             [0.25, 0.3375],
@@ -114,7 +113,7 @@ fn base() -> Vec<Look> {
         bar(Z, [0.228, 0.238], [0.03, 0.0], [0.245, 0.25], 0.06, SILVER),
         disc(Z, [0.225, 0.27], 0.042, [0.245, 0.0], DARK),
         disc(Z, [0.27, 0.295], 0.034, [0.245, 0.0], BLACK),
-        // The box of the batteries, and the column above it.
+        // The battery box, and the column above it.
         bar(Z, [0.228, 0.325], [-0.262, 0.0], [0.072, 0.3], 0.035, WHITE),
         bar(
             Z,
@@ -135,7 +134,7 @@ fn base() -> Vec<Look> {
     ]
 }
 
-/// The folds that hide the lift.
+/// The bellows that hide the lift.
 fn bellow() -> Vec<Look> {
     const FOLDS: u32 = 10;
     let sections: Vec<_> = (0..=2 * FOLDS)
@@ -170,7 +169,7 @@ fn torso() -> Vec<Look> {
     ]
 }
 
-/// The laser that looks up and down, between the shoulders.
+/// The tilting laser between the shoulders.
 fn tilting_laser() -> Vec<Look> {
     vec![
         disc(Y, [-0.0815, -0.045], 0.040, [0.003, -0.003], GREY),
@@ -196,7 +195,7 @@ fn neck() -> Vec<Look> {
     ]
 }
 
-/// The head: a flat box with the cameras in a dark plate across its face.
+/// The head: a flat box with the cameras in a dark plate across its front.
 fn head() -> Vec<Look> {
     let box_of = [
         section(-0.183, [0.128, 0.034], 0.03).at([0.0, 0.118]),
@@ -369,7 +368,7 @@ fn palm(paint: Paint) -> Vec<Look> {
     ]
 }
 
-/// A finger; the side is 1 on the left and -1 on the right.
+/// A finger; `side` is 1 on the left and -1 on the right.
 fn finger(side: f64) -> Vec<Look> {
     let part =
         |along: f64, left: f64, half: [f64; 2]| section(along, half, 0.010).at([side * left, 0.0]);

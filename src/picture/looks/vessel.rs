@@ -1,20 +1,20 @@
-//! Cups, bowls and plates: rings of boxes touch things well but look like barrels, so they
+//! Cups, bowls and plates: rings of boxes work well in contact but look like barrels, so they
 //! are drawn as the round things that they stand for.
 
 use crate::spatial::{PlacedShape, Pose, Shape};
 
 use crate::picture::surface::Surface;
 
-/// Fewest boxes that are taken for a ring.
+/// Least number of boxes that count as a ring.
 const LEAST_COUNT: usize = 6;
 
-/// How far (m) the places of one ring's boxes may be off, and the axes of one vessel's rings.
+/// Tolerance (m) for the positions of a ring's boxes and for the axes of a vessel's rings.
 const RING_TOLERANCE: f64 = 1e-6;
 const AXIS_TOLERANCE: f64 = 2e-3;
 
 /// A part of an object to be drawn.
 pub(crate) enum Part<'a> {
-    /// As it is.
+    /// The shape itself.
     Shape(&'a PlacedShape),
     /// Something round and hollow.
     Vessel {
@@ -27,9 +27,9 @@ pub(crate) enum Part<'a> {
 
 /// A ring of upright boxes.
 struct Ring {
-    /// Middle (m) in the object's frame.
+    /// Centre (m) in the object's frame.
     middle: [f64; 3],
-    /// From the axis to the middle of the boxes (m).
+    /// Distance from the axis to the middle of the boxes (m).
     radius: f64,
     /// Thickness and height of the boxes (m).
     thickness: f64,
@@ -83,7 +83,7 @@ fn is_around(ring: &Ring, [x, y, _]: [f64; 3]) -> bool {
     (a - x).abs() < AXIS_TOLERANCE && (b - y).abs() < AXIS_TOLERANCE
 }
 
-/// The rings about one axis that the shapes begin with, from below to above, and the rest.
+/// The rings about one axis that the shapes start with, in ascending order, and the rest.
 fn rings(mut shapes: &[PlacedShape]) -> (Vec<Ring>, &[PlacedShape]) {
     let mut rings: Vec<Ring> = Vec::new();
     while let Some((ring, rest)) = ring(shapes) {
@@ -99,7 +99,7 @@ fn rings(mut shapes: &[PlacedShape]) -> (Vec<Ring>, &[PlacedShape]) {
     (rings, shapes)
 }
 
-/// The ring that the shapes begin with.
+/// The ring that the shapes start with.
 fn ring(shapes: &[PlacedShape]) -> Option<(Ring, &[PlacedShape])> {
     let first = shapes.first()?;
     let Shape::Box {
@@ -110,7 +110,7 @@ fn ring(shapes: &[PlacedShape]) -> Option<(Ring, &[PlacedShape])> {
     };
     let is_stave = |s: &&PlacedShape| s.shape == first.shape && is_upright(&s.pose);
     let same = shapes.iter().take_while(is_stave).count();
-    // Two rings of the same boxes are told apart by their heights.
+    // Two rings of the same boxes are distinguished by their heights.
     let level =
         |s: &&PlacedShape| (s.pose.translation.z - first.pose.translation.z).abs() < RING_TOLERANCE;
     let count = shapes.iter().take(same).take_while(level).count();
@@ -144,8 +144,9 @@ fn ring(shapes: &[PlacedShape]) -> Option<(Ring, &[PlacedShape])> {
     is_ring.then_some((ring, rest))
 }
 
-/// Half of the section through a vessel, as distances from the axis and heights (m): out
-/// along the bottom, up outside, down inside. Rings of different radii are joined by slopes.
+/// Half of the section through a vessel, as distances from the axis and heights (m): outwards
+/// along the bottom, up the outside, down the inside. Rings of different radii are joined by
+/// slopes.
 fn line(base: Option<Base>, rings: &[Ring]) -> Vec<[f64; 2]> {
     let (Some(lowest), Some(highest)) = (rings.first(), rings.last()) else {
         return Vec::new();
@@ -156,7 +157,7 @@ fn line(base: Option<Base>, rings: &[Ring]) -> Vec<[f64; 2]> {
     };
     let floor = base.map_or(bottom, |(_, _, length)| bottom + length);
     let top = highest.middle[2] + highest.height / 2.0;
-    // How the radius grows at both ends of the row of rings.
+    // How the radius grows at both ends of the stack of rings.
     let slope = |pair: Option<&[Ring]>| match pair {
         Some([a, b]) => (b.radius - a.radius) / (b.middle[2] - a.middle[2]),
         _ => 0.0,
@@ -185,7 +186,7 @@ fn line(base: Option<Base>, rings: &[Ring]) -> Vec<[f64; 2]> {
     line.extend(side(-1.0).into_iter().rev());
     match base {
         Some(_) => line.push([0.0, floor]),
-        // Without a bottom the wall closes on itself.
+        // Without a bottom, the wall's outline closes on itself.
         None => line.extend(line.first().copied()),
     }
     line
