@@ -1,7 +1,9 @@
 //! Looking for objects with the camera. Nothing moves.
 
 use super::failure::MotionFailure;
-use super::job::{DetectedObject, Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::job::{
+    Activity, DetectedObject, Job, MotionOutcome, MotionStatus, ProcessModule, Progress,
+};
 use crate::perception::Sight;
 use crate::world::World;
 
@@ -18,21 +20,22 @@ pub(crate) struct DetectQuery {
 
 /// Finds all objects that match the query and that the camera sees, in the order in which
 /// they appeared in the world.
+pub(crate) type Detect = Job<Search>;
+
+/// A look for objects.
 #[derive(Clone, Debug)]
-pub(crate) struct Detect {
+pub(crate) struct Search {
     query: DetectQuery,
-    ended: bool,
 }
 
 impl Detect {
     /// Looks once, with the head as it is.
     pub(crate) fn new(query: DetectQuery) -> Self {
-        Self {
-            query,
-            ended: false,
-        }
+        Self::begin(Search { query })
     }
+}
 
+impl Search {
     fn matches(&self, name: &str, type_name: &str) -> bool {
         let same = |a: &String, b: &str| a.eq_ignore_ascii_case(b);
         self.query.name.as_ref().is_none_or(|n| same(n, name))
@@ -89,30 +92,20 @@ impl Detect {
     }
 }
 
-impl Motion for Detect {
-    fn module(&self) -> ProcessModule {
-        ProcessModule::Perception
-    }
+impl Activity for Search {
+    const MODULE: ProcessModule = ProcessModule::Perception;
 
-    fn tick(&mut self, world: &mut World) -> MotionStatus {
-        if self.ended {
-            return MotionStatus::Done(MotionOutcome::Detected(Vec::new()));
-        }
-        self.ended = true;
-        match self.look(world) {
+    fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
+        Some(match self.look(world) {
             Ok(seen) => MotionStatus::Done(MotionOutcome::Detected(seen)),
             Err(failure) => MotionStatus::failed(failure),
-        }
-    }
-
-    fn cancel(&mut self) {
-        self.ended = true;
+        })
     }
 
     fn progress(&self) -> Progress {
         Progress {
             what: "detecting",
-            fraction: if self.ended { 1.0 } else { 0.0 },
+            fraction: 0.0,
         }
     }
 }

@@ -11,7 +11,7 @@ use super::drive_plan::{at_place, is_trajectory_free, plan_drive};
 use super::failure::MotionFailure;
 use super::guard;
 use super::job::{
-    Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress,
+    Activity, Job, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress,
     TrajectoryAxes, check_finite,
 };
 use super::replanning::{Attempt, Replanning};
@@ -41,8 +41,11 @@ const LATER_TIMEOUT: f64 = 1.0;
 const MOST_PLANS: u32 = 8;
 
 /// Drives the base to a pose.
+pub(crate) type Drive = Job<BaseMotion>;
+
+/// A motion of the base to a place.
 #[derive(Clone, Debug)]
-pub(crate) struct Drive {
+pub(crate) struct BaseMotion {
     goal: BasePlace,
     follower: Option<TrajectoryFollower>,
     /// Torso and arms in the last tick, and for how long (s) they have been so.
@@ -58,14 +61,13 @@ pub(crate) struct Drive {
     /// Paths that were found.
     plans: u32,
     replanning: Replanning,
-    ended: bool,
 }
 
 impl Drive {
     /// To the pose in the map frame, of which only x, y and the heading count.
     pub(crate) fn new(goal: &Pose) -> Self {
         let t = goal.translation;
-        Self {
+        Self::begin(BaseMotion {
             goal: [t.x, t.y, pose::yaw(goal)],
             follower: None,
             posture: Vec::new(),
@@ -76,10 +78,11 @@ impl Drive {
             ahead_is_sure: false,
             plans: 0,
             replanning: Replanning::default(),
-            ended: false,
-        }
+        })
     }
+}
 
+impl BaseMotion {
     fn watch_posture(&mut self, world: &World) {
         let joints = &world.robot_configuration().joints;
         let posture: Vec<f64> = posture_joints(world).map(|j| joints.get(j)).collect();
@@ -183,7 +186,7 @@ impl Drive {
         }
     }
 
-    fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
+    fn follow(&mut self, world: &mut World) -> Option<MotionStatus> {
         self.look_ahead(world);
         let follower = self.follower.as_mut()?;
         if follower.is_at_end() {
@@ -232,35 +235,18 @@ fn posture_joints(world: &World) -> impl Iterator<Item = JointId> {
     std::iter::once(description.torso.joint).chain(arms)
 }
 
-impl Motion for Drive {
-    fn module(&self) -> ProcessModule {
-        ProcessModule::Navigation
-    }
+impl Activity for BaseMotion {
+    const MODULE: ProcessModule = ProcessModule::Navigation;
 
-    fn tick(&mut self, world: &mut World) -> MotionStatus {
-        if self.ended {
-            return MotionStatus::Done(MotionOutcome::Arrived);
-        }
+    fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
         self.ticks += 1;
         self.watch_posture(world);
-        let mut end = None;
-        if self.follower.is_none() {
-            end = self.try_plan(world);
+        if self.follower.is_none()
+            && let Some(end) = self.try_plan(world)
+        {
+            return Some(end);
         }
-        if end.is_none() {
-            end = self.step(world);
-        }
-        match end {
-            None => MotionStatus::Running,
-            Some(end) => {
-                self.ended = true;
-                end
-            }
-        }
-    }
-
-    fn cancel(&mut self) {
-        self.ended = true;
+        self.follow(world)
     }
 
     fn planned(&self) -> Option<PlannedTrajectory<'_>> {
@@ -270,11 +256,8 @@ impl Motion for Drive {
         })
     }
 
-    fn before_planning(&self) -> Option<Box<dyn Motion>> {
-        if self.follower.is_some() || self.ended {
-            return None;
-        }
-        Some(Box::new(self.clone()))
+    fn may_search(&self) -> bool {
+        self.follower.is_none()
     }
 
     fn progress(&self) -> Progress {

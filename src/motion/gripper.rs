@@ -1,26 +1,23 @@
-//! Opening, closing and positioning the fingers, gripping, and the hold on an object.
+//! Opening, closing and positioning the fingers, and what a hand may touch.
 
 use super::failure::MotionFailure;
-use super::guard;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
-use super::joint_follower::{FollowStep, JointFollower, with_joints};
+use super::grip::Grip;
+use super::job::{
+    Activity, Job, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite,
+};
+use super::joint_follower::JointFollower;
 use super::joint_limit::violation;
+use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
-use crate::robot::Side;
 use crate::robot::description::Gripper;
-use crate::world::physics::STEP_SECONDS;
-use crate::world::{AllowedPairs, BodyName, ContactForce, World};
+use crate::robot::{LinkId, Side};
+use crate::world::{AllowedPairs, BodyName, CollisionHit, ContactForce, World};
 
 /// A goal farther outside of the limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
-/// How long (s) the way may be blocked while nothing moves. Longer than the arms wait before
-/// they look for another way: often it is the own forearm that fingers would touch.
-const BLOCKED_TIMEOUT: f64 = 1.0;
 /// Force (N) from which on a finger counts as pressing.
 pub(crate) const GRIP_FORCE: f64 = 2.0;
-/// How long (s) fingers may press on different things before that counts as a failure.
-const UNEQUAL: f64 = 0.25;
 
 /// What to do with the fingers of a hand.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,13 +36,53 @@ pub(crate) enum GripperCommand {
 }
 
 /// Moves the fingers of one hand.
+pub(crate) type MoveGripper = Job<Fingers>;
+
+/// What the fingers of a hand do.
 #[derive(Clone, Debug)]
-pub(crate) struct MoveGripper {
+pub(crate) enum Fingers {
+    /// They move to an opening.
+    Move(JointMotion<FingerGoal>),
+    /// They close around an object.
+    Grip(Grip),
+}
+
+/// Where the fingers of a hand are to be.
+#[derive(Clone, Debug)]
+pub(crate) struct FingerGoal {
     side: Side,
     command: GripperCommand,
-    follow: Option<JointFollower>,
-    unequal: f64,
-    ended: bool,
+}
+
+impl MoveGripper {
+    /// Carries out the command with one hand.
+    pub(crate) fn new(side: Side, command: GripperCommand) -> Self {
+        Self::begin(match command {
+            GripperCommand::Grip { object } => Fingers::Grip(Grip::new(side, object)),
+            command => Fingers::Move(JointMotion::to(FingerGoal { side, command })),
+        })
+    }
+}
+
+impl Activity for Fingers {
+    const MODULE: ProcessModule = ProcessModule::Grippers;
+
+    fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
+        match self {
+            Self::Move(fingers) => fingers.step(world),
+            Self::Grip(grip) => grip.step(world),
+        }
+    }
+
+    fn progress(&self) -> Progress {
+        match self {
+            Self::Move(fingers) => fingers.progress(),
+            Self::Grip(_) => Progress {
+                what: "gripping",
+                fraction: 0.0,
+            },
+        }
+    }
 }
 
 /// Any object may be touched by any link of the hand.
@@ -63,25 +100,26 @@ pub(super) fn hand_names(world: &World, side: Side) -> Vec<BodyName> {
     links.map(|link| models.robot_body(link)).collect()
 }
 
-impl MoveGripper {
-    /// Carries out the command with one hand.
-    pub(crate) fn new(side: Side, command: GripperCommand) -> Self {
-        Self {
-            side,
-            command,
-            follow: None,
-            unequal: 0.0,
-            ended: false,
-        }
-    }
+/// The gripper of a hand.
+pub(super) fn gripper_of(world: &World, side: Side) -> &Gripper {
+    &world.models().description.arm(side).gripper
+}
 
-    fn gripper<'w>(&self, world: &'w World) -> &'w Gripper {
-        &world.models().description.arm(self.side).gripper
-    }
+/// What each finger of a hand presses on.
+pub(super) fn pressing(world: &World, side: Side) -> [Option<ContactForce>; 2] {
+    let contacts = world.finger_contacts(side);
+    contacts.map(|forces| {
+        let objects = forces.into_iter().filter(|f| f.body.object().is_some());
+        objects
+            .filter(|f| f.force > GRIP_FORCE)
+            .max_by(|a, b| a.force.total_cmp(&b.force))
+    })
+}
 
+impl FingerGoal {
     /// Position of the finger joint (rad) that is wanted.
-    fn goal(&self, world: &World) -> f64 {
-        let gripper = self.gripper(world);
+    fn position(&self, world: &World) -> f64 {
+        let gripper = gripper_of(world, self.side);
         match self.command {
             GripperCommand::Open => gripper.limits.upper,
             GripperCommand::Close | GripperCommand::Grip { .. } => gripper.limits.lower,
@@ -90,158 +128,67 @@ impl MoveGripper {
     }
 
     fn is_closing(&self, world: &World) -> bool {
-        world
-            .robot_configuration()
-            .joints
-            .get(self.gripper(world).joint)
-            > self.goal(world)
+        let joint = gripper_of(world, self.side).joint;
+        world.robot_configuration().joints.get(joint) > self.position(world)
+    }
+}
+
+impl JointGoal for FingerGoal {
+    const MODULE: ProcessModule = ProcessModule::Grippers;
+    /// Longer than the arms wait before they look for another path: often it is the own
+    /// forearm that fingers would touch.
+    const BLOCKED_TIMEOUT: f64 = 1.0;
+
+    fn what(&self) -> &'static str {
+        match self.command {
+            GripperCommand::Open => "opening the gripper",
+            GripperCommand::Close | GripperCommand::Grip { .. } => "closing the gripper",
+            GripperCommand::Position(_) => "moving the gripper",
+        }
     }
 
-    fn start(&self, world: &World) -> JointFollower {
-        let gripper = self.gripper(world);
+    fn plan(&mut self, world: &World, _: u32) -> Result<JointFollower, MotionFailure> {
+        let goal = self.position(world);
+        check_finite(Self::MODULE, &[goal])?;
+        let gripper = gripper_of(world, self.side);
         let joints = vec![gripper.joint];
-        let from = vec![world.robot_configuration().joints.get(gripper.joint)];
-        let to = vec![gripper.limits.clamp(self.goal(world))];
+        let path = [
+            vec![world.robot_configuration().joints.get(gripper.joint)],
+            vec![gripper.limits.clamp(goal)],
+        ];
         let limits = speeds::limits_of(&world.models().description, &joints);
-        let trajectory = Trajectory::new(&[from, to], &limits, Corners::Round);
-        JointFollower::new(joints, trajectory, hand_may_touch_objects(world, self.side))
+        let trajectory = Trajectory::new(&path, &limits, Corners::Round);
+        let allowed = hand_may_touch_objects(world, self.side);
+        Ok(JointFollower::new(joints, trajectory, allowed))
     }
 
-    /// Moves the fingers to a position; closing ones stop when something is between them.
-    fn position(&mut self, world: &mut World) -> Option<MotionStatus> {
-        if self.is_closing(world) && self.pressing(world).iter().any(Option::is_some) {
-            return Some(MotionStatus::Done(MotionOutcome::Arrived));
-        }
-        let mut follow = self.follow.take().unwrap_or_else(|| self.start(world));
-        let step = follow.tick(world, |_| false);
-        self.follow = Some(follow);
-        match step {
-            FollowStep::Moving | FollowStep::Stuck(_) => None,
-            FollowStep::Blocked { still, .. } if still < BLOCKED_TIMEOUT => None,
-            FollowStep::Blocked { hit, .. } => {
-                let side = self.side;
-                Some(MotionStatus::failed(MotionFailure::FingersBlocked {
-                    side,
-                    hit: hit.into(),
-                }))
-            }
-            FollowStep::Arrived => Some(self.arrived(world)),
-        }
+    fn carriers(&self, _: &World) -> Vec<LinkId> {
+        Vec::new()
     }
 
-    fn arrived(&self, world: &World) -> MotionStatus {
-        let (gripper, goal) = (self.gripper(world), self.goal(world));
+    /// Closing fingers stop when something is between them.
+    fn met(&self, world: &World, _: f64) -> Option<MotionOutcome> {
+        let is_held = || pressing(world, self.side).iter().any(Option::is_some);
+        (self.is_closing(world) && is_held()).then_some(MotionOutcome::Arrived)
+    }
+
+    fn arrived(&mut self, world: &mut World) -> Arrival {
+        let (gripper, goal) = (gripper_of(world, self.side), self.position(world));
         if gripper.limits.excess(goal) <= CROPPED {
-            return MotionStatus::Done(MotionOutcome::Arrived);
+            return Arrival::Done(MotionOutcome::Arrived);
         }
         let joint = world.models().robot.joint(gripper.joint);
-        MotionStatus::failed(MotionFailure::GripperLimit {
+        Arrival::Failed(MotionFailure::GripperLimit {
             side: self.side,
             goal: goal / gripper.joint_per_metre,
             violation: violation(joint, gripper.limits, goal),
         })
     }
 
-    /// What each finger presses on.
-    fn pressing(&self, world: &World) -> [Option<ContactForce>; 2] {
-        let contacts = world.finger_contacts(self.side);
-        contacts.map(|forces| {
-            let objects = forces.into_iter().filter(|f| f.body.object().is_some());
-            objects
-                .filter(|f| f.force > GRIP_FORCE)
-                .max_by(|a, b| a.force.total_cmp(&b.force))
-        })
-    }
-
-    /// Closes both fingers, which one joint moves; ends when both press on one object.
-    fn grip(&mut self, world: &mut World) -> Option<MotionStatus> {
-        let GripperCommand::Grip { object: wanted } = &self.command else {
-            return None;
-        };
-        let side = self.side;
-        let pressing = self.pressing(world);
-        if let [Some(left), Some(right)] = &pressing {
-            if left.body == right.body {
-                let held = left.body.object().unwrap_or_default().to_owned();
-                let right_one = wanted.as_ref().is_none_or(|w| *w == held);
-                return Some(match (right_one, wanted) {
-                    (false, Some(wanted)) => MotionStatus::failed(MotionFailure::WrongObject {
-                        side,
-                        wanted: wanted.clone(),
-                        held: left.body.clone(),
-                    }),
-                    _ => MotionStatus::Done(MotionOutcome::Gripped { object: held }),
-                });
-            }
-            self.unequal += STEP_SECONDS;
-            if self.unequal > UNEQUAL {
-                return Some(MotionStatus::failed(MotionFailure::WrongObject {
-                    side,
-                    wanted: wanted.clone().unwrap_or_else(|| "one object".to_owned()),
-                    held: left.body.clone(),
-                }));
-            }
-        }
-        let gripper = self.gripper(world);
-        let now = world.robot_configuration();
-        let position = now.joints.get(gripper.joint);
-        if position <= gripper.limits.lower {
-            return Some(MotionStatus::failed(MotionFailure::NothingGripped { side }));
-        }
-        let closer = position - speeds::GRIP_VELOCITY * STEP_SECONDS;
-        let next = with_joints(now, &[gripper.joint], &[closer.max(gripper.limits.lower)]);
-        let allowed = hand_may_touch_objects(world, side);
-        if let Some(hit) = guard::obstacle(world, &next, &allowed) {
-            return Some(MotionStatus::failed(MotionFailure::FingersBlocked {
-                side,
-                hit: hit.into(),
-            }));
-        }
-        world.set_robot_configuration(&next);
-        None
-    }
-}
-
-impl Motion for MoveGripper {
-    fn module(&self) -> ProcessModule {
-        ProcessModule::Grippers
-    }
-
-    fn tick(&mut self, world: &mut World) -> MotionStatus {
-        if self.ended {
-            return MotionStatus::Done(MotionOutcome::Arrived);
-        }
-        if let Err(failure) = check_finite(ProcessModule::Grippers, &[self.goal(world)]) {
-            self.ended = true;
-            return MotionStatus::failed(failure);
-        }
-        let end = match self.command {
-            GripperCommand::Grip { .. } => self.grip(world),
-            _ => self.position(world),
-        };
-        match end {
-            None => MotionStatus::Running,
-            Some(end) => {
-                self.ended = true;
-                end
-            }
-        }
-    }
-
-    fn cancel(&mut self) {
-        self.ended = true;
-    }
-
-    fn progress(&self) -> Progress {
-        let what = match self.command {
-            GripperCommand::Open => "opening the gripper",
-            GripperCommand::Close => "closing the gripper",
-            GripperCommand::Position(_) => "moving the gripper",
-            GripperCommand::Grip { .. } => "gripping",
-        };
-        Progress {
-            what,
-            fraction: self.follow.as_ref().map_or(0.0, JointFollower::fraction),
+    fn blocked(&self, _: &World, hit: CollisionHit) -> MotionFailure {
+        MotionFailure::FingersBlocked {
+            side: self.side,
+            hit: hit.into(),
         }
     }
 }

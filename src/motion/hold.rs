@@ -1,7 +1,7 @@
 //! Taking hold of an object between the fingers, and letting go of it.
 
 use super::failure::MotionFailure;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress};
+use super::job::{Activity, Job, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use crate::robot::Side;
 use crate::world::World;
 use crate::world::physics::STEP_SECONDS;
@@ -29,29 +29,32 @@ pub(crate) fn held_objects(world: &World, side: Side) -> Vec<String> {
 }
 
 /// Lets go of an object and waits until everything is at rest.
+pub(crate) type LetGo = Job<Release>;
+
+/// The end of a hold.
 #[derive(Clone, Debug)]
-pub(crate) struct LetGo {
+pub(crate) struct Release {
     side: Side,
     object: Option<String>,
     released: Option<String>,
     quiet: u32,
     waited: f64,
-    ended: bool,
 }
 
 impl LetGo {
     /// Of the named object, or of whatever the hand holds.
     pub(crate) fn new(side: Side, object: Option<String>) -> Self {
-        Self {
+        Self::begin(Release {
             side,
             object,
             released: None,
             quiet: 0,
             waited: 0.0,
-            ended: false,
-        }
+        })
     }
+}
 
+impl Release {
     fn release(&mut self, world: &mut World) -> Result<String, MotionFailure> {
         let side = self.side;
         let held = held_objects(world, side).into_iter().next();
@@ -68,26 +71,16 @@ impl LetGo {
     }
 }
 
-impl Motion for LetGo {
-    fn module(&self) -> ProcessModule {
-        ProcessModule::Grippers
-    }
+impl Activity for Release {
+    const MODULE: ProcessModule = ProcessModule::Grippers;
 
-    fn tick(&mut self, world: &mut World) -> MotionStatus {
-        if self.ended {
-            return MotionStatus::Done(MotionOutcome::Arrived);
-        }
+    fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
         let Some(object) = &self.released else {
-            return match self.release(world) {
-                Ok(name) => {
-                    self.released = Some(name);
-                    MotionStatus::Running
-                }
-                Err(failure) => {
-                    self.ended = true;
-                    MotionStatus::failed(failure)
-                }
-            };
+            match self.release(world) {
+                Ok(name) => self.released = Some(name),
+                Err(failure) => return Some(MotionStatus::failed(failure)),
+            }
+            return None;
         };
         self.waited += STEP_SECONDS;
         self.quiet = if world.is_at_rest() {
@@ -96,18 +89,12 @@ impl Motion for LetGo {
             0
         };
         if self.quiet < QUIET && self.waited < SETTLE {
-            return MotionStatus::Running;
+            return None;
         }
-        self.ended = true;
-        let at_rest = self.quiet >= QUIET;
-        MotionStatus::Done(MotionOutcome::Released {
+        Some(MotionStatus::Done(MotionOutcome::Released {
             object: object.clone(),
-            at_rest,
-        })
-    }
-
-    fn cancel(&mut self) {
-        self.ended = true;
+            at_rest: self.quiet >= QUIET,
+        }))
     }
 
     fn progress(&self) -> Progress {

@@ -146,19 +146,90 @@ pub(crate) trait Motion {
     /// What the job is doing.
     fn progress(&self) -> Progress;
 
-    /// The way that it takes, once that is planned, for those who want to see it.
+    /// The trajectory that it follows, once that is planned, for those who want to see it.
+    fn planned(&self) -> Option<PlannedTrajectory<'_>>;
+
+    /// A copy to go back to, when the next tick may plan and so be given up half-way (see
+    /// [`super::interruption`]).
+    fn before_planning(&self) -> Option<Box<dyn Motion>>;
+}
+
+/// What one kind of motion does, step by step, from its start to its end.
+pub(crate) trait Activity: Clone + 'static {
+    /// The part of the robot that it needs for itself.
+    const MODULE: ProcessModule;
+
+    /// Sets the robot's joints for the next step; or says how it has ended.
+    fn step(&mut self, world: &mut World) -> Option<MotionStatus>;
+
+    /// What it is doing.
+    fn progress(&self) -> Progress;
+
+    /// The trajectory that it follows, once that is planned.
     fn planned(&self) -> Option<PlannedTrajectory<'_>> {
         None
     }
 
-    /// A copy to go back to, when the next tick may plan and so be given up half-way (see
-    /// [`super::interruption`]).
-    fn before_planning(&self) -> Option<Box<dyn Motion>> {
-        None
+    /// Whether the next step may search for a path, which may take seconds.
+    fn may_search(&self) -> bool {
+        false
     }
 }
 
-/// A way that was planned.
+/// An activity as a job: it ends once, and does nothing afterwards.
+#[derive(Clone, Debug)]
+pub(crate) struct Job<A> {
+    pub(super) activity: A,
+    has_ended: bool,
+}
+
+impl<A> Job<A> {
+    /// The activity at its start.
+    pub(super) fn begin(activity: A) -> Self {
+        Self {
+            activity,
+            has_ended: false,
+        }
+    }
+}
+
+impl<A: Activity> Motion for Job<A> {
+    fn module(&self) -> ProcessModule {
+        A::MODULE
+    }
+
+    fn tick(&mut self, world: &mut World) -> MotionStatus {
+        if self.has_ended {
+            return MotionStatus::Done(MotionOutcome::Arrived);
+        }
+        match self.activity.step(world) {
+            None => MotionStatus::Running,
+            Some(end) => {
+                self.has_ended = true;
+                end
+            }
+        }
+    }
+
+    fn cancel(&mut self) {
+        self.has_ended = true;
+    }
+
+    fn progress(&self) -> Progress {
+        self.activity.progress()
+    }
+
+    fn planned(&self) -> Option<PlannedTrajectory<'_>> {
+        self.activity.planned()
+    }
+
+    fn before_planning(&self) -> Option<Box<dyn Motion>> {
+        let may_search = !self.has_ended && self.activity.may_search();
+        may_search.then(|| Box::new(self.clone()) as Box<dyn Motion>)
+    }
+}
+
+/// A trajectory that was planned.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlannedTrajectory<'a> {
     /// What the numbers of the trajectory mean.
@@ -167,7 +238,7 @@ pub(crate) struct PlannedTrajectory<'a> {
     pub(crate) trajectory: &'a Trajectory,
 }
 
-/// What moves along a way.
+/// What moves along a trajectory.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum TrajectoryAxes<'a> {
     /// The base: x, y (m) and heading (rad) in the map.

@@ -29,7 +29,7 @@ pub(super) enum FollowStep {
 /// Joints that follow a trajectory. Axes of the trajectory beyond the joints only limit its
 /// speed.
 #[derive(Clone, Debug)]
-pub(super) struct JointFollower {
+pub(crate) struct JointFollower {
     joints: Vec<JointId>,
     follower: TrajectoryFollower,
     allowed: AllowedPairs,

@@ -6,19 +6,18 @@
 use nalgebra::Point3;
 
 use super::failure::MotionFailure;
-use super::job::{Motion, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite};
-use super::joint_follower::{FollowStep, JointFollower, with_joints};
+use super::job::{Job, MotionOutcome, ProcessModule, check_finite};
+use super::joint_follower::{JointFollower, with_joints};
 use super::joint_limit::violation;
+use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
-use crate::robot::{JointId, LimitViolation, RobotDescription};
+use crate::robot::{JointId, LimitViolation, LinkId, RobotDescription};
 use crate::spatial::{Pose, trig};
-use crate::world::{AllowedPairs, World};
+use crate::world::{AllowedPairs, CollisionHit, World};
 
 /// An angle farther outside of its limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
-/// How long (s) the way may be blocked while nothing moves.
-const BLOCKED_TIMEOUT: f64 = 0.3;
 
 /// A direction to look in, as seen from the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,25 +62,26 @@ pub(crate) enum LookTarget {
 
 /// Turns the head. Angles beyond the neck's limits are first cropped and reached as far as
 /// possible, then reported.
+pub(crate) type Look = Job<JointMotion<LookGoal>>;
+
+/// What the head is to be aimed at.
 #[derive(Clone, Debug)]
-pub(crate) struct Look {
+pub(crate) struct LookGoal {
     target: LookTarget,
-    follow: Option<JointFollower>,
     violation: Option<LimitViolation>,
-    ended: bool,
 }
 
 impl Look {
     /// At the target as it is when the motion starts.
     pub(crate) fn new(target: LookTarget) -> Self {
-        Self {
+        Self::begin(JointMotion::to(LookGoal {
             target,
-            follow: None,
             violation: None,
-            ended: false,
-        }
+        }))
     }
+}
 
+impl LookGoal {
     /// The point to look at in the map frame; `None` for straight ahead.
     fn point(&self, world: &World) -> Result<Option<Point3<f64>>, MotionFailure> {
         let base = world.robot_configuration().base;
@@ -110,11 +110,20 @@ impl Look {
             }
         })
     }
+}
 
-    fn start(&mut self, world: &World) -> Result<JointFollower, MotionFailure> {
+impl JointGoal for LookGoal {
+    const MODULE: ProcessModule = ProcessModule::Neck;
+    const BLOCKED_TIMEOUT: f64 = 0.3;
+
+    fn what(&self) -> &'static str {
+        "looking"
+    }
+
+    fn plan(&mut self, world: &World, _: u32) -> Result<JointFollower, MotionFailure> {
         let point = self.point(world)?;
         if let Some(point) = &point {
-            check_finite(ProcessModule::Neck, point.coords.as_slice())?;
+            check_finite(Self::MODULE, point.coords.as_slice())?;
         }
         let wanted = match point {
             None => [0.0; 2],
@@ -143,27 +152,19 @@ impl Look {
         Ok(JointFollower::new(joints, trajectory, AllowedPairs::none()))
     }
 
-    fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
-        if self.follow.is_none() {
-            match self.start(world) {
-                Ok(follow) => self.follow = Some(follow),
-                Err(failure) => return Some(MotionStatus::failed(failure)),
-            }
+    fn carriers(&self, _: &World) -> Vec<LinkId> {
+        Vec::new()
+    }
+
+    fn arrived(&mut self, _: &mut World) -> Arrival {
+        match self.violation.take() {
+            None => Arrival::Done(MotionOutcome::Arrived),
+            Some(violation) => Arrival::Failed(MotionFailure::NeckLimit { violation }),
         }
-        let follow = self.follow.as_mut()?;
-        match follow.tick(world, |_| false) {
-            FollowStep::Moving | FollowStep::Stuck(_) => None,
-            FollowStep::Blocked { still, .. } if still < BLOCKED_TIMEOUT => None,
-            FollowStep::Blocked { hit, .. } => {
-                Some(MotionStatus::failed(MotionFailure::NeckBlocked {
-                    hit: hit.into(),
-                }))
-            }
-            FollowStep::Arrived => Some(match self.violation.take() {
-                None => MotionStatus::Done(MotionOutcome::Arrived),
-                Some(violation) => MotionStatus::failed(MotionFailure::NeckLimit { violation }),
-            }),
-        }
+    }
+
+    fn blocked(&self, _: &World, hit: CollisionHit) -> MotionFailure {
+        MotionFailure::NeckBlocked { hit: hit.into() }
     }
 }
 
@@ -185,35 +186,4 @@ pub(crate) fn pan_and_tilt(world: &World, point: &Point3<f64>) -> [f64; 2] {
     let ahead = libm::hypot(seen.x, seen.y) - axis.translation.x;
     let tilt_angle = trig::atan2(axis.translation.z - seen.z, ahead);
     [pan_angle, tilt_angle]
-}
-
-impl Motion for Look {
-    fn module(&self) -> ProcessModule {
-        ProcessModule::Neck
-    }
-
-    fn tick(&mut self, world: &mut World) -> MotionStatus {
-        if self.ended {
-            return MotionStatus::Done(MotionOutcome::Arrived);
-        }
-        match self.step(world) {
-            None => MotionStatus::Running,
-            Some(end) => {
-                self.ended = true;
-                end
-            }
-        }
-    }
-
-    fn cancel(&mut self) {
-        self.ended = true;
-    }
-
-    fn progress(&self) -> Progress {
-        let fraction = self.follow.as_ref().map_or(0.0, JointFollower::fraction);
-        Progress {
-            what: "looking",
-            fraction,
-        }
-    }
 }

@@ -11,8 +11,8 @@ use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::motion::{
     CollisionMode, Detect, DetectQuery, DetectedObject, Drive, GripperCommand, Look, LookDirection,
-    LookTarget, Motion, MotionOutcome, MotionStatus, MoveGripper, MoveJoints, MoveTcp, MoveTorso,
-    PoseGoal, ProcessModule, Progress, Put, TcpPath,
+    LookTarget, Motion, MoveGripper, MoveJoints, MoveTcp, MoveTorso, PoseGoal, ProcessModule, Put,
+    TcpPath, Together,
 };
 use crate::plan::designator::MotionRequest;
 use crate::plan::designator::failure::no_process_module;
@@ -22,56 +22,8 @@ use crate::plan::designator::value::current;
 use crate::plan::pose::value::frame_of;
 use crate::robot::Side;
 use crate::session::simulation::properties::property;
-use crate::world::World;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
-
-/// Motions of one process module that run at the same time, such as both hands.
-struct Together {
-    motions: Vec<Option<Box<dyn Motion>>>,
-    module: ProcessModule,
-}
-
-impl Motion for Together {
-    fn module(&self) -> ProcessModule {
-        self.module
-    }
-
-    fn tick(&mut self, world: &mut World) -> MotionStatus {
-        for slot in &mut self.motions {
-            if let Some(motion) = slot {
-                match motion.tick(world) {
-                    MotionStatus::Running => {}
-                    MotionStatus::Done(_) => *slot = None,
-                    failed => {
-                        self.cancel();
-                        return failed;
-                    }
-                }
-            }
-        }
-        if self.motions.iter().any(Option::is_some) {
-            MotionStatus::Running
-        } else {
-            MotionStatus::Done(MotionOutcome::Arrived)
-        }
-    }
-
-    fn cancel(&mut self) {
-        for motion in self.motions.iter_mut().flatten() {
-            motion.cancel();
-        }
-        self.motions.clear();
-    }
-
-    fn progress(&self) -> Progress {
-        let mut parts = self.motions.iter().flatten().map(|m| m.progress());
-        parts.next().unwrap_or(Progress {
-            what: "moving",
-            fraction: 1.0,
-        })
-    }
-}
 
 /// The sides that an arm or gripper argument names: `:LEFT`, `:RIGHT`, or a list of them.
 pub(super) fn sides(image: &Image, value: &Value) -> Result<Vec<Side>> {
@@ -251,14 +203,11 @@ impl Simulation {
             let shown = print::to_string(image, designator, false);
             return Err(no_process_module(image, &shown));
         };
-        let mut motions: Vec<Option<Box<dyn Motion>>> = Vec::new();
+        let mut motions: Vec<Box<dyn Motion>> = Vec::new();
         for side in sides(image, &gripper)? {
-            motions.push(Some(Box::new(MoveGripper::new(side, command(side)?))));
+            motions.push(Box::new(MoveGripper::new(side, command(side)?)));
         }
-        Ok(Box::new(Together {
-            motions,
-            module: ProcessModule::Grippers,
-        }))
+        Ok(Box::new(Together::new(ProcessModule::Grippers, motions)))
     }
 
     fn looking(
