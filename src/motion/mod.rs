@@ -47,7 +47,7 @@ pub(crate) use gripper::{GripperCommand, MoveGripper};
 pub(crate) use hold::{LetGo, held_objects, take_hold};
 pub(crate) use job::{
     DetectedObject, Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule,
-    Progress, TrajectoryAxes,
+    TrajectoryAxes,
 };
 pub(crate) use look::{Look, LookDirection, LookTarget, pan_and_tilt};
 pub(crate) use move_joints::MoveJoints;

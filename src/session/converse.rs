@@ -7,7 +7,10 @@ impl Converse for Session {
     fn set_interactive(&mut self, is_interactive: bool) {
         self.console.is_interactive = is_interactive;
         self.scheduler.set_stops_in_place(is_interactive);
-        self.simulation.keep_snapshots_of_motions(is_interactive);
+        self.host
+            .person
+            .snapshots
+            .keep_snapshots_of_motions(is_interactive);
     }
 
     fn level(&self) -> usize {
@@ -43,6 +46,6 @@ impl Converse for Session {
     }
 
     fn world_hash(&self) -> u64 {
-        self.simulation.world().hash()
+        self.host.simulation.world().hash()
     }
 }

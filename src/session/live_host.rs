@@ -1,29 +1,29 @@
-//! The simulation as the scheduler's host, with output told as it comes.
+//! The scheduler's host, with output told as it comes.
 
 use std::any::Any;
 use std::time::{Duration, Instant};
 
 use super::dialogue::Event;
-use super::simulation::Simulation;
+use super::host::SimulationHost;
 use crate::lisp::image::Image;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
 use crate::watch::WatchEvent;
 
-/// A simulation, and whom to tell what is printed meanwhile.
+/// The host, and whom to tell what is printed meanwhile.
 pub(super) struct LiveHost<'a> {
-    simulation: &'a mut Simulation,
+    host: &'a mut SimulationHost,
     sink: &'a mut dyn FnMut(Event),
     tells_progress: bool,
 }
 
 impl<'a> LiveHost<'a> {
     pub(crate) fn new(
-        simulation: &'a mut Simulation,
+        host: &'a mut SimulationHost,
         sink: &'a mut dyn FnMut(Event),
         tells_progress: bool,
     ) -> LiveHost<'a> {
         LiveHost {
-            simulation,
+            host,
             sink,
             tells_progress,
         }
@@ -35,59 +35,58 @@ const FIRST_PROGRESS: Duration = Duration::from_millis(150);
 const BETWEEN_PROGRESS: Duration = Duration::from_millis(100);
 
 /// Tells what was written to standard output, and what became of tasks.
-pub(super) fn flush(image: &mut Image, simulation: &mut Simulation, sink: &mut dyn FnMut(Event)) {
-    simulation.tell_tasks(image);
+pub(super) fn flush(image: &mut Image, host: &mut SimulationHost, sink: &mut dyn FnMut(Event)) {
+    host.audience.tell_tasks(image);
     let text = image.output.take();
     if !text.is_empty() {
         let told = WatchEvent::Output(text.clone());
-        simulation.tell(&told);
+        host.audience.tell(host.simulation.now(), &told);
         sink(Event::Output(text));
     }
 }
 
 impl Host for LiveHost<'_> {
     fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
-        let reply = self.simulation.request(image, task, request);
-        for picture in self.simulation.take_pictures() {
-            flush(image, self.simulation, self.sink);
+        let reply = self.host.request(image, task, request);
+        for picture in self.host.audience.take_pictures() {
+            flush(image, self.host, self.sink);
             (self.sink)(Event::Picture(picture));
         }
         reply
     }
 
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
-        flush(image, self.simulation, self.sink);
+        flush(image, self.host, self.sink);
         if !self.tells_progress {
-            return self.simulation.advance(image, now, until);
+            return self.host.advance(image, now, until);
         }
         let begin = Instant::now();
         let mut told = begin;
         let sink = &mut *self.sink;
-        self.simulation
-            .advance_watched(image, now, until, &mut |simulation| {
-                // The real time decides what is shown, never what happens.
-                let is_long = begin.elapsed() > FIRST_PROGRESS;
-                if is_long && told.elapsed() > BETWEEN_PROGRESS {
-                    told = Instant::now();
-                    sink(Event::Progress(simulation.progress()));
-                }
-            })
+        self.host.advance_watched(image, now, until, &mut |host| {
+            // The real time decides what is shown, never what happens.
+            let is_long = begin.elapsed() > FIRST_PROGRESS;
+            if is_long && told.elapsed() > BETWEEN_PROGRESS {
+                told = Instant::now();
+                sink(Event::Progress(host.progress()));
+            }
+        })
     }
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
-        flush(image, self.simulation, self.sink);
-        self.simulation.idle(image, now, until)
+        flush(image, self.host, self.sink);
+        self.host.idle(image, now, until)
     }
 
     fn cancel(&mut self, image: &mut Image, ticket: Ticket) {
-        self.simulation.cancel(image, ticket);
+        self.host.cancel(image, ticket);
     }
 
     fn pause(&mut self, image: &mut Image, ticket: Ticket) {
-        self.simulation.pause(image, ticket);
+        self.host.pause(image, ticket);
     }
 
     fn wake(&mut self, image: &mut Image, ticket: Ticket) {
-        self.simulation.wake(image, ticket);
+        self.host.wake(image, ticket);
     }
 }

@@ -3,12 +3,16 @@
 //! A session takes text and tells events; it prints nothing itself.
 
 mod assist;
+mod audience;
 mod check;
 mod console;
 mod converse;
 pub(crate) mod dialogue;
+pub(crate) mod functions;
+mod host;
 mod live_host;
 mod options;
+mod person;
 mod plans;
 mod printing;
 mod queries;
@@ -24,23 +28,26 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
+use crate::picture::ViewError;
+use crate::picture::animation::Shot;
 use crate::plan::{Evaluation, Scheduler};
 use crate::session::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
 use crate::watch::{Cause, WatchEvent};
+use host::SimulationHost;
 use live_host::LiveHost;
 use simulation::Simulation;
 
 use printing::on_one_line;
 
+pub(crate) use audience::{Audience, Filming, WatchError};
 pub use options::{SessionError, SessionOptions};
 pub use simulation::LogLevel;
-pub(crate) use simulation::{Filming, WatchError};
 
 /// A session.
 pub struct Session {
     image: Image,
     scheduler: Scheduler,
-    simulation: Simulation,
+    host: SimulationHost,
     /// What checked texts define.
     checked: check::KnownNames,
     /// What stands still, and what a person may do with it.
@@ -63,12 +70,12 @@ impl Session {
         crate::plan::install(&mut image);
         crate::plan::pose::install(&mut image);
         crate::plan::designator::install(&mut image);
-        simulation::install(&mut image);
+        functions::install(&mut image);
         let simulation = Simulation::new(Arc::new(options.models()?), options)?;
         let mut session = Session {
             image,
             scheduler: Scheduler::new(),
-            simulation,
+            host: SimulationHost::new(simulation, Audience::new(options.realtime)),
             checked: check::KnownNames::default(),
             console: console::Console::default(),
         };
@@ -107,35 +114,57 @@ impl Session {
 
     /// The robot in its world.
     pub(crate) fn simulation(&self) -> &Simulation {
-        &self.simulation
+        &self.host.simulation
     }
 
-    /// The robot in its world, to be looked at while it moves.
-    pub(crate) fn simulation_mut(&mut self) -> &mut Simulation {
-        &mut self.simulation
+    /// Who watches.
+    pub(crate) fn audience(&self) -> &Audience {
+        &self.host.audience
+    }
+
+    /// Has somebody watch the world after every step that a motion takes.
+    #[cfg(test)]
+    pub(crate) fn set_observer(&mut self, observer: audience::Observer) {
+        self.host.audience.set_observer(observer);
+    }
+
+    /// Keeps a shot every now and then from here on.
+    pub(crate) fn start_film(&mut self, wanted: Filming) -> Result<(), ViewError> {
+        self.host.audience.start_film(&self.host.simulation, wanted)
+    }
+
+    /// The shots since the film was started, the last of them as everything is now.
+    pub(crate) fn end_film(&mut self) -> Vec<Shot> {
+        self.host.audience.end_film(&self.host.simulation)
     }
 
     /// Opens the live view, unless it is open; returns the page's address.
     pub(crate) fn open_view(&mut self) -> Result<String, WatchError> {
-        self.simulation.open_view(&self.image)
+        let host = &mut self.host;
+        host.audience.open_view(&host.simulation, &self.image)
     }
 
     /// Records from here on what happens into an MCAP file.
     pub(crate) fn begin_recording(&mut self, path: &Path) -> Result<(), WatchError> {
-        self.simulation.begin_recording(&self.image, path)
+        let host = &mut self.host;
+        host.audience
+            .begin_recording(&host.simulation, &self.image, path)
     }
 
     /// Ends the recording, if there is one, and tells what went wrong with it.
     pub(crate) fn end_recording(&mut self) -> Result<(), WatchError> {
-        self.simulation.end_recording()
+        self.host.audience.end_recording(&self.host.simulation)
     }
 
     /// Evaluates one form at top level.
     fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
         self.image.set_special(known::MINUS, form.clone());
-        self.simulation.begin_form(form);
+        self.host
+            .person
+            .snapshots
+            .begin_form(&self.host.simulation, form);
         let tells_progress = self.console.is_interactive;
-        let mut host = LiveHost::new(&mut self.simulation, sink, tells_progress);
+        let mut host = LiveHost::new(&mut self.host, sink, tells_progress);
         let evaluation = self.scheduler.evaluate(&mut self.image, &mut host, form);
         let ended = match evaluation {
             Evaluation::Values(values) => Ended::Values(values),
@@ -147,7 +176,7 @@ impl Session {
                 let abort = self.describe(&condition);
                 self.abort(sink);
                 let report = WatchEvent::Aborted(abort.report.clone());
-                self.simulation.tell(&report);
+                self.host.audience.tell(self.host.simulation.now, &report);
                 Ended::Aborted(Box::new(abort))
             }
             Evaluation::Interrupted => {
@@ -156,7 +185,7 @@ impl Session {
             }
         };
         self.flush(sink);
-        self.simulation.show(Cause::Rest);
+        self.host.audience.show(&self.host.simulation, Cause::Rest);
         self.shift_forms(form);
         if let Ended::Values(values) = &ended {
             self.shift_values(values);
@@ -166,13 +195,13 @@ impl Session {
 
     /// Leaves an evaluation that has stopped: its cleanup forms run.
     fn abort(&mut self, sink: &mut dyn FnMut(Event)) {
-        let mut host = LiveHost::new(&mut self.simulation, sink, self.console.is_interactive);
+        let mut host = LiveHost::new(&mut self.host, sink, self.console.is_interactive);
         self.scheduler.abort(&mut self.image, &mut host);
     }
 
     /// Tells what was written to standard output.
     fn flush(&mut self, sink: &mut dyn FnMut(Event)) {
-        live_host::flush(&mut self.image, &mut self.simulation, sink);
+        live_host::flush(&mut self.image, &mut self.host, sink);
     }
 
     /// The name of the current package, or a short one.
@@ -232,7 +261,7 @@ impl Evaluate for Session {
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
         self.image.polls.begin(self.console.interrupt_next.take());
         // Somebody who asked to leave and goes on has changed their mind.
-        self.simulation.quit = None;
+        self.host.person.quit = None;
         if let Some(outcome) = self.inspector_input(text, sink) {
             return outcome;
         }

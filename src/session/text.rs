@@ -90,7 +90,7 @@ impl Session {
         sink(Event::Values(printed));
         self.image.output.begin_line();
         self.open_inspector(sink);
-        self.simulation.quit.map(Outcome::Quit)
+        self.host.person.quit.map(Outcome::Quit)
     }
 
     /// The next form of the text, `#.` evaluated.

@@ -28,7 +28,7 @@ impl Overlaps {
                 first.borrow_mut().get_or_insert_with(text);
             }
         };
-        session.simulation_mut().set_observer(Box::new(observer));
+        session.set_observer(Box::new(observer));
         overlaps
     }
 

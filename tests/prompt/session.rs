@@ -630,7 +630,7 @@ fn planning_that_is_interrupted_has_no_effect() {
 #[test]
 fn every_step_of_the_tour_works() {
     let mut talk = Talk::new();
-    let steps = crate::session::simulation::tour::STEPS;
+    let steps = crate::session::functions::tour::STEPS;
     let (last, good) = steps.split_last().expect("there are steps");
     for step in good {
         let (shown, outcome) = talk.take(step.form);

@@ -91,7 +91,7 @@ pub(crate) fn picture(
     let open = || {
         let mut session = open_session(options)?;
         if is_film {
-            session.simulation_mut().start_film(Filming {
+            session.start_film(Filming {
                 view,
                 width,
                 height,
@@ -101,8 +101,7 @@ pub(crate) fn picture(
         Ok(session)
     };
     let (status, mut session) = run_in(options, &wanted.files, &wanted.eval, open)?;
-    let simulation = session.simulation_mut();
-    let shots = simulation.end_film();
+    let shots = session.end_film();
     if let Some(folder) = &wanted.frames {
         write_frames(folder, &shots)?;
     }
@@ -116,7 +115,10 @@ pub(crate) fn picture(
         write(path, &gif)?;
     }
     if let Some(path) = &wanted.output {
-        let png = simulation.picture(view, width, height)?.to_png()?;
+        let png = session
+            .simulation()
+            .picture(view, width, height)?
+            .to_png()?;
         write(path, &png)?;
     }
     Ok(status)

@@ -30,7 +30,7 @@ pub(crate) fn begin(session: &mut Session, watch: &WatchArguments) -> Result<boo
 /// Waits while there are viewers, so that they can look at the end; also waits for a browser
 /// that is just starting.
 pub(crate) fn linger(session: &Session, has_browser: bool) {
-    let Some(server) = session.simulation().view_server() else {
+    let Some(server) = session.audience().view_server() else {
         return;
     };
     let begin = Instant::now();

@@ -167,7 +167,7 @@ impl Session {
 
     /// The types of objects.
     pub(super) fn object_types(&self) -> Vec<Candidate> {
-        let types = self.simulation.object_types().types();
+        let types = self.host.simulation.object_types().types();
         types
             .map(|kind| candidate(kind.name.clone(), format!("an object of {} kg", kind.mass)))
             .collect()
@@ -175,7 +175,7 @@ impl Session {
 
     /// The objects in the world.
     pub(super) fn object_names(&self) -> Vec<Candidate> {
-        let objects = self.simulation.world().objects();
+        let objects = self.host.simulation.world().objects();
         objects
             .map(|object| {
                 let kind = object.type_name();
@@ -191,10 +191,10 @@ impl Session {
             .filter(|(key, _)| bare(key).eq_ignore_ascii_case("type"))
             .filter_map(|(_, value)| *value)
             .map(|value| lower(bare(value)))
-            .find(|value| self.simulation.object_types().get(value).is_some());
-        let library = self.simulation.grasp_library();
+            .find(|value| self.host.simulation.object_types().get(value).is_some());
+        let library = self.host.simulation.grasp_library();
         let mut found: Vec<Candidate> = Vec::new();
-        for known in self.simulation.object_types().types() {
+        for known in self.host.simulation.object_types().types() {
             if kind.as_ref().is_some_and(|kind| *kind != known.name) {
                 continue;
             }

@@ -32,6 +32,11 @@ impl Session {
         let upper = name.to_uppercase();
         let mut described = [Class::Action, Class::Motion].into_iter();
         described.any(|class| schema::type_names(class).any(|known| known == upper))
-            || self.simulation.object_types().get(&lower(name)).is_some()
+            || self
+                .host
+                .simulation
+                .object_types()
+                .get(&lower(name))
+                .is_some()
     }
 }

@@ -91,11 +91,11 @@ impl Session {
         if let Some(level) = self.console.levels.last_mut() {
             level.aside = Some(aside);
         }
-        self.simulation.set_aside(true);
+        self.host.person.snapshots.set_aside(true);
         let evaluation = self.go_on_with(sink, |scheduler, image, host| {
             scheduler.call(image, host, call, Vec::new())
         });
-        self.simulation.set_aside(false);
+        self.host.person.snapshots.set_aside(false);
         self.settle(evaluation, sink)
     }
 

@@ -53,7 +53,12 @@ impl Session {
             Choice::RetryForm,
             "[RETRY-FORM] Evaluate the form again.".to_owned(),
         ));
-        if self.simulation.has_changed_since_form() {
+        if self
+            .host
+            .person
+            .snapshots
+            .has_changed_since_form(&self.host.simulation)
+        {
             let label =
                 "[REWIND-FORM] Take the world back to before the form, and evaluate it again.";
             choices.push((Choice::RewindForm, label.to_owned()));
@@ -196,7 +201,10 @@ impl Session {
                 motion,
             } => {
                 if let Some(motion) = motion {
-                    self.simulation.go_back_to(motion);
+                    self.host
+                        .person
+                        .snapshots
+                        .go_back_to(&mut self.host.simulation, motion);
                 }
                 self.replace_frame(frame, function, args, sink)
             }

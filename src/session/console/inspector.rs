@@ -5,7 +5,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::FunctionCell;
 use crate::session::dialogue::{Event, Outcome};
-use crate::session::simulation::parts::View;
+use crate::session::host::parts::View;
 
 /// What can be typed, for people.
 const REMARK: &str =
@@ -36,7 +36,7 @@ impl Session {
             "" => {}
             word => {
                 let number: usize = word.parse().ok()?;
-                let view = View::of(&self.simulation, &mut self.image, &current);
+                let view = View::of(&self.host, &mut self.image, &current);
                 match view.parts.into_iter().nth(number) {
                     Some((_, part)) if !part.is_unbound() => self.console.inspected.push(part),
                     _ => return Some(self.tell("; There is no such part.", sink)),
@@ -49,14 +49,14 @@ impl Session {
     }
 
     fn tell_inspected(&mut self, value: &Value, sink: &mut dyn FnMut(Event)) -> Outcome {
-        let view = View::of(&self.simulation, &mut self.image, value);
+        let view = View::of(&self.host, &mut self.image, value);
         let text = view.text(&self.image);
         self.tell(&format!("{text}{REMARK}"), sink)
     }
 
     /// After a form: begins to inspect what it asked for, where somebody can answer.
     pub(in crate::session) fn open_inspector(&mut self, sink: &mut dyn FnMut(Event)) {
-        let Some(value) = self.simulation.inspected.take() else {
+        let Some(value) = self.host.person.inspected.take() else {
             return;
         };
         if self.console.is_interactive {

@@ -228,7 +228,10 @@ impl Session {
         match self.clear_console(sink) {
             Some(base) => {
                 if takes_back {
-                    self.simulation.go_back_to_form();
+                    self.host
+                        .person
+                        .snapshots
+                        .go_back_to_form(&mut self.host.simulation);
                 }
                 self.evaluate_first(base, sink)
             }

@@ -44,6 +44,7 @@ impl Session {
             .find(|a| self.type_of_action(a) == "PICKING-UP")
         {
             for (arm, grasp) in self
+                .host
                 .simulation
                 .reachable_grasps(&mut self.image, &picking.designator)
             {
@@ -63,7 +64,7 @@ impl Session {
         if !self.scheduler.has_requests() {
             for action in actions.iter().take(MOST_ACTIONS) {
                 let first = action.motions_before + 1;
-                if self.simulation.has_motion_snapshot(first) {
+                if self.host.person.snapshots.has_motion_snapshot(first) {
                     let choice = again(action, &action.designator, Some(first));
                     let label = format!(
                         "[BEFORE] Take the world back to before {}, and retry it.",
@@ -132,6 +133,7 @@ impl Session {
     /// Driving to where the object can be grasped, and then the action again.
     fn base_choice(&mut self, picking: &Action) -> Option<(Choice, String)> {
         let (pose, arm, grasp) = self
+            .host
             .simulation
             .place_to_grasp_from(&mut self.image, &picking.designator)?;
         let others = [("ARM", arm.clone()), ("GRASP", grasp.clone())];

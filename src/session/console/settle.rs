@@ -20,7 +20,7 @@ impl Session {
         sink: &mut dyn FnMut(Event),
         how: impl FnOnce(&mut Scheduler, &mut Image, &mut LiveHost<'_>) -> Evaluation,
     ) -> Evaluation {
-        let mut host = LiveHost::new(&mut self.simulation, sink, self.console.is_interactive);
+        let mut host = LiveHost::new(&mut self.host, sink, self.console.is_interactive);
         let evaluation = how(&mut self.scheduler, &mut self.image, &mut host);
         self.flush(sink);
         evaluation

@@ -28,7 +28,7 @@ const HEADINGS: u32 = 8;
 const MOST_PAIRS: usize = 6;
 
 /// A failure with the world in which it came up.
-pub(super) struct Remembered {
+pub(in crate::session) struct Remembered {
     pub(crate) failure: MotionFailure,
     /// Simulated time (s).
     pub(crate) time: f64,
@@ -37,7 +37,7 @@ pub(super) struct Remembered {
 
 impl Simulation {
     /// Keeps a failure, to be explained on demand.
-    pub(super) fn remember(&mut self, failure: &MotionFailure) {
+    pub(in crate::session) fn remember(&mut self, failure: &MotionFailure) {
         self.last_failure = Some(Box::new(Remembered {
             failure: failure.clone(),
             time: self.now,
@@ -46,7 +46,7 @@ impl Simulation {
     }
 
     /// The long form of the last failure of a motion, if there was one.
-    pub(super) fn explain_last(&mut self, image: &mut Image) -> Option<String> {
+    pub(in crate::session) fn explain_last(&mut self, image: &mut Image) -> Option<String> {
         let mut last = self.last_failure.take()?;
         std::mem::swap(&mut self.world, &mut last.world);
         let text = self.explanation(image, &last.failure, last.time);

@@ -29,7 +29,7 @@ const MOST_WAYS: usize = 2;
 const MOST_GRASPS: usize = 4;
 
 /// An object that is to be grasped, and the arm and grasp that are asked for.
-pub(super) struct Wanted {
+pub(in crate::session) struct Wanted {
     /// Name of the object.
     pub(crate) name: String,
     /// Name of its type.
@@ -95,7 +95,7 @@ impl Simulation {
 
     /// With the world as imagined: can the hand come to a grasp of the object, and leave it,
     /// without touching anything else?
-    pub(in crate::session::simulation) fn lets_grasp(
+    pub(in crate::session) fn lets_grasp(
         &self,
         imagined: &Imagined<'_>,
         grasp: &GraspDefinition,
@@ -146,7 +146,7 @@ impl Simulation {
 
     /// Arms and grasps by which an object can be reached from here, those of the wanted arm
     /// first; `tried` is one of that arm's grasps that is left out.
-    pub(super) fn grasps_from_here(
+    pub(in crate::session) fn grasps_from_here(
         &self,
         image: &mut Image,
         wanted: &Wanted,
@@ -187,7 +187,7 @@ impl Simulation {
 
     /// A pose of the base in the map frame, arm and grasp for an object: near, free, and with
     /// a way to it. The arm and grasp that are asked for are preferred.
-    pub(super) fn place_to_grasp(
+    pub(in crate::session) fn place_to_grasp(
         &self,
         image: &mut Image,
         wanted: &Wanted,

@@ -5,7 +5,7 @@ use crate::robot::Side;
 
 /// How an object is held.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Held {
+pub(in crate::session) struct Held {
     /// The hand.
     pub(crate) side: Side,
     /// The grasp by which it was picked up, if that is known.
@@ -14,12 +14,12 @@ pub(super) struct Held {
 
 impl Simulation {
     /// Names of the objects that a hand holds.
-    pub(super) fn held_by(&self, side: Side) -> Vec<String> {
+    pub(in crate::session) fn held_by(&self, side: Side) -> Vec<String> {
         crate::motion::held_objects(&self.world, side)
     }
 
     /// The hand that holds an object.
-    pub(super) fn hand_of(&self, object: &str) -> Option<Side> {
+    pub(in crate::session) fn hand_of(&self, object: &str) -> Option<Side> {
         [Side::Left, Side::Right]
             .into_iter()
             .find(|side| self.held_by(*side).iter().any(|name| name == object))

@@ -10,7 +10,7 @@ use crate::world::{World, WorldError};
 const HIGHEST_LIFT: f64 = 0.1;
 
 /// How a world would differ from that of now.
-pub(super) struct Imagined<'a> {
+pub(in crate::session) struct Imagined<'a> {
     /// Name of the object, which no hand would hold.
     pub(crate) object: &'a str,
     /// Where it would be, in the map frame; it would stand on what is closely below.

@@ -26,7 +26,7 @@ use crate::session::simulation::properties::property;
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// The sides that an arm or gripper argument names: `:LEFT`, `:RIGHT`, or a list of them.
-pub(super) fn sides(image: &Image, value: &Value) -> Result<Vec<Side>> {
+pub(in crate::session) fn sides(image: &Image, value: &Value) -> Result<Vec<Side>> {
     match value {
         Value::Cons(_) => value.iter_list().map(|v| side(image, &v)).collect(),
         single => side(image, single).map(|s| vec![s]),
@@ -34,7 +34,7 @@ pub(super) fn sides(image: &Image, value: &Value) -> Result<Vec<Side>> {
 }
 
 /// The side that an argument names.
-pub(super) fn side(image: &Image, value: &Value) -> Result<Side> {
+pub(in crate::session) fn side(image: &Image, value: &Value) -> Result<Side> {
     let text = name_text(image, value);
     match text.as_deref() {
         Some("LEFT") => Ok(Side::Left),
@@ -47,7 +47,7 @@ pub(super) fn side(image: &Image, value: &Value) -> Result<Side> {
 }
 
 /// `:LEFT` or `:RIGHT`.
-pub(super) fn side_keyword(image: &mut Image, side: Side) -> Value {
+pub(in crate::session) fn side_keyword(image: &mut Image, side: Side) -> Value {
     let name = match side {
         Side::Left => "LEFT",
         Side::Right => "RIGHT",
@@ -69,7 +69,7 @@ fn real(value: &Value) -> Result<f64> {
 impl Simulation {
     /// The motion that a designator describes, and the designator that its failures are
     /// about.
-    pub(super) fn motion_for(
+    pub(in crate::session) fn motion_for(
         &mut self,
         image: &mut Image,
         request: &MotionRequest,
@@ -275,7 +275,7 @@ impl Simulation {
 
     /// Designators of detected objects: the first one, or the list of all if all were
     /// asked for.
-    pub(super) fn detected(
+    pub(in crate::session) fn detected(
         &mut self,
         image: &mut Image,
         objects: &[DetectedObject],

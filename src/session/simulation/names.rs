@@ -9,7 +9,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
 /// The text of a name: that of a symbol or string, in upper case, `_` read as `-`.
-pub(super) fn name_text(image: &Image, name: &Value) -> Option<String> {
+pub(in crate::session) fn name_text(image: &Image, name: &Value) -> Option<String> {
     let text = match name {
         Value::Symbol(sym) if name.is_true() => image.name(*sym).to_owned(),
         Value::Str(s) => s.text(),
@@ -19,17 +19,17 @@ pub(super) fn name_text(image: &Image, name: &Value) -> Option<String> {
 }
 
 /// The name of a type in the object library: lower case, `_` read as `-`.
-pub(super) fn type_text(image: &Image, name: &Value) -> Option<String> {
+pub(in crate::session) fn type_text(image: &Image, name: &Value) -> Option<String> {
     name_text(image, name).map(|text| text.to_lowercase())
 }
 
 /// The keyword of a type of the object library.
-pub(super) fn type_keyword(image: &mut Image, name: &str) -> Value {
+pub(in crate::session) fn type_keyword(image: &mut Image, name: &str) -> Value {
     image.keyword(&name.to_uppercase()).into()
 }
 
 /// "; did you mean X?" if a name is near.
-pub(super) fn suggestion<'a>(
+pub(in crate::session) fn suggestion<'a>(
     wanted: &str,
     names: impl IntoIterator<Item = &'a str>,
     show: impl Fn(&str) -> String,
@@ -42,7 +42,11 @@ pub(super) fn suggestion<'a>(
 
 impl Simulation {
     /// The name in the world of an existing object.
-    pub(super) fn object_named(&self, image: &Image, name: &Value) -> Result<String, Box<Raise>> {
+    pub(in crate::session) fn object_named(
+        &self,
+        image: &Image,
+        name: &Value,
+    ) -> Result<String, Box<Raise>> {
         let Some(text) = name_text(image, name) else {
             return Err(Raise::type_error(name, known::SYMBOL));
         };
@@ -63,7 +67,7 @@ impl Simulation {
     }
 
     /// The symbol by which people know an object.
-    pub(super) fn symbol_of(&self, name: &str) -> Value {
+    pub(in crate::session) fn symbol_of(&self, name: &str) -> Value {
         self.names.get(name).cloned().unwrap_or(Value::NIL)
     }
 }

@@ -12,7 +12,11 @@ use crate::spatial::Pose;
 impl Simulation {
     /// The pose, in the map frame, of a pose argument. The frame of a stamped pose counts;
     /// a list or a plain pose is in the map frame.
-    pub(super) fn pose_in_map(&self, image: &Image, pose: &Value) -> Result<Pose, Box<Raise>> {
+    pub(in crate::session) fn pose_in_map(
+        &self,
+        image: &Image,
+        pose: &Value,
+    ) -> Result<Pose, Box<Raise>> {
         let placement = match as_placement(pose) {
             Some(placement) => placement,
             None => argument::placement(image, pose)?,
@@ -25,7 +29,11 @@ impl Simulation {
     }
 
     /// Position and orientation of a pose argument as they stand, whatever the frame.
-    pub(super) fn pose_as_given(&self, image: &Image, pose: &Value) -> Result<Pose, Box<Raise>> {
+    pub(in crate::session) fn pose_as_given(
+        &self,
+        image: &Image,
+        pose: &Value,
+    ) -> Result<Pose, Box<Raise>> {
         let placement = match as_placement(pose) {
             Some(placement) => placement,
             None => argument::placement(image, pose)?,
@@ -34,7 +42,10 @@ impl Simulation {
     }
 
     /// The pose of a resolved location designator, or of a pose itself.
-    pub(super) fn location_pose(image: &mut Image, location: &Value) -> Result<Value, Box<Raise>> {
+    pub(in crate::session) fn location_pose(
+        image: &mut Image,
+        location: &Value,
+    ) -> Result<Value, Box<Raise>> {
         if as_placement(location).is_some() {
             return Ok(location.clone());
         }

@@ -6,7 +6,7 @@ use crate::plan::designator::value::as_designator;
 
 /// The first value of a designator's property, unless that is `NIL`. The key is in upper
 /// case.
-pub(super) fn property(image: &Image, designator: &Value, key: &str) -> Option<Value> {
+pub(in crate::session) fn property(image: &Image, designator: &Value, key: &str) -> Option<Value> {
     as_designator(designator)?
         .property_named(image, key)
         .filter(Value::is_true)

@@ -7,13 +7,17 @@ use crate::lisp::value::raise::Raise;
 use crate::spatial::Pose;
 
 /// The frame that everything refers to.
-pub(super) const MAP: &str = "map";
+pub(in crate::session) const MAP: &str = "map";
 /// The frame of the robot's base on the floor.
-pub(super) const BASE: &str = "base_footprint";
+pub(in crate::session) const BASE: &str = "base_footprint";
 
 impl Simulation {
     /// The pose of a frame in the map frame.
-    pub(super) fn frame_in_map(&self, _: &Image, frame: &str) -> Result<Pose, Box<Raise>> {
+    pub(in crate::session) fn frame_in_map(
+        &self,
+        _: &Image,
+        frame: &str,
+    ) -> Result<Pose, Box<Raise>> {
         let name = frame.trim_start_matches('/');
         if matches!(name, "map" | "world" | "odom_combined") {
             return Ok(Pose::identity());

@@ -6,8 +6,8 @@ use crate::lisp::value::Value;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
-use crate::session::simulation::call::host;
-use crate::session::simulation::{Simulation, call};
+use crate::session::host::call::{done, host};
+use crate::session::person::Person;
 
 /// Builtins of package `COMMON-LISP`.
 pub(crate) static TABLE: &[Builtin] = &[
@@ -27,8 +27,8 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-fn quit(simulation: &mut Simulation, _: &mut Image, args: &[Value]) -> Result<Reply, Box<Raise>> {
+fn quit(person: &mut Person, _: &mut Image, args: &[Value]) -> Result<Reply, Box<Raise>> {
     let status = args.first().and_then(number::to_f64).unwrap_or(0.0);
-    simulation.quit = Some(status.clamp(0.0, 255.0) as u8);
-    call::done(Value::NIL)
+    person.quit = Some(status.clamp(0.0, 255.0) as u8);
+    done(Value::NIL)
 }

@@ -6,7 +6,7 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
-use crate::session::simulation::call::{done, host};
+use crate::session::host::call::{done, host};
 use crate::session::simulation::{LogLevel, Simulation};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;

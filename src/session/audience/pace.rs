@@ -15,7 +15,7 @@ const MOST_LAG: f64 = 0.1;
 const SLICE: Duration = Duration::from_millis(50);
 
 /// Keeps pace with the real time.
-pub(super) struct Pace {
+pub(crate) struct Pace {
     control: PaceControl,
     next: Instant,
 }

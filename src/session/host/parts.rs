@@ -1,8 +1,6 @@
 //! Taking values apart for a person to look at: every kind of value has named parts.
 
-use super::Simulation;
-use super::names::name_text;
-use super::properties::property;
+use super::SimulationHost;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::types::type_of::type_of;
@@ -13,6 +11,9 @@ use crate::plan::TaskRef;
 use crate::plan::designator::value::as_designator;
 use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
 use crate::robot::Side;
+use crate::session::simulation::motions::side_keyword;
+use crate::session::simulation::names::{name_text, type_keyword};
+use crate::session::simulation::properties::property;
 
 /// Parts that are told.
 const MOST_PARTS: usize = 60;
@@ -32,12 +33,8 @@ pub(in crate::session) struct View {
 impl View {
     /// Takes a value apart. A symbol that names an object in the world, and `:robot`, stand
     /// for these.
-    pub(in crate::session) fn of(
-        simulation: &Simulation,
-        image: &mut Image,
-        value: &Value,
-    ) -> View {
-        if let Some(view) = in_world(simulation, image, value) {
+    pub(in crate::session) fn of(host: &SimulationHost, image: &mut Image, value: &Value) -> View {
+        if let Some(view) = in_world(host, image, value) {
             return view;
         }
         let kind = type_of(image, value);
@@ -89,17 +86,18 @@ fn part(name: impl Into<String>, value: impl Into<Value>) -> (String, Value) {
 }
 
 /// An object in the world, or the robot.
-fn in_world(simulation: &Simulation, image: &mut Image, value: &Value) -> Option<View> {
+fn in_world(host: &SimulationHost, image: &mut Image, value: &Value) -> Option<View> {
+    let simulation = &host.simulation;
     let Value::Symbol(sym) = value else {
         return None;
     };
     let name = name_text(image, value)?;
     if image.is_keyword(*sym) && name == "ROBOT" {
-        return Some(robot(simulation));
+        return Some(robot(host));
     }
     let object = simulation.world().object(&name).ok()?;
     let kind = object.type_name().to_owned();
-    let mut parts = vec![part("type", super::names::type_keyword(image, &kind))];
+    let mut parts = vec![part("type", type_keyword(image, &kind))];
     if let Ok(pose) = simulation.world().object_pose(&name) {
         parts.push(part("pose", pose_stamped("map", &pose)));
     }
@@ -110,11 +108,11 @@ fn in_world(simulation: &Simulation, image: &mut Image, value: &Value) -> Option
         .grasp_library()
         .grasps(&kind)
         .iter()
-        .map(|grasp| super::names::type_keyword(image, grasp))
+        .map(|grasp| type_keyword(image, grasp))
         .collect();
     parts.push(part("grasps", Value::list(grasps)));
     if let Some(side) = simulation.hand_of(&name) {
-        parts.push(part("held by", super::motions::side_keyword(image, side)));
+        parts.push(part("held by", side_keyword(image, side)));
     }
     Some(View {
         title: format!("{name}, an object in the world"),
@@ -122,7 +120,8 @@ fn in_world(simulation: &Simulation, image: &mut Image, value: &Value) -> Option
     })
 }
 
-fn robot(simulation: &Simulation) -> View {
+fn robot(host: &SimulationHost) -> View {
+    let simulation = &host.simulation;
     let mut parts = vec![part("base", pose_stamped("map", &simulation.base()))];
     for (side, name) in [(Side::Left, "left hand"), (Side::Right, "right hand")] {
         let held = simulation.held_by(side);
@@ -142,7 +141,12 @@ fn robot(simulation: &Simulation) -> View {
         })
         .collect();
     parts.push(part("joints", Value::list(joints)));
-    let kept: Vec<Value> = simulation.kept_names().map(Value::string).collect();
+    let kept: Vec<Value> = host
+        .person
+        .snapshots
+        .kept_names()
+        .map(Value::string)
+        .collect();
     if !kept.is_empty() {
         parts.push(part("snapshots", Value::list(kept)));
     }

@@ -7,9 +7,10 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
+use crate::session::host::SimulationHost;
+use crate::session::host::call::{done, host};
 use crate::session::on_one_line;
 use crate::session::simulation::Simulation;
-use crate::session::simulation::call::{done, host};
 use crate::session::simulation::names::name_text;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -52,13 +53,13 @@ fn say(image: &mut Image, text: &str) {
     image.output.write("\n");
 }
 
-fn rewind(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn rewind(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let count = match args.first() {
         None => 1,
         Some(Value::Int(n)) if *n > 0 => usize::try_from(*n).unwrap_or(usize::MAX),
         Some(other) => return Err(Raise::type_error(other, known::INTEGER)),
     };
-    let form = simulation.rewind(count)?;
+    let form = host.person.snapshots.rewind(&mut host.simulation, count)?;
     let shown = print::to_string(image, &form, true);
     let shown = on_one_line(&shown);
     say(
@@ -72,15 +73,17 @@ fn name(image: &Image, value: &Value) -> Result<String> {
     name_text(image, value).ok_or_else(|| Raise::type_error(value, known::SYMBOL))
 }
 
-fn snapshot(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn snapshot(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = name(image, &args[0])?;
-    simulation.keep(&name);
+    host.person.snapshots.keep(&host.simulation, &name);
     done(args[0].clone())
 }
 
-fn restore(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn restore(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = name(image, &args[0])?;
-    simulation.restore_kept(&name)?;
+    host.person
+        .snapshots
+        .restore_kept(&mut host.simulation, &name)?;
     say(
         image,
         &format!("; The world is as in {name}; Lisp variables keep their values."),

@@ -1,15 +1,33 @@
-//! Failures of motions as conditions.
+//! What motions bring about, as values and conditions.
 
 use super::Simulation;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
-use crate::motion::MotionFailure;
+use crate::motion::{MotionFailure, MotionOutcome};
 
 impl Simulation {
+    /// What a motion has brought about, as a value.
+    pub(in crate::session) fn outcome(
+        &mut self,
+        image: &mut Image,
+        outcome: &MotionOutcome,
+        subject: &Value,
+    ) -> Value {
+        match outcome {
+            MotionOutcome::Arrived | MotionOutcome::Gripped { .. } => Value::NIL,
+            MotionOutcome::Put { raised, .. } => Value::Double(*raised),
+            MotionOutcome::Released { object, .. } => {
+                self.held.shift_remove(object);
+                Value::NIL
+            }
+            MotionOutcome::Detected(objects) => self.detected(image, objects, subject),
+        }
+    }
+
     /// The failure condition for a motion's failure; `subject` is the designator it is about.
-    pub(super) fn failure(
+    pub(in crate::session) fn failure(
         &mut self,
         image: &mut Image,
         failure: &MotionFailure,

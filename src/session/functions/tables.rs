@@ -1,9 +1,9 @@
 //! Installing what plans can ask of the world.
 
-use super::functions;
 use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::image::Image;
 use crate::lisp::value::package::PackageTable;
+use crate::session::functions;
 
 /// Builtins by package.
 static FUNCTIONS: &[(&str, &[Builtin])] = &[

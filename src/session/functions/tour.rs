@@ -66,7 +66,7 @@ pub(crate) static STEPS: &[Step] = &[
 ];
 
 /// The text of a step, from zero.
-pub(super) fn step_text(number: usize) -> String {
+pub(in crate::session) fn step_text(number: usize) -> String {
     match STEPS.get(number) {
         Some(step) => format!(
             "Step {} of {}. {}\n\n{}\n",

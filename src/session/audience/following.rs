@@ -1,16 +1,18 @@
 //! Those who follow the session: they are told of every step, of edits and of what happens.
 
-use super::{Job, Simulation};
+use super::Audience;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::motion::PlannedTrajectory;
 use crate::plan::{Plan, Status};
+use crate::session::simulation::Simulation;
+use crate::session::simulation::jobs::Job;
 use crate::watch::{Cause, Follower, Observation, TaskId, TaskNews, TaskState, WatchEvent};
 use crate::world::CollisionHit;
 
 /// Who follows.
 #[derive(Default)]
-pub(super) struct Followers {
+pub(crate) struct Followers {
     all: Vec<(FollowerId, Box<dyn Follower>)>,
     last: u64,
 }
@@ -19,17 +21,17 @@ pub(super) struct Followers {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct FollowerId(u64);
 
-impl Simulation {
+impl Audience {
     /// Has somebody follow the session from here on.
     pub(crate) fn add_follower(
         &mut self,
+        simulation: &Simulation,
         image: &Image,
         mut follower: Box<dyn Follower>,
     ) -> FollowerId {
         Plan::of(image).keep_journal();
-        let trajectories = self.trajectories();
-        follower.see(&self.observation(&trajectories), Cause::Rest);
-        drop(trajectories);
+        let trajectories = simulation.jobs.trajectories();
+        follower.see(&observation(simulation, &trajectories), Cause::Rest);
         self.followers.last += 1;
         let id = FollowerId(self.followers.last);
         self.followers.all.push((id, follower));
@@ -42,31 +44,29 @@ impl Simulation {
     }
 
     /// Tells the followers how the world is now.
-    pub(in crate::session) fn show(&mut self, cause: Cause) {
+    pub(crate) fn show(&mut self, simulation: &Simulation, cause: Cause) {
         if self.followers.all.is_empty() {
             return;
         }
         let mut followers = std::mem::take(&mut self.followers.all);
-        let trajectories = self.trajectories();
-        let observation = self.observation(&trajectories);
+        let trajectories = simulation.jobs.trajectories();
+        let observation = observation(simulation, &trajectories);
         for (_, follower) in &mut followers {
             follower.see(&observation, cause);
         }
-        drop(trajectories);
         followers.append(&mut self.followers.all);
         self.followers.all = followers;
     }
 
     /// Tells the followers what happened.
-    pub(in crate::session) fn tell(&mut self, event: &WatchEvent) {
-        let now = self.now;
+    pub(crate) fn tell(&mut self, now: f64, event: &WatchEvent) {
         for (_, follower) in &mut self.followers.all {
             follower.hear(now, event);
         }
     }
 
     /// Tells the followers what became of tasks.
-    pub(in crate::session) fn tell_tasks(&mut self, image: &Image) {
+    pub(crate) fn tell_tasks(&mut self, image: &Image) {
         if self.followers.all.is_empty() {
             return;
         }
@@ -86,43 +86,39 @@ impl Simulation {
     }
 
     /// Tells the followers what became of a motion.
-    pub(super) fn tell_motion(&mut self, job: &Job, state: TaskState, failure: &str) {
+    pub(crate) fn tell_motion(&mut self, now: f64, job: &Job, state: TaskState, failure: &str) {
         if self.followers.all.is_empty() {
             return;
         }
-        self.tell(&WatchEvent::Task(TaskNews {
-            id: TaskId::Motion(job.ticket.0),
-            parent: Some(TaskId::Task(job.task.0)),
-            name: job.name.clone(),
-            state,
-            failure: failure.to_owned(),
-        }));
+        self.tell(
+            now,
+            &WatchEvent::Task(TaskNews {
+                id: TaskId::Motion(job.ticket.0),
+                parent: Some(TaskId::Task(job.task.0)),
+                name: job.name.clone(),
+                state,
+                failure: failure.to_owned(),
+            }),
+        );
     }
 
     /// Tells the followers what stopped a motion.
-    pub(super) fn tell_collision(&mut self, hit: &CollisionHit) {
-        let now = self.now;
+    pub(crate) fn tell_collision(&mut self, now: f64, hit: &CollisionHit) {
         for (_, follower) in &mut self.followers.all {
             follower.collide(now, hit);
         }
     }
+}
 
-    fn trajectories(&self) -> Vec<(u64, PlannedTrajectory<'_>)> {
-        let jobs = self.active.iter();
-        jobs.filter_map(|job| Some((job.ticket.0, job.motion.planned()?)))
-            .collect()
-    }
-
-    fn observation<'a>(
-        &'a self,
-        trajectories: &'a [(u64, PlannedTrajectory<'a>)],
-    ) -> Observation<'a> {
-        Observation {
-            time: self.now,
-            world: &self.world,
-            axes: self.axes.as_ref().map(|axes| (axes.pose, axes.size)),
-            trajectories,
-        }
+fn observation<'a>(
+    simulation: &'a Simulation,
+    trajectories: &'a [(u64, PlannedTrajectory<'a>)],
+) -> Observation<'a> {
+    Observation {
+        time: simulation.now,
+        world: &simulation.world,
+        axes: simulation.axes.as_ref().map(|axes| (axes.pose, axes.size)),
+        trajectories,
     }
 }
 

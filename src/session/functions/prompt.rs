@@ -3,6 +3,7 @@
 
 use std::time::Instant;
 
+use super::tour;
 use crate::lisp::builtin::{Builtin, Operator, control};
 use crate::lisp::builtins::help;
 use crate::lisp::image::Image;
@@ -14,10 +15,12 @@ use crate::lisp::vm::calls::run;
 use crate::plan::designator::schema;
 use crate::plan::designator::value::Class;
 use crate::plan::{Plan, Reply, tell_overview};
-use crate::session::simulation::call::{done, host};
+use crate::session::host::SimulationHost;
+use crate::session::host::call::{done, host};
+use crate::session::host::parts::View;
+use crate::session::person::Person;
+use crate::session::simulation::Simulation;
 use crate::session::simulation::names::{name_text, type_text};
-use crate::session::simulation::parts::View;
-use crate::session::simulation::{Simulation, tour};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -159,7 +162,7 @@ fn row_text(row: &schema::TypeRow) -> String {
     )
 }
 
-fn describe_topic(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let Some(name) = name_text(image, &args[0]) else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
     };
@@ -183,17 +186,22 @@ fn describe_topic(simulation: &mut Simulation, image: &mut Image, args: &[Value]
         }
     }
     if let Some(kind) = type_text(image, &args[0])
-        && let Some(object) = simulation.models.objects.get(&kind)
+        && let Some(object) = host.simulation.models.objects.get(&kind)
     {
-        let grasps = simulation.grasps.grasps(&kind).join(", ").to_lowercase();
+        let grasps = host
+            .simulation
+            .grasps
+            .grasps(&kind)
+            .join(", ")
+            .to_lowercase();
         text.push_str(&format!(
             "A type of objects: {} kg, grasps: {}\n",
             object.mass,
             if grasps.is_empty() { "none" } else { &grasps }
         ));
     }
-    if simulation.world.object(&name).is_ok() {
-        let view = View::of(simulation, image, &args[0]);
+    if host.simulation.world.object(&name).is_ok() {
+        let view = View::of(host, image, &args[0]);
         text.push_str(&format!("An object in the world:\n{}", view.text(image)));
     }
     if text.is_empty() {
@@ -206,19 +214,19 @@ fn describe_topic(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     nothing()
 }
 
-fn tour_step(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn tour_step(person: &mut Person, image: &mut Image, args: &[Value]) -> Result<Reply> {
     if let Some(Value::Int(n)) = args.first() {
-        simulation.tour_step = usize::try_from(*n - 1).unwrap_or(0);
+        person.tour_step = usize::try_from(*n - 1).unwrap_or(0);
     }
-    let text = tour::step_text(simulation.tour_step);
-    simulation.tour_step += 1;
+    let text = tour::step_text(person.tour_step);
+    person.tour_step += 1;
     say(image, &text);
     nothing()
 }
 
-fn inspect(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let text = View::of(simulation, image, &args[0]).text(image);
+fn inspect(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let text = View::of(host, image, &args[0]).text(image);
     say(image, &text);
-    simulation.inspected = Some(args[0].clone());
+    host.person.inspected = Some(args[0].clone());
     nothing()
 }

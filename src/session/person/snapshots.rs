@@ -8,12 +8,10 @@ use std::rc::Rc;
 
 use indexmap::IndexMap;
 
-use super::Simulation;
-use super::held::Held;
-use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
-use crate::plan::designator::perform::MotionsBegun;
+use crate::session::simulation::held::Held;
+use crate::session::simulation::{Axes, Simulation};
 use crate::world;
 
 /// Forms at top level that can be taken back.
@@ -23,11 +21,11 @@ const MOST_MOTIONS: usize = 64;
 
 /// How everything was at one time.
 #[derive(Clone)]
-pub(super) struct Snapshot {
+pub(crate) struct Snapshot {
     world: Rc<world::Snapshot>,
     names: IndexMap<String, Value>,
     held: IndexMap<String, Held>,
-    axes: Option<super::Axes>,
+    axes: Option<Axes>,
 }
 
 /// How everything was before a form at top level.
@@ -40,7 +38,7 @@ struct BeforeForm {
 
 /// All snapshots that are kept.
 #[derive(Default)]
-pub(super) struct Snapshots {
+pub(crate) struct Snapshots {
     /// Before forms that changed the world, and before the last form; newest last.
     forms: VecDeque<BeforeForm>,
     named: IndexMap<String, Snapshot>,
@@ -54,127 +52,126 @@ pub(super) struct Snapshots {
     is_aside: bool,
 }
 
-impl Simulation {
-    /// The world as it is now.
-    pub(super) fn take_snapshot(&self) -> Snapshot {
-        Snapshot {
-            world: Rc::new(self.world.snapshot()),
-            names: self.names.clone(),
-            held: self.held.clone(),
-            axes: self.axes.clone(),
+impl Snapshot {
+    /// Everything as it is now.
+    fn take(simulation: &Simulation) -> Self {
+        Self {
+            world: Rc::new(simulation.world.snapshot()),
+            names: simulation.names.clone(),
+            held: simulation.held.clone(),
+            axes: simulation.axes.clone(),
         }
     }
 
-    fn take_back(&mut self, snapshot: &Snapshot) {
-        self.world.restore(&snapshot.world);
-        self.names.clone_from(&snapshot.names);
-        self.held.clone_from(&snapshot.held);
-        self.axes.clone_from(&snapshot.axes);
-        self.active.clear();
-        self.partial_step = None;
-        self.waiting.clear();
-        self.observe();
+    /// Makes everything as it was; motions under way end.
+    fn restore(&self, simulation: &mut Simulation) {
+        simulation.world.restore(&self.world);
+        simulation.names.clone_from(&self.names);
+        simulation.held.clone_from(&self.held);
+        simulation.axes.clone_from(&self.axes);
+        simulation.jobs.clear();
     }
+}
 
+impl Snapshots {
     /// From here on, also keeps the snapshots before motions.
     pub(crate) fn keep_snapshots_of_motions(&mut self, keeps: bool) {
-        self.snapshots.keeps_motions = keeps;
+        self.keeps_motions = keeps;
     }
 
     /// From here on, what is evaluated is on top of a form that stands still, or not.
     pub(crate) fn set_aside(&mut self, is_aside: bool) {
-        self.snapshots.is_aside = is_aside;
+        self.is_aside = is_aside;
     }
 
     /// A form at top level is about to be evaluated.
-    pub(crate) fn begin_form(&mut self, form: &Value) {
-        self.snapshots.motions.clear();
-        if !self.snapshots.is_touched
-            && let Some(last) = self.snapshots.forms.back_mut()
+    pub(crate) fn begin_form(&mut self, simulation: &Simulation, form: &Value) {
+        self.motions.clear();
+        if !self.is_touched
+            && let Some(last) = self.forms.back_mut()
         {
             last.form = form.clone();
             return;
         }
-        let hash = self.world.hash();
-        if self
-            .snapshots
-            .forms
-            .back()
-            .is_some_and(|last| last.hash == hash)
-        {
-            self.snapshots.forms.pop_back();
+        let hash = simulation.world.hash();
+        if self.forms.back().is_some_and(|last| last.hash == hash) {
+            self.forms.pop_back();
         }
-        if self.snapshots.forms.len() == MOST_FORMS {
-            self.snapshots.forms.pop_front();
+        if self.forms.len() == MOST_FORMS {
+            self.forms.pop_front();
         }
-        self.snapshots.is_touched = false;
+        self.is_touched = false;
         let before = BeforeForm {
             form: form.clone(),
-            snapshot: self.take_snapshot(),
+            snapshot: Snapshot::take(simulation),
             hash,
         };
-        self.snapshots.forms.push_back(before);
+        self.forms.push_back(before);
     }
 
     /// Is the world another one than before the last form at top level?
-    pub(crate) fn has_changed_since_form(&self) -> bool {
-        let last = self.snapshots.forms.back();
-        last.is_some_and(|before| before.hash != self.world.hash())
+    pub(crate) fn has_changed_since_form(&self, simulation: &Simulation) -> bool {
+        let last = self.forms.back();
+        last.is_some_and(|before| before.hash != simulation.world.hash())
     }
 
     /// Takes the world back to before the last form at top level.
-    pub(crate) fn go_back_to_form(&mut self) {
-        let last = self.snapshots.forms.back();
+    pub(crate) fn go_back_to_form(&mut self, simulation: &mut Simulation) {
+        let last = self.forms.back();
         if let Some(snapshot) = last.map(|before| before.snapshot.clone()) {
-            self.take_back(&snapshot);
+            snapshot.restore(simulation);
         }
     }
 
     /// Something is asked of the world.
-    pub(super) fn touch(&mut self) {
-        self.snapshots.is_touched = true;
+    pub(crate) fn touch(&mut self) {
+        self.is_touched = true;
     }
 
     /// The next motion is about to be begun.
-    pub(super) fn begin_motion(&mut self) {
-        if !self.snapshots.keeps_motions {
+    pub(crate) fn begin_motion(&mut self, simulation: &Simulation) {
+        if !self.keeps_motions {
             return;
         }
-        if self.snapshots.motions.len() == MOST_MOTIONS {
-            self.snapshots.motions.pop_front();
+        if self.motions.len() == MOST_MOTIONS {
+            self.motions.pop_front();
         }
-        let snapshot = (self.next_ticket, self.take_snapshot());
-        self.snapshots.motions.push_back(snapshot);
+        let snapshot = (simulation.jobs.begun, Snapshot::take(simulation));
+        self.motions.push_back(snapshot);
     }
 
     /// Can the world be taken back to before the motion of that number?
     pub(crate) fn has_motion_snapshot(&self, motion: u64) -> bool {
-        self.snapshots.motions.iter().any(|(n, _)| *n == motion)
+        self.motions.iter().any(|(n, _)| *n == motion)
     }
 
     /// Takes the world back to before the motion of that number, if that is known.
-    pub(crate) fn go_back_to(&mut self, motion: u64) {
-        let found = self.snapshots.motions.iter().find(|(n, _)| *n == motion);
+    pub(crate) fn go_back_to(&mut self, simulation: &mut Simulation, motion: u64) {
+        let found = self.motions.iter().find(|(n, _)| *n == motion);
         if let Some((_, snapshot)) = found.cloned() {
-            self.take_back(&snapshot);
+            snapshot.restore(simulation);
         }
     }
 
     /// Takes the world back to before the last `count` forms that changed it; returns the
     /// first of them.
-    pub(super) fn rewind(&mut self, count: usize) -> Result<Value, Box<Raise>> {
-        self.check_idle()?;
+    pub(crate) fn rewind(
+        &mut self,
+        simulation: &mut Simulation,
+        count: usize,
+    ) -> Result<Value, Box<Raise>> {
+        check_idle(simulation)?;
         // The last snapshot is the one before the form that rewinds, unless that is typed
         // while another form stands still.
-        let current = if self.snapshots.is_aside {
+        let current = if self.is_aside {
             None
         } else {
-            self.snapshots.forms.pop_back()
+            self.forms.pop_back()
         };
-        let mut hash = Some(self.world.hash());
+        let mut hash = Some(simulation.world.hash());
         let mut changing = 0;
         let mut found = None;
-        for (at, before) in self.snapshots.forms.iter().enumerate().rev() {
+        for (at, before) in self.forms.iter().enumerate().rev() {
             if hash == Some(before.hash) {
                 continue;
             }
@@ -186,38 +183,42 @@ impl Simulation {
             }
         }
         let Some(at) = found else {
-            self.snapshots.forms.extend(current);
+            self.forms.extend(current);
             return Err(Raise::simple(match changing {
                 0 => "Nothing that has been evaluated here changed the world.".to_owned(),
                 n => format!("Only {n} forms that changed the world are remembered."),
             }));
         };
-        let target = self.snapshots.forms.drain(at..).next();
+        let target = self.forms.drain(at..).next();
         let Some(target) = target else {
             return Ok(Value::NIL);
         };
-        self.take_back(&target.snapshot);
+        target.snapshot.restore(simulation);
         self.touch();
         Ok(target.form)
     }
 
     /// Keeps the world as it is under a name.
-    pub(super) fn keep(&mut self, name: &str) {
-        let snapshot = self.take_snapshot();
-        self.snapshots.named.insert(name.to_owned(), snapshot);
+    pub(crate) fn keep(&mut self, simulation: &Simulation, name: &str) {
+        let snapshot = Snapshot::take(simulation);
+        self.named.insert(name.to_owned(), snapshot);
     }
 
     /// Takes the world back to how it was kept under a name.
-    pub(super) fn restore_kept(&mut self, name: &str) -> Result<(), Box<Raise>> {
-        self.check_idle()?;
-        match self.snapshots.named.get(name).cloned() {
+    pub(crate) fn restore_kept(
+        &mut self,
+        simulation: &mut Simulation,
+        name: &str,
+    ) -> Result<(), Box<Raise>> {
+        check_idle(simulation)?;
+        match self.named.get(name).cloned() {
             Some(snapshot) => {
-                self.take_back(&snapshot);
+                snapshot.restore(simulation);
                 self.touch();
                 Ok(())
             }
             None => {
-                let known: Vec<&str> = self.snapshots.named.keys().map(String::as_str).collect();
+                let known: Vec<&str> = self.named.keys().map(String::as_str).collect();
                 let remedy = if known.is_empty() {
                     "there are none: use (snapshot 'name)".to_owned()
                 } else {
@@ -232,21 +233,15 @@ impl Simulation {
 
     /// The names under which the world was kept.
     pub(crate) fn kept_names(&self) -> impl Iterator<Item = &str> {
-        self.snapshots.named.keys().map(String::as_str)
+        self.named.keys().map(String::as_str)
     }
+}
 
-    fn check_idle(&self) -> Result<(), Box<Raise>> {
-        if self.active.is_empty() && self.waiting.is_empty() {
-            return Ok(());
-        }
-        Err(Raise::simple(
-            "The world cannot be taken back while the robot moves.",
-        ))
+fn check_idle(simulation: &Simulation) -> Result<(), Box<Raise>> {
+    if simulation.jobs.is_idle() {
+        return Ok(());
     }
-
-    /// The number of motions that were begun, for the image: what happens later is told
-    /// from what happened before by it.
-    pub(super) fn note_motions(&self, image: &mut Image) {
-        image.extend(MotionsBegun(self.next_ticket));
-    }
+    Err(Raise::simple(
+        "The world cannot be taken back while the robot moves.",
+    ))
 }

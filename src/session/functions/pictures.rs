@@ -2,7 +2,6 @@
 //! the floor as the base knows it.
 
 use std::fs;
-use std::sync::Arc;
 
 use super::picture_request::PictureRequest;
 use crate::lisp::builtin::{Builtin, control};
@@ -15,8 +14,9 @@ use crate::picture::map_picture::add_legend;
 use crate::picture::{CameraPicture, FloorMap, View, camera_picture, map_scene, render};
 use crate::plan::Reply;
 use crate::plan::designator::value::current;
-use crate::session::simulation::Simulation;
-use crate::session::simulation::call::{done, host};
+use crate::session::audience::Audience;
+use crate::session::host::SimulationHost;
+use crate::session::host::call::{done, host};
 use crate::session::simulation::properties::property;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -55,88 +55,51 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-impl Simulation {
-    /// Everything there is to be seen now.
-    pub(crate) fn scene(&self) -> picture::Scene {
-        let mut scene = self.looks().scene(&self.world);
-        if let Some(axes) = self.axes() {
-            scene.add_axes(&axes.pose, axes.size);
-        }
-        scene
-    }
-
-    /// The picture that a view has now.
-    pub(crate) fn picture(
-        &self,
-        view: View,
-        width: usize,
-        height: usize,
-    ) -> std::result::Result<picture::Image, picture::ViewError> {
-        let camera = view.camera(&self.world, width, height)?;
-        Ok(render(&self.scene(), &camera))
-    }
-
-    /// Writes the picture and has it shown to whoever can see it; the reply is the file's name.
-    fn publish(
-        &mut self,
-        picture: picture::Image,
-        file: Option<&str>,
-        usual: &str,
-    ) -> Result<Reply> {
-        let file = file.unwrap_or(usual);
-        let written = picture.to_png().and_then(|png| fs::write(file, png));
-        written.map_err(|error| {
-            let reason = match error.kind() {
-                std::io::ErrorKind::NotFound => "there is no such directory".to_owned(),
-                std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
-                std::io::ErrorKind::IsADirectory => "it is a directory".to_owned(),
-                _ => error.to_string(),
-            };
-            Raise::new(
-                known::FILE_ERROR,
-                format!("The picture cannot be written to \"{file}\": {reason}."),
-            )
-            .with(known::K_PATHNAME, Value::string(file))
-        })?;
-        self.pictures.push(Arc::new(picture));
-        done(Value::string(file))
-    }
-
-    /// The pictures that were made since this was asked last.
-    pub(in crate::session) fn take_pictures(&mut self) -> Vec<Arc<picture::Image>> {
-        std::mem::take(&mut self.pictures)
-    }
-
-    /// The objects that the robot looked for last; all of them, if it has not looked for any.
-    fn sought(&self) -> Vec<String> {
-        let library = &self.models.objects;
-        let is_sought = |object: &&crate::world::Object| match &self.sought {
-            None => true,
-            Some(query) => match &query.name {
-                Some(name) => name == object.name(),
-                None => {
-                    let of_type = |kind: &String| library.is_kind_of(object.type_name(), kind);
-                    query.types.is_empty() || query.types.iter().any(of_type)
-                }
-            },
+/// Writes the picture and has it shown to whoever can see it; the reply is the file's name.
+fn publish(
+    audience: &mut Audience,
+    picture: picture::Image,
+    file: Option<&str>,
+    usual: &str,
+) -> Result<Reply> {
+    let file = file.unwrap_or(usual);
+    let written = picture.to_png().and_then(|png| fs::write(file, png));
+    written.map_err(|error| {
+        let reason = match error.kind() {
+            std::io::ErrorKind::NotFound => "there is no such directory".to_owned(),
+            std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+            std::io::ErrorKind::IsADirectory => "it is a directory".to_owned(),
+            _ => error.to_string(),
         };
-        let sought = self.world.objects().filter(is_sought);
-        sought.map(|object| object.name().to_owned()).collect()
-    }
+        Raise::new(
+            known::FILE_ERROR,
+            format!("The picture cannot be written to \"{file}\": {reason}."),
+        )
+        .with(known::K_PATHNAME, Value::string(file))
+    })?;
+    audience.add_picture(picture);
+    done(Value::string(file))
 }
 
-fn picture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let keys = ["VIEW", "FROM", "AT", "WIDTH", "HEIGHT"];
+    let simulation = &host.simulation;
     let request = PictureRequest::of(image, args, &keys)?;
     let view = request.view(simulation, image)?;
     let width = request.size(image, "WIDTH", WIDTH)?;
     let height = request.size(image, "HEIGHT", HEIGHT)?;
     let picture = simulation.picture(view, width, height);
     let picture = picture.map_err(|error| Raise::simple(format!("{error}.")))?;
-    simulation.publish(picture, request.file.as_deref(), PICTURE)
+    publish(
+        &mut host.audience,
+        picture,
+        request.file.as_deref(),
+        PICTURE,
+    )
 }
 
-fn camera_picture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn camera_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let simulation = &host.simulation;
     let request = PictureRequest::of(image, args, &["OBJECT", "WIDTH"])?;
     let width = request.size(image, "WIDTH", camera_picture::WIDTH)?;
     let sought = match request.get("OBJECT") {
@@ -151,10 +114,16 @@ fn camera_picture(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     for visibility in &shown.sought {
         image.output.write(&format!("{visibility}.\n"));
     }
-    simulation.publish(shown.image, request.file.as_deref(), CAMERA_PICTURE)
+    publish(
+        &mut host.audience,
+        shown.image,
+        request.file.as_deref(),
+        CAMERA_PICTURE,
+    )
 }
 
-fn map_picture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn map_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let simulation = &host.simulation;
     let request = PictureRequest::of(image, args, &["WIDTH", "HEIGHT"])?;
     let width = request.size(image, "WIDTH", WIDTH)?;
     let height = request.size(image, "HEIGHT", HEIGHT)?;
@@ -168,5 +137,10 @@ fn map_picture(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -
     let camera = camera.map_err(|error| Raise::simple(format!("{error}.")))?;
     let mut picture = render(&scene, &camera);
     add_legend(&mut picture);
-    simulation.publish(picture, request.file.as_deref(), MAP_PICTURE)
+    publish(
+        &mut host.audience,
+        picture,
+        request.file.as_deref(),
+        MAP_PICTURE,
+    )
 }

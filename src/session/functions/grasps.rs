@@ -10,7 +10,7 @@ use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 use crate::plan::pose::argument;
-use crate::session::simulation::call::{done, host};
+use crate::session::host::call::{done, host};
 use crate::session::simulation::motions::sides;
 use crate::session::simulation::names::type_text;
 use crate::session::simulation::{LogLevel, Simulation};

@@ -5,8 +5,8 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
+use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
-use crate::session::simulation::call::{done, host};
 
 /// Builtins of package `PLANWRIGHT`.
 pub(crate) static TABLE: &[Builtin] = &[control(

@@ -14,8 +14,9 @@ use crate::motion::{CollisionMode, LetGo, can_reach, take_hold};
 use crate::plan::Reply;
 use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
 use crate::robot::Side;
+use crate::session::host::SimulationHost;
+use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
-use crate::session::simulation::call::{done, host};
 use crate::session::simulation::held::Held;
 use crate::session::simulation::imagined::Imagined;
 use crate::session::simulation::motions::{side, side_keyword};
@@ -122,7 +123,7 @@ const HEADINGS: [f64; 24] = [
 ];
 
 /// An object as perception has described it.
-pub(in crate::session::simulation) struct Perceived {
+pub(crate) struct Perceived {
     /// Its name in the world.
     pub(crate) name: String,
     /// Name of its type.
@@ -133,11 +134,7 @@ pub(in crate::session::simulation) struct Perceived {
 
 impl Simulation {
     /// Reads the designator of a perceived object.
-    pub(in crate::session::simulation) fn perceived(
-        &self,
-        image: &mut Image,
-        object: &Value,
-    ) -> Result<Perceived> {
+    pub(crate) fn perceived(&self, image: &mut Image, object: &Value) -> Result<Perceived> {
         let current = current(object);
         let name = property(image, &current, "NAME");
         let kind = property(image, &current, "TYPE");
@@ -178,7 +175,7 @@ impl Simulation {
     }
 
     /// The definition of a grasp, or an error that lists those there are.
-    pub(in crate::session::simulation) fn grasp(
+    pub(crate) fn grasp(
         &self,
         image: &Image,
         kind: &str,
@@ -214,11 +211,7 @@ impl Simulation {
 
     /// Names of the grasps of a type that are defined for an arm, in the order in which
     /// they are tried.
-    pub(in crate::session::simulation) fn defined_grasps(
-        &self,
-        kind: &str,
-        arm: Side,
-    ) -> Vec<String> {
+    pub(crate) fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
         let kinds = self.models.objects.lineage(kind);
         for kind in kinds {
             let names: Vec<String> = self
@@ -235,12 +228,12 @@ impl Simulation {
         Vec::new()
     }
 
-    pub(in crate::session::simulation) fn grip(&self, kind: &str) -> Grip {
+    pub(crate) fn grip(&self, kind: &str) -> Grip {
         self.grasps.grip(kind)
     }
 
     /// Can the hand be brought to all poses, given in the frame of the base?
-    pub(in crate::session::simulation) fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
+    pub(crate) fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
         let description = &self.models.description;
         let joints = &self.world.robot_configuration().joints;
         let search = description.torso_search(&self.models.robot, joints, arm);
@@ -375,12 +368,12 @@ fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     done(Value::NIL)
 }
 
-fn detach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let name = simulation.object_named(image, &args[0])?;
+fn detach_object(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = host.simulation.object_named(image, &args[0])?;
     let side = side(image, &args[1])?;
     let motion = LetGo::new(side, Some(name));
     let name = "letting-go".to_owned();
-    Ok(Reply::Later(simulation.start(
+    Ok(Reply::Later(host.start(
         Box::new(motion),
         args[0].clone(),
         name,

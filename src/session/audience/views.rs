@@ -1,0 +1,131 @@
+//! The live view, and recordings.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use super::Audience;
+use super::following::FollowerId;
+use super::pace::Pace;
+use crate::lisp::image::Image;
+use crate::session::simulation::Simulation;
+use crate::watch::live::{History, LiveFollower, Origin, PaceControl, Server, Speed, Views};
+use crate::watch::recording::{Recorder, RecordingError, RecordingResult};
+use crate::watch::{Cause, FrameBuilder};
+
+/// A recording that is being made.
+pub(crate) struct OpenRecording {
+    follower: FollowerId,
+    path: PathBuf,
+    result: RecordingResult,
+}
+
+/// The live view while it is open.
+pub(crate) struct LiveView {
+    server: Server,
+    follower: FollowerId,
+    /// Whether time kept pace before.
+    had_pace: bool,
+}
+
+/// Why the session cannot be watched.
+#[derive(Debug, Error)]
+pub(crate) enum WatchError {
+    /// There is no port.
+    #[error("the live view cannot be opened: {0}")]
+    View(io::Error),
+    /// The file cannot be written.
+    #[error("cannot record into {}: {error}", path.display())]
+    Record {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        error: RecordingError,
+    },
+}
+
+impl Audience {
+    /// Opens the live view, unless it is open; returns the page's address.
+    pub(crate) fn open_view(
+        &mut self,
+        simulation: &Simulation,
+        image: &Image,
+    ) -> Result<String, WatchError> {
+        if let Some(view) = &self.view {
+            return Ok(view.server.address());
+        }
+        let had_pace = self.pace.is_some();
+        let pace = self
+            .pace
+            .get_or_insert_with(|| Pace::new(PaceControl::new(Speed::Times(1.0))));
+        let control = pace.control().clone();
+        let history = History::new(Origin::Session);
+        let witness = FrameBuilder::new(&simulation.world);
+        let views = Views::new(&simulation.world, |link| witness.node_named(link));
+        let server =
+            Server::start(history.clone(), Some(control), views).map_err(WatchError::View)?;
+        let address = server.address();
+        let follower = Box::new(LiveFollower::new(history, witness));
+        let follower = self.add_follower(simulation, image, follower);
+        self.view = Some(LiveView {
+            server,
+            follower,
+            had_pace,
+        });
+        Ok(address)
+    }
+
+    /// Closes the live view, if it is open.
+    pub(crate) fn close_view(&mut self) {
+        if let Some(view) = self.view.take() {
+            self.remove_follower(view.follower);
+            if !view.had_pace {
+                self.pace = None;
+            }
+        }
+    }
+
+    /// Records from here on into the file; a recording before ends.
+    pub(crate) fn begin_recording(
+        &mut self,
+        simulation: &Simulation,
+        image: &Image,
+        path: &Path,
+    ) -> Result<(), WatchError> {
+        self.end_recording(simulation)?;
+        let failed = |error| WatchError::Record {
+            path: path.to_owned(),
+            error,
+        };
+        let (recorder, result) = Recorder::create(path, &simulation.world).map_err(failed)?;
+        let follower = self.add_follower(simulation, image, Box::new(recorder));
+        self.recording = Some(OpenRecording {
+            follower,
+            path: path.to_owned(),
+            result,
+        });
+        Ok(())
+    }
+
+    /// Ends the recording, if there is one, and tells what went wrong with it.
+    pub(crate) fn end_recording(&mut self, simulation: &Simulation) -> Result<(), WatchError> {
+        let Some(open) = self.recording.take() else {
+            return Ok(());
+        };
+        self.show(simulation, Cause::Rest);
+        self.remove_follower(open.follower);
+        match open.result.take() {
+            Some(error) => Err(WatchError::Record {
+                path: open.path,
+                error,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// The server of the live view, if it is open.
+    pub(crate) fn view_server(&self) -> Option<&Server> {
+        self.view.as_ref().map(|view| &view.server)
+    }
+}

@@ -1,0 +1,20 @@
+//! The builtins on the world, one table per topic.
+
+mod explaining;
+mod grasps;
+mod leaving;
+mod objects;
+mod picture_request;
+mod pictures;
+mod plans;
+mod prompt;
+mod reaching;
+mod robot_macros;
+mod ros;
+mod snapshots;
+mod tables;
+pub(crate) mod tour;
+mod tutorial;
+mod watching;
+
+pub(super) use tables::install;

@@ -1,0 +1,66 @@
+//! Watching the session: the live view, and recordings.
+
+use std::path::Path;
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::plan::Reply;
+use crate::session::host::SimulationHost;
+use crate::session::host::call::{done, host};
+use crate::watch::live::open_in_browser;
+
+/// Builtins of package `PLANWRIGHT`.
+pub(crate) static TABLE: &[Builtin] = &[
+    control(
+        "VIEW",
+        "&optional (on t)",
+        "Opens the live view in the browser and returns its address; closes it if told NIL. Simulated time passes as fast as the real one while it is open.",
+        &["(pw:view nil) => NIL"],
+        host!(view),
+    ),
+    control(
+        "RECORD",
+        "file",
+        "Records from here on what happens into an MCAP file, which Foxglove and `planwright view` show; ends the recording if told NIL.",
+        &["(pw:record nil) => NIL"],
+        host!(record),
+    ),
+];
+
+fn view(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply, Box<Raise>> {
+    if args.first().is_some_and(Value::is_nil) {
+        host.audience.close_view();
+        return done(Value::NIL);
+    }
+    let was_open = host.audience.view_server().is_some();
+    let address = host
+        .audience
+        .open_view(&host.simulation, image)
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    if !was_open {
+        open_in_browser(&address);
+    }
+    done(Value::string(address))
+}
+
+fn record(
+    host: &mut SimulationHost,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply, Box<Raise>> {
+    let SimulationHost {
+        simulation,
+        audience,
+        ..
+    } = host;
+    let told = match &args[0] {
+        Value::Str(name) => audience.begin_recording(simulation, image, Path::new(&name.text())),
+        nothing if nothing.is_nil() => audience.end_recording(simulation),
+        other => return Err(Raise::type_error(other, known::STRING)),
+    };
+    told.map_err(|error| Raise::simple(format!("{error}.")))?;
+    done(args[0].clone())
+}

@@ -1,0 +1,212 @@
+//! Carrying out requests of tasks, and advancing the world while all tasks wait.
+
+use std::any::Any;
+
+use super::call::HostCall;
+use super::{SimulationHost, note_motions};
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
+use crate::motion::{Motion, MotionStatus};
+use crate::plan::designator::MotionRequest;
+use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
+use crate::session::simulation::jobs::Completion;
+use crate::watch::{Cause, TaskState};
+use crate::world::physics::STEP_SECONDS;
+
+impl Host for SimulationHost {
+    fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply {
+        self.asking = task;
+        self.person.snapshots.touch();
+        let reply = self.reply(image, request);
+        note_motions(&self.simulation, image);
+        reply
+    }
+
+    fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance {
+        self.advance_watched(image, now, until, &mut |_| {})
+    }
+
+    fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
+        let mut steps = 0u32;
+        self.simulation.now = now;
+        // A world at rest need not be stepped.
+        while self.simulation.now < until && !self.simulation.world.is_at_rest() {
+            if image.is_interrupted() {
+                return self.simulation.now;
+            }
+            self.step(image);
+            steps += 1;
+            self.simulation.now = now + f64::from(steps) * STEP_SECONDS;
+        }
+        while self.simulation.now < until
+            && let Some(pace) = &mut self.audience.pace
+            && let Some(slice) = pace.slice()
+        {
+            let slice = slice.min(until - self.simulation.now);
+            pace.wait(slice, &image.interrupt);
+            if image.is_interrupted() {
+                return self.simulation.now;
+            }
+            self.simulation.now += slice;
+            self.audience.show(&self.simulation, Cause::Wait);
+        }
+        self.simulation.now = until;
+        self.audience.show(&self.simulation, Cause::Step);
+        until
+    }
+
+    fn cancel(&mut self, _: &mut Image, ticket: Ticket) {
+        if let Some(job) = self.simulation.jobs.cancel(ticket) {
+            let now = self.simulation.now;
+            self.audience
+                .tell_motion(now, &job, TaskState::Evaporated, "");
+        }
+    }
+
+    fn pause(&mut self, _: &mut Image, ticket: Ticket) {
+        self.simulation.jobs.set_paused(ticket, true);
+    }
+
+    fn wake(&mut self, _: &mut Image, ticket: Ticket) {
+        self.simulation.jobs.set_paused(ticket, false);
+    }
+}
+
+impl SimulationHost {
+    /// As [`Host::advance`]; `watch` is called after every step.
+    pub(in crate::session) fn advance_watched(
+        &mut self,
+        image: &mut Image,
+        now: f64,
+        until: Option<f64>,
+        watch: &mut dyn FnMut(&SimulationHost),
+    ) -> Advance {
+        self.simulation.now = now;
+        let mut done = Vec::new();
+        let mut steps = 0u32;
+        while done.is_empty()
+            && until.is_none_or(|until| self.simulation.now < until)
+            && !image.is_interrupted()
+        {
+            self.simulation.jobs.admit_waiting();
+            if !self.tick(image, &mut done) {
+                break;
+            }
+            self.step(image);
+            steps += 1;
+            self.simulation.now = now + f64::from(steps) * STEP_SECONDS;
+            watch(self);
+        }
+        Advance {
+            now: self.simulation.now,
+            done,
+        }
+    }
+
+    /// What the robot is doing, how far that is, and the simulated time, on one line.
+    pub(in crate::session) fn progress(&self) -> String {
+        let mut parts: Vec<String> = self.simulation.jobs.progress().collect();
+        parts.push(format!("{:.1} s", self.simulation.now));
+        format!("… {}", parts.join(" · "))
+    }
+
+    /// The reply to a request.
+    fn reply(&mut self, image: &mut Image, request: Box<dyn Any>) -> Reply {
+        let request = match request.downcast::<HostCall>() {
+            Ok(call) => {
+                let reply = (call.call)(self, image, &call.args);
+                self.audience.show(&self.simulation, Cause::Edit);
+                return reply.unwrap_or_else(|raise| Reply::Now(Err(raise)));
+            }
+            Err(request) => request,
+        };
+        match request.downcast::<MotionRequest>() {
+            Ok(request) => match self.simulation.motion_for(image, &request) {
+                Ok((motion, subject)) => {
+                    // The task is told before what it does.
+                    self.audience.tell_tasks(image);
+                    let name = request.motion_type.to_lowercase();
+                    Reply::Later(self.start(motion, subject, name))
+                }
+                Err(raise) => Reply::Now(Err(raise)),
+            },
+            Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
+        }
+    }
+
+    /// Starts a motion as soon as its process module is free.
+    pub(crate) fn start(
+        &mut self,
+        motion: Box<dyn Motion>,
+        subject: Value,
+        name: String,
+    ) -> Ticket {
+        let simulation = &mut self.simulation;
+        self.person.snapshots.begin_motion(simulation);
+        let now = simulation.now;
+        let job = simulation.jobs.add(motion, subject, self.asking, name);
+        self.audience.tell_motion(now, job, TaskState::Running, "");
+        job.ticket
+    }
+
+    /// Lets the motions set the robot's joints for the next step. When an interrupt comes
+    /// before one of them plans, or while it does, the rest is left for later: false.
+    fn tick(&mut self, image: &mut Image, completions: &mut Vec<Completion>) -> bool {
+        let simulation = &mut self.simulation;
+        let now = simulation.now;
+        let mut partial_step = simulation.jobs.partial_step.take().unwrap_or_default();
+        let mut jobs = std::mem::take(&mut simulation.jobs.active);
+        let mut is_whole = true;
+        for job in &mut jobs {
+            if job.is_paused || partial_step.ticked.contains(&job.ticket) {
+                continue;
+            }
+            let Some(status) = job.tick(image, &mut simulation.world) else {
+                is_whole = false;
+                break;
+            };
+            partial_step.ticked.push(job.ticket);
+            let result = match status {
+                MotionStatus::Running => continue,
+                MotionStatus::Done(outcome) => {
+                    self.audience
+                        .tell_motion(now, job, TaskState::Succeeded, "");
+                    Ok(simulation.outcome(image, &outcome, &job.subject))
+                }
+                MotionStatus::Failed(failure) => {
+                    let report = failure.to_string();
+                    self.audience
+                        .tell_motion(now, job, TaskState::Failed, &report);
+                    if let Some(hit) = failure.hit() {
+                        self.audience.tell_collision(now, hit);
+                    }
+                    Err(simulation.failure(image, &failure, &job.subject))
+                }
+            };
+            partial_step.completions.push((job.ticket, result));
+        }
+        jobs.append(&mut simulation.jobs.active);
+        simulation.jobs.active = jobs;
+        if !is_whole {
+            simulation.jobs.partial_step = Some(partial_step);
+            return false;
+        }
+        let mut ended = partial_step.completions;
+        let has_ended = |ticket: Ticket| ended.iter().any(|(t, _)| *t == ticket);
+        simulation.jobs.active.retain(|job| !has_ended(job.ticket));
+        completions.append(&mut ended);
+        true
+    }
+
+    fn step(&mut self, image: &Image) {
+        let simulation = &mut self.simulation;
+        simulation.world.step();
+        self.audience.observe(simulation);
+        self.audience.film(simulation);
+        self.audience.show(simulation, Cause::Step);
+        if let Some(pace) = &mut self.audience.pace {
+            pace.wait(STEP_SECONDS, &image.interrupt);
+        }
+    }
+}

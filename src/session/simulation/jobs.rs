@@ -1,0 +1,167 @@
+//! Motions under way, and those that wait for the part of the robot that they need.
+
+use std::collections::VecDeque;
+
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
+use crate::motion::interruption::interruptible;
+use crate::motion::{Motion, MotionStatus, PlannedTrajectory, ProcessModule};
+use crate::plan::{TaskId, Ticket};
+use crate::world::World;
+
+/// A motion that a task waits for.
+pub(crate) struct Job {
+    pub(crate) ticket: Ticket,
+    module: ProcessModule,
+    motion: Box<dyn Motion>,
+    /// The designator that failures name.
+    pub(crate) subject: Value,
+    /// The task that waits.
+    pub(crate) task: TaskId,
+    /// What kind of motion it is, for people.
+    pub(crate) name: String,
+    pub(crate) is_paused: bool,
+}
+
+/// All motions.
+#[derive(Default)]
+pub(crate) struct Jobs {
+    /// Those under way, in order of their start.
+    pub(crate) active: Vec<Job>,
+    /// Those that wait for a process module, in order.
+    waiting: VecDeque<Job>,
+    /// What has been done for the step to come, when an interrupt came between.
+    pub(crate) partial_step: Option<PartialStep>,
+    /// How many have been begun.
+    pub(crate) begun: u64,
+}
+
+/// A step of the world to come: what motions have done for it so far.
+#[derive(Default)]
+pub(crate) struct PartialStep {
+    /// Motions that have set their joints.
+    pub(crate) ticked: Vec<Ticket>,
+    /// What has ended by that.
+    pub(crate) completions: Vec<Completion>,
+}
+
+/// How a motion has ended.
+pub(crate) type Completion = (Ticket, Result<Value, Box<Raise>>);
+
+impl Job {
+    /// Lets the motion set joints; none if an interrupt came before or while it planned. It
+    /// is then as it was.
+    pub(crate) fn tick(&mut self, image: &Image, world: &mut World) -> Option<MotionStatus> {
+        let Some(before) = self.motion.before_planning() else {
+            return Some(self.motion.tick(world));
+        };
+        if image.is_interrupted() {
+            return None;
+        }
+        let status = interruptible(&image.interrupt, || self.motion.tick(world));
+        if status.is_none() {
+            self.motion = before;
+            image.polls.seen_since_last();
+        }
+        status
+    }
+}
+
+impl Jobs {
+    /// A motion that begins as soon as its process module is free.
+    pub(crate) fn add(
+        &mut self,
+        motion: Box<dyn Motion>,
+        subject: Value,
+        task: TaskId,
+        name: String,
+    ) -> &Job {
+        self.begun += 1;
+        self.waiting.push_back(Job {
+            ticket: Ticket(self.begun),
+            module: motion.module(),
+            motion,
+            subject,
+            task,
+            name,
+            is_paused: false,
+        });
+        // It has just been added.
+        &self.waiting[self.waiting.len() - 1]
+    }
+
+    /// Begins the motions whose process modules are free.
+    pub(crate) fn admit_waiting(&mut self) {
+        if self.partial_step.is_some() {
+            return;
+        }
+        let mut still_waiting = VecDeque::new();
+        while let Some(job) = self.waiting.pop_front() {
+            let is_busy = |other: &Job| other.module == job.module;
+            if self.active.iter().any(is_busy) || still_waiting.iter().any(is_busy) {
+                still_waiting.push_back(job);
+            } else {
+                self.active.push(job);
+            }
+        }
+        self.waiting = still_waiting;
+    }
+
+    /// Ends a motion and takes it out.
+    pub(crate) fn cancel(&mut self, ticket: Ticket) -> Option<Job> {
+        let is_it = |job: &Job| job.ticket == ticket;
+        let mut cancelled = match self.active.iter().position(is_it) {
+            Some(place) => Some(self.active.remove(place)),
+            None => {
+                let place = self.waiting.iter().position(is_it);
+                place.and_then(|place| self.waiting.remove(place))
+            }
+        };
+        if let Some(job) = &mut cancelled {
+            job.motion.cancel();
+        }
+        if self.active.is_empty() {
+            self.partial_step = None;
+        }
+        cancelled
+    }
+
+    /// Holds a motion, or lets it go on.
+    pub(crate) fn set_paused(&mut self, ticket: Ticket, paused: bool) {
+        for job in self.active.iter_mut().chain(&mut self.waiting) {
+            if job.ticket == ticket {
+                job.is_paused = paused;
+            }
+        }
+    }
+
+    /// Whether no motion is under way, nor waits.
+    pub(crate) fn is_idle(&self) -> bool {
+        self.active.is_empty() && self.waiting.is_empty()
+    }
+
+    /// Forgets all motions.
+    pub(crate) fn clear(&mut self) {
+        self.active.clear();
+        self.partial_step = None;
+        self.waiting.clear();
+    }
+
+    /// The trajectories that motions follow, with the motions' numbers.
+    pub(crate) fn trajectories(&self) -> Vec<(u64, PlannedTrajectory<'_>)> {
+        let jobs = self.active.iter();
+        jobs.filter_map(|job| Some((job.ticket.0, job.motion.planned()?)))
+            .collect()
+    }
+
+    /// What the motions are doing and how far they are, one text for each.
+    pub(crate) fn progress(&self) -> impl Iterator<Item = String> {
+        let jobs = self.active.iter().filter(|job| !job.is_paused);
+        jobs.map(|job| {
+            let progress = job.motion.progress();
+            let percent = (progress.fraction * 100.0).clamp(0.0, 100.0);
+            format!("{} {percent:.0} %", progress.what)
+        })
+    }
+}

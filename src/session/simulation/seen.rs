@@ -1,0 +1,43 @@
+//! What there is to be seen, and what the robot looked for.
+
+use super::Simulation;
+use crate::picture::{self, View, render};
+
+impl Simulation {
+    /// Everything there is to be seen now.
+    pub(crate) fn scene(&self) -> picture::Scene {
+        let mut scene = self.looks().scene(&self.world);
+        if let Some(axes) = self.axes() {
+            scene.add_axes(&axes.pose, axes.size);
+        }
+        scene
+    }
+
+    /// The picture that a view has now.
+    pub(crate) fn picture(
+        &self,
+        view: View,
+        width: usize,
+        height: usize,
+    ) -> Result<picture::Image, picture::ViewError> {
+        let camera = view.camera(&self.world, width, height)?;
+        Ok(render(&self.scene(), &camera))
+    }
+
+    /// The objects that the robot looked for last; all of them, if it has not looked for any.
+    pub(in crate::session) fn sought(&self) -> Vec<String> {
+        let library = &self.models.objects;
+        let is_sought = |object: &&crate::world::Object| match &self.sought {
+            None => true,
+            Some(query) => match &query.name {
+                Some(name) => name == object.name(),
+                None => {
+                    let of_type = |kind: &String| library.is_kind_of(object.type_name(), kind);
+                    query.types.is_empty() || query.types.iter().any(of_type)
+                }
+            },
+        };
+        let sought = self.world.objects().filter(is_sought);
+        sought.map(|object| object.name().to_owned()).collect()
+    }
+}
