@@ -3,7 +3,10 @@
 use thiserror::Error;
 
 use super::simulation::LogLevel;
-use crate::robot::{KITCHEN_URDF, KinematicTree, PR2_DESCRIPTION, PR2_URDF, RobotDescription};
+use crate::robot::{
+    KITCHEN_URDF, KinematicTree, MissingNames, PR2_DESCRIPTION, PR2_URDF, RobotDescription,
+};
+use crate::sexp::DataError;
 use crate::world::Models;
 use crate::world::object_library::{OBJECTS, ObjectLibrary};
 
@@ -14,6 +17,9 @@ pub struct SessionOptions {
     pub seed: u64,
     /// Name and text of a URDF in place of the built-in robot's.
     pub robot: Option<(String, String)>,
+    /// Name and text of a description in place of the built-in robot's: what the links and
+    /// joints are for.
+    pub robot_description: Option<(String, String)>,
     /// Name and text of a URDF in place of the built-in kitchen's.
     pub world: Option<(String, String)>,
     /// Least severe log lines that are shown.
@@ -27,6 +33,7 @@ impl Default for SessionOptions {
         SessionOptions {
             seed: 0,
             robot: None,
+            robot_description: None,
             world: None,
             log_level: LogLevel::Info,
             realtime: None,
@@ -40,6 +47,18 @@ pub enum SessionError {
     /// A description of the robot, the kitchen or the objects is wrong.
     #[error("{0}")]
     Models(String),
+    /// A robot was given without a description, and the built-in one is not for it.
+    #[error(
+        "{robot} lacks {missing}, which the built-in description of the PR2 names: say with \
+         --robot-description FILE which links and joints are the base, the torso lift, the neck, \
+         a camera, two arms of seven joints and their grippers"
+    )]
+    Undescribed {
+        /// The robot's file.
+        robot: String,
+        /// What it lacks.
+        missing: String,
+    },
     /// A built-in plan is wrong.
     #[error("the built-in plan {name} cannot be loaded: {report}")]
     Plan {
@@ -62,10 +81,28 @@ impl SessionOptions {
         };
         let robot = tree(&self.robot, PR2_URDF, "pr2.urdf")?;
         let kitchen = tree(&self.world, KITCHEN_URDF, "kitchen.urdf")?;
-        let description = RobotDescription::from_sexp(PR2_DESCRIPTION, "pr2.sexp", &robot)
-            .map_err(|e| SessionError::Models(e.to_string()))?;
+        let description = self.description(&robot)?;
         let objects = ObjectLibrary::from_sexp(OBJECTS, "objects.sexp")
             .map_err(|e| SessionError::Models(e.to_string()))?;
         Ok(Models::new(robot, description, kitchen, objects))
+    }
+
+    /// Reads what the robot's links and joints are for.
+    fn description(&self, robot: &KinematicTree) -> Result<RobotDescription, SessionError> {
+        let wrong = |error: DataError| SessionError::Models(error.to_string());
+        if let Some((name, text)) = &self.robot_description {
+            return RobotDescription::from_sexp(text, name, robot).map_err(wrong);
+        }
+        let name = "pr2.sexp";
+        if let Some((file, _)) = &self.robot {
+            let missing = MissingNames::of(PR2_DESCRIPTION, name, robot).map_err(wrong)?;
+            if !missing.is_empty() {
+                return Err(SessionError::Undescribed {
+                    robot: file.clone(),
+                    missing: missing.to_string(),
+                });
+            }
+        }
+        RobotDescription::from_sexp(PR2_DESCRIPTION, name, robot).map_err(wrong)
     }
 }

@@ -1,6 +1,7 @@
 //! The description of the robot and its kinematics.
 
 mod description;
+mod fit;
 mod forward_kinematics;
 mod garbled_files;
 mod inverse_kinematics;

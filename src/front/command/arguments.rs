@@ -56,6 +56,10 @@ pub(crate) struct Options {
     /// Robot to load (a URDF file) instead of the built-in PR2
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) robot: Option<PathBuf>,
+    /// What the robot's links and joints are for (in the form of world/pr2.sexp), for a robot
+    /// whose names are not those of the built-in PR2
+    #[arg(long, global = true, value_name = "FILE")]
+    pub(crate) robot_description: Option<PathBuf>,
     /// Least severe log messages to show
     #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
     pub(crate) log_level: LogLevel,

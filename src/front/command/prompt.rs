@@ -25,6 +25,7 @@ pub(crate) fn prompt(
         options.seed = beginning.seed;
         options.world = beginning.world;
         options.robot = beginning.robot;
+        options.robot_description = beginning.robot_description;
     }
     let journal = journal(&options, wanted, earlier.as_ref());
     let mut session = open_session(&options)?;
@@ -55,6 +56,7 @@ fn journal(
         seed: options.seed,
         world: options.world.clone(),
         robot: options.robot.clone(),
+        robot_description: options.robot_description.clone(),
     };
     match &wanted.journal {
         Some(path) => Journal::create(path, &beginning).ok(),

@@ -2,10 +2,10 @@
 //! however it ended.
 //!
 //! Each record is a line: a word, a blank, and a text in which `\n` stands for a line break and
-//! `\\` for a backslash. `seed`, `world` and `robot` say how the session began; `input` is an
-//! input, `pasted` an input that conditions do not stop, and `interrupted` says where the input
-//! before it was interrupted. Replaying a journal leads to the same state, because nothing else
-//! has an effect.
+//! `\\` for a backslash. `seed`, `world`, `robot` and `robot-description` say how the session
+//! began; `input` is an input, `pasted` an input that conditions do not stop, and `interrupted`
+//! says where the input before it was interrupted. Replaying a journal leads to the same state,
+//! because nothing else has an effect.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -30,6 +30,8 @@ pub(crate) struct Beginning {
     pub(crate) world: Option<PathBuf>,
     /// The robot used instead of the built-in one.
     pub(crate) robot: Option<PathBuf>,
+    /// What that robot's links and joints are for.
+    pub(crate) robot_description: Option<PathBuf>,
 }
 
 /// An input of an earlier session.
@@ -108,6 +110,9 @@ impl Earlier {
                 "seed" => earlier.beginning.seed = value.parse().ok()?,
                 "world" => earlier.beginning.world = Some(value.into()),
                 "robot" => earlier.beginning.robot = Some(value.into()),
+                "robot-description" => {
+                    earlier.beginning.robot_description = Some(value.into());
+                }
                 "input" | "pasted" => earlier.inputs.push(Recorded {
                     text: value,
                     interrupted_at: None,
@@ -145,7 +150,11 @@ impl Journal {
     pub(crate) fn create(path: &Path, beginning: &Beginning) -> io::Result<Journal> {
         let mut text = format!("{FIRST_LINE}\n");
         text.push_str(&record("seed", &beginning.seed.to_string()));
-        for (word, file) in [("world", &beginning.world), ("robot", &beginning.robot)] {
+        for (word, file) in [
+            ("world", &beginning.world),
+            ("robot", &beginning.robot),
+            ("robot-description", &beginning.robot_description),
+        ] {
             if let Some(file) = file {
                 text.push_str(&record(word, &file.to_string_lossy()));
             }
@@ -253,6 +262,7 @@ mod tests {
             seed: 7,
             world: Some("a b.urdf".into()),
             robot: None,
+            robot_description: None,
         };
         let mut journal = Journal::create(&path, &beginning).unwrap();
         journal.input("(a\n \"\\n\")", true).unwrap();

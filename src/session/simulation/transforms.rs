@@ -28,6 +28,10 @@ impl Simulation {
         if let Some(link) = self.models.kitchen.link_named(name) {
             return Ok(self.world.furniture_pose(link));
         }
+        // What a robot calls the root of its links does not matter.
+        if name == BASE {
+            return Ok(self.base());
+        }
         let object = name.to_uppercase().replace('_', "-");
         if let Ok(pose) = self.world.object_pose(&object) {
             return Ok(pose);
