@@ -151,11 +151,6 @@ impl Trajectory {
         self.duration
     }
 
-    /// Number of axes.
-    pub(crate) fn axis_count(&self) -> usize {
-        self.first.len()
-    }
-
     /// The point where the motion ends.
     pub(crate) fn last(&self) -> &[f64] {
         &self.last
@@ -173,6 +168,7 @@ impl Trajectory {
     }
 
     /// Velocities `t` seconds after the start; zero outside of the motion.
+    #[cfg(test)]
     pub(crate) fn velocity(&self, t: f64) -> Vec<f64> {
         let zero = vec![0.0; self.first.len()];
         if t <= 0.0 || t >= self.duration {
@@ -224,6 +220,7 @@ fn longest_ramp(speeds: &[Vec<f64>], limits: &[AxisGroup], corners: Corners) -> 
 }
 
 /// A unit step at 0, averaged over both windows: the integral of the averaged impulse.
+#[cfg(test)]
 fn step_integral(t: f64, [a, b]: [f64; 2]) -> f64 {
     if t >= a + b {
         return 1.0;

@@ -6,7 +6,6 @@
 
 pub(crate) mod arm_chain;
 pub(crate) mod arm_kinematics;
-pub(crate) use crate::closest_name;
 pub(crate) mod description;
 mod description_file;
 mod elbow_curve;
@@ -23,14 +22,13 @@ pub(crate) mod urdf_error;
 mod urdf_schema;
 mod xml_elements;
 
-pub(crate) use arm_chain::{ARM_JOINTS, ArmChainError, ArmPositions};
+pub(crate) use arm_chain::{ARM_JOINTS, ArmPositions};
 pub(crate) use arm_kinematics::ArmKinematics;
 pub(crate) use description::RobotDescription;
 pub(crate) use fit::MissingNames;
 pub(crate) use joint_positions::JointPositions;
 pub use side::Side;
-pub(crate) use torso_search::{Reach, TorsoSearch};
-pub(crate) use tree::{Joint, JointId, JointKind, KinematicTree, Limits, Link, LinkId, Mimic};
+pub(crate) use tree::{Joint, JointId, JointKind, KinematicTree, Limits, Link, LinkId};
 pub(crate) use unreachable::{LimitViolation, Unreachable};
 pub(crate) use urdf_error::UrdfError;
 

@@ -81,12 +81,6 @@ impl<'a> TorsoSearch<'a> {
         }
     }
 
-    /// Starts from other joint positions (rad) of the arm than the current ones.
-    pub(crate) fn with_seed(mut self, seed: ArmPositions) -> Self {
-        self.seed = seed;
-        self
-    }
-
     /// The pose of the wrist in the frame of the arm's base, when the torso is at `height`
     /// (m) and the wrist is at `wrist` in the robot's frame on the floor.
     pub(crate) fn in_arm_base(&self, wrist: &Pose, height: f64) -> Pose {

@@ -7,7 +7,6 @@
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
 use super::JointPositions;
-use crate::closest_name::closest_name;
 use crate::spatial::{PlacedShape, Pose, trig};
 
 /// A link of one [`KinematicTree`].
@@ -229,13 +228,6 @@ impl KinematicTree {
     /// The joint of that name.
     pub(crate) fn joint_named(&self, name: &str) -> Option<JointId> {
         self.joints.iter().position(|j| j.name == name).map(JointId)
-    }
-
-    /// The link or joint name that is nearest to a mistyped one.
-    pub(crate) fn closest_name(&self, wanted: &str) -> Option<&str> {
-        let links = self.links.iter().map(|l| l.name.as_str());
-        let joints = self.joints.iter().map(|j| j.name.as_str());
-        closest_name(wanted, links.chain(joints))
     }
 
     /// The joints from the link up to the root, nearest first.

@@ -90,6 +90,7 @@ impl Session {
     }
 
     /// The examples of everything in the tables, with their names, in order of installation.
+    #[cfg(test)]
     pub(crate) fn examples(&self) -> Vec<(String, &'static str)> {
         let image = &self.image;
         let entries = image.entries.iter();

@@ -37,18 +37,6 @@ impl AllowedPairs {
         self
     }
 
-    /// Whether the two may touch.
-    pub(crate) fn allow(&self, a: &BodyName, b: &BodyName) -> bool {
-        self.pairs
-            .iter()
-            .any(|(x, y)| (x == a && y == b) || (x == b && y == a))
-    }
-
-    /// Whether no pair is allowed.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.pairs.is_empty()
-    }
-
     /// All pairs, as they were added.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &(BodyName, BodyName)> {
         self.pairs.iter()

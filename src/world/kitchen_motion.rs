@@ -6,18 +6,13 @@ use super::error::WorldError;
 use super::obstacles::Obstacles;
 use super::scene::{World, pose_of};
 use crate::closest_name::closest_name;
-use crate::robot::{JointId, JointPositions, KinematicTree, LinkId};
+use crate::robot::{JointId, KinematicTree, LinkId};
 use crate::spatial::Pose;
 
 impl World {
     /// Pose of a link of the kitchen in the map frame.
     pub(crate) fn furniture_pose(&self, link: LinkId) -> Pose {
         pose_of(&self.state.kitchen_poses, link)
-    }
-
-    /// Positions of all joints of the kitchen (rad or m).
-    pub(crate) fn kitchen_joints(&self) -> &JointPositions {
-        &self.state.kitchen
     }
 
     /// Position of a joint of the kitchen (rad or m).
@@ -28,6 +23,7 @@ impl World {
 
     /// Makes a drawer or door move to the position (rad or m) during the next step, taking
     /// along what is in it. The position is brought into the joint's limits and returned.
+    #[cfg(test)]
     pub(crate) fn set_kitchen_joint(
         &mut self,
         name: &str,

@@ -22,6 +22,7 @@ pub(crate) mod object;
 pub(crate) mod object_library;
 mod obstacles;
 pub(crate) mod part_key;
+#[cfg(test)]
 mod penetration;
 pub(crate) mod physics;
 pub(crate) mod robot_configuration;
@@ -34,16 +35,15 @@ mod solid;
 pub(crate) mod spawn;
 
 pub(crate) use allowed_pairs::AllowedPairs;
-pub(crate) use body_name::{BodyName, LinkName};
-pub(crate) use collision::{Clearance, CollisionChecker, CollisionHit};
-pub(crate) use contacts::{ContactForce, WeldError};
+pub(crate) use body_name::BodyName;
+pub(crate) use collision::{CollisionChecker, CollisionHit};
+pub(crate) use contacts::ContactForce;
 pub(crate) use error::WorldError;
-pub(crate) use models::{Models, ModelsError};
-pub(crate) use object::{Attachment, Object};
-pub(crate) use object_library::{ObjectLibrary, ObjectType};
+pub(crate) use models::Models;
+pub(crate) use object::Object;
 pub(crate) use part_key::PartKey;
 pub(crate) use robot_configuration::RobotConfiguration;
 pub(crate) use scene::World;
-pub(crate) use scene_shapes::SceneShape;
 pub(crate) use snapshot::Snapshot;
+#[cfg(test)]
 pub(crate) use spawn::SpawnReport;

@@ -26,7 +26,6 @@ pub(crate) struct Object {
     pub(crate) name: String,
     pub(crate) type_name: String,
     pub(crate) color: [f32; 4],
-    pub(crate) mass: f64,
     pub(crate) shapes: Arc<[PlacedShape]>,
     pub(crate) solids: Arc<[Solid]>,
     pub(crate) bounds: Aabb,
@@ -49,11 +48,6 @@ impl Object {
     /// Colour, red green blue alpha in 0..1.
     pub(crate) fn color(&self) -> [f32; 4] {
         self.color
-    }
-
-    /// Mass (kg).
-    pub(crate) fn mass(&self) -> f64 {
-        self.mass
     }
 
     /// Its shapes in its own frame.

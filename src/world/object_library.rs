@@ -104,12 +104,6 @@ impl ObjectLibrary {
         self.lineage(name).any(|n| n == other)
     }
 
-    /// The direct kinds of a type, in the order of the file.
-    pub(crate) fn kinds<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
-        let kinds = self.kind_of.iter().filter(move |(_, of)| *of == name);
-        kinds.map(|(kind, _)| kind.as_str())
-    }
-
     fn add_kinds(&mut self, record: &Record<'_>) -> Result<(), DataError> {
         let Some((of, kinds)) = record.things().split_first() else {
             return Err(record.node().expected("(kinds type kind …)"));

@@ -54,9 +54,4 @@ impl World {
     pub(crate) fn link_pose(&self, link: LinkId) -> Pose {
         pose_of(&self.state.robot_poses, link)
     }
-
-    /// Poses of all links of the robot in the map frame, at [`LinkId::index`].
-    pub(crate) fn link_poses(&self) -> &[Pose] {
-        &self.state.robot_poses
-    }
 }

@@ -198,6 +198,7 @@ impl World {
     }
 
     /// Simulated time since the world began (s).
+    #[cfg(test)]
     pub(crate) fn time(&self) -> f64 {
         // Exact for any number of steps that can be simulated.
         self.state.steps as f64 * STEP_SECONDS

@@ -14,8 +14,6 @@ pub(crate) struct SceneShape<'w> {
     pub(crate) shape: &'w Shape,
     /// Pose of the solid's frame in the map frame.
     pub(crate) pose: Pose,
-    /// Colour, red green blue alpha in 0..1, when it has one of its own.
-    pub(crate) color: Option<[f32; 4]>,
 }
 
 impl World {
@@ -41,7 +39,6 @@ impl World {
                 key: object.key(),
                 shape: &placed.shape,
                 pose: pose * placed.pose,
-                color: placed.color.or(Some(object.color)),
             }));
         }
         found
@@ -63,7 +60,6 @@ fn add_tree<'w>(
                     key,
                     shape: &placed.shape,
                     pose: pose * placed.pose,
-                    color: placed.color,
                 }),
         );
     }

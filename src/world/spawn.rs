@@ -151,7 +151,6 @@ impl World {
                 name: name.to_owned(),
                 type_name: kind.name.clone(),
                 color: kind.color,
-                mass,
                 shapes: Arc::from(kind.shapes.as_slice()),
                 solids: Arc::from(solids),
                 bounds,
