@@ -211,44 +211,6 @@ fn hash_alist(_: &mut Image, args: &[Value]) -> Outcome {
     ))
 }
 
-/// `(with-hash-table-iterator (name table) body…)`.
-fn with_iterator(image: &mut Image, form: &Value) -> Outcome {
-    let wrong = || {
-        Raise::program(
-            "WITH-HASH-TABLE-ITERATOR is written (WITH-HASH-TABLE-ITERATOR (NAME TABLE) BODY...).",
-        )
-    };
-    let mut parts = form.iter_list().skip(1);
-    let binding = parts.next().and_then(|b| b.list_to_vec());
-    let Some([name, table]) = binding.as_deref() else {
-        return Err(wrong());
-    };
-    let body: Vec<Value> = parts.collect();
-    let start = Value::list([known::HASH_ITERATOR.into(), table.clone()]);
-    Ok(iterator_form(image, name, start, body))
-}
-
-/// Binds the state of an iterator, and a local macro that takes its next entry.
-pub(crate) fn iterator_form(
-    image: &mut Image,
-    name: &Value,
-    start: Value,
-    body: Vec<Value>,
-) -> Value {
-    let state: Value = image.gensym("ITERATOR").into();
-    let next = Value::list([known::ITERATOR_NEXT.into(), state.clone()]);
-    let macro_body = Value::list([known::QUOTE.into(), next]);
-    let definition = Value::list([name.clone(), Value::NIL, macro_body]);
-    Value::list([
-        known::LET.into(),
-        Value::list([Value::list([state, start])]),
-        Value::list_with_tail(
-            [known::MACROLET.into(), Value::list([definition])],
-            Value::list(body),
-        ),
-    ])
-}
-
 /// Hash tables.
 pub(crate) static TABLE: &[Builtin] = &[
     pure(
@@ -412,13 +374,3 @@ pub(crate) static SETTERS: &[Builtin] = &[pure(
     set_gethash,
 )];
 
-/// Macros over hash tables.
-pub(crate) static OPERATORS: &[Operator] = &[Operator {
-    name: "WITH-HASH-TABLE-ITERATOR",
-    lambda_list: "(name table) &body body",
-    doc: "Evaluates the body; in it `(name)` returns `T` and key and value of the next entry, or `NIL`.",
-    examples: &[
-        "(let ((h (make-hash-table))) (setf (gethash 1 h) 'a) (with-hash-table-iterator (next h) (multiple-value-list (next)))) => (T 1 A)",
-    ],
-    expand: Some(with_iterator),
-}];

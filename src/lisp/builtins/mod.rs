@@ -52,7 +52,6 @@ pub(crate) mod shown;
 pub(crate) mod signalling;
 pub(crate) mod sort;
 pub(crate) mod standard_names;
-pub(crate) mod stream_macros;
 pub(crate) mod streams;
 pub(crate) mod string_compare;
 pub(crate) mod strings;

@@ -1,6 +1,5 @@
-//! `defpackage`, `in-package`, `do-symbols` and their kin.
+//! What `defpackage`, `do-symbols` and their kin call.
 
-use super::hash_tables::iterator_form;
 use super::packages::{
     accessible, designated, import_one, make, one_or_more, package_error, shadow_one, status,
     use_one,
@@ -8,7 +7,7 @@ use super::packages::{
 use super::sequence::list_items;
 use super::shown::shown;
 use super::strings;
-use crate::lisp::builtin::{Builtin, Operator, pure};
+use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -17,22 +16,6 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;
-
-fn quoted(value: Value) -> Value {
-    Value::list([known::QUOTE.into(), value])
-}
-
-/// `(defpackage name option…)`.
-fn defpackage(_: &mut Image, form: &Value) -> Outcome {
-    let Value::Cons(rest) = form.cdr_or_nil() else {
-        return Err(Raise::program("DEFPACKAGE needs a name."));
-    };
-    Ok(Value::list([
-        known::DEFINE_PACKAGE.into(),
-        quoted(rest.car()),
-        quoted(rest.cdr()),
-    ]))
-}
 
 /// The strings that an option lists.
 fn texts(image: &Image, items: &[Value]) -> Result<Vec<String>, Box<Raise>> {
@@ -165,80 +148,8 @@ fn imported(
     Ok(symbols)
 }
 
-/// `(in-package name)`.
-fn in_package(_: &mut Image, form: &Value) -> Outcome {
-    let rest = form.cdr_or_nil();
-    let (Value::Cons(_), Value::Symbol(known::NIL)) = (&rest, rest.cdr_or_nil()) else {
-        return Err(Raise::program("IN-PACKAGE is written (IN-PACKAGE NAME)."));
-    };
-    let set = Value::list([
-        known::SETQ.into(),
-        known::V_PACKAGE.into(),
-        Value::list([known::EXISTING_PACKAGE.into(), quoted(rest.car_or_nil())]),
-    ]);
-    let always = Value::list([
-        known::K_COMPILE_TOPLEVEL.into(),
-        known::K_LOAD_TOPLEVEL.into(),
-        known::K_EXECUTE.into(),
-    ]);
-    Ok(Value::list([known::EVAL_WHEN.into(), always, set]))
-}
-
 fn existing_package(image: &mut Image, args: &[Value]) -> Outcome {
     designated(image, &args[0]).map(Value::Package)
-}
-
-/// Which symbols a `do-…symbols` form visits.
-#[derive(Clone, Copy)]
-enum Visited {
-    Accessible,
-    External,
-    Everywhere,
-}
-
-fn symbol_loop(form: &Value, what: &str, visited: Visited) -> Outcome {
-    let mut parts = form.iter_list().skip(1);
-    let head = parts.next().unwrap_or(Value::NIL).list_to_vec();
-    let wrong = || {
-        Raise::program(format!(
-            "{what} is written ({what} (VARIABLE [PACKAGE [RESULT]]) BODY...)."
-        ))
-    };
-    let head = head.ok_or_else(wrong)?;
-    let (variable, package, result) = match (head.as_slice(), visited) {
-        ([variable], _) => (variable, None, None),
-        ([variable, result], Visited::Everywhere) => (variable, None, Some(result)),
-        ([variable, package], _) => (variable, Some(package), None),
-        ([variable, package, result], Visited::Accessible | Visited::External) => {
-            (variable, Some(package), Some(result))
-        }
-        _ => return Err(wrong()),
-    };
-    let package = package.cloned().unwrap_or(known::V_PACKAGE.into());
-    let kind = match visited {
-        Visited::Accessible => known::K_INHERITED,
-        Visited::External => known::K_EXTERNAL,
-        Visited::Everywhere => known::T,
-    };
-    let symbols = Value::list([known::PACKAGE_SYMBOLS.into(), package, kind.into()]);
-    let mut binding = vec![variable.clone(), symbols];
-    binding.extend(result.cloned());
-    Ok(Value::list_with_tail(
-        [known::DOLIST.into(), Value::list(binding)],
-        Value::list(parts.collect::<Vec<_>>()),
-    ))
-}
-
-fn do_symbols(_: &mut Image, form: &Value) -> Outcome {
-    symbol_loop(form, "DO-SYMBOLS", Visited::Accessible)
-}
-
-fn do_external_symbols(_: &mut Image, form: &Value) -> Outcome {
-    symbol_loop(form, "DO-EXTERNAL-SYMBOLS", Visited::External)
-}
-
-fn do_all_symbols(_: &mut Image, form: &Value) -> Outcome {
-    symbol_loop(form, "DO-ALL-SYMBOLS", Visited::Everywhere)
 }
 
 /// The symbols of a package: `:INHERITED` all accessible ones, `:INTERNAL` the present
@@ -269,24 +180,6 @@ fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
         }
     };
     Ok(Value::list(symbols.into_iter().map(Value::Symbol)))
-}
-
-/// `(with-package-iterator (name packages kind…) body…)`.
-fn with_package_iterator(image: &mut Image, form: &Value) -> Outcome {
-    let mut parts = form.iter_list().skip(1);
-    let head = parts.next().and_then(|b| b.list_to_vec());
-    let Some([name, packages, kinds @ ..]) = head.as_deref() else {
-        return Err(Raise::program(
-            "WITH-PACKAGE-ITERATOR is written (WITH-PACKAGE-ITERATOR (NAME PACKAGES KIND...) BODY...).",
-        ));
-    };
-    let start = Value::list([
-        known::PACKAGE_ITERATOR.into(),
-        packages.clone(),
-        quoted(Value::list(kinds.to_vec())),
-    ]);
-    let body: Vec<Value> = parts.collect();
-    Ok(iterator_form(image, name, start, body))
 }
 
 /// The state of a package iterator: a pair whose car lists what is still to come.
@@ -341,54 +234,4 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         &["(system::%package-iterator :cl nil) => (NIL)"],
         package_iterator,
     ),
-];
-
-/// Macros over packages.
-pub(crate) static OPERATORS: &[Operator] = &[
-    Operator {
-        name: "DEFPACKAGE",
-        lambda_list: "name &rest options",
-        doc: "Defines a package; options are :use, :export, :nicknames, :import-from, :shadow, :shadowing-import-from, :intern and :documentation.",
-        examples: &[
-            "(defpackage :example-package (:use :cl) (:export #:thing)) => #<PACKAGE \"EXAMPLE-PACKAGE\">",
-        ],
-        expand: Some(defpackage),
-    },
-    Operator {
-        name: "IN-PACKAGE",
-        lambda_list: "name",
-        doc: "Makes a package the current one.",
-        examples: &["(in-package :cl-user) => #<PACKAGE \"COMMON-LISP-USER\">"],
-        expand: Some(in_package),
-    },
-    Operator {
-        name: "DO-SYMBOLS",
-        lambda_list: "(variable &optional package result) &body body",
-        doc: "Evaluates the body for each symbol accessible in a package.",
-        examples: &["(let ((n 0)) (do-symbols (s :cl) (when (eq s 'car) (incf n))) n) => 1"],
-        expand: Some(do_symbols),
-    },
-    Operator {
-        name: "DO-EXTERNAL-SYMBOLS",
-        lambda_list: "(variable &optional package result) &body body",
-        doc: "Evaluates the body for each symbol that a package exports.",
-        examples: &[
-            "(let ((n 0)) (do-external-symbols (s :cl) (when (eq s 'car) (incf n))) n) => 1",
-        ],
-        expand: Some(do_external_symbols),
-    },
-    Operator {
-        name: "DO-ALL-SYMBOLS",
-        lambda_list: "(variable &optional result) &body body",
-        doc: "Evaluates the body for each symbol of all packages.",
-        examples: &["(let ((n 0)) (do-all-symbols (s n) (when (eq s 'car) (incf n)))) => 1"],
-        expand: Some(do_all_symbols),
-    },
-    Operator {
-        name: "WITH-PACKAGE-ITERATOR",
-        lambda_list: "(name packages &rest kinds) &body body",
-        doc: "Evaluates the body; in it `(name)` returns `T` and the next symbol, how it is accessible, and its package, or `NIL`.",
-        examples: &["(with-package-iterator (next :cl :internal) (next)) => NIL"],
-        expand: Some(with_package_iterator),
-    },
 ];

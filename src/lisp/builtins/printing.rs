@@ -138,28 +138,6 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
     write_unreadable,
 )];
 
-/// Macros of package `COMMON-LISP`.
-pub(crate) static OPERATORS: &[Operator] = &[
-    Operator {
-        name: "PRINT-UNREADABLE-OBJECT",
-        lambda_list: "(object stream &key type identity) &body body",
-        doc: "Writes #<…> around what the body writes.",
-        examples: &[
-            "(with-output-to-string (s) (print-unreadable-object (1 s) (princ \"one\" s))) => \"#<one>\"",
-        ],
-        expand: Some(expand_print_unreadable),
-    },
-    Operator {
-        name: "WITH-STANDARD-IO-SYNTAX",
-        lambda_list: "&body body",
-        doc: "Runs the body with the standard values of the variables of printer and reader.",
-        examples: &[
-            "(let ((*print-base* 2)) (with-standard-io-syntax (prin1-to-string 5))) => \"5\"",
-        ],
-        expand: Some(expand_standard_syntax),
-    },
-];
-
 #[derive(Clone, Copy, PartialEq)]
 enum Manner {
     Print,
@@ -384,76 +362,6 @@ fn write_string(image: &mut Image, args: &[Value], end_of_line: &str) -> Outcome
         &format!("{part}{end_of_line}"),
     )?;
     Ok(args[0].clone())
-}
-
-/// `(print-unreadable-object (object stream :type t) body…)` becomes
-/// `(write-unreadable object stream t nil (lambda () body…))`.
-fn expand_print_unreadable(image: &mut Image, form: &Value) -> Outcome {
-    let mut parts = form.iter_list().skip(1);
-    let head = parts.next().and_then(|head| head.list_to_vec());
-    let Some([object, target, options @ ..]) = head.as_deref() else {
-        return Err(Raise::program(
-            "The form is written (PRINT-UNREADABLE-OBJECT (OBJECT STREAM &KEY TYPE IDENTITY) BODY...).",
-        ));
-    };
-    let names = [known::K_TYPE, known::K_IDENTITY];
-    let [type_form, identity] = keywords::parse(image, options, names)?;
-    let (declarations, body) = split_declarations(parts.collect());
-    let body = if body.is_empty() && declarations.is_empty() {
-        Value::NIL
-    } else {
-        let lambda = [known::LAMBDA.into(), Value::NIL]
-            .into_iter()
-            .chain(declarations)
-            .chain(body);
-        Value::list([
-            known::FUNCTION.into(),
-            Value::list(lambda.collect::<Vec<_>>()),
-        ])
-    };
-    Ok(Value::list([
-        known::WRITE_UNREADABLE.into(),
-        object.clone(),
-        target.clone(),
-        type_form.unwrap_or(Value::NIL),
-        identity.unwrap_or(Value::NIL),
-        body,
-    ]))
-}
-
-/// A `let` of the variables of printer and reader.
-fn expand_standard_syntax(_: &mut Image, form: &Value) -> Outcome {
-    let quoted = |sym: Sym| Value::list([known::QUOTE.into(), sym.into()]);
-    let bindings: Vec<Value> = [
-        (known::V_PRINT_ARRAY, Value::T),
-        (known::V_PRINT_BASE, Value::Int(10)),
-        (known::V_PRINT_CASE, known::K_UPCASE.into()),
-        (known::V_PRINT_CIRCLE, Value::NIL),
-        (known::V_PRINT_ESCAPE, Value::T),
-        (known::V_PRINT_GENSYM, Value::T),
-        (known::V_PRINT_LENGTH, Value::NIL),
-        (known::V_PRINT_LEVEL, Value::NIL),
-        (known::V_PRINT_LINES, Value::NIL),
-        (known::V_PRINT_MISER_WIDTH, Value::NIL),
-        (known::V_PRINT_PRETTY, Value::NIL),
-        (known::V_PRINT_RADIX, Value::NIL),
-        (known::V_PRINT_READABLY, Value::T),
-        (known::V_PRINT_RIGHT_MARGIN, Value::NIL),
-        (known::V_READ_BASE, Value::Int(10)),
-        (
-            known::V_READ_DEFAULT_FLOAT_FORMAT,
-            quoted(known::SINGLE_FLOAT),
-        ),
-        (known::V_READ_EVAL, Value::T),
-    ]
-    .into_iter()
-    .map(|(variable, value)| Value::list([variable.into(), value]))
-    .collect();
-    let head = [known::LET.into(), Value::list(bindings)];
-    let body: Vec<Value> = form.iter_list().skip(1).collect();
-    Ok(Value::list(
-        head.into_iter().chain(body).collect::<Vec<_>>(),
-    ))
 }
 
 fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {

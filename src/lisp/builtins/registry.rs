@@ -94,16 +94,11 @@ pub(crate) static OPERATORS: &[&[Operator]] = &[
     compile::SPECIAL_FORMS,
     compile::OPERATORS,
     types::OPERATORS,
-    hash_tables::OPERATORS,
     loop_macro::OPERATORS,
-    package_macros::OPERATORS,
-    stream_macros::OPERATORS,
     generic_functions::OPERATORS,
-    object_printing::OPERATORS,
     objects::OPERATORS,
     structures::OPERATORS,
     format::OPERATORS,
-    printing::OPERATORS,
 ];
 
 /// Special operators and macros of package `SYSTEM`.

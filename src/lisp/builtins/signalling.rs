@@ -34,20 +34,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         |m, args| signal_with(m, args, known::SIMPLE_ERROR, Declined::Stop),
     ),
     control(
-        "CERROR",
-        "continue-control datum &rest arguments",
-        "Like ERROR, with a restart CONTINUE that goes on.",
-        &["(handler-bind ((error #'continue)) (cerror \"Go on.\" \"Stop.\")) => NIL"],
-        cerror,
-    ),
-    control(
-        "WARN",
-        "datum &rest arguments",
-        "Signals a warning and prints it unless a handler muffles it.",
-        &["(handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"],
-        warn,
-    ),
-    control(
         "INVOKE-RESTART",
         "restart &rest arguments",
         "Calls the function of a restart.",
@@ -89,41 +75,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
         restart_name,
     ),
-    control(
-        "ABORT",
-        "&optional condition",
-        "Invokes the restart ABORT.",
-        &["(restart-case (abort) (abort () 1)) => 1"],
-        |m, _| invoke_named(m, known::ABORT, Vec::new(), true),
-    ),
-    control(
-        "CONTINUE",
-        "&optional condition",
-        "Invokes the restart CONTINUE, if there is one.",
-        &["(continue) => NIL"],
-        |m, _| invoke_named(m, known::CONTINUE, Vec::new(), false),
-    ),
-    control(
-        "MUFFLE-WARNING",
-        "&optional condition",
-        "Invokes the restart MUFFLE-WARNING.",
-        &["(handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"],
-        |m, _| invoke_named(m, known::MUFFLE_WARNING, Vec::new(), true),
-    ),
-    control(
-        "USE-VALUE",
-        "value &optional condition",
-        "Invokes the restart USE-VALUE, if there is one.",
-        &["(restart-case (use-value 1) (use-value (v) v)) => 1"],
-        |m, args| invoke_named(m, known::USE_VALUE, args[..1].to_vec(), false),
-    ),
-    control(
-        "STORE-VALUE",
-        "value &optional condition",
-        "Invokes the restart STORE-VALUE, if there is one.",
-        &["(restart-case (store-value 1) (store-value (v) v)) => 1"],
-        |m, args| invoke_named(m, known::STORE_VALUE, args[..1].to_vec(), false),
-    ),
 ];
 
 /// Builtins of package `SYSTEM`.
@@ -155,13 +106,6 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         "The error of CHECK-TYPE.",
         &[],
         check_type_failed,
-    ),
-    control(
-        "CALL-WITH-TIMING",
-        "function",
-        "Calls a function and says how many calls it made.",
-        &[],
-        call_with_timing,
     ),
 ];
 
@@ -232,100 +176,6 @@ fn signal_break(machine: &mut Machine<'_>, args: &[Value]) -> Result<Step> {
     })
 }
 
-/// Wraps a call in one restart that takes no argument and makes the call return `NIL`.
-fn with_restart(
-    machine: &mut Machine<'_>,
-    name: Sym,
-    report: Value,
-    function: Value,
-    args: Vec<Value>,
-) -> Step {
-    // (restart-case (apply function args) (name () :report report nil)), as the compiler
-    // would translate it.
-    let quoted = |v: Value| Value::list([known::QUOTE.into(), v]);
-    let call = Value::list([
-        known::APPLY.into(),
-        quoted(function),
-        quoted(Value::list(args)),
-    ]);
-    let clause = Value::list([
-        name.into(),
-        Value::NIL,
-        known::K_REPORT.into(),
-        report,
-        Value::NIL,
-    ]);
-    let form = Value::list([known::RESTART_CASE.into(), call, clause]);
-    let _ = machine;
-    Step::TailCall {
-        function: known::EVAL.into(),
-        args: vec![form],
-    }
-}
-
-fn cerror(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let report = args[0].clone();
-    let rest = args[1..].to_vec();
-    Ok(with_restart(
-        machine,
-        known::CONTINUE,
-        report,
-        known::ERROR.into(),
-        rest,
-    ))
-}
-
-fn warn(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    run(machine, "WARN", |calls| async move {
-        let condition = designated_condition(&calls, args, known::SIMPLE_WARNING).await?;
-        if !matches!(&condition, Value::Instance(i) if i.is_a(known::WARNING)) {
-            return Err(Raise::type_error(&condition, known::WARNING));
-        }
-        let function = Function::made_control(known::WARN, (1, Some(1)), |machine, args| {
-            signal_and_print(machine, args[0].clone())
-        });
-        let (report, function) = ("Skip warning.".into(), Value::Function(function));
-        calls
-            .with(|machine| {
-                let name = known::MUFFLE_WARNING;
-                Ok(with_restart(
-                    machine,
-                    name,
-                    report,
-                    function,
-                    vec![condition],
-                ))
-            })
-            .await
-    })
-}
-
-fn signal_and_print(machine: &mut Machine<'_>, condition: Value) -> Result<Step> {
-    run(machine, "WARN", |calls| async move {
-        let signal = Function::made_control(known::SIGNAL, (1, Some(1)), |machine, args| {
-            machine.signal(args[0].clone(), Declined::Return)
-        });
-        calls
-            .call1(&Value::Function(signal), condition.clone())
-            .await;
-        let report = known::PRINC_TO_STRING.into();
-        let text = calls.call1(&report, condition.clone()).await;
-        let kind = match &condition {
-            Value::Instance(i) if i.is_a(known::STYLE_WARNING) => "STYLE-WARNING",
-            _ => "WARNING",
-        };
-        let text = text.as_text().unwrap_or_default();
-        calls
-            .with(move |machine| {
-                let output = machine.image.special(known::V_STANDARD_OUTPUT).clone();
-                stream::fresh_line(machine.image, &output)?;
-                stream::write(machine.image, &output, &format!("{kind}: {text}\n"))?;
-                Ok(Value::NIL)
-            })
-            .await
-    })
-}
-
 fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     match machine.find_restart(&args[0]) {
         Some(restart) => Ok(call_restart(&restart, args[1..].to_vec())),
@@ -341,22 +191,6 @@ fn call_restart(restart: &Value, args: Vec<Value>) -> Step {
         .as_foreign::<Restart>()
         .map_or(Value::NIL, |r| r.function.clone());
     Step::TailCall { function, args }
-}
-
-fn invoke_named(
-    machine: &mut Machine<'_>,
-    name: Sym,
-    args: Vec<Value>,
-    required: bool,
-) -> Result<Step> {
-    match machine.find_restart(&name.into()) {
-        Some(restart) => Ok(call_restart(&restart, args)),
-        None if required => Err(Raise::control(format!(
-            "No restart {} is active.",
-            machine.image.name(name)
-        ))),
-        None => Ok(Step::Return(Value::NIL)),
-    }
 }
 
 fn restart_name(_: &mut Image, args: &[Value]) -> Result<Value> {
@@ -409,9 +243,3 @@ fn check_type_failed(image: &mut Image, args: &[Value]) -> Result<Value> {
         .with(known::K_EXPECTED_TYPE, args[2].clone()))
 }
 
-fn call_with_timing(_: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    Ok(Step::TailCall {
-        function: args[0].clone(),
-        args: Vec::new(),
-    })
-}

@@ -98,63 +98,6 @@ pub(super) fn defvar(image: &mut Image, form: &Value) -> Expansion {
     ])
 }
 
-pub(super) fn defconstant(image: &mut Image, form: &Value) -> Expansion {
-    let name = name_argument(image, form, "a constant")?;
-    Ok(form![
-        known::DEFINE_CONSTANT,
-        quote(name),
-        argument(form, 2)
-    ])
-}
-
-pub(super) fn define_compiler_macro(image: &mut Image, form: &Value) -> Expansion {
-    Ok(quote(name_argument(image, form, "a function")?))
-}
-
-pub(super) fn define_symbol_macro(image: &mut Image, form: &Value) -> Expansion {
-    let name = name_argument(image, form, "a symbol macro")?;
-    Ok(form![
-        known::SET_SYMBOL_MACRO,
-        quote(name),
-        quote(argument(form, 2))
-    ])
-}
-
-pub(super) fn declaim(_: &mut Image, form: &Value) -> Expansion {
-    let calls: Vec<Value> = form
-        .cdr_or_nil()
-        .iter_list()
-        .map(|specifier| form![known::PROCLAIM, quote(specifier)])
-        .collect();
-    Ok(Value::cons(known::PROGN.into(), Value::list(calls)))
-}
-
-pub(super) fn defsetf(image: &mut Image, form: &Value) -> Expansion {
-    let name = name_argument(image, form, "an accessor")?;
-    let how = argument(form, 2);
-    if let Some(update) = how.as_symbol()
-        && !how.is_nil()
-    {
-        return Ok(form![known::DEFINE_SETF_UPDATE, quote(name), quote(update)]);
-    }
-    let stores = argument(form, 3);
-    let body = form.iter_list().skip(4).collect::<Vec<_>>();
-    let split = split_declarations(&Value::list(body));
-    let count = stores.iter_list().count();
-    let list: Value = image.gensym("STORES").into();
-    let inner = Value::list_with_tail(
-        [known::DESTRUCTURING_BIND.into(), stores, list.clone()],
-        split.forms,
-    );
-    let lambda = form![known::LAMBDA, Value::cons(list, how), inner];
-    Ok(form![
-        known::DEFINE_SETF_LONG,
-        quote(name),
-        lambda,
-        Value::from(count)
-    ])
-}
-
 pub(super) fn define_setf_expander(image: &mut Image, form: &Value) -> Expansion {
     let name = name_argument(image, form, "an accessor")?;
     let rest = form.cdr_or_nil().cdr_or_nil();
@@ -163,29 +106,3 @@ pub(super) fn define_setf_expander(image: &mut Image, form: &Value) -> Expansion
     Ok(form![known::SET_SETF_EXPANDER, quote(name), lambda])
 }
 
-/// The defined macro calls `modify-place` with the place and a form of the rest.
-pub(super) fn define_modify_macro(image: &mut Image, form: &Value) -> Expansion {
-    let name = name_argument(image, form, "a macro")?;
-    let lambda_list = argument(form, 2);
-    let function = argument(form, 3);
-    let parsed = LambdaList::parse(image, &lambda_list, false)?;
-    let place: Value = image.gensym("PLACE").into();
-    let mut arguments: Vec<Value> = parsed.required.clone();
-    arguments.extend(parsed.optional.iter().map(|o| o.pattern.clone()));
-    let rest = parsed.rest.clone().unwrap_or(Value::NIL);
-    let mut list = vec![known::LIST_STAR.into()];
-    list.extend(arguments);
-    list.push(rest);
-    let body = form![
-        known::MODIFY_PLACE,
-        place.clone(),
-        quote(function),
-        Value::list(list)
-    ];
-    Ok(form![
-        known::DEFMACRO,
-        name,
-        Value::cons(place, lambda_list),
-        body
-    ])
-}

@@ -67,7 +67,14 @@ macro_rules! library_file {
 pub(crate) use library_file;
 
 /// The files of Common Lisp and alexandria, in the order of the standard's chapters.
-static FILES: &[File] = &[library_file!("src/lisp/library", "control.lisp")];
+static FILES: &[File] = &[
+    library_file!("src/lisp/library", "control.lisp"),
+    library_file!("src/lisp/library", "definitions.lisp"),
+    library_file!("src/lisp/library", "conditions.lisp"),
+    library_file!("src/lisp/library", "packages.lisp"),
+    library_file!("src/lisp/library", "streams.lisp"),
+    library_file!("src/lisp/library", "printer.lisp"),
+];
 
 /// The library of the language without robots.
 pub(crate) static LIBRARY: LazyLock<Library> = LazyLock::new(|| Library::of(FILES));

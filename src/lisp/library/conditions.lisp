@@ -1,0 +1,233 @@
+;;; Conditions: chapter 9 of the standard. SIGNAL, ERROR, HANDLER-BIND and the restarts
+;;; themselves are Rust.
+
+(in-package :common-lisp)
+
+(defmacro handler-case (form &rest clauses)
+  "The form; a condition of a clause's type unwinds and evaluates the clause.
+  Examples:
+  (handler-case (error \"x\") (error (e) (princ-to-string e))) => \"x\"
+  (handler-case 1 (:no-error (x) (list x))) => (1)"
+  (let ((no-error (assoc :no-error clauses)))
+    (if no-error
+        (%handler-case-no-error form (cdr no-error) (remove no-error clauses))
+        (if clauses
+            (%handler-case form clauses)
+            form))))
+
+(defun %handler-case-no-error (form function clauses)
+  "The form of HANDLER-CASE with a clause for the values of its form."
+  (let ((error-return (gensym "ERROR-RETURN"))
+        (normal-return (gensym "NORMAL-RETURN")))
+    `(block ,error-return
+       (multiple-value-call (lambda ,@function)
+         (block ,normal-return
+           (return-from ,error-return
+             (handler-case (return-from ,normal-return ,form) ,@clauses)))))))
+
+(defun %handler-case (form clauses)
+  "The form of HANDLER-CASE. Each clause is a tag: its handler keeps the condition in a
+  variable and jumps there."
+  (let ((block (gensym "BLOCK"))
+        (condition (gensym "CONDITION"))
+        (handlers '())
+        (statements '()))
+    (dolist (clause clauses)
+      (let ((tag (gensym "CLAUSE"))
+            (parameter (gensym "C"))
+            (variable (car (cadr clause)))
+            (body (cddr clause)))
+        (push `(,(car clause) (lambda (,parameter) (setq ,condition ,parameter) (go ,tag)))
+              handlers)
+        (push tag statements)
+        (push `(return-from ,block
+                 ,(if variable
+                      `(let ((,variable ,condition)) ,@body)
+                      `(locally ,@body)))
+              statements)))
+    `(block ,block
+       (let ((,condition nil))
+         (tagbody
+            (return-from ,block (handler-bind ,(nreverse handlers) ,form))
+            ,@(nreverse statements))))))
+
+(defmacro ignore-errors (&body body)
+  "The body; an error makes it NIL and the condition.
+  Examples:
+  (null (ignore-errors (error \"x\"))) => T"
+  (let ((condition (gensym "CONDITION")))
+    `(handler-case ,(%progn body)
+       (error (,condition) (values nil ,condition)))))
+
+(defmacro restart-case (form &rest clauses)
+  "The form, with restarts that unwind and evaluate their clause.
+  Examples:
+  (restart-case (invoke-restart 'go-on 1) (go-on (x) (list x))) => (1)"
+  (let ((block (gensym "BLOCK"))
+        (arguments (gensym "ARGUMENTS"))
+        (restarts '())
+        (statements '()))
+    (dolist (clause clauses)
+      (let* ((tag (gensym "RESTART"))
+             (parameter (gensym "ARGS"))
+             (body (%after-options (cddr clause) '(:report :interactive :test)))
+             (options (ldiff (cddr clause) body)))
+        (push `(make-restart ',(car clause)
+                             (lambda (&rest ,parameter)
+                               (setq ,arguments ,parameter)
+                               (go ,tag))
+                             ,(%report (getf options :report))
+                             ,(%function-form (getf options :interactive)))
+              restarts)
+        (push tag statements)
+        (push `(return-from ,block
+                 (apply #'(lambda ,(cadr clause) ,@body) ,arguments))
+              statements)))
+    `(block ,block
+       (let ((,arguments nil))
+         (tagbody
+            (return-from ,block (with-restarts (list ,@(nreverse restarts)) ,form))
+            ,@(nreverse statements))))))
+
+(defun %after-options (list names)
+  "What stands in a list after the keywords of these names and their values."
+  (if (member (car list) names)
+      (%after-options (cddr list) names)
+      list))
+
+(defun %function-form (function)
+  "The form of a function that a clause names, if it names one."
+  (and function `(function ,function)))
+
+(defun %report (report)
+  "The form of the report of a restart: a string, or what a function writes."
+  (if (stringp report) report (%function-form report)))
+
+(defmacro restart-bind (bindings &body body)
+  "Restarts that run on top of whoever invokes them.
+  Examples:
+  (restart-bind ((three (lambda () 3))) (invoke-restart 'three)) => 3"
+  `(with-restarts
+       (list ,@(mapcar (lambda (binding)
+                         (destructuring-bind
+                             (name function &key report-function interactive-function
+                                              test-function)
+                             binding
+                           (declare (ignore test-function))
+                           `(make-restart ',name ,function ,report-function
+                                          ,interactive-function)))
+                       bindings))
+     ,@body))
+
+(defmacro with-simple-restart ((name format-control &rest format-arguments) &body body)
+  "The body, with a restart that leaves it: NIL and T.
+  Examples:
+  (with-simple-restart (skip \"Skip it.\") (invoke-restart 'skip)) => NIL ; T"
+  `(restart-case ,(%progn body)
+     (,name () :report (lambda (stream) (format stream ,format-control ,@format-arguments))
+       (values nil t))))
+
+(defmacro with-condition-restarts (condition restarts &body body)
+  "The body; the restarts belong to the condition.
+  Examples:
+  (with-condition-restarts nil nil 1) => 1"
+  `(progn ,condition ,restarts ,@body))
+
+(defun %condition (datum arguments class)
+  "The condition that the arguments of ERROR and its kin designate; if they are a format
+  control and its arguments, it is of the class."
+  (if (typep datum 'condition)
+      datum
+      (if (or (stringp datum) (functionp datum))
+          (make-condition class :format-control datum :format-arguments arguments)
+          (if (or (symbolp datum) (typep datum 'class))
+              (apply #'make-condition datum arguments)
+              (error 'type-error :datum datum :expected-type 'condition)))))
+
+(defun cerror (continue-control datum &rest arguments)
+  "Like ERROR, with a restart CONTINUE that goes on.
+  Examples:
+  (handler-bind ((error #'continue)) (cerror \"Go on.\" \"Stop.\")) => NIL"
+  (restart-case (apply #'error datum arguments)
+    (continue ()
+      :report (lambda (stream) (apply #'format stream continue-control arguments))
+      nil)))
+
+(defun warn (datum &rest arguments)
+  "Signals a warning and prints it unless a handler muffles it.
+  Examples:
+  (handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"
+  (let ((condition (%condition datum arguments 'simple-warning)))
+    (if (not (typep condition 'warning))
+        (error 'type-error :datum condition :expected-type 'warning))
+    (restart-case
+        (progn
+          (signal condition)
+          (let ((kind (if (typep condition 'style-warning) "STYLE-WARNING" "WARNING"))
+                (text (princ-to-string condition)))
+            (fresh-line)
+            (format t "~A: ~A~%" kind text)
+            nil))
+      (muffle-warning () :report "Skip warning." nil))))
+
+(defmacro assert (test &optional places datum &rest arguments)
+  "An error unless the test is true.
+  Examples:
+  (assert (= 1 1)) => NIL"
+  (declare (ignore places))
+  `(if ,test
+       nil
+       (progn
+         (with-simple-restart (continue "Go on without it.")
+           (error ,@(if datum
+                        (cons datum arguments)
+                        `("The assertion ~S failed." ',test))))
+         nil)))
+
+(defmacro check-type (place type &optional string)
+  "An error unless the place's value has the type.
+  Examples:
+  (let ((x 1)) (check-type x integer)) => NIL"
+  `(if (typep ,place ',type)
+       nil
+       (check-type-failed ,place ',place ',type ,string)))
+
+(defun abort (&optional condition)
+  "Invokes the restart ABORT.
+  Examples:
+  (restart-case (abort) (abort () 1)) => 1"
+  (declare (ignore condition))
+  (invoke-restart 'abort))
+
+(defun muffle-warning (&optional condition)
+  "Invokes the restart MUFFLE-WARNING.
+  Examples:
+  (handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"
+  (declare (ignore condition))
+  (invoke-restart 'muffle-warning))
+
+(defun continue (&optional condition)
+  "Invokes the restart CONTINUE, if there is one.
+  Examples:
+  (continue) => NIL"
+  (declare (ignore condition))
+  (%invoke-if-active 'continue))
+
+(defun use-value (value &optional condition)
+  "Invokes the restart USE-VALUE, if there is one.
+  Examples:
+  (restart-case (use-value 1) (use-value (v) v)) => 1"
+  (declare (ignore condition))
+  (%invoke-if-active 'use-value value))
+
+(defun store-value (value &optional condition)
+  "Invokes the restart STORE-VALUE, if there is one.
+  Examples:
+  (restart-case (store-value 1) (store-value (v) v)) => 1"
+  (declare (ignore condition))
+  (%invoke-if-active 'store-value value))
+
+(defun %invoke-if-active (name &rest arguments)
+  "Invokes the innermost restart of a name, if there is one."
+  (let ((restart (find-restart name)))
+    (and restart (apply #'invoke-restart restart arguments))))

@@ -1,0 +1,58 @@
+;;; Packages: chapter 11 of the standard.
+
+(in-package :common-lisp)
+
+(defmacro defpackage (name &rest options)
+  "Defines a package; options are :use, :export, :nicknames, :import-from, :shadow, :shadowing-import-from, :intern and :documentation.
+  Examples:
+  (defpackage :example-package (:use :cl) (:export #:thing)) => #<PACKAGE \"EXAMPLE-PACKAGE\">"
+  `(%define-package ',name ',options))
+
+(defmacro in-package (name)
+  "Makes a package the current one.
+  Examples:
+  (in-package :cl-user) => #<PACKAGE \"COMMON-LISP-USER\">"
+  `(eval-when (:compile-toplevel :load-toplevel :execute)
+     (setq *package* (%existing-package ',name))))
+
+(defmacro do-symbols ((variable &optional package result) &body body)
+  "Evaluates the body for each symbol accessible in a package.
+  Examples:
+  (let ((n 0)) (do-symbols (s :cl) (when (eq s 'car) (incf n))) n) => 1"
+  (%do-symbols variable package :inherited result body))
+
+(defmacro do-external-symbols ((variable &optional package result) &body body)
+  "Evaluates the body for each symbol that a package exports.
+  Examples:
+  (let ((n 0)) (do-external-symbols (s :cl) (when (eq s 'car) (incf n))) n) => 1"
+  (%do-symbols variable package :external result body))
+
+(defmacro do-all-symbols ((variable &optional result) &body body)
+  "Evaluates the body for each symbol of all packages.
+  Examples:
+  (let ((n 0)) (do-all-symbols (s n) (when (eq s 'car) (incf n)))) => 1"
+  (%do-symbols variable nil t result body))
+
+(defun %do-symbols (variable package kind result body)
+  "The form of a loop over symbols of a kind."
+  `(dolist (,variable (%package-symbols ,(or package '*package*) ,kind) ,result)
+     ,@body))
+
+(defmacro with-package-iterator ((name packages &rest kinds) &body body)
+  "Evaluates the body; in it `(name)` returns `T` and the next symbol, how it is accessible, and its package, or `NIL`.
+  Examples:
+  (with-package-iterator (next :cl :internal) (next)) => NIL"
+  (%with-iterator name `(%package-iterator ,packages ',kinds) body))
+
+(defmacro with-hash-table-iterator ((name table) &body body)
+  "Evaluates the body; in it `(name)` returns `T` and key and value of the next entry, or `NIL`.
+  Examples:
+  (let ((h (make-hash-table))) (setf (gethash 1 h) 'a) (with-hash-table-iterator (next h) (multiple-value-list (next)))) => (T 1 A)"
+  (%with-iterator name `(%hash-iterator ,table) body))
+
+(defun %with-iterator (name start body)
+  "The form that binds the state of an iterator, and a local macro that takes its next entry."
+  (let ((state (gensym "ITERATOR")))
+    `(let ((,state ,start))
+       (macrolet ((,name () '(%iterator-next ,state)))
+         ,@body))))
