@@ -36,12 +36,13 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 
 fn check_arguments(image: &mut Image, args: &[Value]) -> Result<Value> {
     let list = &args[0];
-    let Some(items) = list.list_to_vec().map(|v| v.len()).or_else(|| {
-        // A dotted list destructures if the lambda list ends in a rest parameter.
-        (args[2].is_nil() && list.as_cons().is_some()).then(|| list.iter_list().count())
-    }) else {
+    let mut elements = list.iter_list();
+    let items = elements.by_ref().count();
+    // A dotted list destructures if the lambda list ends in a rest parameter.
+    let is_dotted = !elements.rest.is_nil();
+    if is_dotted && !(args[2].is_nil() && list.as_cons().is_some()) {
         return Err(Raise::type_error(list, known::LIST));
-    };
+    }
     let count = i64::try_from(items).unwrap_or(i64::MAX);
     let bound = |v: &Value| match v {
         Value::Int(n) => Some(*n),

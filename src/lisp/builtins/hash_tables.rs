@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::keywords;
 use super::lists::size;
 use super::shown::shown;
-use crate::lisp::builtin::{Builtin, Operator, control, pure};
+use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::hash_table::{HashTable, HashTest};
@@ -373,4 +373,3 @@ pub(crate) static SETTERS: &[Builtin] = &[pure(
     &[],
     set_gethash,
 )];
-

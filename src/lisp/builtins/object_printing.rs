@@ -1,12 +1,10 @@
 //! Builtins for printing objects in a form of one's own.
 
-use crate::lisp::builtin::{Builtin, Operator, pure};
+use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::object::form::form;
-use crate::lisp::print::{self, Calls, Settings, identity};
+use crate::lisp::print::{self, Calls, Settings};
 use crate::lisp::stream;
 use crate::lisp::value::Value;
-use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
 /// The builtins.
@@ -18,15 +16,6 @@ pub(crate) static TABLE: &[Builtin] = &[pure(
         "(progn (defclass cup () ((size :initarg :size))) (defmethod print-object ((c cup) stream) (format stream \"<cup ~a>\" (slot-value c 'size))) (make-instance 'cup :size 3)) => <cup 3>",
     ],
     print_object,
-)];
-
-/// Builtins of the package `SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[pure(
-    "%IDENTITY-TEXT",
-    "object",
-    "The text that tells an unreadable object from others.",
-    &[],
-    |image, args| Ok(Value::string(identity(image, &args[0]))),
 )];
 
 /// Prints the default form of an object.

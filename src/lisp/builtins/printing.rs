@@ -1,10 +1,9 @@
 //! Writing values and characters to streams: `print`, `princ`, `write-line`, …
 
 use super::composing::compose;
-use super::forms::split_declarations;
 use super::keywords;
 use super::sequence::{Bounds, Sequence};
-use crate::lisp::builtin::{Builtin, Operator, control, pure};
+use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print::{self, Case, Settings};
 use crate::lisp::stream;

@@ -62,7 +62,6 @@ pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
     generic_functions::SYSTEM_TABLE,
-    object_printing::SYSTEM_TABLE,
     objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,
     signalling::SYSTEM_TABLE,

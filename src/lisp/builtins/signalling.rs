@@ -3,7 +3,6 @@
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
-use crate::lisp::stream;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
@@ -242,4 +241,3 @@ fn check_type_failed(image: &mut Image, args: &[Value]) -> Result<Value> {
         .with(known::K_DATUM, args[0].clone())
         .with(known::K_EXPECTED_TYPE, args[2].clone()))
 }
-

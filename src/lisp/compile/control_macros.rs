@@ -282,4 +282,3 @@ pub(super) fn multiple_value_list(_: &mut Image, form: &Value) -> Expansion {
         values
     ])
 }
-

@@ -2,7 +2,6 @@
 
 use super::body::split_declarations;
 use super::form::form;
-use super::lambda_list::LambdaList;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -105,4 +104,3 @@ pub(super) fn define_setf_expander(image: &mut Image, form: &Value) -> Expansion
         super::destructure::macro_function(image, name, &rest.car_or_nil(), &rest.cdr_or_nil())?;
     Ok(form![known::SET_SETF_EXPANDER, quote(name), lambda])
 }
-

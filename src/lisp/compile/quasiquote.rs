@@ -23,12 +23,18 @@ fn template_form(image: &mut Image, template: &Value, depth: usize) -> Result<Va
     }
 }
 
+/// Neighbours in a template of a list.
+enum Part {
+    /// Forms of single elements.
+    Elements(Vec<Value>),
+    /// A form of a list that is spliced in.
+    Spliced(Value),
+}
+
 fn list_form(image: &mut Image, template: &Value, depth: usize) -> Result<Value, Box<Raise>> {
-    // Each part becomes a form that builds a list; `append` joins them.
-    let mut parts: Vec<Value> = Vec::new();
-    let mut singles: Vec<Value> = Vec::new();
+    let mut parts: Vec<Part> = Vec::new();
     let mut rest = template.clone();
-    let tail = loop {
+    let mut tail = loop {
         if let Some(form) = unquoted(image, &rest, depth)? {
             break Some(form);
         }
@@ -36,46 +42,41 @@ fn list_form(image: &mut Image, template: &Value, depth: usize) -> Result<Value,
             break (!rest.is_nil()).then(|| quote(rest.clone()));
         };
         let item = cons.car();
-        match splice(image, &item, depth)? {
-            Some(form) => {
-                flush(&mut singles, &mut parts);
-                parts.push(form);
-            }
-            None => {
-                let form = match unquoted(image, &item, depth)? {
-                    Some(form) => form,
-                    None => template_form(image, &item, depth)?,
-                };
-                singles.push(form);
+        if let Some(form) = splice(image, &item, depth)? {
+            parts.push(Part::Spliced(form));
+        } else {
+            let form = match unquoted(image, &item, depth)? {
+                Some(form) => form,
+                None => template_form(image, &item, depth)?,
+            };
+            match parts.last_mut() {
+                Some(Part::Elements(elements)) => elements.push(form),
+                _ => parts.push(Part::Elements(vec![form])),
             }
         }
         let next = cons.cdr();
         rest = next;
     };
-    if parts.is_empty() && tail.is_none() {
-        return Ok(constant_or_list(singles));
+    // What comes last is not copied.
+    while let Some(part) = parts.pop() {
+        tail = Some(match (part, tail) {
+            (Part::Elements(elements), None) => constant_or_list(elements),
+            (Part::Elements(elements), Some(tail)) => in_front(elements, tail),
+            (Part::Spliced(form), None) => form,
+            (Part::Spliced(form), Some(tail)) => call(known::APPEND, [form, tail]),
+        });
     }
-    if parts.is_empty()
-        && let Some(tail) = tail
-    {
-        if singles.is_empty() {
-            return Ok(tail);
-        }
-        singles.push(tail);
-        return Ok(call(known::LIST_STAR, singles));
-    }
-    flush(&mut singles, &mut parts);
-    parts.extend(tail);
-    if let [only] = parts.as_slice() {
-        return Ok(only.clone());
-    }
-    Ok(call(known::APPEND, parts))
+    Ok(tail.unwrap_or(Value::NIL))
 }
 
-fn flush(singles: &mut Vec<Value>, parts: &mut Vec<Value>) {
-    if !singles.is_empty() {
-        parts.push(constant_or_list(std::mem::take(singles)));
-    }
+/// The form of a list of elements that goes on with a tail.
+fn in_front(mut elements: Vec<Value>, tail: Value) -> Value {
+    let name = match elements.len() {
+        1 => known::CONS,
+        _ => known::LIST_STAR,
+    };
+    elements.push(tail);
+    call(name, elements)
 }
 
 /// `(list …)` of the forms, or one constant if all are constants.

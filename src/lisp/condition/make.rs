@@ -25,7 +25,7 @@ pub(crate) struct Draft {
 /// `SIMPLE-CONDITION` also gets it as its format control.
 pub(crate) fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
     let (class, text, initargs) = match raise {
-        Raise::Condition(condition) => return Ok(condition.clone()),
+        Raise::Condition { condition, .. } => return Ok(condition.clone()),
         Raise::Make {
             class,
             report,

@@ -25,10 +25,11 @@ pub(crate) fn eval_values(image: &mut Image, text: &str) -> Result<Vec<Value>, S
 
 fn name_of(image: &Image, raise: &Raise) -> String {
     match raise {
-        Raise::Condition(Value::Instance(condition)) => {
-            image.name(condition.class().name).to_owned()
-        }
-        Raise::Condition(_) => "?".to_owned(),
+        Raise::Condition {
+            condition: Value::Instance(condition),
+            ..
+        } => image.name(condition.class().name).to_owned(),
+        Raise::Condition { .. } => "?".to_owned(),
         Raise::Make { class, .. } => image.name(*class).to_owned(),
     }
 }

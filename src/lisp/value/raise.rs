@@ -9,7 +9,12 @@ use crate::lisp::source::Place;
 #[derive(Clone)]
 pub(crate) enum Raise {
     /// A condition object that exists already.
-    Condition(Value),
+    Condition {
+        /// The condition.
+        condition: Value,
+        /// Where the form is that a macro could not expand, if it was signalled by a macro.
+        place: Place,
+    },
     /// A condition still to be made.
     Make {
         /// Its class.
@@ -44,9 +49,8 @@ impl Raise {
 
     /// The error with the place of the form it is about, unless it has one.
     pub(crate) fn at(mut self: Box<Self>, here: Place) -> Box<Raise> {
-        if let Raise::Make { place, .. } = self.as_mut()
-            && !place.is_some()
-        {
+        let (Raise::Make { place, .. } | Raise::Condition { place, .. }) = self.as_mut();
+        if !place.is_some() {
             *place = here;
         }
         self
@@ -55,9 +59,16 @@ impl Raise {
     /// The place of the form that the error is about, if it is about a form.
     pub(crate) fn place(&self) -> Place {
         match self {
-            Raise::Make { place, .. } => *place,
-            Raise::Condition(_) => Place::NONE,
+            Raise::Make { place, .. } | Raise::Condition { place, .. } => *place,
         }
+    }
+
+    /// A condition object that exists already.
+    pub(crate) fn condition(condition: Value) -> Box<Raise> {
+        Box::new(Raise::Condition {
+            condition,
+            place: Place::NONE,
+        })
     }
 
     /// A `SIMPLE-ERROR` with a text.

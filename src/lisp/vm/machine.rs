@@ -78,7 +78,7 @@ impl<'a> Machine<'a> {
     /// Raises an error where a request was made, and goes on.
     pub(crate) fn resume_with_error(&mut self, raise: Box<Raise>) -> Event {
         self.fiber.enter(self.image);
-        if let Raise::Condition(condition) = &*raise {
+        if let Raise::Condition { condition, .. } = &*raise {
             let calls = self.calls();
             self.image.add_condition_calls(condition, calls);
         }

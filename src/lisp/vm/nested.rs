@@ -46,7 +46,7 @@ fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Va
             Event::Done(value) => break Ok(value),
             Event::Unhandled(condition) => {
                 machine.unwind_all();
-                break Err(Box::new(Raise::Condition(condition)));
+                break Err(Raise::condition(condition));
             }
             Event::Request(_) => {
                 event = machine.resume_with_error(Raise::control(

@@ -43,7 +43,7 @@ impl Machine<'_> {
     fn raise_again(&mut self, raise: &Raise) -> Next {
         let text = match raise {
             Raise::Make { report, .. } => report.clone(),
-            Raise::Condition(_) => None,
+            Raise::Condition { .. } => None,
         };
         let text = text.unwrap_or_else(|| "An error could not be described.".to_owned());
         Next::Stop(super::machine::Event::Unhandled(Value::string(text)))

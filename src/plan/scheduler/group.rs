@@ -95,7 +95,7 @@ impl Scheduler {
         } else {
             wrapped(&plan, image, answer)
         };
-        Some(Answer::Raise(Box::new(Raise::Condition(failure))))
+        Some(Answer::Raise(Raise::condition(failure)))
     }
 
     fn evaporate_group(&mut self, image: &mut Image, host: &mut dyn Host, group: &Group) {

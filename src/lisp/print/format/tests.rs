@@ -19,7 +19,7 @@ fn format(control: &str, args: &str) -> String {
                 ..
             } => report.clone(),
             Raise::Make { class, .. } => image.name(*class).to_owned(),
-            Raise::Condition(_) => "a condition".to_owned(),
+            Raise::Condition { .. } => "a condition".to_owned(),
         },
     }
 }
