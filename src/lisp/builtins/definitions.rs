@@ -87,13 +87,22 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Builtins of package `COMMON-LISP`.
-pub(crate) static TABLE: &[Builtin] = &[pure(
-    "PROCLAIM",
-    "specifier",
-    "A global declaration.",
-    &["(proclaim '(special *proclaimed*)) => ; No value"],
-    proclaim,
-)];
+pub(crate) static TABLE: &[Builtin] = &[
+    pure(
+        "PROCLAIM",
+        "specifier",
+        "A global declaration.",
+        &["(proclaim '(special *proclaimed*)) => ; No value"],
+        proclaim,
+    ),
+    pure(
+        "GET-SETF-EXPANSION",
+        "place &optional environment",
+        "How to read and set a place: temporary variables, their forms, variables for the new values, the form that stores, the form that reads.",
+        &["(fifth (multiple-value-list (get-setf-expansion 'x))) => X"],
+        get_setf_expansion,
+    ),
+];
 
 fn symbol(value: &Value) -> Result<Sym> {
     value
@@ -194,6 +203,17 @@ fn set_setf_expander(image: &mut Image, args: &[Value]) -> Result<Value> {
     let expander = SetfExpander::Expander(args[1].clone());
     image.setf_expanders.insert(symbol(&args[0])?, expander);
     Ok(args[0].clone())
+}
+
+fn get_setf_expansion(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let expansion = setf::expansion(image, &args[0])?;
+    Ok(Value::values(vec![
+        Value::list(expansion.temps),
+        Value::list(expansion.values),
+        Value::list(expansion.stores),
+        expansion.setter,
+        expansion.getter,
+    ]))
 }
 
 fn modify_place(image: &mut Image, args: &[Value]) -> Result<Value> {

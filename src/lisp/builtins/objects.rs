@@ -5,7 +5,6 @@ use std::rc::Rc;
 use crate::lisp::builtin::{Builtin, Operator, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::object::define::no_class;
-use crate::lisp::object::form::{form, quote};
 use crate::lisp::object::{access, class_of, defclass, instance, update};
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Instance;
@@ -206,22 +205,6 @@ pub(crate) static OPERATORS: &[Operator] = &[
         ],
         expand: Some(defclass::expand_define_condition),
     },
-    Operator {
-        name: "WITH-SLOTS",
-        lambda_list: "(&rest slots) instance &body body",
-        doc: "Evaluates the body with the slots as variables; a slot is a name or (variable name).",
-        examples: &[
-            "(progn (defclass cup () ((size :initform 2))) (with-slots (size) (make-instance 'cup) (incf size))) => 3",
-        ],
-        expand: Some(expand_with_slots),
-    },
-    Operator {
-        name: "WITH-ACCESSORS",
-        lambda_list: "(&rest (variable accessor)) instance &body body",
-        doc: "Evaluates the body with variables that stand for calls of accessors.",
-        examples: &["(with-accessors ((head car)) (list 1 2) (incf head)) => 2"],
-        expand: Some(expand_with_accessors),
-    },
 ];
 
 /// What `setf` of the functions here calls: the new value comes first.
@@ -325,60 +308,4 @@ fn update_for_different_class(
     let previous = instance_argument(&args[0])?;
     let current = instance_argument(&args[1])?;
     update::initialize_new_slots(machine, previous, current, &args[2..])
-}
-
-/// The parts of `(with-… (entries…) instance body…)`.
-fn with_parts(form: &Value, name: &str) -> Result<(Vec<Value>, Value, Value), Box<Raise>> {
-    let rest = form.cdr_or_nil();
-    match (rest.car_or_nil().list_to_vec(), rest.cdr_or_nil()) {
-        (Some(entries), Value::Cons(after)) => Ok((entries, after.car(), after.cdr())),
-        _ => Err(Raise::program(format!(
-            "{name} takes a list of entries, an instance and a body."
-        ))),
-    }
-}
-
-fn expand_with_slots(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
-    let (entries, object, body) = with_parts(whole, "WITH-SLOTS")?;
-    let instance = Value::Symbol(image.gensym("INSTANCE"));
-    let mut macros = Vec::new();
-    for entry in entries {
-        let (variable, slot) = match entry.list_to_vec().as_deref() {
-            Some([variable, slot]) => (variable.clone(), slot.clone()),
-            _ if entry.as_symbol().is_some() => (entry.clone(), entry),
-            _ => {
-                return Err(Raise::program(
-                    "WITH-SLOTS takes slots as name or (variable name).",
-                ));
-            }
-        };
-        let place = form![known::SLOT_VALUE, instance.clone(), quote(slot)];
-        macros.push(form![variable, place]);
-    }
-    Ok(with_symbol_macros(&instance, object, macros, body))
-}
-
-fn expand_with_accessors(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
-    let (entries, object, body) = with_parts(whole, "WITH-ACCESSORS")?;
-    let instance = Value::Symbol(image.gensym("INSTANCE"));
-    let mut macros = Vec::new();
-    for entry in entries {
-        let parts = entry.list_to_vec();
-        let Some([variable, accessor]) = parts.as_deref() else {
-            return Err(Raise::program(
-                "WITH-ACCESSORS takes entries (variable accessor).",
-            ));
-        };
-        let place = form![accessor.clone(), instance.clone()];
-        macros.push(form![variable.clone(), place]);
-    }
-    Ok(with_symbol_macros(&instance, object, macros, body))
-}
-
-fn with_symbol_macros(instance: &Value, object: Value, macros: Vec<Value>, body: Value) -> Value {
-    form![
-        known::LET,
-        form![form![instance.clone(), object]],
-        form![known::SYMBOL_MACROLET, Value::list(macros); body],
-    ]
 }

@@ -92,7 +92,6 @@ pub(crate) static SETTERS: &[&[Builtin]] = &[
 pub(crate) static OPERATORS: &[&[Operator]] = &[
     compile::SPECIAL_FORMS,
     compile::OPERATORS,
-    types::OPERATORS,
     loop_macro::OPERATORS,
     generic_functions::OPERATORS,
     objects::OPERATORS,

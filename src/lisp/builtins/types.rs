@@ -1,6 +1,6 @@
 //! Builtins on types: `typep`, `subtypep`, `type-of`, `coerce`, `deftype`.
 
-use crate::lisp::builtin::{Builtin, Operator, control, pure};
+use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::types::asking;
 use crate::lisp::types::coerce::coerce;
@@ -70,15 +70,6 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[pure(
     define_type,
 )];
 
-/// The macros.
-pub(crate) static OPERATORS: &[Operator] = &[Operator {
-    name: "DEFTYPE",
-    lambda_list: "name lambda-list &body body",
-    doc: "Defines a type by what its specifiers stand for.",
-    examples: &["(deftype small () '(integer 0 9)) => SMALL"],
-    expand: Some(expand_deftype),
-}];
-
 fn typep_operation(
     image: &mut Image,
     args: &[Value],
@@ -130,61 +121,4 @@ fn define_type(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
         }
         (name, _) => Err(Raise::type_error(name, Value::Symbol(known::SYMBOL))),
     }
-}
-
-/// `(deftype name lambda-list body…)` becomes a function of the argument list.
-fn expand_deftype(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
-    let parts = form.list_to_vec().unwrap_or_default();
-    let [_, name, lambda_list, body @ ..] = parts.as_slice() else {
-        return Err(Raise::program(
-            "DEFTYPE takes a name, a lambda list and a body.",
-        ));
-    };
-    let args = Value::Symbol(image.gensym("ARGS"));
-    let quote = |v: &Value| Value::list([known::QUOTE.into(), v.clone()]);
-    let block = Value::list_with_tail(
-        [known::BLOCK.into(), name.clone()],
-        Value::list(body.to_vec()),
-    );
-    let destructured = Value::list([
-        known::DESTRUCTURING_BIND.into(),
-        star_defaults(lambda_list),
-        args.clone(),
-        block,
-    ]);
-    let expander = Value::list([known::LAMBDA.into(), Value::list([args]), destructured]);
-    Ok(Value::list([
-        known::SYS_DEFINE_TYPE.into(),
-        quote(name),
-        expander,
-    ]))
-}
-
-/// The lambda list with `'*` as the default of optional parameters that have none.
-fn star_defaults(lambda_list: &Value) -> Value {
-    let star = || Value::list([known::QUOTE.into(), known::TIMES.into()]);
-    let mut in_optional = false;
-    let mut items = lambda_list.iter_list();
-    let mut result = Vec::new();
-    for item in items.by_ref() {
-        let item = match &item {
-            Value::Symbol(known::L_OPTIONAL | known::L_KEY) => {
-                in_optional = true;
-                item
-            }
-            Value::Symbol(
-                known::L_REST | known::L_BODY | known::L_AUX | known::L_ALLOW_OTHER_KEYS,
-            ) => {
-                in_optional = false;
-                item
-            }
-            Value::Symbol(_) if in_optional => Value::list([item, star()]),
-            Value::Cons(pair) if in_optional && pair.cdr().is_nil() => {
-                Value::list([pair.car(), star()])
-            }
-            _ => item,
-        };
-        result.push(item);
-    }
-    Value::list_with_tail(result, items.rest)
 }

@@ -244,35 +244,3 @@ struct Parts {
     prologue: Vec<Prologue>,
     bound: Vec<Sym>,
 }
-
-/// A body's declarations and the forms after them.
-pub(super) struct Split {
-    /// The `declare` forms.
-    pub(crate) declarations: Vec<Value>,
-    /// The forms.
-    pub(crate) forms: Value,
-    /// The documentation string.
-    pub(crate) doc: Option<Value>,
-}
-
-/// Separates the declarations and the documentation of a body from its forms.
-pub(super) fn split_declarations(body: &Value) -> Split {
-    let mut split = Split {
-        declarations: Vec::new(),
-        forms: body.clone(),
-        doc: None,
-    };
-    while let Value::Cons(cons) = &split.forms {
-        let first = cons.car();
-        let rest = cons.cdr();
-        match &first {
-            Value::Str(_) if split.doc.is_none() && !rest.is_nil() => split.doc = Some(first),
-            Value::Cons(c) if c.car().as_symbol() == Some(known::DECLARE) => {
-                split.declarations.push(first);
-            }
-            _ => break,
-        }
-        split.forms = rest;
-    }
-    split
-}

@@ -1,6 +1,7 @@
-//! Macros of control flow: conditionals, loops, handlers and restarts.
+//! The conditionals and loops that programs are full of: every expansion counts when a file
+//! is loaded. The others are Lisp, in `library/control.lisp`.
 
-use super::form::form;
+use super::form::{form, progn, quoted as quote, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -9,20 +10,6 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 type Expansion = Result<Value, Box<Raise>>;
-
-/// The forms as one: a single form is itself.
-fn progn(forms: Value) -> Value {
-    if let Value::Cons(cons) = &forms
-        && cons.cdr().is_nil()
-    {
-        return cons.car();
-    }
-    Value::cons(known::PROGN.into(), forms)
-}
-
-fn quote(value: Value) -> Value {
-    form![known::QUOTE, value]
-}
 
 fn gensym(image: &mut Image, prefix: &str) -> Value {
     image.gensym(prefix).into()
@@ -169,7 +156,7 @@ fn do_form(image: &mut Image, form: &Value, binder: Sym, stepper: Sym) -> Expans
             name => bindings.push(form![name.clone()]),
         }
     }
-    let split = super::body::split_declarations(&body);
+    let split = split_body(&body);
     let again = gensym(image, "AGAIN");
     let test = form![
         known::WHEN,
@@ -192,7 +179,7 @@ pub(super) fn dolist(image: &mut Image, form: &Value) -> Expansion {
     let var = spec.car_or_nil();
     let list_form = spec.cdr_or_nil().car_or_nil();
     let result = spec.cdr_or_nil().cdr_or_nil();
-    let split = super::body::split_declarations(&body);
+    let split = split_body(&body);
     let (list, again, end) = (
         gensym(image, "LIST"),
         gensym(image, "AGAIN"),
@@ -241,7 +228,7 @@ pub(super) fn dotimes(image: &mut Image, form: &Value) -> Expansion {
     let var = spec.car_or_nil();
     let count_form = spec.cdr_or_nil().car_or_nil();
     let result = spec.cdr_or_nil().cdr_or_nil().car_or_nil();
-    let split = super::body::split_declarations(&body);
+    let split = split_body(&body);
     let (count, again, end) = (
         gensym(image, "COUNT"),
         gensym(image, "AGAIN"),

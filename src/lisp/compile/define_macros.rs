@@ -1,7 +1,7 @@
-//! Macros that define: functions, macros, variables, setf methods.
+//! The defining macros that the library in Lisp is made with, and `define-setf-expander`.
+//! The others are in `library/definitions.lisp`.
 
-use super::body::split_declarations;
-use super::form::form;
+use super::form::{doc_form, form, quoted as quote, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -10,10 +10,6 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 type Expansion = Result<Value, Box<Raise>>;
-
-fn quote(value: impl Into<Value>) -> Value {
-    form![known::QUOTE, value.into()]
-}
 
 fn argument(form: &Value, n: usize) -> Value {
     form.iter_list().nth(n).unwrap_or(Value::NIL)
@@ -53,7 +49,7 @@ pub(super) fn defmacro(image: &mut Image, form: &Value) -> Expansion {
     let rest = form.cdr_or_nil().cdr_or_nil();
     let lambda_list = rest.car_or_nil();
     let body = rest.cdr_or_nil();
-    let doc = split_declarations(&body).doc.unwrap_or(Value::NIL);
+    let doc = doc_form(split_body(&body).doc.as_ref());
     let lambda = super::destructure::macro_function(image, name, &lambda_list, &body)?;
     Ok(form![
         known::DEFINE_MACRO,

@@ -479,18 +479,6 @@ pub(super) fn expand_push(image: &mut Image, form: &Value) -> Result<Value, Box<
     })
 }
 
-/// `(pushnew item place &key …)`.
-pub(super) fn expand_pushnew(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
-    let args = form.cdr_or_nil();
-    let item = args.car_or_nil();
-    let place = args.cdr_or_nil().car_or_nil();
-    let keys = args.cdr_or_nil().cdr_or_nil();
-    let var = gensym(image, "ITEM");
-    modify(image, &place, vec![(var.clone(), item)], |_, getter| {
-        Value::list_with_tail([known::ADJOIN.into(), var, getter], keys)
-    })
-}
-
 /// `(pop place)`.
 pub(super) fn expand_pop(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
     let place = form.cdr_or_nil().car_or_nil();
@@ -509,72 +497,4 @@ pub(super) fn expand_pop(image: &mut Image, form: &Value) -> Result<Value, Box<R
         expanded.setter,
         Value::list([known::CAR.into(), list]),
     ]))
-}
-
-/// `(remf place indicator)`.
-pub(super) fn expand_remf(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
-    let args = form.cdr_or_nil();
-    let place = args.car_or_nil();
-    let indicator = args.cdr_or_nil().car_or_nil();
-    let expanded = expansion(image, &place)?;
-    let key = gensym(image, "KEY");
-    let found = gensym(image, "FOUND");
-    let store = expanded.stores.first().cloned().unwrap_or(Value::NIL);
-    let mut bindings: Vec<Value> = pairs(&expanded).collect();
-    bindings.push(Value::list([key.clone(), indicator]));
-    let values = Value::list([known::REMOVE_PROPERTY.into(), expanded.getter, key]);
-    let body = Value::list([
-        known::MULTIPLE_VALUE_BIND.into(),
-        Value::list([store, found.clone()]),
-        values,
-        expanded.setter,
-        found,
-    ]);
-    Ok(Value::list([
-        known::LET_STAR.into(),
-        Value::list(bindings),
-        body,
-    ]))
-}
-
-/// `(rotatef place…)`.
-pub(super) fn expand_rotatef(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
-    shift(image, form, true)
-}
-
-/// `(shiftf place… value)`.
-pub(super) fn expand_shiftf(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
-    shift(image, form, false)
-}
-
-fn shift(image: &mut Image, form: &Value, rotate: bool) -> Result<Value, Box<Raise>> {
-    let mut places: Vec<Value> = form.cdr_or_nil().iter_list().collect();
-    let last = if rotate { None } else { places.pop() };
-    let mut bindings = Vec::new();
-    let mut stores = Vec::new();
-    let mut setters = Vec::new();
-    let mut olds = Vec::new();
-    for place in &places {
-        let expanded = expansion(image, place)?;
-        bindings.extend(pairs(&expanded));
-        let old = gensym(image, "OLD");
-        bindings.push(Value::list([old.clone(), expanded.getter.clone()]));
-        olds.push(old);
-        stores.push(expanded.stores.first().cloned().unwrap_or(Value::NIL));
-        setters.push(expanded.setter);
-    }
-    let first = olds.first().cloned().unwrap_or(Value::NIL);
-    let incoming = last.unwrap_or_else(|| first.clone());
-    let sources = olds.iter().skip(1).cloned().chain([incoming]);
-    bindings.extend(
-        stores
-            .iter()
-            .zip(sources)
-            .map(|(store, source)| Value::list([store.clone(), source])),
-    );
-    setters.push(if rotate { Value::NIL } else { first });
-    Ok(Value::list_with_tail(
-        [known::LET_STAR.into(), Value::list(bindings)],
-        Value::list(setters),
-    ))
 }

@@ -68,8 +68,10 @@ pub(crate) use library_file;
 
 /// The files of Common Lisp and alexandria, in the order of the standard's chapters.
 static FILES: &[File] = &[
-    library_file!("src/lisp/library", "control.lisp"),
     library_file!("src/lisp/library", "definitions.lisp"),
+    library_file!("src/lisp/library", "objects.lisp"),
+    library_file!("src/lisp/library", "control.lisp"),
+    library_file!("src/lisp/library", "places.lisp"),
     library_file!("src/lisp/library", "conditions.lisp"),
     library_file!("src/lisp/library", "packages.lisp"),
     library_file!("src/lisp/library", "streams.lisp"),

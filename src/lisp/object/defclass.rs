@@ -1,10 +1,10 @@
 //! `defclass` and `define-condition`: their expansion, and the builtin behind it.
 
 use super::define::ClassDefinition;
-use super::form::{doc_form, form, quote};
 use super::method::{MethodDefinition, define_method, named_function, remove_method};
 use super::parameters::Parameters;
 use super::slot_options::{DefinedSlot, evaluated_init, evaluated_slot, init_form, slot_form};
+use crate::lisp::compile::form::{doc_form, form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, ClassKind};

@@ -3,11 +3,11 @@
 use std::rc::Rc;
 
 use super::combination::combination_named;
-use super::form::{doc_form, form, quote, split_body};
 use super::method::{
     MethodDefinition, changed, define_method, ensure_generic, method_value, specializer,
 };
 use super::parameters::Parameters;
+use crate::lisp::compile::form::{doc_form, form, quote, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -96,7 +96,7 @@ fn method_function(
     image: &mut Image,
     name: &Value,
     lambda_list: &Value,
-    body: super::form::Body,
+    body: crate::lisp::compile::form::Body,
     takes_next: bool,
 ) -> Value {
     let lambda_list = with_other_keys(lambda_list);

@@ -14,7 +14,6 @@ pub(crate) mod defmethod;
 pub(crate) mod dispatch;
 pub(crate) mod effective;
 pub(crate) mod fill;
-pub(crate) mod form;
 pub(crate) mod instance;
 pub(crate) mod method;
 pub(crate) mod parameters;

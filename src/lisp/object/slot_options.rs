@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::form::{constant_value, form, quote};
+use crate::lisp::compile::form::{constant_value, form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Initform, SlotDefinition};

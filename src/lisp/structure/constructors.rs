@@ -1,8 +1,8 @@
 //! The constructors of a structure, as forms.
 
 use super::options::Constructor;
+use crate::lisp::compile::form::form;
 use crate::lisp::image::Image;
-use crate::lisp::object::form::form;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::StructureSlot;
 use crate::lisp::value::known;

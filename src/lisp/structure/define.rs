@@ -3,9 +3,9 @@
 use std::rc::Rc;
 
 use super::accessors;
+use crate::lisp::compile::form::constant_value;
 use crate::lisp::image::Image;
 use crate::lisp::object::define::{ClassDefinition, no_class};
-use crate::lisp::object::form::constant_value;
 use crate::lisp::types::{TypeCheck, typep};
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{

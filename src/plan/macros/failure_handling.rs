@@ -5,8 +5,8 @@
 
 use super::{Expansion, first_rest, gensym, macro_, plan, quoted};
 use crate::lisp::builtin::Operator;
+use crate::lisp::compile::form::form;
 use crate::lisp::image::Image;
-use crate::lisp::object::form::form;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;

@@ -1,0 +1,52 @@
+;;; Types and objects: chapters 4 and 7 of the standard.
+
+(in-package :common-lisp)
+
+(defmacro deftype (name lambda-list &body body)
+  "Defines a type by what its specifiers stand for.
+  Examples:
+  (deftype small () '(integer 0 9)) => SMALL"
+  (let ((arguments (gensym "ARGS")))
+    `(%define-type ',name
+                   (lambda (,arguments)
+                     (destructuring-bind ,(%star-defaults lambda-list nil) ,arguments
+                       (block ,name ,@body))))))
+
+(defun %star-defaults (lambda-list is-optional)
+  "The lambda list with '* as the default of optional parameters that have none."
+  (if (atom lambda-list)
+      lambda-list
+      (let ((item (car lambda-list)))
+        (if (member item '(&optional &key &rest &body &aux &allow-other-keys))
+            (setq is-optional (member item '(&optional &key)))
+            (if is-optional
+                (if (or (atom item) (null (cdr item)))
+                    (setq item (list (if (atom item) item (car item)) ''*)))))
+        (cons item (%star-defaults (cdr lambda-list) is-optional)))))
+
+(defmacro with-slots ((&rest slots) instance &body body)
+  "Evaluates the body with the slots as variables; a slot is a name or (variable name).
+  Examples:
+  (progn (defclass cup () ((size :initform 2))) (with-slots (size) (make-instance 'cup) (incf size))) => 3"
+  (let ((object (gensym "INSTANCE")))
+    `(let ((,object ,instance))
+       (symbol-macrolet
+           ,(mapcar (lambda (entry)
+                      (destructuring-bind (variable &optional (slot variable))
+                          (if (consp entry) entry (list entry))
+                        `(,variable (slot-value ,object ',slot))))
+                    slots)
+         ,@body))))
+
+(defmacro with-accessors ((&rest entries) instance &body body)
+  "Evaluates the body with variables that stand for calls of accessors, each written (variable accessor).
+  Examples:
+  (with-accessors ((head car)) (list 1 2) (incf head)) => 2"
+  (let ((object (gensym "INSTANCE")))
+    `(let ((,object ,instance))
+       (symbol-macrolet
+           ,(mapcar (lambda (entry)
+                      (destructuring-bind (variable accessor) entry
+                        `(,variable (,accessor ,object))))
+                    entries)
+         ,@body))))

@@ -1,0 +1,63 @@
+;;; Places: chapter 5.1 of the standard. SETF, INCF, PUSH and POP are Rust: programs are
+;;; full of them.
+
+(in-package :common-lisp)
+
+(defun %bindings (variables values)
+  "The bindings of LET* that give variables values."
+  (mapcar #'list variables values))
+
+(defmacro pushnew (item place &rest keys)
+  "Like PUSH, unless the item is there; the keywords are those of ADJOIN.
+  Examples:
+  (let ((l '(2))) (pushnew 2 l) l) => (2)"
+  (let ((new (gensym "ITEM")))
+    (multiple-value-bind (temporaries values stores setter getter) (get-setf-expansion place)
+      `(let* ((,new ,item)
+              ,@(%bindings temporaries values)
+              (,(car stores) (adjoin ,new ,getter ,@keys)))
+         ,setter))))
+
+(defmacro remf (place indicator)
+  "Removes a property from the property list in a place.
+  Examples:
+  (let ((l (list :a 1))) (remf l :a) l) => NIL"
+  (multiple-value-bind (temporaries values stores setter getter) (get-setf-expansion place)
+    (let ((key (gensym "KEY"))
+          (found (gensym "FOUND")))
+      `(let* (,@(%bindings temporaries values)
+              (,key ,indicator))
+         (multiple-value-bind (,(car stores) ,found) (remove-property ,getter ,key)
+           ,setter
+           ,found)))))
+
+(defmacro rotatef (&rest places)
+  "Rotates the values of places to the left.
+  Examples:
+  (let ((a 1) (b 2)) (rotatef a b) (list a b)) => (2 1)"
+  (%shift places nil t))
+
+(defmacro shiftf (&rest places-and-value)
+  "Shifts the values of places to the left; the first value.
+  Examples:
+  (let ((a 1) (b 2)) (list (shiftf a b 3) a b)) => (1 2 3)"
+  (%shift (butlast places-and-value) (car (last places-and-value)) nil))
+
+(defun %shift (places incoming is-rotation)
+  "The form of ROTATEF and SHIFTF: each place gets the value of the next one, the last the
+  incoming value, or the first one's."
+  (let ((bindings '()) (olds '()) (stores '()) (setters '()))
+    (dolist (place places)
+      (multiple-value-bind (temporaries values variables setter getter)
+          (get-setf-expansion place)
+        (let ((old (gensym "OLD")))
+          (setq bindings (append bindings (%bindings temporaries values) `((,old ,getter))))
+          (push old olds)
+          (push (car variables) stores)
+          (push setter setters))))
+    (let ((olds (reverse olds)))
+      `(let* (,@bindings
+              ,@(%bindings (reverse stores)
+                           (append (cdr olds) (list (if is-rotation (car olds) incoming)))))
+         ,@(reverse setters)
+         ,(if is-rotation nil (car olds))))))
