@@ -1,10 +1,11 @@
 //! What destructuring lambda lists expand into: checks of a list of arguments.
 
-use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::builtin::{Builtin, Entry, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -53,6 +54,7 @@ fn check_arguments(image: &mut Image, args: &[Value]) -> Result<Value> {
     if count >= least && most.is_none_or(|most| count <= most) {
         return Ok(list.clone());
     }
+    let lambda_list = lambda_list_text(image, &args[3], &args[4]);
     let show = |v: &Value| print::to_string(image, v, true);
     let context = match args[3].as_symbol() {
         Some(known::DESTRUCTURING_BIND) => "DESTRUCTURING-BIND".to_owned(),
@@ -67,11 +69,23 @@ fn check_arguments(image: &mut Image, args: &[Value]) -> Result<Value> {
     Err(Raise::new(
         known::ARG_COUNT_ERROR,
         format!(
-            "Error while parsing arguments to {context}:\n  too {few} elements in\n    {}\n  to satisfy lambda list\n    {}:\n  {expected} expected, but got {count}",
+            "Error while parsing arguments to {context}:\n  too {few} elements in\n    {}\n  to satisfy lambda list\n    {lambda_list}:\n  {expected} expected, but got {count}",
             show(list),
-            show(&args[4]),
         ),
     ))
+}
+
+/// A lambda list for people. The parameters of the library's macros belong to `SYSTEM`.
+fn lambda_list_text(image: &mut Image, context: &Value, lambda_list: &Value) -> String {
+    let entry = context.as_symbol().and_then(|name| image.entry(name));
+    if !matches!(entry, Some(Entry::Library(_))) {
+        return print::to_string(image, lambda_list, true);
+    }
+    let package = image.special(known::V_PACKAGE).clone();
+    image.set_special(known::V_PACKAGE, Value::Package(PackageTable::SYSTEM));
+    let text = print::to_string(image, lambda_list, true);
+    image.set_special(known::V_PACKAGE, package);
+    text
 }
 
 fn check_keys(image: &mut Image, args: &[Value]) -> Result<Value> {

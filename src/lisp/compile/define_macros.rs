@@ -100,3 +100,21 @@ pub(super) fn define_setf_expander(image: &mut Image, form: &Value) -> Expansion
         super::destructure::macro_function(image, name, &rest.car_or_nil(), &rest.cdr_or_nil())?;
     Ok(form![known::SET_SETF_EXPANDER, quote(name), lambda])
 }
+
+pub(super) fn in_package(_: &mut Image, form: &Value) -> Expansion {
+    let rest = form.cdr_or_nil();
+    let (Value::Cons(_), Value::Symbol(known::NIL)) = (&rest, rest.cdr_or_nil()) else {
+        return Err(Raise::program("IN-PACKAGE is written (IN-PACKAGE NAME)."));
+    };
+    let package = form![known::EXISTING_PACKAGE, quote(rest.car_or_nil())];
+    let always = form![
+        known::K_COMPILE_TOPLEVEL,
+        known::K_LOAD_TOPLEVEL,
+        known::K_EXECUTE
+    ];
+    Ok(form![
+        known::EVAL_WHEN,
+        always,
+        form![known::SETQ, known::V_PACKAGE, package]
+    ])
+}

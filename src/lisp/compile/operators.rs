@@ -411,6 +411,13 @@ pub(crate) static OPERATORS: &[Operator] = &[
         define_macros::defmacro,
     ),
     macro_(
+        "IN-PACKAGE",
+        "name",
+        "Makes a package the current one.",
+        &["(in-package :cl-user) => #<PACKAGE \"COMMON-LISP-USER\">"],
+        define_macros::in_package,
+    ),
+    macro_(
         "DEFPARAMETER",
         "name value &optional documentation",
         "Defines a special variable and assigns it.",

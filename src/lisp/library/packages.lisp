@@ -1,4 +1,4 @@
-;;; Packages: chapter 11 of the standard.
+;;; Packages: chapter 11 of the standard. IN-PACKAGE is Rust.
 
 (in-package :common-lisp)
 
@@ -7,13 +7,6 @@
   Examples:
   (defpackage :example-package (:use :cl) (:export #:thing)) => #<PACKAGE \"EXAMPLE-PACKAGE\">"
   `(%define-package ',name ',options))
-
-(defmacro in-package (name)
-  "Makes a package the current one.
-  Examples:
-  (in-package :cl-user) => #<PACKAGE \"COMMON-LISP-USER\">"
-  `(eval-when (:compile-toplevel :load-toplevel :execute)
-     (setq *package* (%existing-package ',name))))
 
 (defmacro do-symbols ((variable &optional package result) &body body)
   "Evaluates the body for each symbol accessible in a package.
