@@ -121,7 +121,12 @@ fn define_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     let new = function(&args[1])?;
     match args[0].as_symbol() {
         Some(name) => {
-            if matches!(image.symbol(name).function, FunctionCell::Builtin) {
+            let is_of_language = match &image.symbol(name).function {
+                FunctionCell::Builtin => true,
+                FunctionCell::Macro(function) => function.as_deferred().is_some(),
+                FunctionCell::Function(_) | FunctionCell::Unbound => false,
+            };
+            if is_of_language {
                 return Err(Raise::program(format!(
                     "{} is a special operator or macro of the language and cannot be redefined.",
                     image.name(name)
