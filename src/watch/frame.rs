@@ -1,32 +1,32 @@
-//! How the world looks at one time.
+//! What the world looks like at one time.
 
 use std::sync::Arc;
 
 use crate::spatial::Pose;
 
-/// How the world looks at one time. Everything is in the map frame.
+/// What the world looks like at one time. Everything is in the map frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Frame {
     /// Simulated time (s) since the session began.
     pub(crate) time: f64,
-    /// Where the nodes are that can move, in order of their numbers. Objects that are not
-    /// here are not in the world.
+    /// Poses of the nodes that can move, in order of their numbers. Objects not listed here are
+    /// not in the world.
     pub(crate) placed: Vec<Placed>,
     /// Objects in the robot's hands.
     pub(crate) holds: Vec<Hold>,
-    /// Nodes that press on one another, a link of the robot and an object.
+    /// Pairs of a link of the robot and an object that press on each other.
     pub(crate) touching: Vec<[u32; 2]>,
-    /// What lately stopped a motion.
+    /// What stopped motions lately.
     pub(crate) hits: Vec<Hit>,
-    /// Coordinate axes that somebody wants to see, and their length (m).
+    /// Coordinate axes that the user wants to see, and their length (m).
     pub(crate) axes: Option<(Placed, f32)>,
-    /// Ways of motions under way.
+    /// Planned paths of the motions under way.
     pub(crate) paths: Arc<[Path]>,
     /// Positions (rad or m) of the robot's actuated joints, in the order of its tree.
     pub(crate) joints: Arc<[f64]>,
 }
 
-/// Where a node is.
+/// The pose of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Placed {
     /// Number of the node.
@@ -38,7 +38,7 @@ pub(crate) struct Placed {
 }
 
 impl Placed {
-    /// The node at the pose.
+    /// The node with this pose.
     pub(crate) fn new(node: u32, pose: &Pose) -> Self {
         let q = pose.rotation.coords;
         let t = pose.translation.vector;
@@ -51,7 +51,7 @@ impl Placed {
     }
 }
 
-/// An object in a hand.
+/// An object in one of the robot's hands.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Hold {
     /// Node of the object.
@@ -63,30 +63,30 @@ pub(crate) struct Hold {
 /// What stopped a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Hit {
-    /// Nodes of the two bodies, as far as they have one.
+    /// Nodes of the two bodies, for those that are nodes.
     pub(crate) nodes: Vec<u32>,
     /// A point (m) between them.
     pub(crate) at: [f32; 3],
 }
 
-/// A way as a line.
+/// A path as a polyline.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Path {
     /// What moves: `base`, `left` or `right`.
     pub(crate) what: &'static str,
-    /// The node in whose frame the points are; none for the map.
+    /// The node in whose frame the points are; `None` for the map.
     pub(crate) frame: Option<u32>,
     /// Points (m).
     pub(crate) points: Vec<[f32; 3]>,
 }
 
 impl Path {
-    /// What can have a way.
+    /// What can have a path.
     pub(crate) const WHAT: [&'static str; 3] = ["base", "left", "right"];
 }
 
 impl Frame {
-    /// About how many bytes it takes.
+    /// Approximate size in bytes.
     pub(crate) fn bytes(&self) -> usize {
         size_of::<Self>()
             + self.placed.len() * size_of::<Placed>()

@@ -1,4 +1,4 @@
-//! Makes frames of the world.
+//! Builds frames of the world.
 
 use std::sync::Arc;
 
@@ -12,26 +12,26 @@ use crate::picture::scene::Scene;
 use crate::robot::{JointId, JointKind, KinematicTree, LinkId};
 use crate::world::{BodyName, CollisionHit, Object, World};
 
-/// Force (N) from which on a touch is told.
+/// Least force (N) at which a contact is shown.
 const LEAST_FORCE: f64 = 0.5;
 
-/// How long (s) it is shown what stopped a motion.
+/// How long (s) to show what stopped a motion.
 const HIT_SECONDS: f64 = 2.5;
 
-/// What tells objects apart that look different or are called differently.
+/// Name, type and colour of an object; objects that differ in any of these are distinct nodes.
 type ObjectKey = (String, String, [u32; 4]);
 
-/// Makes frames of one world, and knows the nodes in them.
+/// Builds frames of one world, and keeps the nodes that occur in them.
 pub(crate) struct FrameBuilder {
     nodes: Vec<Arc<Node>>,
-    /// Nodes of links, by the links' places in their trees.
+    /// Nodes of links, by the links' indices in their trees.
     robot: IndexMap<usize, u32>,
     furniture: IndexMap<usize, u32>,
     /// Links that can move, with their nodes.
     moving_furniture: Vec<(LinkId, u32)>,
     robot_links: Vec<(LinkId, u32)>,
     objects: IndexMap<ObjectKey, u32>,
-    /// How objects look, by type and colour.
+    /// The meshes of objects, by type and colour.
     meshes: IndexMap<(String, [u32; 4]), Arc<VisualMesh>>,
     joints: Vec<JointId>,
     base: u32,
@@ -41,7 +41,7 @@ pub(crate) struct FrameBuilder {
 }
 
 impl FrameBuilder {
-    /// A builder of frames of the world, whose robot and kitchen become nodes.
+    /// A builder for the world, whose robot and kitchen become nodes.
     pub(crate) fn new(world: &World) -> Self {
         let mut frame_builder = Self {
             nodes: Vec::new(),
@@ -80,7 +80,7 @@ impl FrameBuilder {
             }
             let is_still = |joint: JointId| models.kitchen.joint(joint).kind == JointKind::Fixed;
             let still = models.kitchen.ancestors(link).all(is_still);
-            // The number is given when the node is added.
+            // The number is assigned when the node is added.
             let place = Placed::new(0, &world.furniture_pose(link));
             let still = still.then_some(place);
             let node =
@@ -93,12 +93,12 @@ impl FrameBuilder {
         frame_builder
     }
 
-    /// All nodes that are known, in order of their numbers.
+    /// All known nodes, in order of their numbers.
     pub(crate) fn nodes(&self) -> &[Arc<Node>] {
         &self.nodes
     }
 
-    /// The node of a link of the robot, by the link's name.
+    /// The node of the link of the robot that has this name.
     pub(crate) fn node_named(&self, link: &str) -> Option<u32> {
         let robot = self.robot_links.iter().map(|(_, node)| *node);
         let named = |node: &u32| {
@@ -109,7 +109,7 @@ impl FrameBuilder {
         robot.into_iter().find(named)
     }
 
-    /// The node of a link of the robot, by its place in the tree.
+    /// The node of a link of the robot, by its index in the tree.
     fn node_of(&self, link: usize) -> Option<u32> {
         self.robot.get(&link).copied()
     }
@@ -119,7 +119,7 @@ impl FrameBuilder {
         &self.joints
     }
 
-    /// The world as it is now. Objects that have not been seen before become nodes.
+    /// A frame of the world as it is now. New objects become nodes.
     pub(crate) fn build(&mut self, observation: &Observation<'_>) -> Frame {
         let world = observation.world;
         let mut placed: Vec<Placed> = Vec::with_capacity(self.nodes.len());
@@ -131,7 +131,7 @@ impl FrameBuilder {
         let mut touching = Vec::new();
         for object in world.objects() {
             let node = self.object_node(object);
-            // The name comes from the world itself.
+            // The name comes from the world, so the object exists.
             let Ok(pose) = world.object_pose(object.name()) else {
                 continue;
             };
@@ -163,14 +163,14 @@ impl FrameBuilder {
             holds,
             touching,
             hits: self.hits.iter().map(|(_, hit)| hit.clone()).collect(),
-            // The axes are no node.
+            // The axes are not a node.
             axes: (observation.axes).map(|(pose, size)| (Placed::new(0, &pose), size as f32)),
             paths: self.paths.clone(),
             joints: self.joints.iter().map(position).collect(),
         }
     }
 
-    /// Remembers what stopped a motion at that time (s).
+    /// Records what stopped a motion at this time (s).
     pub(crate) fn collide(&mut self, time: f64, hit: &CollisionHit) {
         let bodies = [&hit.moving, &hit.other];
         let nodes = bodies.iter().filter_map(|body| self.body_node(body));
@@ -269,7 +269,7 @@ impl FrameBuilder {
     }
 
     fn add(&mut self, mut node: Node) -> u32 {
-        // Four milliard nodes do not fit into memory.
+        // Four billion nodes do not fit into memory.
         node.id = u32::try_from(self.nodes.len()).unwrap_or(u32::MAX);
         if let Some(still) = &mut node.still {
             still.node = node.id;

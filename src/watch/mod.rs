@@ -1,9 +1,9 @@
-//! What those who follow a session get to see and hear: frames of the world, and what
-//! happens beside it.
+//! What the followers of a session receive: frames of the world, and events besides motion.
 //!
-//! A [`Follower`] is told of every step. A [`FrameBuilder`] makes of that a [`Frame`], small and
-//! free of the world's own types, with [`Node`]s for what is at places in it. Nothing here
-//! changes the world, and no result depends on whether anybody follows.
+//! A [`Follower`] is informed of every step. A [`FrameBuilder`] turns what it sees into a
+//! [`Frame`], which is small and independent of the world's types, with a [`Node`] for each
+//! thing that has a pose. Nothing here changes the world, and no result depends on whether
+//! there are followers.
 
 mod frame;
 mod frame_builder;
@@ -22,25 +22,25 @@ use crate::motion::PlannedTrajectory;
 use crate::spatial::Pose;
 use crate::world::{CollisionHit, World};
 
-/// The world as it is now, with what is shown beside it.
+/// The world as it is now, and what is shown with it.
 #[derive(Clone, Copy)]
 pub(crate) struct Observation<'a> {
     /// Simulated time (s) since the session began.
     pub(crate) time: f64,
     /// The world.
     pub(crate) world: &'a World,
-    /// Coordinate axes that somebody wants to see: where, and how long (m).
+    /// Coordinate axes that the user wants to see: their pose and length (m).
     pub(crate) axes: Option<(Pose, f64)>,
-    /// The trajectories of motions under way, each with a number that tells it from others.
+    /// The trajectories of motions under way, each with a number that identifies it.
     pub(crate) trajectories: &'a [(u64, PlannedTrajectory<'a>)],
 }
 
-/// Why somebody is told of the world.
+/// Why a follower is shown the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cause {
     /// A step of the world has passed.
     Step,
-    /// Time passes while nothing moves, as slowly as somebody wants to see it.
+    /// Time passes while nothing moves, no faster than the user wants to see it.
     Wait,
     /// A function may have changed the world while no time passed.
     Edit,
@@ -48,7 +48,7 @@ pub(crate) enum Cause {
     Rest,
 }
 
-/// Somebody who follows a session. Must return soon: the session waits.
+/// A follower of a session. Its methods must return soon, because the session waits.
 pub(crate) trait Follower {
     /// The world has changed, or may have.
     fn see(&mut self, observation: &Observation<'_>, cause: Cause);
@@ -56,6 +56,6 @@ pub(crate) trait Follower {
     /// Something happened at a simulated time (s).
     fn hear(&mut self, time: f64, event: &WatchEvent);
 
-    /// A motion failed at a simulated time (s) because these would touch.
+    /// A motion failed at a simulated time (s) because of this collision.
     fn collide(&mut self, time: f64, hit: &CollisionHit);
 }

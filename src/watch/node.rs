@@ -1,4 +1,4 @@
-//! Things that have a place: links of the robot, pieces of furniture, objects.
+//! Things that have a pose: links of the robot, pieces of furniture, objects.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::frame::Placed;
 use crate::picture::scene::{Finish, Scene};
 
-/// What sort of thing a node is.
+/// The kind of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// A link of the robot.
@@ -32,27 +32,28 @@ impl Kind {
     }
 }
 
-/// A thing that has a place. Never changes once it is known.
+/// A thing that has a pose. Never changes once it is known.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Node {
-    /// Its number, counted from zero in the order in which nodes became known.
+    /// Its number, counted from zero in the order in which the nodes became known.
     pub(crate) id: u32,
-    /// Name; that of an object is unique among those that are in the world together.
+    /// Its name; an object's is unique among the objects that are in the world at the same
+    /// time.
     pub(crate) name: String,
-    /// What sort of thing it is.
+    /// Its kind.
     pub(crate) kind: Kind,
-    /// Type of an object in the object library, else empty.
+    /// Type of an object in the object library; empty for other nodes.
     pub(crate) type_name: String,
-    /// Where it always is, if it cannot move.
+    /// Its pose, if it cannot move.
     pub(crate) still: Option<Placed>,
-    /// How it looks, in its own frame; empty for a mere frame. Nodes that look the same share it.
+    /// Its mesh in its own frame; empty for a bare frame. Nodes that look the same share it.
     pub(crate) mesh: Arc<VisualMesh>,
 }
 
-/// A corner of what is seen.
+/// A corner of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Vertex {
-    /// Where (m).
+    /// Position (m).
     pub(crate) at: [f32; 3],
     /// Unit normal.
     pub(crate) normal: [f32; 3],
@@ -62,21 +63,21 @@ pub(crate) struct Vertex {
     pub(crate) gloss: f32,
 }
 
-/// A surface with colours.
+/// A coloured mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct VisualMesh {
     /// Corners.
     pub(crate) vertices: Vec<Vertex>,
-    /// Triangles as places in `vertices`, counter-clockwise seen from outside.
+    /// Triangles as indices into `vertices`, counter-clockwise seen from outside.
     pub(crate) triangles: Vec<[u32; 3]>,
 }
 
 impl VisualMesh {
-    /// All bodies of a scene as one surface.
+    /// All bodies of a scene as one mesh.
     pub(crate) fn of(scene: &Scene) -> Self {
         let mut mesh = Self::default();
         for body in &scene.bodies {
-            // A surface of four milliard corners does not fit into memory.
+            // A mesh of four billion corners does not fit into memory.
             let first = u32::try_from(mesh.vertices.len()).unwrap_or(u32::MAX);
             let gloss = match body.finish {
                 Finish::Matt | Finish::Boards => 0.0,

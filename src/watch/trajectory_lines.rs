@@ -1,4 +1,4 @@
-//! Planned trajectories as lines.
+//! Planned trajectories as polylines.
 
 use super::frame::Path;
 use crate::motion::{PlannedTrajectory, TrajectoryAxes};
@@ -6,14 +6,14 @@ use crate::robot::Side;
 use crate::spatial::Pose;
 use crate::world::World;
 
-/// Time (s) between two points of a line, and most points.
+/// Time (s) between two points of a line, and greatest number of points.
 const EVERY: f64 = 0.08;
 const MOST_POINTS: usize = 90;
 
-/// Height (m) of the line of the base above the floor.
+/// Height (m) of the base's line above the floor.
 const ABOVE_FLOOR: f32 = 0.015;
 
-/// A planned trajectory as lines.
+/// A planned trajectory as polylines.
 pub(crate) struct TrajectoryLines {
     number: u64,
     duration: f64,
@@ -72,7 +72,7 @@ impl TrajectoryLines {
         }
     }
 
-    /// Whether these are the lines of that trajectory.
+    /// Whether these lines belong to this trajectory.
     pub(crate) fn is(&self, number: u64, planned: &PlannedTrajectory<'_>) -> bool {
         self.number == number
             && self.duration == planned.trajectory.duration()

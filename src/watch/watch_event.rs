@@ -1,6 +1,6 @@
-//! What happens in a session beside movement.
+//! What happens in a session besides motion.
 
-/// Tells tasks and motions of a session apart.
+/// Identifies a task or a motion of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum TaskId {
     /// A task of a plan, by its number.
@@ -9,44 +9,44 @@ pub(crate) enum TaskId {
     Motion(u64),
 }
 
-/// Something that happened.
+/// An event of a session.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum WatchEvent {
-    /// Text was printed; not necessarily whole lines.
+    /// Text was printed, not necessarily whole lines.
     Output(String),
-    /// A condition that nobody handled ended an evaluation; its report.
+    /// An unhandled condition ended an evaluation; this is its report.
     Aborted(String),
     /// A task began, or its state changed.
     Task(TaskNews),
 }
 
-/// What became of a task.
+/// A change in the state of a task.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TaskNews {
     /// Which task.
     pub(crate) id: TaskId,
-    /// The task that started it; none if the prompt did.
+    /// The task that started it; `None` if the prompt did.
     pub(crate) parent: Option<TaskId>,
-    /// How people call it.
+    /// The name that users see.
     pub(crate) name: String,
-    /// How it is now.
+    /// Its new state.
     pub(crate) state: TaskState,
     /// Why it failed; empty otherwise.
     pub(crate) failure: String,
 }
 
-/// How a task is.
+/// The state of a task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TaskState {
     /// It runs or waits.
     Running,
-    /// It holds still.
+    /// It is suspended.
     Suspended,
-    /// It has ended well.
+    /// It has succeeded.
     Succeeded,
-    /// It has ended with a failure.
+    /// It has failed.
     Failed,
-    /// It was told to end.
+    /// It was evaporated: another task made it end.
     Evaporated,
 }
 
@@ -71,7 +71,7 @@ impl TaskState {
         }
     }
 
-    /// The state of that name.
+    /// The state with this name.
     pub(crate) fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|state| state.name() == name)
     }

@@ -57,7 +57,7 @@ fn recordings_that_cannot_be_read_or_written_are_told() {
     let (status, _, err) = output(&["view", "Cargo.toml"]);
     assert_eq!(status, Some(2));
     assert!(
-        err.starts_with("error: cannot show Cargo.toml: it is no MCAP file"),
+        err.starts_with("error: cannot show Cargo.toml: it is not an MCAP file"),
         "{err}"
     );
     let (status, _, err) = output(&["view", "no/such.mcap"]);

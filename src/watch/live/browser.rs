@@ -4,8 +4,8 @@ use std::env;
 use std::process::{Command, Stdio};
 use std::thread;
 
-/// Opens the address in the user's browser, where there is a display to show it on. Does not
-/// wait for it; that there is no browser is no failure. Returns whether one has been started.
+/// Opens the address in the user's browser if there is a display. Does not wait for the
+/// browser; having none is not an error. Returns whether one was started.
 pub(crate) fn open_in_browser(address: &str) -> bool {
     let Some(mut command) = opener() else {
         return false;
@@ -18,7 +18,7 @@ pub(crate) fn open_in_browser(address: &str) -> bool {
     let Ok(mut child) = command.spawn() else {
         return false;
     };
-    // Somebody has to take note of its end; whether it went well is not our business.
+    // The child must be waited for; whether it succeeded does not matter.
     thread::spawn(move || child.wait().map(drop));
     true
 }

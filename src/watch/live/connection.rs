@@ -1,4 +1,4 @@
-//! One connection: who asks, and for what.
+//! One connection: checks who is asking, and answers.
 
 use std::io;
 use std::net::TcpStream;
@@ -13,16 +13,16 @@ use super::server::Shared;
 use super::stream::stream;
 use super::token::{is_same, random_word};
 
-/// Frames of the past in one answer.
-const MOST_MOMENTS: usize = 120;
+/// Greatest number of past frames in one answer.
+const MOST_FRAMES: usize = 120;
 
 const TEXT: &str = "text/plain; charset=utf-8";
 
 /// Answers one request, or drops it.
 pub(crate) fn serve(shared: &Arc<Shared>, mut to: TcpStream) {
-    // Frames are small and must not wait for others.
+    // Send frames, which are small, at once.
     let prepared = to.set_nodelay(true);
-    // Who sent something malformed, is too slow or has left gets no answer.
+    // A client that sent something malformed, is too slow or has left gets no answer.
     if prepared.is_ok() {
         let _ = read_and_answer(shared, &mut to);
     }
@@ -84,7 +84,7 @@ fn is_from_own_page(shared: &Shared, request: &Request) -> bool {
     let origin = request.origin.as_deref();
     let is_own = origin.is_none_or(|origin| origin.strip_prefix("http://") == Some(host));
     let site = request.site.as_deref();
-    // An address that was typed in, or opened from elsewhere, is asked for by nobody.
+    // A request that no page made: the address was typed, or opened by another program.
     let is_alone = matches!(site, None | Some("same-origin" | "none"));
     let is_safe = request.method == "GET" || origin.is_some();
     is_own && is_alone && is_safe
@@ -106,11 +106,12 @@ fn send_page(to: &mut TcpStream) -> io::Result<()> {
     )
 }
 
-/// The past between two times as a list of frames, each as it differs from the one before.
+/// The frames of the past between two times as a list, each as its difference from the one
+/// before.
 fn past(shared: &Shared, request: &Request) -> String {
     let from = request.number("from").unwrap_or(0.0);
     let to = request.number("to").unwrap_or(from);
-    let frames = shared.history.past(from, to, MOST_MOMENTS);
+    let frames = shared.history.past(from, to, MOST_FRAMES);
     let mut before = None;
     let frames: Vec<String> = frames
         .iter()
@@ -119,8 +120,8 @@ fn past(shared: &Shared, request: &Request) -> String {
     format!("[{}]", frames.join(","))
 }
 
-/// Does what a viewer asks for: `pause`, `go`, or `speed` and which. Returns whether that is
-/// known.
+/// Carries out a viewer's request: `pause`, `go`, or `speed` and a speed. Returns whether the
+/// request is known.
 fn change_pace(pace: &PaceControl, wanted: &str) -> bool {
     match wanted.split_once(' ') {
         None if wanted == "pause" => pace.set_paused(true),

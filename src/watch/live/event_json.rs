@@ -1,10 +1,10 @@
-//! News as text for the page.
+//! Events as JSON for the page.
 
 use serde_json::{Value, json};
 
 use crate::watch::{Node, TaskId, WatchEvent};
 
-/// A piece of news of that simulated time (s).
+/// An event with its simulated time (s).
 pub(crate) fn news((time, event): &(f64, WatchEvent)) -> Value {
     match event {
         WatchEvent::Output(text) => json!({"t": time, "text": text}),
@@ -20,7 +20,7 @@ pub(crate) fn news((time, event): &(f64, WatchEvent)) -> Value {
     }
 }
 
-/// What the page needs to know of a node beside its mesh.
+/// What the page needs to know of a node besides its mesh.
 pub(crate) fn node(node: &Node) -> Value {
     json!({
         "id": node.id,

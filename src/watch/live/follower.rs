@@ -1,4 +1,4 @@
-//! Writes into a history what happens in a session.
+//! Adds what happens in a session to a history.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -7,14 +7,14 @@ use super::history::History;
 use crate::watch::{Cause, Follower, FrameBuilder, Observation, WatchEvent};
 use crate::world::CollisionHit;
 
-/// Real time between two frames that viewers get: more come than a screen shows.
+/// Least real time between two frames for viewers; a screen could not show more.
 const BETWEEN_FRAMES: Duration = Duration::from_millis(14);
 
 /// Simulated time (s) between two frames of the past.
 const BETWEEN_KEPT: f64 = 1.0 / 30.0;
 
-/// Writes into a history what happens in a session. Looks at the world no more often than
-/// somebody can see.
+/// Adds what happens in a session to a history. Builds frames no more often than a viewer can
+/// see them.
 pub(crate) struct LiveFollower {
     history: History,
     frame_builder: FrameBuilder,
@@ -23,7 +23,7 @@ pub(crate) struct LiveFollower {
 }
 
 impl LiveFollower {
-    /// A follower that writes into the history.
+    /// A follower that adds to the history.
     pub(crate) fn new(history: History, frame_builder: FrameBuilder) -> Self {
         Self {
             history,
@@ -47,14 +47,15 @@ impl Follower for LiveFollower {
         if keep {
             self.kept = observation.time;
         }
-        // Edits that take no time are part of the past, too: the last one counts.
+        // Edits that take no time are part of the past, too; of several, the last one is kept.
         let keep = keep || cause == Cause::Edit;
-        self.history.leave(self.frame_builder.nodes(), frame, keep);
+        self.history
+            .publish(self.frame_builder.nodes(), frame, keep);
         self.left = Some(Instant::now());
     }
 
     fn hear(&mut self, time: f64, event: &WatchEvent) {
-        self.history.tell(time, event);
+        self.history.add_news(time, event);
     }
 
     fn collide(&mut self, time: f64, hit: &CollisionHit) {

@@ -1,6 +1,6 @@
-//! Frames as text for the page.
+//! Frames as JSON for the page.
 //!
-//! A frame tells what is different from the one before it: lengths in tenths of a millimetre,
+//! A frame is written as its difference from the one before: lengths in tenths of a millimetre,
 //! quaternions in hundred-thousandths.
 
 use std::fmt::Write;
@@ -8,14 +8,14 @@ use std::sync::Arc;
 
 use crate::watch::{Frame, Path, Placed};
 
-/// Parts of a metre, and of one in quaternions.
+/// Units per metre, and units per one in quaternions.
 const METRE: f32 = 1e4;
 const UNIT: f32 = 1e5;
 
-/// The frame as a JSON object, as it differs from the one that the page has.
+/// The frame as a JSON object that holds the difference from the frame that the page has.
 pub(crate) fn frame_json(frame: &Frame, before: Option<&Frame>) -> String {
     let mut text = String::with_capacity(4096);
-    // Writing to a string does not fail.
+    // Writing to a string cannot fail.
     let _ = write!(
         text,
         "{{\"t\":{:.4},\"whole\":{}",
@@ -26,7 +26,7 @@ pub(crate) fn frame_json(frame: &Frame, before: Option<&Frame>) -> String {
     let placed = frame.placed.iter();
     let moved = placed.filter(|p| {
         let then = known.binary_search_by_key(&p.node, |k| k.node);
-        // A place that the search found is within the list.
+        // An index found by the search is valid.
         then.map_or(true, |i| numbers(&known[i]) != numbers(p))
     });
     list(&mut text, "p", moved, |text, p| {
@@ -82,7 +82,7 @@ fn path(text: &mut String, path: &Path) {
     text.push('}');
 }
 
-/// Adds a member of an object: a list.
+/// Adds a list as a member of an object.
 fn list<T>(
     text: &mut String,
     name: &str,
@@ -99,7 +99,7 @@ fn list<T>(
     text.push(']');
 }
 
-/// Origin and quaternion as the page gets them.
+/// Origin and quaternion in the page's units.
 pub(crate) fn numbers(placed: &Placed) -> [i32; 7] {
     let [x, y, z] = units(placed.at, METRE);
     let [i, j, k, w] = units(placed.turn, UNIT);

@@ -1,4 +1,4 @@
-//! What a session leaves for those who look: the newest frame, the past, and the news.
+//! What a session offers its viewers: the newest frame, the past, and the news.
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -7,22 +7,22 @@ use std::time::Duration;
 use super::timeline::Timeline;
 use crate::watch::{Frame, Kind, Node, WatchEvent};
 
-/// News that are kept; the oldest are forgotten first.
+/// Number of news items that are kept; the oldest are forgotten first.
 const MOST_NEWS: usize = 40_000;
 
-/// Characters of one piece of news that are kept.
+/// Number of characters that are kept of a news item.
 const MOST_TEXT: usize = 4_000;
 
 /// Where a history comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Origin {
-    /// A session that goes on.
+    /// A running session.
     Session,
     /// A recording.
     Recording,
 }
 
-/// What a session leaves for those who look. Clones are the same history.
+/// What a session offers its viewers. Clones share the same history.
 #[derive(Clone)]
 pub(crate) struct History {
     shared: Arc<Shared>,
@@ -40,7 +40,7 @@ struct State {
     newest: Option<Arc<Frame>>,
     past: Timeline,
     news: VecDeque<Arc<(f64, WatchEvent)>>,
-    /// How many news were forgotten.
+    /// Number of forgotten news items.
     forgotten: usize,
     /// Counts changes.
     version: u64,
@@ -57,13 +57,13 @@ pub(crate) struct ReadPosition {
 }
 
 impl ReadPosition {
-    /// Whether the last reading came to the end.
+    /// Whether the last read reached the end.
     pub(crate) fn is_read(&self) -> bool {
         self.has_all
     }
 }
 
-/// What a reader has not had yet.
+/// What is new to a reader.
 pub(crate) struct Unread {
     pub(crate) nodes: Vec<Arc<Node>>,
     pub(crate) newest: Option<Arc<Frame>>,
@@ -73,7 +73,7 @@ pub(crate) struct Unread {
 }
 
 impl History {
-    /// An empty one.
+    /// An empty history.
     pub(crate) fn new(origin: Origin) -> Self {
         let shared = Shared {
             origin,
@@ -85,14 +85,14 @@ impl History {
         }
     }
 
-    /// Where it comes from.
+    /// Where the history comes from.
     pub(crate) fn origin(&self) -> Origin {
         self.shared.origin
     }
 
-    /// Leaves the newest frame; `nodes` are all that are known. It goes into the past, too, if
-    /// that is asked for.
-    pub(crate) fn leave(&self, nodes: &[Arc<Node>], frame: Arc<Frame>, keep: bool) {
+    /// Publishes the newest frame; `nodes` are all known nodes. With `keep`, adds the frame to
+    /// the past, too.
+    pub(crate) fn publish(&self, nodes: &[Arc<Node>], frame: Arc<Frame>, keep: bool) {
         self.change(|state| {
             let known = state.nodes.len().min(nodes.len());
             state.nodes.extend_from_slice(&nodes[known..]);
@@ -103,8 +103,8 @@ impl History {
         });
     }
 
-    /// Adds news of that simulated time (s).
-    pub(crate) fn tell(&self, time: f64, event: &WatchEvent) {
+    /// Adds a news item with its simulated time (s).
+    pub(crate) fn add_news(&self, time: f64, event: &WatchEvent) {
         let event = match event {
             WatchEvent::Output(text) => WatchEvent::Output(shortened(text)),
             WatchEvent::Aborted(text) => WatchEvent::Aborted(shortened(text)),
@@ -129,8 +129,8 @@ impl History {
         self.change(|state| state.is_over = true);
     }
 
-    /// What a reader has not had yet, as soon as there is something or that much time has
-    /// passed; at most `most` news.
+    /// What is new to a reader, at most `most` news items, as soon as there is anything or the
+    /// timeout has passed.
     pub(crate) fn read(&self, mark: &mut ReadPosition, most: usize, timeout: Duration) -> Unread {
         let state = self.state();
         let is_old = |state: &mut State| state.version == mark.version && mark.has_all;
@@ -155,25 +155,25 @@ impl History {
         }
     }
 
-    /// The node of a link of the robot, by the link's name.
+    /// The node of the link of the robot that has this name.
     pub(crate) fn link_named(&self, name: &str) -> Option<u32> {
         let state = self.state();
         let mut links = state.nodes.iter().filter(|n| n.kind == Kind::Robot);
         links.find(|node| node.name == name).map(|node| node.id)
     }
 
-    /// Nodes from that number on.
+    /// The nodes from this number on.
     pub(crate) fn nodes_from(&self, first: usize) -> Vec<Arc<Node>> {
         self.state().nodes.get(first..).unwrap_or_default().to_vec()
     }
 
-    /// The news that are remembered, with their simulated times (s).
+    /// The news items that are kept, with their simulated times (s).
     #[cfg(test)]
     pub(crate) fn news(&self) -> Vec<Arc<(f64, WatchEvent)>> {
         self.state().news.iter().cloned().collect()
     }
 
-    /// The past between two times (s), at most so many frames.
+    /// The past between two times (s), at most `most` frames.
     pub(crate) fn past(&self, from: f64, to: f64, most: usize) -> Vec<Arc<Frame>> {
         self.state().past.between(from, to, most)
     }
@@ -187,7 +187,7 @@ impl History {
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
-        // Nothing panics while it holds the lock, and if it did, the state would be whole.
+        // Nothing panics while holding the lock, and even then the state would be consistent.
         let state = self.shared.state.lock();
         state.unwrap_or_else(PoisonError::into_inner)
     }
@@ -205,7 +205,7 @@ mod tests {
     use crate::watch::live::history::*;
 
     fn told(history: &History, text: &str) {
-        history.tell(0.0, &WatchEvent::Output(text.to_owned()));
+        history.add_news(0.0, &WatchEvent::Output(text.to_owned()));
     }
 
     fn read(history: &History, mark: &mut ReadPosition) -> Vec<String> {

@@ -1,4 +1,4 @@
-//! As much of HTTP as one page needs: the head of a request, and answers that end the
+//! As much of HTTP as one page needs: the head of a request, and answers that close the
 //! connection.
 
 use std::io::{self, Read, Write};
@@ -7,45 +7,45 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
-/// Bytes that a head may have, and a body.
+/// Greatest size (bytes) of a request's head and body.
 const MOST_HEAD: usize = 8 << 10;
 const MOST_BODY: usize = 256;
 
-/// How long a client may take to say what it wants, and to take an answer.
-const PATIENCE: Duration = Duration::from_secs(3);
+/// How long a client may take to send its request, and to receive an answer.
+const TIMEOUT: Duration = Duration::from_secs(3);
 
-/// Why a request is not answered as it would like.
+/// Why a request is not served.
 #[derive(Debug, Error)]
 pub(crate) enum HttpError {
     /// The client left, or was too slow.
     #[error("the client is gone: {0}")]
     Gone(#[from] io::Error),
-    /// What came is no request.
+    /// The data received is not a request.
     #[error("malformed")]
     Malformed,
-    /// More came than anybody needs.
+    /// The request is larger than any valid one.
     #[error("too large")]
     TooLarge,
 }
 
-/// What a client wants.
+/// A client's request.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Request {
     pub(crate) method: String,
     /// The path without the query.
     pub(crate) path: String,
-    /// After the question mark.
+    /// The part after the question mark.
     pub(crate) query: String,
     pub(crate) host: Option<String>,
     pub(crate) origin: Option<String>,
-    /// What the browser says about the page that asks.
+    /// What the browser says about the origin of the request.
     pub(crate) site: Option<String>,
     length: usize,
     pub(crate) body: String,
 }
 
 impl Request {
-    /// The number that the query gives to a name.
+    /// The number that a parameter of the query has.
     pub(crate) fn number(&self, name: &str) -> Option<f64> {
         let mut pairs = self
             .query
@@ -84,7 +84,7 @@ impl Request {
                 "transfer-encoding" => return Err(HttpError::Malformed),
                 _ => continue,
             };
-            // Two of them would be read differently by different people.
+            // With two values, different programs would read different ones.
             if place.replace(value.to_owned()).is_some() {
                 return Err(HttpError::Malformed);
             }
@@ -95,8 +95,8 @@ impl Request {
 
 /// Reads one request.
 pub(crate) fn read_request(stream: &mut TcpStream) -> Result<Request, HttpError> {
-    let deadline = Instant::now() + PATIENCE;
-    stream.set_write_timeout(Some(PATIENCE))?;
+    let deadline = Instant::now() + TIMEOUT;
+    stream.set_write_timeout(Some(TIMEOUT))?;
     let mut bytes = Vec::new();
     let end = loop {
         if let Some(end) = bytes.windows(4).position(|four| four == b"\r\n\r\n") {
@@ -138,8 +138,8 @@ fn read_some(stream: &mut TcpStream, to: &mut Vec<u8>, deadline: Instant) -> io:
     }
 }
 
-/// What is told with every answer: nobody keeps it, guesses what it is or shows it inside of
-/// another page.
+/// Headers of every answer: browsers must not cache it, guess its type, or show it inside another
+/// page.
 const ALWAYS: &str = "Connection: close\r\n\
      Cache-Control: no-store\r\n\
      X-Content-Type-Options: nosniff\r\n\
@@ -148,7 +148,7 @@ const ALWAYS: &str = "Connection: close\r\n\
      Cross-Origin-Resource-Policy: same-origin\r\n\
      Cross-Origin-Opener-Policy: same-origin\r\n";
 
-/// Answers with the content, and further header lines.
+/// Sends an answer with this content and additional header lines.
 pub(crate) fn answer(
     stream: &mut TcpStream,
     status: &str,
@@ -164,7 +164,7 @@ pub(crate) fn answer(
     stream.write_all(content)
 }
 
-/// Begins an answer of events that goes on.
+/// Begins an answer that is an endless stream of events.
 pub(crate) fn begin_events(stream: &mut TcpStream) -> io::Result<()> {
     let head = format!("HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\n{ALWAYS}\r\n");
     stream.write_all(head.as_bytes())

@@ -1,8 +1,8 @@
-//! Meshes as bytes for the page.
+//! Meshes as binary data for the page.
 //!
-//! Numbers are little-endian. For each node: its number, the count of corners and of triangle
-//! corners (u32 each); then every corner as three f32 (m), three i8 for the normal (127 is 1),
-//! one u8 for the gloss, and four u8 for the linear colour (255 is 1, square root of the
+//! Numbers are little-endian. For each node: its number, the number of corners and of triangle
+//! corners (u32 each); then each corner as three f32 (m), three i8 for the normal (127 is 1),
+//! one u8 for the gloss, and four u8 for the linear colour (255 is 1; the square root of the
 //! value, since dark colours need finer steps); then the triangles as u32.
 
 use std::sync::Arc;

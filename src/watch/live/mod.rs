@@ -1,15 +1,15 @@
-//! The live view: a page in the browser that shows the robot in its kitchen as it moves.
+//! The live view: a page in the browser that shows the robot moving in its kitchen.
 //!
-//! The session writes into a [`History`]; a [`Server`] on 127.0.0.1 lets one page read it,
-//! whose address has a random word in it. What holds true here:
-//! - The session never waits for a viewer: it leaves the newest frame and goes on. Every
-//!   viewer has a thread of its own, which may be slow, stuck or gone.
-//! - A viewer can ask for nothing but a pause and another speed, see [`PaceControl`]. Nothing
-//!   is evaluated, no file is read, what is malformed is dropped.
-//! - Only requests with the random word, to the server's own address and from its own page
-//!   are answered.
-//! - Memory is bounded: the past is thinned out, old lines are forgotten. Only names of objects
-//!   stay, however long ago they were.
+//! The session writes to a [`History`]; a [`Server`] on 127.0.0.1 lets a single page read it,
+//! whose address contains a random word. Invariants:
+//! - The session never waits for a viewer: it publishes the newest frame and continues. Each
+//!   viewer has its own thread, which may be slow, stuck or gone.
+//! - A viewer can request only a pause or another speed, see [`PaceControl`]. Nothing is
+//!   evaluated, no file is read, and malformed requests are dropped.
+//! - Only requests that contain the random word, are addressed to the server itself and come
+//!   from its own page are answered.
+//! - Memory is bounded: the past is thinned out and old news is forgotten. Only the nodes of
+//!   objects stay for ever.
 
 mod browser;
 mod connection;

@@ -1,19 +1,19 @@
-//! How fast simulated time passes, as a viewer may choose.
+//! How fast simulated time passes, as viewers choose.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How many simulated seconds pass in a real one.
+/// How many simulated seconds pass per real second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Speed {
-    /// So many.
+    /// This many.
     Times(f64),
     /// As many as possible.
     Unlimited,
 }
 
 impl Speed {
-    /// The speed that the text names: `max` or a number from 0.01 to 100.
+    /// The speed named by the text: `max`, or a number from 0.01 to 100.
     pub(crate) fn named(text: &str) -> Option<Self> {
         if text == "max" {
             return Some(Self::Unlimited);
@@ -24,7 +24,7 @@ impl Speed {
             .then_some(Self::Times(factor))
     }
 
-    /// The factor; infinite for as fast as possible.
+    /// The factor; infinite for [`Unlimited`](Self::Unlimited).
     pub(crate) fn factor(self) -> f64 {
         match self {
             Self::Times(factor) => factor,
@@ -33,7 +33,7 @@ impl Speed {
     }
 }
 
-/// How fast simulated time passes, and whether it does. Clones are the same control. It
+/// How fast simulated time passes, and whether it is paused. Clones share the same control. It
 /// changes when things happen, never what happens.
 #[derive(Clone, Debug)]
 pub(crate) struct PaceControl {
@@ -47,7 +47,7 @@ struct State {
 }
 
 impl PaceControl {
-    /// Time passes at that speed.
+    /// Time passes at this speed.
     pub(crate) fn new(speed: Speed) -> Self {
         let state = State {
             speed,
@@ -58,7 +58,7 @@ impl PaceControl {
         }
     }
 
-    /// The speed, and whether time stands still.
+    /// The speed, and whether time is paused.
     pub(crate) fn get(&self) -> (Speed, bool) {
         let state = self.state();
         (state.speed, state.is_paused)
@@ -69,14 +69,14 @@ impl PaceControl {
         self.state().speed = speed;
     }
 
-    /// Lets time stand still, or pass again.
+    /// Pauses time, or lets it pass again.
     pub(crate) fn set_paused(&self, is_paused: bool) {
         self.state().is_paused = is_paused;
         self.shared.1.notify_all();
     }
 
-    /// Waits while time stands still, but not longer than that. Returns the speed, or nothing
-    /// if time still stands.
+    /// Waits while time is paused, up to the timeout. Returns the speed, or `None` if time is
+    /// still paused.
     pub(crate) fn wait(&self, timeout: Duration) -> Option<Speed> {
         let waiting = |state: &mut State| state.is_paused;
         let waited = self

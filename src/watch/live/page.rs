@@ -1,6 +1,6 @@
-//! The page, put together from its parts.
+//! The page, assembled from its parts.
 
-/// Parts of the page's program, in the order in which they are defined.
+/// Parts of the page's script, in the order of definition.
 const SCRIPTS: [&str; 15] = [
     include_str!("page/algebra.js"),
     include_str!("page/program.js"),
@@ -22,9 +22,11 @@ const SCRIPTS: [&str; 15] = [
 const STYLE: &str = include_str!("page/style.css");
 const FRAME: &str = include_str!("page/page.html");
 
-/// The page; `word` shows the browser that style and program are its own.
+/// The page; `word` is the nonce that tells the browser that style and script are the page's
+/// own.
 pub(crate) fn page(word: &str) -> String {
-    // The word goes in first, so that nothing in the parts is taken for its place.
+    // The nonce is inserted first, so that nothing in the parts is mistaken for its
+    // placeholder.
     FRAME
         .replace("{word}", word)
         .replace("{style}", STYLE)

@@ -15,13 +15,13 @@ use super::pace_control::PaceControl;
 use super::token::random_word;
 use super::views::Views;
 
-/// Connections at the same time; further ones are closed at once.
+/// Greatest number of simultaneous connections; further ones are closed at once.
 const MOST_CONNECTIONS: usize = 48;
 
-/// Bytes of the stack of a connection's thread.
+/// Bytes of stack for a connection's thread.
 const STACK_BYTES: usize = 512 << 10;
 
-/// How long the last viewer must be gone before a pause ends.
+/// How long after the last viewer has left a pause ends.
 const GONE: Duration = Duration::from_secs(3);
 
 /// Serves the page until it is dropped.
@@ -34,7 +34,7 @@ pub(crate) struct Server {
 /// What the threads of the server share.
 pub(crate) struct Shared {
     pub(crate) history: History,
-    /// None where time does not pass, as in a recording.
+    /// `None` where time does not pass, as in a recording.
     pub(crate) pace: Option<PaceControl>,
     pub(crate) views: Value,
     /// The random word in the page's address.
@@ -47,7 +47,7 @@ pub(crate) struct Shared {
 }
 
 impl Server {
-    /// Starts to serve on 127.0.0.1, on any port that is free.
+    /// Starts serving on 127.0.0.1, on any free port.
     pub(crate) fn start(
         history: History,
         pace: Option<PaceControl>,
@@ -82,12 +82,12 @@ impl Server {
         format!("http://{}/{}/", self.address, self.shared.token)
     }
 
-    /// How many viewers there are now.
+    /// The current number of viewers.
     pub(crate) fn viewers(&self) -> usize {
         self.shared.viewers.load(Ordering::Relaxed)
     }
 
-    /// Whether there has been one.
+    /// Whether there has been a viewer.
     pub(crate) fn had_viewer(&self) -> bool {
         self.shared.had_viewer.load(Ordering::Relaxed)
     }
@@ -96,10 +96,10 @@ impl Server {
 impl Drop for Server {
     fn drop(&mut self) {
         self.shared.is_stopped.store(true, Ordering::Relaxed);
-        // A connection wakes the thread that waits for one.
+        // A connection wakes the thread that waits in `accept`.
         drop(TcpStream::connect(self.address));
         if let Some(thread) = self.thread.take() {
-            // It does not panic, and if it did, there would be nothing to do.
+            // The thread does not panic, and even then there would be nothing to do.
             drop(thread.join());
         }
     }
@@ -110,7 +110,7 @@ impl Shared {
         self.is_stopped.load(Ordering::Relaxed)
     }
 
-    /// Counts a viewer in as long as the result lives.
+    /// Counts a viewer for as long as the result lives.
     pub(crate) fn begin_viewing(self: &Arc<Self>) -> Viewing {
         self.viewers.fetch_add(1, Ordering::Relaxed);
         self.had_viewer.store(true, Ordering::Relaxed);
@@ -118,15 +118,15 @@ impl Shared {
     }
 }
 
-/// A viewer that is there.
+/// A connected viewer.
 pub(crate) struct Viewing(Arc<Shared>);
 
 impl Drop for Viewing {
     fn drop(&mut self) {
         self.0.viewers.fetch_sub(1, Ordering::Relaxed);
         let Some(pace) = &self.0.pace else { return };
-        // Somebody who reloads the page comes back at once. A pause that nobody sees, and
-        // nobody can end, ends by itself.
+        // A user who reloads the page comes back at once. A pause that nobody sees and nobody
+        // can end ends by itself.
         thread::sleep(GONE);
         if self.0.viewers.load(Ordering::Relaxed) == 0 {
             pace.set_paused(false);
@@ -140,7 +140,7 @@ fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
             return;
         }
         let Ok(stream) = stream else {
-            // Out of files, most likely: some will be closed soon.
+            // Most likely out of file descriptors; some will be closed soon.
             thread::sleep(Duration::from_millis(50));
             continue;
         };

@@ -1,4 +1,4 @@
-//! What one viewer gets as long as it looks.
+//! The stream of events to one viewer.
 
 use std::io::{self, Write};
 use std::net::TcpStream;
@@ -19,14 +19,14 @@ use crate::watch::Frame;
 /// Least time between two frames.
 const BETWEEN_FRAMES: Duration = Duration::from_millis(15);
 
-/// How long nothing may come before a sign of life, by which one that has left is noticed.
+/// How long to stay silent before sending a sign of life, which reveals a viewer that has left.
 const SIGN_OF_LIFE: Duration = Duration::from_millis(500);
 
-/// Pieces of news in one message.
+/// Greatest number of news items in one message.
 const MOST_NEWS: usize = 500;
 
-/// Sends what is new until the viewer or the session is gone. Sends only the newest frame: a
-/// viewer that is slow misses some.
+/// Sends what is new until the viewer or the session is gone. Sends only the newest frame, so a
+/// slow viewer misses some.
 pub(crate) fn stream(shared: &Shared, to: &mut TcpStream) -> io::Result<()> {
     begin_events(to)?;
     let mut mark = ReadPosition::default();

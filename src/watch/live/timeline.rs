@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use crate::watch::Frame;
 
-/// Bytes that frames may take together.
+/// Approximate limit of the memory (bytes) for all frames.
 const MOST_BYTES: usize = 96 << 20;
 
-/// Frames in order of time. When they take too much memory, every second one of the older
-/// half is forgotten: the longer ago, the coarser.
+/// Frames in order of time. When they take too much memory, every other one of the older half
+/// is forgotten, so the past gets coarser with age.
 #[derive(Debug)]
 pub(crate) struct Timeline {
     frames: VecDeque<Arc<Frame>>,
@@ -24,7 +24,7 @@ impl Default for Timeline {
 }
 
 impl Timeline {
-    /// An empty past that takes about so many bytes at most.
+    /// An empty past that takes at most about `most_bytes`.
     pub(crate) fn new(most_bytes: usize) -> Self {
         Self {
             frames: VecDeque::new(),
@@ -33,7 +33,7 @@ impl Timeline {
         }
     }
 
-    /// Adds a frame that is not before the last one; one at the same time takes its place.
+    /// Adds a frame that is not before the last one; it replaces one at the same time.
     pub(crate) fn push(&mut self, frame: Arc<Frame>) {
         while let Some(last) = self.frames.back()
             && last.time >= frame.time
@@ -53,7 +53,7 @@ impl Timeline {
         let mut place = 0;
         self.frames.retain(|_| {
             place += 1;
-            // The first frame stays, so that the past keeps its beginning.
+            // The first frame is kept, so that the past keeps its beginning.
             place > half || place % 2 == 1
         });
         self.bytes = self.frames.iter().map(|m| m.bytes()).sum();
@@ -70,7 +70,7 @@ impl Timeline {
         let frames = self.frames.range(after.saturating_sub(1)..);
         let within = frames.take_while(|m| m.time <= to).take(most);
         let mut found: Vec<_> = within.cloned().collect();
-        // A time before the first frame shows that one.
+        // For a time before the first frame, that frame is shown.
         if found.is_empty() {
             found.extend(self.frames.front().cloned());
         }

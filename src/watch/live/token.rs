@@ -1,4 +1,4 @@
-//! Words that nobody guesses.
+//! Words that cannot be guessed.
 
 use std::fmt::Write;
 use std::hash::{BuildHasher, Hasher, RandomState};
@@ -6,19 +6,19 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 /// A random word of 32 hexadecimal digits.
 ///
 /// The standard library seeds each thread's hash keys from the operating system's source of
-/// randomness; hashes under such keys cannot be foretold.
+/// randomness, so hashes under these keys are unpredictable.
 pub(crate) fn random_word() -> String {
     let mut word = String::new();
     for _ in 0..2 {
         let mut hasher = RandomState::new().build_hasher();
         hasher.write_u8(b'w');
-        // Writing to a string does not fail.
+        // Writing to a string cannot fail.
         let _ = write!(word, "{:016x}", hasher.finish());
     }
     word
 }
 
-/// Whether the two are the same, in a time that does not tell how far they agree.
+/// Whether the two are equal, in a time that does not depend on where they differ.
 pub(crate) fn is_same(a: &[u8], b: &[u8]) -> bool {
     let differences = a.iter().zip(b).fold(0, |all, (x, y)| all | (x ^ y));
     a.len() == b.len() && differences == 0

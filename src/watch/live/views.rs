@@ -1,4 +1,4 @@
-//! What the page needs to know to look from the named places.
+//! The data that the page needs for the named views.
 
 use serde_json::{Value, json};
 
@@ -6,19 +6,19 @@ use crate::picture::View;
 use crate::robot::LinkId;
 use crate::world::World;
 
-/// How far (m) the frustum of the robot's camera is drawn.
+/// Length (m) of the drawn frustum of the robot's camera.
 const FRUSTUM: f64 = 1.6;
 
-/// Heights (m) that views look at: what is in the middle of the picture lies there.
+/// Height (m) of the point that a view looks at.
 const LOOKED_AT: f64 = 0.7;
 
-/// What the page needs to know to look from the named places.
+/// The data that the page needs for the named views.
 #[derive(Clone, Debug)]
 pub(crate) struct Views(pub(crate) Value);
 
 impl Views {
-    /// The named places in the world. `node_of` tells the node of a link of the robot, by its
-    /// name.
+    /// The named views of the world. `node_of` finds the node of a link of the robot by the
+    /// link's name.
     pub(crate) fn new(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Self {
         Self(views(world, node_of))
     }

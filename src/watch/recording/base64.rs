@@ -1,4 +1,4 @@
-//! Bytes as text, as JSON needs it (RFC 4648).
+//! Binary data as text for JSON (RFC 4648).
 
 const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
@@ -10,7 +10,7 @@ pub(crate) fn base64(bytes: &[u8]) -> String {
         let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
         for i in 0..4 {
             let digit = (bits >> (18 - 6 * i) & 63) as usize;
-            // Six bits are a place among 64 digits.
+            // Six bits are a valid index into 64 digits.
             text.push(if i <= three.len() {
                 char::from(DIGITS[digit])
             } else {

@@ -1,4 +1,4 @@
-//! The channels of a recording: one table of topics and schemas.
+//! The channels of a recording, in a table of topics and schemas.
 
 use serde_json::Value;
 
@@ -7,27 +7,27 @@ use super::schema;
 /// A channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Channel {
-    /// Where links and objects are that can move.
+    /// Transforms of the links and objects that can move.
     Transforms,
-    /// Where furniture is that cannot move; told once.
+    /// Transforms of furniture that cannot move; written once.
     Still,
-    /// Robot and kitchen as bodies; told once.
+    /// Robot and kitchen as bodies; written once.
     Furnishing,
-    /// Objects as bodies; all of them whenever one comes or goes.
+    /// Objects as bodies; all of them are written whenever one appears or disappears.
     Objects,
-    /// Planned ways, coordinate axes and what stopped a motion, as lines.
+    /// Planned paths, coordinate axes and what stopped a motion, as lines.
     Overlay,
     /// Positions of the robot's joints.
     Joints,
     /// What the robot's camera sees.
     Picture,
-    /// What the camera is like.
+    /// The camera's calibration.
     Calibration,
-    /// Log lines and what was printed.
+    /// Log messages and printed output.
     Log,
     /// Tasks and motions.
     Tasks,
-    /// Who holds what, and what else is shown.
+    /// Held objects, and what else is shown.
     Shown,
 }
 
@@ -64,7 +64,7 @@ impl Channel {
         }
     }
 
-    /// Name and text of the schema of its messages.
+    /// Name and text of the schema of the channel's messages.
     pub(crate) fn schema(self) -> (&'static str, Value) {
         match self {
             Self::Transforms | Self::Still => {
@@ -82,7 +82,7 @@ impl Channel {
         }
     }
 
-    /// The channel of that topic.
+    /// The channel with this topic.
     pub(crate) fn of_topic(topic: &str) -> Option<Self> {
         Self::ALL
             .into_iter()

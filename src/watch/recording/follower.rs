@@ -12,18 +12,19 @@ use super::write::RecordingWriter;
 use crate::watch::{Cause, Follower, Frame, FrameBuilder, Node, Observation, WatchEvent};
 use crate::world::{CollisionHit, World};
 
-/// Simulated time (s) between two frames, and between two pictures of the camera.
+/// Simulated time (s) between two frames, and between two camera pictures.
 const BETWEEN_FRAMES: f64 = 1.0 / 30.0;
 const BETWEEN_PICTURES: f64 = 1.0;
 
-/// Less than a step of the world (s).
+/// Less than the duration (s) of a world step.
 const EPSILON: f64 = 1e-4;
 
-/// What may wait to be written: the session waits when there is more, so that nothing is lost.
+/// Number of items that may wait to be written: the session waits when there are more, so that
+/// nothing is lost.
 const MOST_WAITING: usize = 64;
 
-/// Records what happens in a session until it is dropped. Texts and pictures are made on a
-/// thread of its own.
+/// Records what happens in a session until it is dropped. A separate thread produces texts and
+/// pictures.
 pub(crate) struct Recorder {
     frame_builder: FrameBuilder,
     known: usize,
@@ -33,12 +34,12 @@ pub(crate) struct Recorder {
     thread: Option<JoinHandle<()>>,
 }
 
-/// How a recording went. Ends of it are known when the recorder is dropped.
+/// The result of a recording, which is complete once the recorder is dropped.
 #[derive(Clone, Default)]
 pub(crate) struct RecordingResult(Arc<Mutex<Option<RecordingError>>>);
 
 impl RecordingResult {
-    /// What went wrong, once.
+    /// The error, if there was one; only the first call returns it.
     pub(crate) fn take(&self) -> Option<RecordingError> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
     }
@@ -56,7 +57,7 @@ enum Item {
 }
 
 impl Recorder {
-    /// Begins a recording in the file, which is written anew.
+    /// Starts a recording in the file, which is overwritten.
     pub(crate) fn create(
         path: &Path,
         world: &World,
@@ -76,7 +77,7 @@ impl Recorder {
             .spawn(move || {
                 if let Err(error) = write(writer, &from) {
                     told.fail(error);
-                    // Whoever sends does not wait for ever.
+                    // Drain the channel, so that the sender does not wait for ever.
                     from.iter().for_each(drop);
                 }
             })?;
@@ -93,7 +94,7 @@ impl Recorder {
 
     fn send(&self, item: Item) {
         if let Some(to) = &self.to {
-            // A writer that is gone has told why.
+            // A writer that has ended has reported why.
             let _ = to.send(item);
         }
     }
@@ -116,7 +117,7 @@ fn write(
 impl Follower for Recorder {
     fn see(&mut self, observation: &Observation<'_>, cause: Cause) {
         let is_due = observation.time >= self.last + BETWEEN_FRAMES - EPSILON;
-        // What is edited is seen when the evaluation has ended, or at the next step.
+        // Edits are recorded when the evaluation has ended, or at the next step.
         let is_wanted = match cause {
             Cause::Step => is_due,
             Cause::Rest => true,
@@ -153,7 +154,7 @@ impl Drop for Recorder {
     fn drop(&mut self) {
         drop(self.to.take());
         if let Some(thread) = self.thread.take() {
-            // Whatever went wrong is in the result.
+            // Any error is in the result.
             drop(thread.join());
         }
     }

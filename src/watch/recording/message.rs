@@ -1,5 +1,5 @@
 //! The messages of a recording. Names and meanings of the fields are those of Foxglove's
-//! schemas, but for the last ones, which are our own.
+//! schemas, except for the last few messages, which are our own.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,22 +13,22 @@ pub(crate) struct Time {
 impl Time {
     /// The time in nanoseconds.
     pub(crate) fn nanoseconds(seconds: f64) -> u64 {
-        // The cast saturates; a negative time is none.
+        // The cast saturates; negative times become zero.
         (seconds * 1e9).round() as u64
     }
 
-    /// So many seconds after the session began.
+    /// The time this many seconds after the session began.
     pub(crate) fn new(seconds: f64) -> Self {
         let nanoseconds = Self::nanoseconds(seconds);
         Self {
             sec: u32::try_from(nanoseconds / 1_000_000_000).unwrap_or(u32::MAX),
-            // Less than a milliard.
+            // Less than a billion.
             nsec: (nanoseconds % 1_000_000_000) as u32,
         }
     }
 }
 
-/// A point or a direction (m), or a size.
+/// A point (m), a direction or a size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Vector3 {
     pub(crate) x: f32,
@@ -102,13 +102,13 @@ pub(crate) struct SceneUpdate {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SceneEntityDeletion {
     pub(crate) timestamp: Time,
-    /// 1: all of the topic.
+    /// 1 deletes everything on the topic.
     #[serde(rename = "type")]
     pub(crate) kind: u8,
     pub(crate) id: String,
 }
 
-/// `foxglove.SceneEntity`. Kinds of primitives that we do not write are always empty.
+/// `foxglove.SceneEntity`. Kinds of primitives that we never write are always empty.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SceneEntity {
     pub(crate) timestamp: Time,
@@ -128,7 +128,7 @@ pub(crate) struct SceneEntity {
 }
 
 impl SceneEntity {
-    /// The value of a key of the metadata.
+    /// The value of a metadata key.
     pub(crate) fn metadata(&self, key: &str) -> Option<&str> {
         let pair = self.metadata.iter().find(|pair| pair.key == key)?;
         Some(&pair.value)
@@ -149,7 +149,7 @@ pub(crate) struct PoseMessage {
     pub(crate) orientation: Quaternion,
 }
 
-/// `foxglove.Color`, as a screen has it.
+/// `foxglove.Color`, in sRGB.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Color {
     pub(crate) r: f32,
@@ -161,7 +161,7 @@ pub(crate) struct Color {
 /// `foxglove.LinePrimitive`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct LinePrimitive {
-    /// 0: through all points; 2: between each two.
+    /// 0: a line through all points; 2: a line for each pair of points.
     #[serde(rename = "type")]
     pub(crate) kind: u8,
     pub(crate) pose: PoseMessage,
@@ -247,19 +247,19 @@ pub(crate) struct Task {
     pub(crate) failure: String,
 }
 
-/// What is shown beside bodies and their places, until the next message.
+/// What is shown besides bodies and their poses, until the next message.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Shown {
     pub(crate) timestamp: Time,
     pub(crate) held: Vec<Held>,
-    /// Frames of links and objects that press on one another.
+    /// Frames of links and objects that press on each other.
     pub(crate) touching: Vec<[String; 2]>,
     pub(crate) stops: Vec<Stop>,
     pub(crate) axes: Vec<Axes>,
     pub(crate) paths: Vec<PathMessage>,
 }
 
-/// An object in a hand.
+/// An object in one of the robot's hands.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Held {
     /// Frame of the object.
@@ -275,7 +275,7 @@ pub(crate) struct Stop {
     pub(crate) position: Vector3,
 }
 
-/// Coordinate axes that somebody wanted to see.
+/// Coordinate axes that the user wanted to see.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Axes {
     pub(crate) pose: PoseMessage,
@@ -283,7 +283,7 @@ pub(crate) struct Axes {
     pub(crate) length: f32,
 }
 
-/// A planned way.
+/// A planned path.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct PathMessage {
     /// `base`, `left` or `right`.

@@ -1,8 +1,9 @@
-//! Recordings of sessions as MCAP files, which other tools for robots open, too.
+//! Recordings of sessions as MCAP files, which other robotics tools can open, too.
 //!
-//! Messages are JSON in the schemas that Foxglove publishes, so that its viewer shows them;
-//! what has no such schema (tasks, who holds what) has one of its own. Times are simulated:
-//! the same session makes the same bytes. [`Recorder`] writes, [`read_recording`] reads.
+//! Messages are JSON in the schemas published by Foxglove, so that its viewer can show them;
+//! tasks and held objects, for which there are none, have schemas of our own. Times are
+//! simulated: the same session gives the same bytes. [`Recorder`] writes, [`read_recording`]
+//! reads.
 
 mod base64;
 mod channel;
@@ -20,19 +21,19 @@ use std::io;
 
 use thiserror::Error;
 
-/// Why there is no recording.
+/// Why a recording cannot be written or read.
 #[derive(Debug, Error)]
 pub(crate) enum RecordingError {
     /// The file cannot be read or written.
     #[error("{0}")]
     File(#[from] io::Error),
-    /// The file is not what MCAP files are.
-    #[error("it is no MCAP file: {0}")]
+    /// The file is not an MCAP file.
+    #[error("it is not an MCAP file: {0}")]
     Format(#[from] mcap::McapError),
     /// A message cannot be read or written.
     #[error("a message is malformed: {0}")]
     Message(#[from] serde_json::Error),
-    /// There is nothing in it that could be shown.
-    #[error("it holds no recording of planwright")]
+    /// The file contains nothing that can be shown.
+    #[error("it contains no planwright recording")]
     Foreign,
 }

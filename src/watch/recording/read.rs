@@ -10,24 +10,24 @@ use serde::de::DeserializeOwned;
 use super::RecordingError;
 use super::channel::Channel;
 use super::message::{FrameTransform, FrameTransforms, Log, SceneUpdate, Shown, Task};
-use super::shapes::{frame_of, node, way_name};
+use super::shapes::{frame_of, node, path_name};
 use crate::watch::live::History;
 use crate::watch::{
     Frame, Hit, Hold, Kind, Node, Path, Placed, TaskId, TaskNews, TaskState, WatchEvent,
 };
 
-/// What a recording holds.
+/// What was read from a recording.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Recording {
-    /// How many frames.
+    /// Number of frames.
     pub(crate) frames: usize,
-    /// How many pieces of news.
+    /// Number of news items.
     pub(crate) news: usize,
-    /// Whether the file ends in the middle, as when the session was killed.
+    /// Whether the file ends abruptly, as when the session was killed.
     pub(crate) is_cut_off: bool,
 }
 
-/// Reads a file's bytes into a history. What is not ours in it is passed over.
+/// Reads a file's bytes into a history. Messages that are not ours are skipped.
 pub(crate) fn read_recording(bytes: &[u8], to: &History) -> Result<Recording, RecordingError> {
     let mut reader = Reader {
         to,
@@ -43,7 +43,7 @@ pub(crate) fn read_recording(bytes: &[u8], to: &History) -> Result<Recording, Re
     for message in MessageStream::new_with_options(bytes, Options::IgnoreEndMagic.into())? {
         match message {
             Ok(message) => reader.take(&message)?,
-            // A session that was killed left half of a message at the end.
+            // A session that was killed left an incomplete message at the end.
             Err(_) if reader.frames > 0 => {
                 is_cut_off = true;
                 break;
@@ -64,13 +64,13 @@ pub(crate) fn read_recording(bytes: &[u8], to: &History) -> Result<Recording, Re
 struct Reader<'a> {
     to: &'a History,
     nodes: Vec<Arc<Node>>,
-    /// Nodes by their frames: those that are in the world.
+    /// Nodes by their frame IDs, for those that are in the world.
     frame_ids: IndexMap<String, u32>,
-    /// Where frames are that cannot move.
+    /// Poses of the frames that cannot move.
     still: IndexMap<String, Placed>,
-    /// Nodes of objects by what the writer numbered them.
+    /// Nodes of objects by the writer's numbers.
     objects: IndexMap<String, u32>,
-    /// What is shown beside bodies now.
+    /// What is currently shown besides bodies.
     shown: Frame,
     frames: usize,
     news: usize,
@@ -129,7 +129,7 @@ impl Reader<'_> {
     }
 
     fn tell(&mut self, time: f64, event: &WatchEvent) {
-        self.to.tell(time, event);
+        self.to.add_news(time, event);
         self.news += 1;
     }
 
@@ -140,7 +140,7 @@ impl Reader<'_> {
             let known = self.frame_ids.get(frame_id).copied();
             let id = match known {
                 Some(id) => id,
-                // A mere frame, such as the camera's.
+                // A bare frame, such as the camera's.
                 None if !frame_id.starts_with("object/") => self.add_frame(frame_id),
                 None => continue,
             };
@@ -154,7 +154,7 @@ impl Reader<'_> {
             ..self.shown.clone()
         };
         self.frames += 1;
-        self.to.leave(&self.nodes, Arc::new(frame), true);
+        self.to.publish(&self.nodes, Arc::new(frame), true);
     }
 
     fn scene(&mut self, channel: Channel, update: &SceneUpdate) {
@@ -219,7 +219,7 @@ impl Reader<'_> {
             paths: (shown.paths.iter())
                 .filter_map(|path| {
                     Some(Path {
-                        what: way_name(&path.what)?,
+                        what: path_name(&path.what)?,
                         frame: node(&path.frame_id),
                         points: path.points.iter().map(|p| (*p).into()).collect(),
                     })
@@ -255,7 +255,7 @@ impl Reader<'_> {
     }
 }
 
-/// Where the transform says that the node is, if it is anywhere.
+/// The pose that a transform gives to the node, if it is valid.
 fn placed(transform: &FrameTransform, node: u32) -> Option<Placed> {
     let at: [f32; 3] = transform.translation.into();
     let turn: [f32; 4] = transform.rotation.into();

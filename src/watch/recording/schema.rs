@@ -1,5 +1,5 @@
 //! The schemas of the messages, as JSON Schema. Fields, types and titles are those by which
-//! Foxglove knows its schemas.
+//! Foxglove recognises its schemas.
 
 use serde_json::{Value, json};
 
@@ -167,7 +167,7 @@ pub(crate) fn compressed_image() -> Value {
     ])
 }
 
-/// What a camera is like.
+/// The calibration of a camera.
 pub(crate) fn camera_calibration() -> Value {
     object(&[
         stamp(),
@@ -210,7 +210,7 @@ pub(crate) fn task() -> Value {
     ])
 }
 
-/// What is shown beside bodies.
+/// What is shown besides bodies.
 pub(crate) fn shown() -> Value {
     let held = object(&[("object", text()), ("link", text())]);
     let stop = object(&[("frames", list(text())), ("position", vector())]);

@@ -1,4 +1,4 @@
-//! Nodes as bodies of a scene message, and back.
+//! Nodes as entities of a scene message, and back.
 
 use nalgebra::Vector3 as Direction;
 
@@ -7,13 +7,13 @@ use super::message::{
 };
 use crate::watch::{Frame, Kind, Node, Path, Placed, Vertex, VisualMesh};
 
-/// The frame that everything is placed in.
+/// The frame in which everything is placed.
 pub(crate) const MAP: &str = "map";
 
-/// Thickness of lines in pixels.
+/// Thickness of lines (pixels).
 const LINE: f32 = 3.0;
 
-/// Half the length (m) of the cross where a motion was stopped.
+/// Half the length (m) of the cross that marks where a motion was stopped.
 const CROSS: f32 = 0.06;
 
 /// The frame of a node.
@@ -25,7 +25,7 @@ pub(crate) fn frame_of(node: &Node) -> String {
     }
 }
 
-/// The node as a body.
+/// The node as an entity.
 pub(crate) fn entity(node: &Node, time: f64) -> SceneEntity {
     let pair = |key: &str, value: &str| KeyValuePair {
         key: key.to_owned(),
@@ -57,12 +57,12 @@ pub(crate) fn entity(node: &Node, time: f64) -> SceneEntity {
     }
 }
 
-/// Rounds to hundredths of a millimetre, for shorter text.
+/// Rounds to hundredths of a millimetre, to keep the text short.
 pub(crate) fn tidy(value: f32) -> f32 {
     (value * 1e5).round() / 1e5
 }
 
-/// The body as a node of that number, if it is one of ours.
+/// The entity as a node with this number, if the entity is one of ours.
 pub(crate) fn node(entity: &SceneEntity, id: u32, still: Option<Placed>) -> Option<Node> {
     let kind = entity.metadata("kind")?;
     let kind = Kind::ALL.into_iter().find(|k| k.name() == kind)?;
@@ -98,12 +98,12 @@ pub(crate) fn node(entity: &SceneEntity, id: u32, still: Option<Placed>) -> Opti
     })
 }
 
-/// Gives corners the mean of the directions of the triangles around, the larger the weightier:
-/// faces stay flat, and edges that are broken look round.
+/// Gives each corner the area-weighted mean of the normals of the adjacent triangles: faces
+/// stay flat, and bevelled edges look round.
 fn smooth(mesh: &mut VisualMesh) {
     let mut sums = vec![Direction::<f32>::zeros(); mesh.vertices.len()];
     for triangle in &mesh.triangles {
-        // Triangles are places among the corners; that was seen to.
+        // The indices of triangles were checked before.
         let [a, b, c] = triangle.map(|i| Direction::from(mesh.vertices[i as usize].at));
         let outward = (b - a).cross(&(c - a));
         for corner in triangle {
@@ -117,7 +117,7 @@ fn smooth(mesh: &mut VisualMesh) {
     }
 }
 
-/// What is shown beside bodies, as lines.
+/// What is shown besides bodies, as lines.
 pub(crate) fn lines(frame: &Frame, frame_id: impl Fn(u32) -> Option<String>) -> Vec<SceneEntity> {
     let plain = |rgb: [f32; 3]| Color {
         r: rgb[0],
@@ -202,12 +202,12 @@ fn moved(at: [f32; 3], axis: usize, distance: f32) -> Vector3 {
     .into()
 }
 
-/// The name of what has a way, as [`Path::what`] has it.
-pub(crate) fn way_name(text: &str) -> Option<&'static str> {
+/// The name of something that has a path, as in [`Path::WHAT`].
+pub(crate) fn path_name(text: &str) -> Option<&'static str> {
     Path::WHAT.into_iter().find(|what| *what == text)
 }
 
-/// A linear colour as a screen has it (sRGB).
+/// A linear colour in sRGB.
 fn color([r, g, b, a]: [f32; 4]) -> Color {
     let [r, g, b] = [r, g, b].map(|light| {
         let value = match light.clamp(0.0, 1.0) {
@@ -219,7 +219,7 @@ fn color([r, g, b, a]: [f32; 4]) -> Color {
     Color { r, g, b, a }
 }
 
-/// A colour of a screen (sRGB) as a linear one.
+/// An sRGB colour as a linear one.
 fn linear(Color { r, g, b, a }: Color) -> [f32; 4] {
     let [r, g, b] = [r, g, b].map(|value| match value.clamp(0.0, 1.0) {
         v if v <= 0.040_45 => v / 12.92,

@@ -1,4 +1,4 @@
-//! Writing messages into a file.
+//! Writes messages to a file.
 
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};
@@ -22,7 +22,7 @@ use crate::spatial::Pose;
 use crate::watch::{Frame, Kind, Node, Placed, TaskId, TaskNews, WatchEvent};
 use crate::world::World;
 
-/// What is told with the file.
+/// The library named in the file's header.
 const LIBRARY: &str = concat!("planwright ", env!("CARGO_PKG_VERSION"));
 
 /// Writes a recording.
@@ -31,17 +31,17 @@ pub(crate) struct RecordingWriter<W: Write + Seek> {
     ids: Vec<(Channel, u16)>,
     nodes: Vec<Arc<Node>>,
     joints: Vec<String>,
-    /// Objects and what else was shown last.
+    /// Objects and other things that were shown last.
     objects: Vec<u32>,
     shown: Shown,
-    /// A line that was begun.
+    /// An incomplete line of output.
     line: String,
     sequence: u32,
     has_begun: bool,
 }
 
 impl<W: Write + Seek> RecordingWriter<W> {
-    /// Begins a recording. `joints` are the names of the joints of every frame.
+    /// Starts a recording. `joints` are the names of the joints in every frame.
     pub(crate) fn new(to: W, joints: Vec<String>) -> Result<Self, RecordingError> {
         let options = mcap::WriteOptions::new().compression(None).library(LIBRARY);
         let mut writer = options.create(to)?;
@@ -69,7 +69,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
         })
     }
 
-    /// Writes how the world is; `nodes` are those that were not known before.
+    /// Writes a frame; `nodes` are the new nodes.
     pub(crate) fn frame(
         &mut self,
         nodes: Vec<Arc<Node>>,
@@ -239,7 +239,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
         self.write(Channel::Calibration, time, &calibration)
     }
 
-    /// Writes what happened.
+    /// Writes an event.
     pub(crate) fn event(&mut self, time: f64, what: &WatchEvent) -> Result<(), RecordingError> {
         match what {
             WatchEvent::Output(text) => {
@@ -261,7 +261,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
     }
 
     fn log(&mut self, time: f64, line: &str) -> Result<(), RecordingError> {
-        // A log line is `[(TAG …) LEVEL] seconds: text`; the rest was printed.
+        // A log message is `[(TAG …) LEVEL] seconds: text`; everything else was printed.
         let parts = line.strip_prefix("[(").and_then(|rest| {
             let (tags, rest) = rest.split_once(") ")?;
             let (level, rest) = rest.split_once("] ")?;

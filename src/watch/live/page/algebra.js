@@ -1,4 +1,4 @@
-// Vectors, quaternions (x y z w) and matrices (columns first), as plain arrays.
+// Vectors, quaternions (x y z w) and column-major matrices, as plain arrays.
 
 const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -11,7 +11,7 @@ const length = (a) => Math.hypot(a[0], a[1], a[2]);
 const unit = (a) => times(a, 1 / (length(a) || 1));
 const between = (a, b, share) => add(times(a, 1 - share), times(b, share));
 
-// A place is [x, y, z, qx, qy, qz, qw].
+// A pose is [x, y, z, qx, qy, qz, qw].
 function turned(place, v) {
   const q = [place[3], place[4], place[5]];
   const t = times(cross(q, v), 2);
@@ -29,7 +29,7 @@ function matrixOf(place) {
   ]);
 }
 
-// Roll, pitch and yaw (degrees) of a place.
+// Roll, pitch and yaw (degrees) of a pose.
 function angles(place) {
   const [, , , i, j, k, w] = place;
   const degrees = (a) => a * 180 / Math.PI;
@@ -67,7 +67,7 @@ function orthographic(half, near, far) {
   ]);
 }
 
-// The matrix that brings the world in front of an eye.
+// The matrix that transforms the world into the frame of an eye.
 function lookingFrom(eye, at, up) {
   const back = unit(minus(eye, at));
   const right = unit(cross(up, back));

@@ -1,4 +1,4 @@
-// The chosen thing.
+// The card about the selected node.
 
 function select(id) {
   page.selected = id;
@@ -31,7 +31,7 @@ function showCard(state) {
   } else {
     rows.push(['position', 'not in the world']);
   }
-  if (node.kind === 'object') rows.push(['held by', by ?? 'nobody']);
+  if (node.kind === 'object') rows.push(['held by', by ?? 'nothing']);
   const touched = scene.touched(state, node.id);
   if (touched.length) rows.push(['touches', touched.join(', ')]);
   const holds = state.held.filter(([, link]) => link === node.name && node.kind === 'robot').map(([id]) => scene.nodes.get(id)?.name);
@@ -47,7 +47,7 @@ function showCard(state) {
   }));
 }
 
-// The name at the chosen thing itself.
+// The name label at the selected node itself.
 const label = document.createElement('span');
 $('labels').append(label);
 function showLabel(node) {

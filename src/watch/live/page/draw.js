@@ -1,11 +1,11 @@
-// When to draw, and what then changes on the page.
+// When to draw, and what changes on the page at the same time.
 
 const seconds = (t) => `${t.toFixed(2)} s`;
 
 function showTime() {
   const slider = $('slider');
   const [start, end] = past.span;
-  // A plan that just begins must not make the slider jump about.
+  // A plan that has just begun must not make the slider jump.
   slider.min = start;
   slider.max = Math.max(end, start + 0.01);
   slider.value = page.time ?? end;
@@ -30,7 +30,7 @@ function tick(now) {
   if (orbit.advance(now)) page.isDirty = true;
   if (tasks.isDirty) page.isDirty = true;
   if (document.hidden) return;
-  // What has come to rest is drawn once more, as well as possible.
+  // A scene that has come to rest is drawn once more at the best quality.
   const isFine = !page.isDirty && stage?.coarse > 0 && !isRefined && now - lastDraw > 250;
   if (!page.isDirty && !isFine) return;
   isRefined = isFine;
@@ -52,7 +52,7 @@ function tick(now) {
   log.render(page.time ?? Infinity);
 }
 
-// Where the graphics are slow, the picture gets coarser rather than late.
+// On slow graphics hardware the picture gets coarser rather than late.
 function adapt(passed) {
   slow = passed > 0.045 ? slow + passed : Math.max(0, slow - passed);
   if (slow < 1.5) return;

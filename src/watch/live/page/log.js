@@ -1,4 +1,4 @@
-// What was printed, with its times.
+// The printed output, with its times.
 
 const MOST_LINES = 1500;
 
@@ -24,7 +24,7 @@ class Log {
       this.add(news.t, news.aborted, 'aborted');
       return;
     }
-    // Text comes in pieces, not in lines.
+    // Text arrives in pieces, not in lines.
     const lines = (this.rest + news.text).split('\n');
     this.rest = lines.pop();
     if (this.rest.length > 2000) {
@@ -33,7 +33,7 @@ class Log {
     }
     for (const line of lines) if (line.trim()) this.addLine(news.t, line);
     if (this.rest && !news.text.endsWith('\n')) {
-      // A line that was begun is shown as soon as it is known.
+      // An incomplete line is shown at once.
       this.addLine(news.t, this.rest);
       this.rest = '';
     }
@@ -66,7 +66,7 @@ class Log {
     if (this.follow && this.time === Infinity) this.list.scrollTop = this.list.scrollHeight;
   }
 
-  // Shows which lines had been printed at a time.
+  // Shows the lines that had been printed by a time.
   render(time) {
     if (time === this.time) return;
     this.time = time;

@@ -1,4 +1,4 @@
-// From where the scene is looked at: an eye that turns around a point.
+// The eye from which the scene is seen, orbiting a point.
 
 const FOV = 0.75;
 
@@ -28,7 +28,7 @@ class Orbit {
     this.elevation = Math.max(-0.2, Math.min(1.5605, this.elevation + dy * 0.0055));
   }
 
-  // Moves by pixels; `height` is that of the picture.
+  // Moves by pixels; `height` is the height of the picture.
   move(dx, dy, height) {
     this.way = null;
     const scale = 2 * this.distance * Math.tan(this.fov / 2) / height;
@@ -45,26 +45,26 @@ class Orbit {
     this.distance = Math.max(0.25, Math.min(30, this.distance * factor));
   }
 
-  // Goes somewhere in a third of a second.
+  // Moves to a view within a third of a second.
   go(to, now) {
     const from = { at: this.at, distance: this.distance, azimuth: this.azimuth, elevation: this.elevation, fov: this.fov };
     const goal = { ...from, fov: FOV, ...to };
-    // The shorter way around.
+    // The shorter way round.
     goal.azimuth = from.azimuth + Math.atan2(Math.sin(goal.azimuth - from.azimuth), Math.cos(goal.azimuth - from.azimuth));
     this.way = { from, goal, since: now };
   }
 
-  // Where an eye that looks from one point to another is.
+  // The orbit of an eye that looks from one point to another.
   static of(from, at, fov) {
     const off = minus(from, at);
     const distance = length(off);
     const elevation = Math.min(1.5605, Math.asin(off[2] / distance));
-    // Straight from above, north is up.
+    // Seen straight from above, north is up.
     const azimuth = Math.hypot(off[0], off[1]) < 1e-3 * distance ? -Math.PI / 2 : Math.atan2(off[1], off[0]);
     return { at, distance, elevation, azimuth, fov };
   }
 
-  // Goes on; returns whether it moves.
+  // Continues a movement; returns whether there is one.
   advance(now) {
     if (!this.way) return false;
     const { from, goal, since } = this.way;

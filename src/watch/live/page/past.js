@@ -1,4 +1,4 @@
-// The past: fetched in pieces of a few seconds, of which some are kept.
+// The past: fetched in pieces of a few seconds, some of which are kept.
 
 const PIECE = 2;
 const MOST_PIECES = 40;
@@ -11,7 +11,7 @@ class Past {
     this.span = [0, 0];
   }
 
-  // The state at a time, if it is here; else it is fetched, and `come` is called then.
+  // The state at a time if it is here; otherwise it is fetched and `come` is called then.
   at(time, come) {
     const number = Math.floor(time / PIECE);
     const piece = this.pieces.get(number);
@@ -46,7 +46,7 @@ class Past {
       while (this.pieces.size > MOST_PIECES) this.pieces.delete(this.pieces.keys().next().value);
       come();
     } catch {
-      // The session is gone; what is here can be looked at.
+      // The session is gone; what has been fetched can still be shown.
       if (before && before.states) this.pieces.set(number, { ...before, isWhole: true });
       else this.pieces.delete(number);
     }

@@ -1,4 +1,5 @@
-// The mouse: left turns, right moves, the wheel zooms, a click chooses, a double click centres.
+// The mouse: left button turns, right button moves, wheel zooms, click selects, double click
+// centres.
 
 let held = null;
 canvas.addEventListener('contextmenu', (event) => event.preventDefault());
@@ -35,7 +36,7 @@ canvas.addEventListener('dblclick', (event) => {
   orbit.go({ at: found.at, distance: Math.min(orbit.distance, Math.max(0.8, orbit.distance * 0.6)) }, performance.now());
 });
 
-// What is seen at a pointer, and where.
+// The node seen at a pointer, and the point on it.
 function hit(event) {
   if (!stage) return null;
   const box = canvas.getBoundingClientRect();
@@ -50,7 +51,7 @@ function hit(event) {
   return { id: found.id, at: add(eye, add(add(times(right, across), times(up, upwards)), times(back, -found.away))) };
 }
 
-// Where the middle of a node is seen: pixels of the page.
+// Where the centre of a node is seen (pixels of the page).
 function screenOf(id) {
   const node = scene.nodes.get(id);
   const place = node && scene.place(node, page.shown);

@@ -1,4 +1,4 @@
-// What runs on the graphics card.
+// The shader programs.
 
 const HEAD = `#version 300 es
 precision highp float;
@@ -73,7 +73,7 @@ void main() { gl_Position = light * model * vec4(position, 1.0); }`;
 
 const SHADOW_FRAGMENT = HEAD + `void main() {}`;
 
-// Who is seen at a pixel, and how far: for clicks.
+// Which node is seen at a pixel, and how far away: for clicks.
 const PICK_VERTEX = HEAD + `
 layout(location = 0) in vec3 position;
 uniform mat4 model, view;
@@ -118,7 +118,7 @@ void main() {
   result = vec4(mix(shown(color), far, smoothstep(4.0, 15.0, away)), 1.0);
 }`;
 
-// Thick lines: every piece is a rectangle that faces the eye.
+// Thick lines: each segment is a rectangle that faces the eye.
 const LINE_VERTEX = HEAD + `
 layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;

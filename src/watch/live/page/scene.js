@@ -1,4 +1,5 @@
-// What there is and where: nodes with their meshes, and states, which are moments of the world.
+// What exists and where: nodes with their meshes, and states, which say how the world was at a
+// time.
 
 const METRE = 1e-4;
 const UNIT = 1e-5;
@@ -9,7 +10,7 @@ function placeOf(n, i) {
   return [n[i] * METRE, n[i + 1] * METRE, n[i + 2] * METRE, n[i + 3] * UNIT, n[i + 4] * UNIT, n[i + 5] * UNIT, n[i + 6] * UNIT];
 }
 
-// The state that a frame makes of the one before.
+// The state after a frame, from the state before it.
 function follow(before, frame) {
   const places = new Map(frame.whole ? [] : before.places);
   for (const id of frame.gone) places.delete(id);
@@ -36,7 +37,7 @@ class Scene {
     }
   }
 
-  // Where a node is in a state.
+  // The pose of a node in a state.
   place(node, state) { return node.still || state.places.get(node.id); }
 
   holder(state, id) {

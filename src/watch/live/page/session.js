@@ -1,4 +1,4 @@
-// What comes from the session.
+// Messages from the session.
 
 const source = new EventSource('events');
 const on = (name, hear) => source.addEventListener(name, (event) => {

@@ -1,4 +1,4 @@
-// Draws a scene in a state onto the canvas.
+// Draws a state of a scene onto the canvas.
 
 const SHADOW_SIZE = 2048;
 const SUN = unit([-0.45, -0.62, 0.9]);
@@ -30,7 +30,7 @@ class Stage {
     this.floor = program(gl, FLOOR_VERTEX, FLOOR_FRAGMENT);
     this.line = program(gl, LINE_VERTEX, LINE_FRAGMENT);
     this.layers = { paths: true, camera: true, contacts: true, shadows: true };
-    // On slow machines moving pictures are coarse, by steps; still ones are not.
+    // On slow machines moving pictures are drawn coarser, in steps; still ones are not.
     this.coarse = 0;
     this.light = product(orthographic(6.2, 0.5, 26), lookingFrom(add([-0.6, 0.6, 0], times(SUN, 13)), [-0.6, 0.6, 0], [0, 0, 1]));
     this.makeShadowMap();
@@ -76,7 +76,7 @@ class Stage {
     });
   }
 
-  // Takes a mesh to the graphics card.
+  // Uploads a mesh to the graphics card.
   load({ id, corners, indices }) {
     const node = this.scene.nodes.get(id);
     if (!node || !indices.length || node.mesh) return;
@@ -105,7 +105,7 @@ class Stage {
     node.mesh = { array, count: indices.length, middle: between(least, most, 0.5), top: most[2] };
   }
 
-  // Nodes that are seen in a state, with their places.
+  // The nodes visible in a state, with their poses.
   seen(state) {
     const seen = [];
     for (const node of this.scene.nodes.values()) {
@@ -126,7 +126,7 @@ class Stage {
     }
   }
 
-  // The matrix of the picture for an eye.
+  // The projection matrix for an eye.
   projection(fov, eyeMatrix) {
     const aspect = this.canvas.width / this.canvas.height;
     return product(perspective(fov, aspect, 0.05, 70), eyeMatrix);
@@ -200,7 +200,7 @@ class Stage {
     return tints;
   }
 
-  // Lines to be drawn: from, to, colour.
+  // The lines to draw: from, to, colour.
   linesOf(state, selected, isThroughCamera) {
     const lines = [];
     const axes = (place, size) => {
@@ -278,7 +278,7 @@ class Stage {
     gl.enable(gl.CULL_FACE);
   }
 
-  // Which node is seen at a point of the canvas (pixels of the page), and where (m).
+  // The node seen at a point of the canvas (pixels of the page), and the point on it (m).
   at(state, view, x, y) {
     const { gl, canvas } = this;
     const ratio = canvas.width / canvas.clientWidth;
@@ -319,7 +319,7 @@ class Stage {
     made.forEach((store) => gl.deleteRenderbuffer(store));
     gl.deleteFramebuffer(buffer);
     if (id === null) return null;
-    // How far along the view that is.
+    // The distance along the view.
     const near = 0.05, far = 70, z = depth / 16777215 * 2 - 1;
     return { id, away: 2 * near * far / (far + near - z * (far - near)) };
   }

@@ -1,4 +1,4 @@
-// What the page knows.
+// The state of the page.
 
 const $ = (id) => document.getElementById(id);
 const canvas = $('canvas');
@@ -16,14 +16,14 @@ try {
 }
 
 const page = {
-  // Null while it shows what happens now, else the time (s) that is looked at.
+  // Null while it shows the present, else the time (s) that it shows.
   time: null,
   isPlaying: false,
   isRecording: false,
   isOver: false,
   pace: null,
   pastSpeed: 1,
-  // A view that goes with the robot.
+  // A view that follows the robot.
   bound: null,
   selected: null,
   views: null,
@@ -31,7 +31,7 @@ const page = {
   isDirty: true,
 };
 
-// What a check may look at.
+// Counts for tests.
 const counts = { updates: 0, drawn: 0, errors: 0 };
 window.planwright = { counts, page, orbit, scene, past, screenOf };
 window.addEventListener('error', () => { counts.errors += 1; });

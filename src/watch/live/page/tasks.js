@@ -1,4 +1,4 @@
-// The running plan: a tree of tasks and motions, as it was at any time.
+// The running plan: a tree of tasks and motions, as it was at a given time.
 
 const MOST_TASKS = 3000;
 const MOST_ROWS = 400;
@@ -39,7 +39,7 @@ class Tasks {
     this.isDirty = true;
   }
 
-  // The oldest plan goes first; of a plan that goes on, the oldest parts.
+  // Forgets the oldest plan first; of a plan that still runs, the oldest parts.
   forget() {
     let siblings = this.roots;
     while (siblings.length === 1 && siblings[0].children.length) siblings = siblings[0].children;
@@ -51,7 +51,7 @@ class Tasks {
     if (gone) drop(gone);
   }
 
-  // The state of a task at a time, or none if it had not begun.
+  // The state of a task at a time; undefined if it had not begun.
   static stateAt(task, time) {
     let state = null;
     for (const [t, name] of task.changes) {
@@ -114,7 +114,7 @@ class Tasks {
     if (row.className !== kind) row.className = kind;
     const [, ...parts] = row.children;
     const end = task.changes.findLast(([t, s]) => t <= time && s !== 'running' && s !== 'suspended');
-    // A failure is told where it comes from; tasks around it have failed for the same reason.
+    // A failure is shown where it originates; the tasks around it failed for the same reason.
     const isOwn = !task.children.some((child) => child.failure === task.failure);
     const why = state === 'failed' && (isOwn || isFolded) ? task.failure : '';
     const texts = [task.name, end ? `${(end[0] - task.since).toFixed(1)} s` : '', why];
@@ -127,7 +127,7 @@ class Tasks {
   }
 }
 
-// `[PICK-UP]-393` as `pick-up`, `[PAR-CHILD-#1/2]-394` as `par 1 of 2`.
+// `[PICK-UP]-393` becomes `pick-up`, `[PAR-CHILD-#1/2]-394` becomes `par 1 of 2`.
 function named(name) {
   const child = /^\[(.*)-CHILD-#(\d+)\/(\d+)\]-\d+$/.exec(name);
   if (child) return `${child[1].toLowerCase()} ${child[2]} of ${child[3]}`;

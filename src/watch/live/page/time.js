@@ -5,7 +5,7 @@ for (const [text, speed] of SPEEDS) {
   const button = document.createElement('button');
   button.type = 'button';
   button.textContent = text;
-  button.title = speed ? `${speed} simulated seconds in a real one` : 'As fast as possible';
+  button.title = speed ? `${speed} simulated seconds per real second` : 'As fast as possible';
   button.addEventListener('click', () => {
     if (page.time === null) ask(`speed ${speed ?? 'max'}`);
     else page.pastSpeed = speed ?? 16;
@@ -14,7 +14,7 @@ for (const [text, speed] of SPEEDS) {
   $('speeds').append(button);
 }
 
-// Asks the session for another pace; it can be asked for nothing else.
+// Asks the session to change its pace, the only thing it can be asked for.
 async function ask(what) {
   try {
     await fetch('pace', { method: 'POST', body: what });
@@ -50,7 +50,7 @@ function showTransport() {
   const isNow = page.time === null;
   const isGoing = isNow ? !(page.pace?.paused) && !page.isOver : page.isPlaying;
   $('play').classList.toggle('go', !isGoing);
-  $('play').title = `${isGoing ? 'Pause' : 'Go on'} (space)`;
+  $('play').title = `${isGoing ? 'Pause' : 'Resume'} (space)`;
   $('play').disabled = isNow && (!page.pace || page.isOver);
   $('live').setAttribute('aria-pressed', String(isNow && !page.isOver));
   $('live').hidden = page.isRecording;

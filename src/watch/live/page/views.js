@@ -1,4 +1,4 @@
-// The named views, and what is shown.
+// The named views, and the layers shown.
 
 function makeViews() {
   const names = [...page.views.fixed.map((view) => view.name), 'robot', 'follow'];
@@ -7,7 +7,7 @@ function makeViews() {
     button.type = 'button';
     button.textContent = name;
     button.dataset.view = name;
-    button.title = { robot: 'Through the robot’s camera', follow: 'Goes with the robot' }[name] ?? `Look at: ${name}`;
+    button.title = { robot: 'Through the robot’s camera', follow: 'Follows the robot' }[name] ?? `Look at: ${name}`;
     button.addEventListener('click', () => look(name));
     return button;
   }));
@@ -33,8 +33,8 @@ function showViews() {
   page.isDirty = true;
 }
 
-// The person turns or moves the eye: it is at no named place any more, but still goes with
-// the robot if it did.
+// The user turns or moves the eye: it is in no named view any more, but still follows the robot
+// if it did before.
 function leaveView() {
   if (page.bound === 'robot') page.bound = null;
   if (page.bound !== 'follow') page.named = null;
@@ -69,7 +69,7 @@ for (const name of ['paths', 'camera', 'contacts', 'shadows']) {
   button.type = 'button';
   button.textContent = name;
   button.title = {
-    paths: 'Planned ways of base and hands', camera: 'What the robot’s camera can see',
+    paths: 'Planned paths of base and hands', camera: 'What the robot’s camera can see',
     contacts: 'What the hands touch, and what stopped a motion', shadows: 'Shadows',
   }[name];
   button.setAttribute('aria-pressed', 'true');
