@@ -44,8 +44,8 @@ pub(crate) fn write_gif(shots: &[Shot], delay: u16, to: impl Write) -> io::Resul
     let size = |length: usize| u16::try_from(length).map_err(io::Error::other);
     let (width, height) = (first.camera.width, first.camera.height);
     let stride = shots.len().div_ceil(PALETTE_FRAMES);
-    let tasted: Vec<Image> = shots.iter().step_by(stride).map(Shot::image).collect();
-    let palette = Palette::of(tasted.iter(), COLORS);
+    let sampled: Vec<Image> = shots.iter().step_by(stride).map(Shot::image).collect();
+    let palette = Palette::of(sampled.iter(), COLORS);
     let mut colors: Vec<u8> = palette.colors().concat();
     colors.resize(256 * 3, 0);
     let mut encoder = Encoder::new(to, size(width)?, size(height)?, &colors).map_err(into_io)?;

@@ -46,12 +46,12 @@ impl InlinePictures {
     /// the picture cannot be encoded.
     pub(crate) fn encoded(self, picture: &Image) -> Vec<u8> {
         let mut bytes = Vec::new();
-        let told = match self {
+        let written = match self {
             Self::Kitty => kitty(picture, &mut bytes),
             Self::Iterm => iterm(picture, &mut bytes),
             Self::Sixel => sixel(picture, &mut bytes),
         };
-        if told.is_err() {
+        if written.is_err() {
             bytes.clear();
         }
         bytes

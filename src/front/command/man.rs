@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_page_tells_every_command_and_its_options_once() {
+    fn the_page_lists_every_command_and_its_options_once() {
         let mut page = Vec::new();
         write_page(&mut page).unwrap();
         let page = String::from_utf8(page).unwrap();

@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_condition_is_told_with_its_place_and_form() {
+    fn a_condition_is_reported_with_its_place_and_form() {
         let place = Location {
             name: "a.plan".into(),
             line: 3,

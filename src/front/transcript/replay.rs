@@ -61,13 +61,13 @@ const STACK_BYTES: usize = 64 << 20;
 /// Runs transcripts on up to `jobs` threads, each in an evaluator of its own, and reports their
 /// verdicts in the order of the transcripts, each as soon as possible.
 ///
-/// `tell` gets the transcript and the verdicts of its entries in order, or the reason why there
+/// `report` gets the transcript and the verdicts of its entries in order, or the reason why there
 /// is no evaluator; once it returns false, no further transcript is started.
 pub(crate) fn replay_all<V, E>(
     transcripts: &[Transcript],
     jobs: NonZeroUsize,
     open: impl Fn() -> Result<V, E> + Sync,
-    mut tell: impl FnMut(&Transcript, Result<Vec<Verdict>, E>) -> bool,
+    mut report: impl FnMut(&Transcript, Result<Vec<Verdict>, E>) -> bool,
 ) where
     V: Evaluate,
     E: Send,
@@ -102,7 +102,7 @@ pub(crate) fn replay_all<V, E>(
             while let Some(actual) = waiting.remove(&told) {
                 let goes_on = transcripts
                     .get(told)
-                    .is_some_and(|transcript| tell(transcript, actual));
+                    .is_some_and(|transcript| report(transcript, actual));
                 if !goes_on {
                     next.store(transcripts.len(), Ordering::Relaxed);
                 }

@@ -204,7 +204,7 @@ fn shortened(text: &str) -> String {
 mod tests {
     use crate::watch::live::history::*;
 
-    fn told(history: &History, text: &str) {
+    fn add_output(history: &History, text: &str) {
         history.add_news(0.0, &WatchEvent::Output(text.to_owned()));
     }
 
@@ -221,13 +221,13 @@ mod tests {
     fn a_reader_gets_everything_once() {
         let history = History::new(Origin::Session);
         for text in ["a", "b", "c", "d"] {
-            told(&history, text);
+            add_output(&history, text);
         }
         let mut mark = ReadPosition::default();
         assert_eq!(read(&history, &mut mark), ["a", "b", "c"]);
         assert_eq!(read(&history, &mut mark), ["d"]);
         assert!(read(&history, &mut mark).is_empty());
-        told(&history, "e");
+        add_output(&history, "e");
         assert_eq!(read(&history, &mut mark), ["e"]);
     }
 
@@ -235,10 +235,10 @@ mod tests {
     fn news_are_forgotten_but_those_that_come_are_read() {
         let history = History::new(Origin::Session);
         let mut mark = ReadPosition::default();
-        (0..MOST_NEWS + 5).for_each(|i| told(&history, &i.to_string()));
+        (0..MOST_NEWS + 5).for_each(|i| add_output(&history, &i.to_string()));
         assert_eq!(read(&history, &mut mark)[0], "5");
         assert_eq!(history.state().news.len(), MOST_NEWS);
-        told(&history, &"x".repeat(10 * MOST_TEXT));
+        add_output(&history, &"x".repeat(10 * MOST_TEXT));
         let last = history.state().news.back().cloned();
         assert!(matches!(&last.unwrap().1, WatchEvent::Output(t) if t.len() < MOST_TEXT + 9));
     }

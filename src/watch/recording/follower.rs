@@ -71,12 +71,12 @@ impl Recorder {
         let writer = RecordingWriter::new(BufWriter::new(File::create(path)?), names)?;
         let (to, from) = sync_channel(MOST_WAITING);
         let result = RecordingResult::default();
-        let told = result.clone();
+        let shared_result = result.clone();
         let thread = thread::Builder::new()
             .name("recording".to_owned())
             .spawn(move || {
                 if let Err(error) = write(writer, &from) {
-                    told.fail(error);
+                    shared_result.fail(error);
                     // Drain the channel, so that the sender does not wait for ever.
                     from.iter().for_each(drop);
                 }

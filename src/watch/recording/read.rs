@@ -107,7 +107,7 @@ impl Reader<'_> {
             Channel::Log => {
                 let log: Log = parsed(data)?;
                 let level = ["", "DEBUG", "INFO", "WARN", "ERROR"].get(usize::from(log.level));
-                let told = match level {
+                let event = match level {
                     _ if log.name == "aborted" => WatchEvent::Aborted(log.message),
                     Some(&level) if !level.is_empty() => WatchEvent::Output(format!(
                         "[({}) {level}] {time:.3}: {}\n",
@@ -115,12 +115,12 @@ impl Reader<'_> {
                     )),
                     _ => WatchEvent::Output(format!("{}\n", log.message)),
                 };
-                self.tell(time, &told);
+                self.add_news(time, &event);
             }
             Channel::Tasks => {
                 let task: Task = parsed(data)?;
                 if let Some(news) = news(task) {
-                    self.tell(time, &WatchEvent::Task(news));
+                    self.add_news(time, &WatchEvent::Task(news));
                 }
             }
             Channel::Joints | Channel::Picture | Channel::Calibration | Channel::Overlay => {}
@@ -128,7 +128,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn tell(&mut self, time: f64, event: &WatchEvent) {
+    fn add_news(&mut self, time: f64, event: &WatchEvent) {
         self.to.add_news(time, event);
         self.news += 1;
     }
