@@ -96,17 +96,17 @@ pub(crate) fn replay_all<V, E>(
         }
         drop(sender);
         let mut waiting = BTreeMap::new();
-        let mut told = 0;
+        let mut reported = 0;
         for (number, actual) in receiver {
             waiting.insert(number, actual);
-            while let Some(actual) = waiting.remove(&told) {
-                let goes_on = transcripts
-                    .get(told)
+            while let Some(actual) = waiting.remove(&reported) {
+                let continues = transcripts
+                    .get(reported)
                     .is_some_and(|transcript| report(transcript, actual));
-                if !goes_on {
+                if !continues {
                     next.store(transcripts.len(), Ordering::Relaxed);
                 }
-                told += 1;
+                reported += 1;
             }
         }
     });
