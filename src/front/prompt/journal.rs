@@ -41,7 +41,7 @@ pub(crate) struct Recorded {
     pub(crate) text: String,
     /// Where its evaluation was interrupted.
     pub(crate) interrupted_at: Option<u64>,
-    /// Whether a condition stopped its evaluation rather than ending it.
+    /// Whether conditions stop its evaluation rather than end it.
     pub(crate) stops: bool,
 }
 
