@@ -2,10 +2,13 @@
 //! help, completion, the reference manual and the tests of the examples read the same
 //! tables.
 
+use std::rc::Rc;
+
 use super::image::Image;
 use super::library::definition::{Definition, Kind};
+use super::native::{BuiltinCall, ControlFn, PureFn};
 use super::value::Value;
-use super::value::function::{ControlFn, Function, NativeCall, PureFn};
+use super::value::function::Function;
 use super::value::raise::Raise;
 use super::value::symbol::Sym;
 
@@ -24,14 +27,6 @@ pub(crate) struct Builtin {
     pub(crate) examples: &'static [&'static str],
     /// The Rust function.
     pub(crate) call: BuiltinCall,
-}
-
-/// The Rust function of a builtin.
-pub(crate) enum BuiltinCall {
-    /// Returns at once.
-    Pure(PureFn),
-    /// May call, wait or unwind.
-    Control(ControlFn),
 }
 
 /// A pure builtin.
@@ -69,14 +64,9 @@ pub(crate) const fn control(
 }
 
 impl Builtin {
-    /// The function object, under a name.
-    pub(crate) fn function(&self, name: Sym) -> Function {
-        let (min, max) = self.arity();
-        let call = match self.call {
-            BuiltinCall::Pure(f) => NativeCall::Pure(f),
-            BuiltinCall::Control(f) => NativeCall::Control(f),
-        };
-        Function::native(name, min, max, call)
+    /// A function object, under a name.
+    pub(crate) fn function(&self, image: &mut Image, name: Sym) -> Rc<Function> {
+        image.native(name, self.arity(), self.call)
     }
 
     /// Fewest and most arguments, from the lambda list.

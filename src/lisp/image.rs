@@ -13,6 +13,7 @@ use super::builtin::{Builtin, Entry, Operator};
 use super::compile::notes::{Note, NoteKind};
 use super::compile::setf::SetfExpander;
 use super::library::Installed;
+use super::native::BuiltinCall;
 use super::object;
 use super::source::{Place, Sources};
 use super::value::Value;
@@ -63,6 +64,8 @@ pub(crate) struct Image {
     pub(crate) library: Installed,
     /// Where the reader puts symbols that the current package does not know, if not there.
     pub(crate) new_symbols: Option<PackageId>,
+    /// The Rust functions of builtins, by number.
+    pub(super) natives: Vec<BuiltinCall>,
     /// Made-up addresses of objects that were printed.
     pub(crate) printed: RefCell<super::print::identity::Identities>,
     /// What layers above the language keep in the image: one value per type.
@@ -147,6 +150,7 @@ impl Image {
             nesting: 0,
             condition_calls: VecDeque::new(),
             identities: 0,
+            natives: Vec::new(),
             printed: RefCell::default(),
             entries: IndexMap::new(),
             library: Installed::default(),
@@ -384,7 +388,8 @@ impl Image {
     pub(crate) fn install(&mut self, package: PackageId, table: &'static [Builtin]) {
         for builtin in table {
             let sym = self.export_symbol(package, builtin.name);
-            self.set_function(sym, Rc::new(builtin.function(sym)));
+            let function = builtin.function(self, sym);
+            self.set_function(sym, function);
             self.entries.insert(sym, Entry::Builtin(builtin));
         }
     }
@@ -394,7 +399,7 @@ impl Image {
     pub(crate) fn install_setf(&mut self, package: PackageId, table: &'static [Builtin]) {
         for setter in table {
             let sym = self.export_symbol(package, setter.name);
-            let function = Rc::new(Builtin::function(setter, sym));
+            let function = setter.function(self, sym);
             self.symbols.get_mut(sym).setf_function = Some(function);
         }
     }

@@ -8,6 +8,7 @@ pub(crate) mod condition;
 pub(crate) mod image;
 pub(crate) mod library;
 pub(crate) mod loop_macro;
+pub(crate) mod native;
 pub(crate) mod object;
 pub(crate) mod polls;
 pub(crate) mod print;

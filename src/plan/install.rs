@@ -8,7 +8,7 @@ use crate::lisp::image::Image;
 use crate::lisp::object::define::ClassDefinition;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
-use crate::lisp::value::function::{Function, NativeCall};
+use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
@@ -73,15 +73,9 @@ fn define_variables(image: &mut Image, names: &Names) {
     let mut variables = plan.task_variables.borrow_mut();
     variables.push((names.break_on_failures, None));
     variables.push((names.debug_on_errors, None));
-    let inherit: fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>> =
-        |_, args| Ok(args[2].clone());
-    let inherit = Function::native(
-        names.inherit_parent_value,
-        3,
-        Some(3),
-        NativeCall::Pure(inherit),
-    );
-    image.set_function(names.inherit_parent_value, Rc::new(inherit));
+    let name = names.inherit_parent_value;
+    let inherit = Function::made(name, (3, Some(3)), |_, args| Ok(args[2].clone()));
+    image.set_function(name, inherit);
 }
 
 /// The classes of fluents, tasks and what else is not an instance.

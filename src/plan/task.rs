@@ -15,7 +15,7 @@ use super::tree::TreeNode;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, ForeignBox};
+use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use crate::lisp::value::symbol::Sym;
 
 /// Tells tasks apart and orders them by creation.
@@ -151,12 +151,12 @@ impl Foreign for Task {
         self.type_symbol
     }
 
-    fn print(&self, image: &Image, _: bool) -> String {
+    fn print(&self, context: &dyn PrintContext, _: bool) -> String {
         let identity = match self.object.borrow().upgrade() {
-            Some(object) => print::identity(image, &Value::Foreign(object)),
+            Some(object) => context.identity(&Value::Foreign(object)),
             None => String::new(),
         };
-        let is_verbose = matches!(image.special(self.verbosity), Value::Int(1..));
+        let is_verbose = matches!(context.special(self.verbosity), Value::Int(1..));
         let status = if is_verbose {
             format!(" :{:?}", self.status.get()).to_uppercase()
         } else {
@@ -164,7 +164,7 @@ impl Foreign for Task {
         };
         format!(
             "#<{} \"{}\"{status} {identity}>",
-            image.name(self.type_symbol),
+            context.name(self.type_symbol),
             self.name
         )
     }

@@ -10,7 +10,7 @@ use std::rc::Rc;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, ForeignBox};
+use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use crate::lisp::value::hash_table::{HashTable, HashTest};
 use crate::lisp::value::symbol::Sym;
 
@@ -154,14 +154,14 @@ impl Foreign for NodeObject {
         self.type_symbol
     }
 
-    fn print(&self, image: &Image, _: bool) -> String {
+    fn print(&self, context: &dyn PrintContext, _: bool) -> String {
         let identity = match self.node.object.borrow().upgrade() {
-            Some(object) => print::identity(image, &Value::Foreign(object)),
+            Some(object) => context.identity(&Value::Foreign(object)),
             None => String::new(),
         };
         format!(
             "#<TASK-TREE-NODE :PATH {} :CHILD-COUNT {} {identity}>",
-            print::to_string(image, &self.node.path, true),
+            context.text(&self.node.path, true),
             self.node.child_count(),
         )
     }

@@ -15,11 +15,11 @@ use crate::closest_name::closest_name;
 use crate::lisp::image::Image;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::code::{Code, Parameters};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::lisp::vm::code::{Code, Parameters};
 use crate::lisp::vm::nested;
 
 /// Result of compiling.

@@ -7,9 +7,9 @@ use super::lambda_list::{LambdaList, Optional};
 use super::node::{Default, LambdaNode, Node, Prologue};
 use super::scope::{Block, Entry, Scope, Var, VariableMeaning};
 use crate::lisp::value::Value;
+use crate::lisp::value::code::Parameters;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::code::Parameters;
 
 /// A body without its declarations and documentation.
 pub(super) struct Body {

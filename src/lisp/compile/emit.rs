@@ -10,10 +10,10 @@ use super::node::{Binding, LambdaNode, Node, Prologue, Target};
 use super::scope::{Block, Tagbody, Var};
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::code::{Capture, Code, Local, Op};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::code::{Capture, Code, Local, Op};
 
 /// What the context of a form wants of its values.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use super::scope::{FunctionMeaning, Scope, VariableMeaning};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -24,7 +24,7 @@ impl Foreign for Environment {
         known::L_ENVIRONMENT
     }
 
-    fn print(&self, _: &Image, _: bool) -> String {
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         "#<ENVIRONMENT>".to_owned()
     }
 }

@@ -26,9 +26,9 @@ use std::rc::Rc;
 
 use super::image::Image;
 use super::value::Value;
+use super::value::code::Code;
 use super::value::function::Function;
 use super::value::raise::Raise;
-use super::vm::code::Code;
 
 pub(crate) use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};
 pub(crate) use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};

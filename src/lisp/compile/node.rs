@@ -5,8 +5,8 @@ use std::rc::Rc;
 use super::scope::{Block, Tagbody, Var};
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::code::Parameters;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::code::Parameters;
 
 /// What a call calls.
 pub(crate) enum Target {

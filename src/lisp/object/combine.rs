@@ -72,7 +72,7 @@ pub(crate) fn run(
 
 /// The error that `call-next-method` has nothing to call.
 pub(crate) fn no_next_method(image: &Image, name: &Value) -> Box<Raise> {
-    let shown = super::qualified(image, name);
+    let shown = crate::lisp::print::qualified(image, name);
     let report = format!("There is no next method for the generic function {shown}.");
     Raise::new(known::NO_NEXT_METHOD_ERROR, report).with(known::K_METHOD, name.clone())
 }

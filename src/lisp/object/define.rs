@@ -118,7 +118,7 @@ impl Image {
 
 /// The error that there is no class of a name.
 pub(crate) fn no_class(image: &Image, name: Sym) -> Box<Raise> {
-    let shown = super::qualified(image, &name.into());
+    let shown = crate::lisp::print::qualified(image, &name.into());
     let report = format!("There is no class named {shown}.");
     Raise::new(known::CLASS_NOT_FOUND_ERROR, report).with(known::K_NAME, name.into())
 }

@@ -6,11 +6,11 @@ use std::rc::{Rc, Weak};
 use super::dispatch::Dispatch;
 use super::effective;
 use super::parameters::Parameters;
-use super::qualified;
 use crate::lisp::image::Image;
+use crate::lisp::print::qualified;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Class;
-use crate::lisp::value::foreign::{Foreign, ForeignBox};
+use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::generic::{Accessor, GenericFunction, Method, Specializer};
 use crate::lisp::value::known;
@@ -46,19 +46,19 @@ impl Foreign for MethodObject {
         known::STANDARD_METHOD
     }
 
-    fn print(&self, image: &Image, _escape: bool) -> String {
+    fn print(&self, context: &dyn PrintContext, _escape: bool) -> String {
         let method = &self.0;
-        let mut text = format!("#<STANDARD-METHOD {}", qualified(image, &method.name));
+        let mut text = format!("#<STANDARD-METHOD {}", context.qualified(&method.name));
         for qualifier in &method.qualifiers {
             text.push(' ');
-            text.push_str(&super::text(image, &Value::Symbol(*qualifier)));
+            text.push_str(&context.text(&Value::Symbol(*qualifier), true));
         }
         let specializers: Vec<String> = method
             .specializers
             .iter()
             .map(|s| match s {
-                Specializer::Class(class) => super::text(image, &Value::Symbol(class.name)),
-                Specializer::Eql(value) => format!("(EQL {})", super::text(image, value)),
+                Specializer::Class(class) => context.text(&Value::Symbol(class.name), true),
+                Specializer::Eql(value) => format!("(EQL {})", context.text(value, true)),
             })
             .collect();
         format!("{text} ({})>", specializers.join(" "))

@@ -146,7 +146,7 @@ fn class(image: &Image, class: &Class) -> String {
     };
     format!(
         "#<{kind} {}>",
-        crate::lisp::object::qualified(image, &class.name.into())
+        crate::lisp::print::qualified(image, &class.name.into())
     )
 }
 
@@ -157,7 +157,7 @@ fn function(image: &Image, value: &Value, function: &Function, settings: &Settin
             format!("#<FUNCTION {}>", symbol::symbol(image, *name, &settings))
         }
         Body::Generic(generic) => {
-            let name = crate::lisp::object::qualified(image, &generic.name);
+            let name = crate::lisp::print::qualified(image, &generic.name);
             let count = generic.methods.borrow().len();
             format!("#<STANDARD-GENERIC-FUNCTION {name} ({count})>")
         }

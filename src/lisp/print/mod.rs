@@ -14,6 +14,7 @@ pub(crate) mod format;
 pub(crate) mod identity;
 mod layout;
 mod printer;
+mod qualified;
 pub(crate) mod report;
 mod settings;
 mod shape;
@@ -26,10 +27,13 @@ mod tests;
 
 pub(crate) use calls::{Call, Calls};
 pub(crate) use identity::identity;
+pub(crate) use qualified::qualified;
 pub(crate) use settings::{Case, Settings};
 
 use super::image::Image;
 use super::value::Value;
+use super::value::foreign::PrintContext;
+use super::value::symbol::Sym;
 
 /// A value as `prin1` (`escape`) or `princ` print it under the current printer variables,
 /// on a line of its own. Objects that need Lisp code print in their default form.
@@ -61,4 +65,35 @@ pub(crate) fn write_default(
     printer::Printer::new(image, settings, calls)
         .without_own_method()
         .print(value, column)
+}
+
+impl PrintContext for Image {
+    fn name(&self, sym: Sym) -> &str {
+        Image::name(self, sym)
+    }
+
+    fn is_keyword(&self, sym: Sym) -> bool {
+        Image::is_keyword(self, sym)
+    }
+
+    fn find_symbol(&self, package: &str, name: &str) -> Option<Sym> {
+        let package = self.packages.find(package)?;
+        Some(self.packages.find_symbol(package, name)?.0)
+    }
+
+    fn special(&self, sym: Sym) -> &Value {
+        Image::special(self, sym)
+    }
+
+    fn text(&self, value: &Value, escape: bool) -> String {
+        to_string(self, value, escape)
+    }
+
+    fn qualified(&self, name: &Value) -> String {
+        qualified(self, name)
+    }
+
+    fn identity(&self, object: &Value) -> String {
+        identity(self, object)
+    }
 }

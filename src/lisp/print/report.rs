@@ -60,7 +60,7 @@ pub(crate) fn report(image: &Image, condition: &Value) -> String {
 
 /// A symbol with its package, as `prin1` shows it where nothing is accessible.
 fn qualified(image: &Image, sym: Sym) -> String {
-    crate::lisp::object::qualified(image, &sym.into())
+    crate::lisp::print::qualified(image, &sym.into())
 }
 
 fn standard(image: &Image, class: Sym, get: &dyn Fn(&str) -> Value) -> Option<String> {
@@ -85,12 +85,12 @@ fn standard(image: &Image, class: Sym, get: &dyn Fn(&str) -> Value) -> Option<St
             let name = get("NAME");
             format!(
                 "The function {} is undefined.",
-                crate::lisp::object::qualified(image, &name)
+                crate::lisp::print::qualified(image, &name)
             )
         }
         known::UNBOUND_SLOT => format!(
             "The slot {} is unbound in the object {}.",
-            crate::lisp::object::qualified(image, &get("NAME")),
+            crate::lisp::print::qualified(image, &get("NAME")),
             shown("INSTANCE")
         ),
         known::ARITHMETIC_ERROR

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 
@@ -45,7 +45,7 @@ impl Foreign for Readtable {
         known::READTABLE
     }
 
-    fn print(&self, _: &Image, _: bool) -> String {
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         "#<READTABLE>".to_owned()
     }
 }

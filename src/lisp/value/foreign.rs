@@ -4,7 +4,30 @@ use std::any::Any;
 
 use super::Value;
 use super::symbol::Sym;
-use crate::lisp::image::Image;
+
+/// What a value may ask for while it prints. The image answers.
+pub(crate) trait PrintContext {
+    /// A symbol's name.
+    fn name(&self, sym: Sym) -> &str;
+
+    /// Is the symbol a keyword?
+    fn is_keyword(&self, sym: Sym) -> bool;
+
+    /// The symbol of that name that is accessible in the named package.
+    fn find_symbol(&self, package: &str, name: &str) -> Option<Sym>;
+
+    /// The value of a special variable.
+    fn special(&self, sym: Sym) -> &Value;
+
+    /// A value as `princ` (`escape` false) or `prin1` (`escape` true) print it.
+    fn text(&self, value: &Value, escape: bool) -> String;
+
+    /// A function's name with the package of its symbol.
+    fn qualified(&self, name: &Value) -> String;
+
+    /// The made-up address of an object.
+    fn identity(&self, object: &Value) -> String;
+}
 
 /// A value whose behaviour another layer defines.
 pub(crate) trait Foreign: Any {
@@ -12,7 +35,7 @@ pub(crate) trait Foreign: Any {
     fn type_symbol(&self) -> Sym;
 
     /// The readable form, as `princ` (`escape` false) or `prin1` (`escape` true) print it.
-    fn print(&self, image: &Image, escape: bool) -> String;
+    fn print(&self, context: &dyn PrintContext, escape: bool) -> String;
 
     /// Is this `equal` to another value that is not identical to it?
     fn is_equal(&self, other: &Value) -> bool {

@@ -1,16 +1,13 @@
 //! Functions: closures, builtins and generic functions.
 
+use std::any::Any;
 use std::cell::OnceCell;
 use std::rc::Rc;
 
 use super::Value;
+use super::code::Code;
 use super::generic::GenericFunction;
-use super::raise::Raise;
 use super::symbol::Sym;
-use crate::lisp::image::Image;
-use crate::lisp::vm::code::Code;
-use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::step::Step;
 
 /// A function object.
 pub(crate) struct Function {
@@ -56,16 +53,6 @@ impl Deferred {
     }
 }
 
-/// A builtin that returns at once and calls no Lisp function.
-pub(crate) type PureFn = fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>;
-/// A builtin that may call functions, wait, or unwind.
-pub(crate) type ControlFn = fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>>;
-/// A pure builtin with data of its own (a structure's accessor, a constant function).
-pub(crate) type MadeFn = Rc<dyn Fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>>>;
-/// A control builtin with data of its own.
-pub(crate) type MadeControlFn =
-    Rc<dyn Fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>>>;
-
 /// A function written in Rust.
 pub(crate) struct Native {
     /// Its name.
@@ -75,20 +62,23 @@ pub(crate) struct Native {
     /// Most arguments; none if there is no limit.
     pub(crate) max: Option<u16>,
     /// The Rust function.
-    pub(crate) call: NativeCall,
+    pub(crate) body: NativeBody,
 }
 
-/// The Rust side of a builtin.
-#[derive(Clone)]
-pub(crate) enum NativeCall {
-    /// Returns at once.
-    Pure(PureFn),
-    /// May call, wait or unwind.
-    Control(ControlFn),
-    /// Returns at once; carries data.
-    Made(MadeFn),
-    /// May call, wait or unwind; carries data.
-    MadeControl(MadeControlFn),
+/// Where the Rust function is.
+pub(crate) enum NativeBody {
+    /// In the image's table of builtins, under this number.
+    Builtin(u32),
+    /// Here, with data of its own. Its type is known where such functions are made.
+    Made(Box<dyn Any>),
+}
+
+impl Native {
+    /// Does it take so many arguments?
+    #[inline]
+    pub(crate) fn accepts(&self, count: usize) -> bool {
+        count >= usize::from(self.min) && self.max.is_none_or(|max| count <= usize::from(max))
+    }
 }
 
 impl Function {
@@ -99,44 +89,16 @@ impl Function {
         }
     }
 
-    /// A builtin.
-    pub(crate) fn native(name: Sym, min: u16, max: Option<u16>, call: NativeCall) -> Function {
+    /// A function written in Rust.
+    pub(crate) fn native(name: Sym, arity: (u16, Option<u16>), body: NativeBody) -> Function {
         Function {
             body: Body::Native(Native {
                 name,
-                min,
-                max,
-                call,
+                min: arity.0,
+                max: arity.1,
+                body,
             }),
         }
-    }
-
-    /// A builtin as a value: a pure function with data of its own.
-    pub(crate) fn made(
-        name: Sym,
-        arity: (u16, Option<u16>),
-        call: impl Fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>> + 'static,
-    ) -> Rc<Function> {
-        Rc::new(Function::native(
-            name,
-            arity.0,
-            arity.1,
-            NativeCall::Made(Rc::new(call)),
-        ))
-    }
-
-    /// A builtin as a value: a control function with data of its own.
-    pub(crate) fn made_control(
-        name: Sym,
-        arity: (u16, Option<u16>),
-        call: impl Fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>> + 'static,
-    ) -> Rc<Function> {
-        Rc::new(Function::native(
-            name,
-            arity.0,
-            arity.1,
-            NativeCall::MadeControl(Rc::new(call)),
-        ))
     }
 
     /// A function that is compiled when it is first called.

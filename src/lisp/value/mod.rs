@@ -5,6 +5,7 @@
 
 pub(crate) mod array;
 pub(crate) mod class;
+pub(crate) mod code;
 pub(crate) mod cons;
 pub(crate) mod equality;
 pub(crate) mod foreign;

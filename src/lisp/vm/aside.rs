@@ -11,7 +11,7 @@ use super::machine::Machine;
 use super::step::Step;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
@@ -44,7 +44,7 @@ impl Foreign for Tag {
         known::CATCH
     }
 
-    fn print(&self, _: &Image, _: bool) -> String {
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         "#<DEBUGGER>".to_owned()
     }
 }

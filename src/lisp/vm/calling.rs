@@ -2,15 +2,16 @@
 
 use std::rc::Rc;
 
-use super::code::Code;
 use super::fiber::{Dynamic, Frame, FrameKind};
 use super::machine::{Machine, Next};
 use crate::lisp::image::Image;
 use crate::lisp::library;
+use crate::lisp::native::NativeCall;
 use crate::lisp::object;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function, NativeCall};
+use crate::lisp::value::code::Code;
+use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
@@ -29,12 +30,10 @@ impl Machine<'_> {
         let cut = self.fiber.stack.len();
         match &function.body {
             Body::Native(native) => {
-                if args.len() < usize::from(native.min)
-                    || native.max.is_some_and(|max| args.len() > usize::from(max))
-                {
+                if !native.accepts(args.len()) {
                     return self.raise(wrong_count(args.len()));
                 }
-                match native.call.clone() {
+                match self.image.native_call(native) {
                     NativeCall::Pure(f) => match f(self.image, &args) {
                         Ok(value) => Next::Deliver(if multi { value } else { value.primary() }),
                         Err(raise) => self.raise(raise),

@@ -19,8 +19,9 @@ use super::callable::function_of;
 use super::machine::Machine;
 use super::step::Step;
 use crate::lisp::image::Image;
+use crate::lisp::native::NativeCall;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, NativeCall};
+use crate::lisp::value::function::Body;
 use crate::lisp::value::raise::Raise;
 
 /// How many calls of pure builtins are answered in a row before the machine gets a turn, so
@@ -344,10 +345,10 @@ fn call_directly(
     let Body::Native(native) = &function.body else {
         return None;
     };
-    let accepted = args.len() >= usize::from(native.min)
-        && native.max.is_none_or(|max| args.len() <= usize::from(max));
-    match &native.call {
-        _ if !accepted => None,
+    if !native.accepts(args.len()) {
+        return None;
+    }
+    match image.native_call(native) {
         NativeCall::Pure(call) => Some(call(image, args)),
         NativeCall::Made(call) => Some(call(image, args)),
         NativeCall::Control(_) | NativeCall::MadeControl(_) => None,

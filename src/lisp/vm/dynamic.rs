@@ -3,10 +3,10 @@
 
 use std::rc::Rc;
 
-use super::code::Code;
 use super::fiber::{Dynamic, Handler};
 use super::machine::Machine;
 use crate::lisp::value::Value;
+use crate::lisp::value::code::Code;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;

@@ -6,7 +6,6 @@ pub(crate) mod call;
 pub(crate) mod callable;
 mod calling;
 pub(crate) mod calls;
-pub(crate) mod code;
 pub(crate) mod computation;
 mod dynamic;
 pub(crate) mod fiber;

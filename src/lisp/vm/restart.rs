@@ -4,7 +4,7 @@ use super::fiber::{Dynamic, Frame, FrameKind};
 use super::machine::Machine;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -27,8 +27,8 @@ impl Foreign for Restart {
         known::RESTART
     }
 
-    fn print(&self, image: &Image, escape: bool) -> String {
-        let name = image.name(self.name);
+    fn print(&self, context: &dyn PrintContext, escape: bool) -> String {
+        let name = context.name(self.name);
         if escape {
             format!("#<RESTART {name}>")
         } else if let Value::Str(text) = &self.report {
@@ -47,7 +47,7 @@ impl Foreign for FailedOperation {
         known::CATCH
     }
 
-    fn print(&self, _: &Image, _: bool) -> String {
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         "#<FAILED-OPERATION>".to_owned()
     }
 }

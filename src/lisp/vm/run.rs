@@ -4,12 +4,12 @@
 //! where code goes on. An operation either falls through to the next one, moves the program
 //! counter, leaves for another frame of code, or leaves the loop.
 
-use super::code::Op;
 use super::fiber::{Frame, FrameKind};
 use super::machine::{Event, INTERRUPT_INTERVAL, Machine, Next};
 use super::variables::unbox;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, NativeCall};
+use crate::lisp::value::code::Op;
+use crate::lisp::value::function::Body;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
@@ -236,9 +236,8 @@ impl Machine<'_> {
         };
         let called = called.clone();
         if let Body::Native(native) = &called.body
-            && let NativeCall::Pure(f) = native.call
-            && count >= usize::from(native.min)
-            && native.max.is_none_or(|max| count <= usize::from(max))
+            && native.accepts(count)
+            && let Some(f) = self.image.pure_call(native)
         {
             let result = f(self.image, &self.fiber.stack[cut..]);
             self.fiber.stack.truncate(cut);

@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
-use super::code::{Capture, Code};
 use super::machine::Machine;
 use crate::lisp::value::Value;
+use crate::lisp::value::code::{Capture, Code};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;

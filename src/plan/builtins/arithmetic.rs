@@ -3,8 +3,8 @@
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
+use crate::lisp::native::PureFn;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::PureFn;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;

@@ -3,8 +3,8 @@
 use super::arithmetic::{add, divide, eq, eql, equal, greater, less, multiply, not, subtract};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
+use crate::lisp::native::PureFn;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::PureFn;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::calls::run;

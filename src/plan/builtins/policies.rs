@@ -5,7 +5,7 @@ use std::rc::Rc;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::hash_table::{HashTable, HashTest};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -30,8 +30,8 @@ impl Foreign for Policy {
         self.type_symbol
     }
 
-    fn print(&self, image: &Image, _: bool) -> String {
-        let name = crate::lisp::print::to_string(image, &self.name, true);
+    fn print(&self, context: &dyn PrintContext, _: bool) -> String {
+        let name = context.text(&self.name, true);
         format!("#<POLICY {name}>")
     }
 }

@@ -5,6 +5,7 @@
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::foreign::PrintContext;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageId;
 use crate::lisp::value::raise::Raise;
@@ -69,9 +70,9 @@ fn package(image: &Image, designator: &Value) -> Option<PackageId> {
 }
 
 /// The text of a symbol or string.
-pub(crate) fn name_text(image: &Image, name: &Value) -> Option<String> {
+pub(crate) fn name_text(context: &dyn PrintContext, name: &Value) -> Option<String> {
     match name {
-        Value::Symbol(sym) => Some(image.name(*sym).to_owned()),
+        Value::Symbol(sym) => Some(context.name(*sym).to_owned()),
         Value::Str(text) => Some(text.text()),
         _ => None,
     }

@@ -6,7 +6,7 @@ use super::value::{Class, Designator, Quantifier};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::packages;
@@ -45,8 +45,8 @@ impl Foreign for ObjectData {
         self.class_symbol
     }
 
-    fn print(&self, image: &Image, _: bool) -> String {
-        let name = names::name_text(image, &self.identifier).unwrap_or_default();
+    fn print(&self, context: &dyn PrintContext, _: bool) -> String {
+        let name = names::name_text(context, &self.identifier).unwrap_or_default();
         format!("#<OBJECT-DESIGNATOR-DATA {name}>")
     }
 }

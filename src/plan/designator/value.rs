@@ -9,7 +9,7 @@ use std::rc::Rc;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::packages;
@@ -306,8 +306,8 @@ impl Foreign for Designator {
         self.class_symbol
     }
 
-    fn print(&self, image: &Image, escape: bool) -> String {
-        if !is_description_printed(image) {
+    fn print(&self, context: &dyn PrintContext, escape: bool) -> String {
+        if !is_description_printed(context) {
             return "#<>".to_owned();
         }
         let Some(_level) = Level::enter() else {
@@ -315,8 +315,8 @@ impl Foreign for Designator {
         };
         let mut text = format!("#<{} {}", self.quantifier.name(), self.class.name());
         for (key, values) in self.properties() {
-            let key = bare(image, &key, escape);
-            let value = bare(image, &values.car_or_nil(), escape);
+            let key = bare(context, &key, escape);
+            let value = bare(context, &values.car_or_nil(), escape);
             text.push_str(&format!("\n    ({key} {value})"));
         }
         text.push('>');
@@ -325,20 +325,16 @@ impl Foreign for Designator {
 }
 
 /// Keywords without their colon, everything else as it prints.
-fn bare(image: &Image, value: &Value, escape: bool) -> String {
+fn bare(context: &dyn PrintContext, value: &Value, escape: bool) -> String {
     match value {
-        Value::Symbol(sym) if image.is_keyword(*sym) => image.name(*sym).to_owned(),
+        Value::Symbol(sym) if context.is_keyword(*sym) => context.name(*sym).to_owned(),
         // Inside of lists, keywords keep their colon.
-        Value::Cons(_) => print::to_string(image, value, true),
-        other => print::to_string(image, other, escape),
+        Value::Cons(_) => context.text(value, true),
+        other => context.text(other, escape),
     }
 }
 
-fn is_description_printed(image: &Image) -> bool {
-    let variable = image.packages.find("CRAM-DESIGNATORS").and_then(|p| {
-        image
-            .packages
-            .find_symbol(p, "*DESIGNATOR-PPRINT-DESCRIPTION*")
-    });
-    variable.is_none_or(|(sym, _)| !image.special(sym).is_nil())
+fn is_description_printed(context: &dyn PrintContext) -> bool {
+    let variable = context.find_symbol("CRAM-DESIGNATORS", "*DESIGNATOR-PPRINT-DESCRIPTION*");
+    variable.is_none_or(|sym| !context.special(sym).is_nil())
 }

@@ -165,7 +165,7 @@ impl Reading {
 enum NetStep {
     Value(Value),
     Read(FluentRef),
-    Pure(crate::lisp::value::function::PureFn, Vec<Value>),
+    Pure(crate::lisp::native::PureFn, Vec<Value>),
     Call(Value, Vec<Value>),
 }
 

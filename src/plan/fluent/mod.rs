@@ -16,10 +16,10 @@ use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
 
 use crate::lisp::image::Image;
+use crate::lisp::native::PureFn;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, ForeignBox};
-use crate::lisp::value::function::PureFn;
+use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::Sym;
 
@@ -122,9 +122,9 @@ pub(crate) enum Missed {
 
 impl Fluent {
     /// The name, as it is shown.
-    pub(crate) fn name(&self, image: &Image) -> String {
+    pub(crate) fn name(&self, context: &dyn PrintContext) -> String {
         match &self.name {
-            FluentName::Given(name) => print::to_string(image, name, false),
+            FluentName::Given(name) => context.text(name, false),
             FluentName::Numbered(prefix, n) => format!("{prefix}{n}"),
         }
     }
@@ -222,11 +222,11 @@ impl Foreign for Fluent {
         self.type_symbol
     }
 
-    fn print(&self, image: &Image, _: bool) -> String {
-        let name = self.name(image);
+    fn print(&self, context: &dyn PrintContext, _: bool) -> String {
+        let name = self.name(context);
         match &self.kind {
             Kind::Value { value, .. } => {
-                let value = print::to_string(image, &value.get(), true);
+                let value = context.text(&value.get(), true);
                 format!("#<FLUENT {name} [{value}]>")
             }
             _ => format!("#<FLUENT {name}>"),

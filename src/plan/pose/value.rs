@@ -7,7 +7,7 @@ use nalgebra::{Quaternion as Hamilton, Translation3, UnitQuaternion};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 use crate::spatial;
@@ -239,10 +239,10 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-fn numbers(image: &Image, numbers: &[f64]) -> String {
+fn numbers(context: &dyn PrintContext, numbers: &[f64]) -> String {
     let shown: Vec<String> = numbers
         .iter()
-        .map(|x| print::to_string(image, &Value::Double(*x), true))
+        .map(|x| context.text(&Value::Double(*x), true))
         .collect();
     format!("({})", shown.join(" "))
 }
@@ -252,8 +252,8 @@ impl Foreign for Vector3 {
         known::VECTOR_3D
     }
 
-    fn print(&self, image: &Image, _: bool) -> String {
-        format!("#<3D-VECTOR {}>", numbers(image, &self.0))
+    fn print(&self, context: &dyn PrintContext, _: bool) -> String {
+        format!("#<3D-VECTOR {}>", numbers(context, &self.0))
     }
 
     fn is_equal(&self, other: &Value) -> bool {
@@ -266,8 +266,8 @@ impl Foreign for Quaternion {
         known::QUATERNION
     }
 
-    fn print(&self, image: &Image, _: bool) -> String {
-        format!("#<QUATERNION {}>", numbers(image, &self.0))
+    fn print(&self, context: &dyn PrintContext, _: bool) -> String {
+        format!("#<QUATERNION {}>", numbers(context, &self.0))
     }
 
     fn is_equal(&self, other: &Value) -> bool {
@@ -284,14 +284,14 @@ impl Foreign for Unstamped {
         }
     }
 
-    fn print(&self, image: &Image, escape: bool) -> String {
+    fn print(&self, context: &dyn PrintContext, escape: bool) -> String {
         let kind = if self.is_transform {
             "TRANSFORM"
         } else {
             "POSE"
         };
-        let position = self.placement.position.print(image, escape);
-        let orientation = self.placement.orientation.print(image, escape);
+        let position = self.placement.position.print(context, escape);
+        let orientation = self.placement.orientation.print(context, escape);
         format!("#<{kind} \n   {position}\n   {orientation}>")
     }
 
@@ -305,7 +305,7 @@ impl Foreign for PoseStamped {
         known::POSE_STAMPED
     }
 
-    fn print(&self, _: &Image, _: bool) -> String {
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         format!("#<{} {}>", quoted(&self.frame), short(&self.placement))
     }
 
@@ -319,7 +319,7 @@ impl Foreign for TransformStamped {
         known::TRANSFORM_STAMPED
     }
 
-    fn print(&self, _: &Image, _: bool) -> String {
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         let (frame, child) = (quoted(&self.frame), quoted(&self.child));
         format!("#<{frame} {child} {}>", short(&self.placement))
     }

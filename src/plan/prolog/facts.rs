@@ -9,7 +9,7 @@ use crate::lisp::builtin::{Builtin, Operator, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -65,7 +65,7 @@ impl Foreign for FactsObject {
         known::T
     }
 
-    fn print(&self, _: &Image, _: bool) -> String {
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         format!("#<{} FACT-GROUPS>", self.0.groups.borrow().len())
     }
 }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::equality;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -26,8 +26,8 @@ impl Foreign for Variable {
         known::SYMBOL
     }
 
-    fn print(&self, image: &Image, _: bool) -> String {
-        image.name(self.name).to_owned()
+    fn print(&self, context: &dyn PrintContext, _: bool) -> String {
+        context.name(self.name).to_owned()
     }
 }
 

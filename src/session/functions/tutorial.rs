@@ -6,7 +6,7 @@ use crate::lisp::builtins::keywords::{self, optional};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
@@ -258,7 +258,7 @@ impl Foreign for KitchenUrdf {
         self.symbol
     }
 
-    fn print(&self, _: &Image, _: bool) -> String {
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         format!("#<CL-URDF:ROBOT {:?}>", self.name)
     }
 }

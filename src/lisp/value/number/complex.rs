@@ -15,7 +15,7 @@ use super::transcendental::{atan2, cos, exp, sin};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -33,8 +33,8 @@ impl Foreign for Complex {
         known::COMPLEX
     }
 
-    fn print(&self, image: &Image, escape: bool) -> String {
-        let part = |part| print::to_string(image, part, escape);
+    fn print(&self, context: &dyn PrintContext, escape: bool) -> String {
+        let part = |part| context.text(part, escape);
         format!("#C({} {})", part(&self.re), part(&self.im))
     }
 

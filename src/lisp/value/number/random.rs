@@ -11,7 +11,7 @@ use super::convert::from_big;
 use super::error::NumberResult;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::Foreign;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -27,7 +27,7 @@ impl Foreign for RandomState {
         known::RANDOM_STATE
     }
 
-    fn print(&self, _: &Image, _: bool) -> String {
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         "#<RANDOM-STATE>".to_owned()
     }
 }
