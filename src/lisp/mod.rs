@@ -10,7 +10,6 @@ pub(crate) mod library;
 pub(crate) mod loop_macro;
 pub(crate) mod native;
 pub(crate) mod object;
-pub(crate) mod polls;
 pub(crate) mod print;
 pub(crate) mod reader;
 mod setup;

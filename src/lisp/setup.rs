@@ -1,6 +1,7 @@
 //! A new image: standard packages, classes, variables, functions and macros.
 
 use super::builtins::{number_theory, numbers, reading, registry};
+use super::condition;
 use super::image::Image;
 use super::library;
 use super::stream;
@@ -17,6 +18,7 @@ impl Image {
         image.define_constant(known::T, Value::T);
         image.define_constant(known::PI, Value::Double(std::f64::consts::PI));
         image.define_standard_classes();
+        condition::classes::define(&mut image);
         registry::install(&mut image);
         define_variables(&mut image);
         numbers::define_constants(&mut image);

@@ -17,7 +17,7 @@ pub(super) use known::KnownNames;
 use super::Session;
 use super::dialogue::{Finding, Severity};
 use crate::lisp::compile;
-use crate::lisp::compile::notes::{Note, NoteKind};
+use crate::lisp::image::notes::{Note, NoteKind};
 use crate::lisp::reader::Reader;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;

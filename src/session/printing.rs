@@ -3,13 +3,13 @@
 use super::Session;
 use super::dialogue::{Abort, ActionStep};
 use crate::lisp::condition;
+use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::print;
 use crate::lisp::source::Location;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::call::Call;
 use crate::lisp::vm::nested;
 
 /// Actions that are told around a condition.
@@ -45,7 +45,7 @@ impl Session {
     /// What is told of a condition that nobody handled.
     pub(super) fn describe(&mut self, condition: &Value) -> Abort {
         let calls = self.image.condition_calls(condition);
-        let calls: Vec<Call> = calls.unwrap_or_default().to_vec();
+        let calls: Vec<OpenCall> = calls.unwrap_or_default().to_vec();
         let sources = &self.image.sources;
         let mut places = calls.iter().filter_map(|call| sources.locate(call.place));
         let place = places.next();
@@ -61,7 +61,7 @@ impl Session {
     }
 
     /// The actions among the calls, each with the place where it is performed.
-    fn actions(&self, calls: &[Call]) -> Vec<ActionStep> {
+    fn actions(&self, calls: &[OpenCall]) -> Vec<ActionStep> {
         let image = &self.image;
         let steps = calls.iter().enumerate().filter_map(|(at, call)| {
             let shown = print::to_string(image, call.subject.as_ref()?, false);

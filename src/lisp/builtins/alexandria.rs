@@ -4,7 +4,6 @@ use super::criterion::{Key, Test};
 use super::hash_tables::table;
 use super::keywords;
 use super::list_trees::PairCount;
-use super::sequence::{ListBuilder, ListWalk, Sequence, index, list_items, list_length};
 use super::strings::{designated, string};
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
@@ -15,6 +14,9 @@ use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{
+    ListBuilder, ListWalk, Sequence, index, list_items, list_length,
+};
 use crate::lisp::vm::callable::callable;
 use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;

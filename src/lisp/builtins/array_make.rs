@@ -5,16 +5,16 @@ use std::rc::Rc;
 
 use super::keywords;
 use super::lists::{MAX_LENGTH, size};
-use super::sequence::Kind;
-use super::sequence::{Sequence, checked_element, index, list_items, text_of};
 use super::sequence_access::default_element;
-use super::sequence_types::{upgraded, vector_kind};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
+use crate::lisp::types::sequence_types::{upgraded, vector_kind};
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::Kind;
+use crate::lisp::value::sequence::{Sequence, checked_element, index, list_items, text_of};
 use crate::lisp::value::string::LispString;
 use crate::lisp::value::symbol::Sym;
 

@@ -4,13 +4,13 @@ use std::rc::Rc;
 
 use super::array_index;
 use super::array_make;
-use super::sequence::{checked_element, index};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Array;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{checked_element, index};
 use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;

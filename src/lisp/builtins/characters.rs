@@ -1,12 +1,12 @@
 //! Characters: codes, names, case, digits, comparison.
 
-use super::sequence::{character, index};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::reader::char_name::{char_name as special_name, char_named};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{character, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 

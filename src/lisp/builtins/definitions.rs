@@ -3,8 +3,9 @@
 use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::compile::setf::{self, SetfExpander};
+use crate::lisp::compile::setf;
 use crate::lisp::image::Image;
+use crate::lisp::image::setf_expander::SetfExpander;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use crate::lisp::builtin::{Builtin, Entry, pure};
 use crate::lisp::image::Image;
 use crate::lisp::library::definition_of;
-use crate::lisp::object::method::{MethodObject, named_function};
+use crate::lisp::object::method::MethodObject;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
@@ -41,9 +41,9 @@ fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>>
             image.class(*name).and_then(|c| c.doc.borrow().clone())
         }
         (Value::Symbol(name), Some(known::FUNCTION | known::SETF)) => of_name(image, *name),
-        (Value::Cons(_), Some(known::FUNCTION)) => {
-            named_function(image, &args[0]).and_then(|f| of_function(image, &f))
-        }
+        (Value::Cons(_), Some(known::FUNCTION)) => image
+            .named_function(&args[0])
+            .and_then(|f| of_function(image, &f)),
         (Value::Function(function), _) => of_function(image, function),
         (Value::Class(class), _) => class.doc.borrow().clone(),
         (other, _) => other

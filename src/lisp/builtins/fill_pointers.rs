@@ -1,11 +1,11 @@
 //! Vectors with fill pointers: pushing and popping.
 
-use super::sequence::{character, element, index};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{character, element, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 

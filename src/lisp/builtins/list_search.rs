@@ -2,12 +2,12 @@
 
 use super::criterion::{Criterion, Key, Test};
 use super::keywords;
-use super::sequence::ListWalk;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::ListWalk;
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;

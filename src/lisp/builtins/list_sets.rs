@@ -8,13 +8,13 @@ use std::collections::HashSet;
 
 use super::criterion::{Key, Test};
 use super::keywords;
-use super::sequence::list_items;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::hash_table::{HashKey, HashTest};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::list_items;
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
@@ -119,7 +119,7 @@ async fn filtered(
 
 async fn adjoin_item(calls: Calls, comparison: Comparison, item: Value, list: Value) -> Outcome {
     let key = comparison.key.of(&calls, item.clone()).await;
-    let mut walk = super::sequence::ListWalk::new(list.clone());
+    let mut walk = crate::lisp::value::sequence::ListWalk::new(list.clone());
     while let Some(element) = walk.next()? {
         let other = comparison.key.of(&calls, element).await;
         if comparison.test.matches(&calls, &key, &other).await {

@@ -4,12 +4,12 @@ use std::rc::Rc;
 
 use super::criterion::{Criterion, Key, Test};
 use super::keywords;
-use super::sequence::ListWalk;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::cons::Cons;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::ListWalk;
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;

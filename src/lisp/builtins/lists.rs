@@ -4,12 +4,12 @@ use std::rc::Rc;
 
 use super::keywords;
 use super::list_trees::PairCount;
-use super::sequence::{self, ListBuilder, ListWalk};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::cons::Cons;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{self, ListBuilder, ListWalk};
 use crate::lisp::value::{Rounds, Value};
 
 type Outcome = Result<Value, Box<Raise>>;

@@ -2,11 +2,11 @@
 //! `mapcon`.
 
 use super::lists::nconc_all;
-use super::sequence::ListBuilder;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::ListBuilder;
 use crate::lisp::vm::callable::callable;
 use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;

@@ -430,8 +430,9 @@ fn parse_integer(image: &mut Image, args: &[Value]) -> Outcome {
             known::K_JUNK_ALLOWED,
         ],
     )?;
-    let sequence = super::sequence::Sequence::Str(string.clone());
-    let bounds = super::sequence::Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
+    let sequence = crate::lisp::value::sequence::Sequence::Str(string.clone());
+    let bounds =
+        crate::lisp::value::sequence::Bounds::new(&sequence, start.as_ref(), end.as_ref())?;
     let radix = match radix {
         None => 10,
         Some(Value::Int(n @ 2..=36)) => u32::try_from(n).unwrap_or(10),

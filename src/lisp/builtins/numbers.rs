@@ -304,7 +304,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         |image, args| {
             let state = args.get(1).unwrap_or(image.special(known::V_RANDOM_STATE));
             let state = state.clone();
-            number::random_from(image, &args[0], &state)
+            number::random_from(&mut image.random, &args[0], &state)
         },
     ),
     pure(
@@ -318,7 +318,7 @@ pub(crate) static TABLE: &[Builtin] = &[
                 _ => image.special(known::V_RANDOM_STATE),
             };
             let state = state.clone();
-            number::make_random_state(image, &state)
+            number::make_random_state(&mut image.random, &state)
         },
     ),
     pure(

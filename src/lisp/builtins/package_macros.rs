@@ -4,7 +4,6 @@ use super::packages::{
     accessible, designated, import_one, make, one_or_more, package_error, shadow_one, status,
     use_one,
 };
-use super::sequence::list_items;
 use super::shown::shown;
 use super::strings;
 use crate::lisp::builtin::{Builtin, pure};
@@ -13,6 +12,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::{Access, PackageId};
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::list_items;
 use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;

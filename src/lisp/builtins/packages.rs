@@ -5,7 +5,6 @@ use std::rc::Rc;
 
 use super::keywords;
 use super::property_lists::symbol;
-use super::sequence::list_items;
 use super::shown::shown;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
@@ -13,6 +12,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::{Access, PackageId, PackageTable};
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::list_items;
 use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;

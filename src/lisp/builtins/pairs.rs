@@ -6,7 +6,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::{Rounds, Value};
 
-use super::sequence;
+use crate::lisp::value::sequence;
 
 type Outcome = Result<Value, Box<Raise>>;
 

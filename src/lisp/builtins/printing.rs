@@ -2,7 +2,6 @@
 
 use super::composing::compose;
 use super::keywords;
-use super::sequence::{Bounds, Sequence};
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print::{self, Case, Settings};
@@ -10,6 +9,7 @@ use crate::lisp::stream;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence};
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;

@@ -7,7 +7,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::value::{Rounds, Value};
 
-use super::sequence::{ListWalk, circular};
+use crate::lisp::value::sequence::{ListWalk, circular};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -3,7 +3,6 @@
 use std::rc::Rc;
 
 use super::keywords;
-use super::sequence::{Bounds, Sequence};
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
@@ -13,6 +12,7 @@ use crate::lisp::stream::{self, Stream};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence};
 use crate::lisp::vm::computation::{Computation, Progress, compute};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;

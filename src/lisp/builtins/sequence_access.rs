@@ -5,14 +5,14 @@ use std::rc::Rc;
 use super::array_index;
 use super::keywords;
 use super::lists::{nreverse_onto, size};
-use super::sequence::{self, Bounds, Kind, Sequence, index};
-use super::sequence_types::SequenceType;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
+use crate::lisp::types::sequence_types::SequenceType;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Vector;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{self, Bounds, Kind, Sequence, index};
 
 type Outcome = Result<Value, Box<Raise>>;
 

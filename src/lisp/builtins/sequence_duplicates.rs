@@ -4,13 +4,13 @@ use std::collections::HashSet;
 
 use super::criterion::{Key, Test};
 use super::keywords;
-use super::sequence::{Bounds, Sequence};
 use super::sequence_change::removed;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::hash_table::{HashKey, HashTest};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence};
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;

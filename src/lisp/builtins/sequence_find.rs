@@ -3,12 +3,12 @@
 
 use super::criterion::{Criterion, Key, Test};
 use super::keywords;
-use super::sequence::{Bounds, Sequence};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence};
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;

@@ -3,12 +3,12 @@
 
 use super::criterion::Key;
 use super::keywords;
-use super::sequence::{Bounds, Sequence, Walk};
-use super::sequence_types::SequenceType;
 use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::types::sequence_types::SequenceType;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence, Walk};
 use crate::lisp::vm::callable::callable;
 use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;

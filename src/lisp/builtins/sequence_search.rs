@@ -2,11 +2,11 @@
 
 use super::criterion::{Key, Test};
 use super::keywords;
-use super::sequence::{Bounds, Sequence};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence};
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;

@@ -2,12 +2,12 @@
 
 use super::criterion::Key;
 use super::keywords;
-use super::sequence::{Sequence, conses, relink};
-use super::sequence_types::SequenceType;
 use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::types::sequence_types::SequenceType;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Sequence, conses, relink};
 use crate::lisp::vm::callable::{builtin_name, callable};
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;

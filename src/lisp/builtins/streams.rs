@@ -3,7 +3,6 @@
 use std::rc::Rc;
 
 use super::keywords;
-use super::sequence::{Bounds, Sequence, character, index, text_of};
 use super::strings::string;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
@@ -11,6 +10,7 @@ use crate::lisp::stream::{self, Stream, StreamKind};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence, character, index, text_of};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -5,13 +5,13 @@ use std::rc::Rc;
 
 use super::characters::upcase;
 use super::keywords;
-use super::sequence::{Bounds, Sequence};
 use super::strings::designated;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence};
 use crate::lisp::value::string::LispString;
 
 type Outcome = Result<Value, Box<Raise>>;

@@ -6,12 +6,12 @@ use super::array_index;
 use super::characters::{downcase, upcase};
 use super::keywords;
 use super::lists::size;
-use super::sequence::{Bounds, Sequence, character, index};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence, character, index};
 use crate::lisp::value::string::LispString;
 
 type Outcome = Result<Value, Box<Raise>>;

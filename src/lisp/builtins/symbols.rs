@@ -1,7 +1,6 @@
 //! Symbols: names, values, functions, fresh symbols.
 
 use super::property_lists::symbol;
-use super::sequence::index;
 use super::strings::string;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
@@ -10,6 +9,7 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::index;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::lisp::vm::callable::callable;
 

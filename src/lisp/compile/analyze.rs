@@ -6,13 +6,13 @@ use std::rc::Rc;
 use super::emit;
 use super::environment::Environment;
 use super::node::{Binding, LambdaNode, Node, Target};
-use super::notes::NoteKind;
 use super::scope::{
     DynamicKind, Entry, FunctionContext, FunctionMeaning, Scope, Var, VariableMeaning,
 };
 use super::special_forms;
 use crate::closest_name::closest_name;
 use crate::lisp::image::Image;
+use crate::lisp::image::notes::NoteKind;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::code::{Code, Parameters};

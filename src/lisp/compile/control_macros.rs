@@ -1,10 +1,10 @@
 //! The conditionals and loops that programs are full of: every expansion counts when a file
 //! is loaded. The others are Lisp, in `library/control.lisp`.
 
-use super::form::{form, progn, quoted as quote, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::{form, progn, quoted as quote, split_body};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;

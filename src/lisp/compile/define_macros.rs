@@ -1,10 +1,10 @@
 //! The defining macros that the library in Lisp is made with, and `define-setf-expander`.
 //! The others are in `library/definitions.lisp`.
 
-use super::form::{doc_form, form, quoted as quote, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::{doc_form, form, quoted as quote, split_body};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;

@@ -200,7 +200,7 @@ pub(crate) fn macro_function(
         environment: environment.clone(),
     };
     bindings.take_apart(&parsed, &whole, 1)?;
-    let parts = super::form::split_body(body);
+    let parts = crate::lisp::value::form::split_body(body);
     let block = Value::list_with_tail([known::BLOCK.into(), name.into()], parts.forms);
     let mut let_form = vec![known::LET_STAR.into(), Value::list(bindings.list)];
     let_form.extend(parts.declarations);

@@ -1,26 +1,13 @@
 //! Generalised places: `setf` and the macros that modify a place.
 
 use crate::lisp::image::Image;
+use crate::lisp::image::setf_expander::SetfExpander;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 use crate::lisp::vm::nested;
-
-/// How `setf` of a form with a certain operator is carried out, where no function
-/// `(setf name)` does it.
-#[derive(Clone)]
-pub(crate) enum SetfExpander {
-    /// `(defsetf access update)`: the update function takes the arguments, then the value.
-    Update(Sym),
-    /// `(defsetf access lambda-list (store…) body…)`: a function of the store variables
-    /// (as a list) and the argument variables that returns the storing form.
-    Long(Value, usize),
-    /// `define-setf-expander`: a function of the whole place form that returns the five
-    /// values of a setf expansion.
-    Expander(Value),
-}
 
 /// A place taken apart: evaluate `values` into `temps` in order, bind `stores` to the new
 /// values, evaluate `setter`; `getter` reads the place.

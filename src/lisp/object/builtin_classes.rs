@@ -89,7 +89,6 @@ impl Image {
                 doc: None,
             });
         }
-        crate::lisp::condition::classes::define(self);
     }
 
     /// The symbol of a table entry: in `COMMON-LISP`, or in `SYSTEM` if marked by `%`.

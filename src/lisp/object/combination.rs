@@ -1,6 +1,6 @@
 //! Method combinations: the builtin ones and the short form of `define-method-combination`.
 
-use crate::lisp::compile::form::{form, quote};
+use crate::lisp::value::form::{form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::generic::Combination;

@@ -2,9 +2,9 @@
 
 use std::rc::Rc;
 
-use super::effective::{Effective, Shape};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::dispatch::{Effective, Shape};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::generic::{Combination, Method};
 use crate::lisp::value::known;

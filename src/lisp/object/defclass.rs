@@ -1,16 +1,16 @@
 //! `defclass` and `define-condition`: their expansion, and the builtin behind it.
 
 use super::define::ClassDefinition;
-use super::method::{MethodDefinition, define_method, named_function, remove_method};
-use super::parameters::Parameters;
+use super::method::{MethodDefinition, define_method, remove_method};
 use super::slot_options::{DefinedSlot, evaluated_init, evaluated_slot, init_form, slot_form};
-use crate::lisp::compile::form::{doc_form, form, quote};
+use crate::lisp::value::form::{doc_form, form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, ClassKind};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::generic::{Accessor, Specializer};
 use crate::lisp::value::known;
+use crate::lisp::value::parameters::Parameters;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use std::rc::Rc;
@@ -275,7 +275,7 @@ fn add_accessor(
 /// Removes the accessors of an earlier definition of the class.
 fn remove_accessors(image: &Image, class: &Class) {
     for method in class.accessors.take() {
-        let function = named_function(image, &method.name);
+        let function = image.named_function(&method.name);
         if let Some(generic) = function.as_ref().and_then(|f| f.as_generic()) {
             remove_method(generic, &method);
         }

@@ -6,11 +6,11 @@ use super::combination::combination_named;
 use super::method::{
     MethodDefinition, changed, define_method, ensure_generic, method_value, specializer,
 };
-use super::parameters::Parameters;
-use crate::lisp::compile::form::{doc_form, form, quote, split_body};
+use crate::lisp::value::form::{doc_form, form, quote, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::lisp::value::parameters::Parameters;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
@@ -96,7 +96,7 @@ fn method_function(
     image: &mut Image,
     name: &Value,
     lambda_list: &Value,
-    body: crate::lisp::compile::form::Body,
+    body: crate::lisp::value::form::Body,
     takes_next: bool,
 ) -> Value {
     let lambda_list = with_other_keys(lambda_list);
@@ -334,7 +334,7 @@ pub(crate) fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box
     if let Some(object) = args
         .first()
         .and_then(|a| a.as_foreign::<super::method::MethodObject>())
-        && let Some(function) = super::method::named_function(image, &object.0.name)
+        && let Some(function) = image.named_function(&object.0.name)
         && let Some(generic) = function.as_generic()
     {
         generic.own_methods.borrow_mut().push(object.0.clone());

@@ -9,11 +9,13 @@ use std::rc::Rc;
 
 use super::class_of::{builtin_class_name, class_of};
 use super::combine;
-use super::effective::{Effective, Shape, SlotPlace};
 use super::update;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::class::Class;
+use crate::lisp::value::dispatch::{
+    BUILTIN_TAG, Dispatch, EQL_TAG, Effective, Key, MAX_ENTRIES, MAX_PARTS, NO_PART, Part,
+    Position, Shape, SlotPlace,
+};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::generic::{GenericFunction, Method, Specializer};
 use crate::lisp::value::known;
@@ -21,69 +23,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
-/// Calls whose key has more parts than this are not remembered.
-const MAX_PARTS: usize = 4;
-/// A generic function that has met more keys than this forgets them all.
-const MAX_ENTRIES: usize = 256;
-
-/// What one argument contributes to a key: a class by its address and generation, or a
-/// small number with one of the two tags.
-type Part = (usize, u32);
-const BUILTIN_TAG: u32 = u32::MAX;
-const EQL_TAG: u32 = u32::MAX - 1;
-
-type Key = [Part; MAX_PARTS];
-const NO_PART: Part = (0, 0);
-
-/// An argument that decides which methods apply.
-struct Position {
-    index: usize,
-    eql_values: Vec<Value>,
-}
-
-/// Which arguments decide, and what they decided so far.
-#[derive(Default)]
-pub(crate) struct Dispatch {
-    positions: Vec<Position>,
-    entries: Vec<(Key, Rc<Effective>)>,
-    /// The classes whose addresses occur in keys; held so that none is reused.
-    classes: Vec<Rc<Class>>,
-}
-
 impl Dispatch {
-    /// The state for a changed set of methods.
-    pub(crate) fn for_methods(methods: &[Rc<Method>]) -> Dispatch {
-        let mut positions: Vec<Position> = Vec::new();
-        for method in methods {
-            for (index, specializer) in method.specializers.iter().enumerate() {
-                let eql = match specializer {
-                    Specializer::Class(class) if class.name == known::T => continue,
-                    Specializer::Class(_) => None,
-                    Specializer::Eql(value) => Some(value.clone()),
-                };
-                let at = match positions.iter().position(|p| p.index == index) {
-                    Some(at) => at,
-                    None => {
-                        positions.push(Position {
-                            index,
-                            eql_values: Vec::new(),
-                        });
-                        positions.len() - 1
-                    }
-                };
-                if let Some(value) = eql
-                    && !positions[at].eql_values.iter().any(|v| v.is_eql(&value))
-                {
-                    positions[at].eql_values.push(value);
-                }
-            }
-        }
-        Dispatch {
-            positions,
-            ..Dispatch::default()
-        }
-    }
-
     /// The key of a call; none if it has too many parts.
     #[inline]
     fn key(&self, image: &Image, args: &[Value]) -> Option<Key> {
@@ -95,17 +35,6 @@ impl Dispatch {
             *part = position.part(image, args.get(position.index)?);
         }
         Some(key)
-    }
-
-    /// The remembered effective method; it moves towards the front.
-    #[inline]
-    fn find(&mut self, key: &Key) -> Option<Rc<Effective>> {
-        let found = self.entries.iter().position(|(k, _)| k == key)?;
-        if found > 0 {
-            self.entries.swap(found, found - 1);
-            return Some(self.entries[found - 1].1.clone());
-        }
-        Some(self.entries[0].1.clone())
     }
 
     fn remember(&mut self, image: &Image, args: &[Value], key: Key, effective: Rc<Effective>) {

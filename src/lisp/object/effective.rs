@@ -7,54 +7,12 @@ use super::class_of::class_of;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Class;
+use crate::lisp::value::dispatch::{Effective, Shape, SlotPlace};
 use crate::lisp::value::generic::{Accessor, Combination, GenericFunction, Method, Specializer};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::Sym;
-
-/// The methods of a call in the order in which they run.
-pub(crate) struct Effective {
-    /// The shape of the call.
-    pub(crate) shape: Shape,
-    /// Keywords that some applicable method accepts; none if they need no check.
-    pub(crate) keys: Option<Vec<Sym>>,
-    /// Number of arguments before the keywords.
-    pub(crate) keys_from: usize,
-}
-
-/// The shape of a call.
-pub(crate) enum Shape {
-    /// No method applies.
-    NotApplicable,
-    /// Only a slot is read.
-    Read(SlotPlace, Rc<Method>),
-    /// Only a slot is written.
-    Write(SlotPlace, Rc<Method>),
-    /// One method that does not ask for the next one.
-    Single(Rc<Method>),
-    /// The standard combination, or one by an operator.
-    Combined {
-        /// `:around` methods.
-        around: Vec<Rc<Method>>,
-        /// `:before` methods.
-        before: Vec<Rc<Method>>,
-        /// Primary methods, or those that the operator combines.
-        primary: Vec<Rc<Method>>,
-        /// `:after` methods in the order in which they run: most specific last.
-        after: Vec<Rc<Method>>,
-        /// The combination.
-        combination: Combination,
-    },
-}
-
-/// Where the slot of an accessor lies in instances of the class at hand.
-pub(crate) enum SlotPlace {
-    /// At this position of the instance.
-    Local(usize),
-    /// In the class.
-    Shared(Rc<Slot>),
-}
 
 impl Effective {
     /// The effective method for a call with these arguments (all required ones are there).

@@ -3,17 +3,17 @@
 use std::cell::RefCell;
 use std::rc::{Rc, Weak};
 
-use super::dispatch::Dispatch;
 use super::effective;
-use super::parameters::Parameters;
 use crate::lisp::image::Image;
 use crate::lisp::print::qualified;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Class;
+use crate::lisp::value::dispatch::Dispatch;
 use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::generic::{Accessor, GenericFunction, Method, Specializer};
 use crate::lisp::value::known;
+use crate::lisp::value::parameters::Parameters;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
@@ -75,27 +75,11 @@ pub(crate) fn method_value(method: &Rc<Method>) -> Value {
     Value::Foreign(object)
 }
 
-/// The function of a name: a symbol, or the list `(setf symbol)`.
-pub(crate) fn named_function(image: &Image, name: &Value) -> Option<Rc<Function>> {
-    match name {
-        Value::Symbol(sym) => image.function(*sym).cloned(),
-        other => image.symbol(setf_name(other)?).setf_function.clone(),
-    }
-}
-
-/// The symbol of `(setf symbol)`.
-pub(crate) fn setf_name(name: &Value) -> Option<Sym> {
-    match name.list_to_vec()?.as_slice() {
-        [Value::Symbol(known::SETF), Value::Symbol(sym)] => Some(*sym),
-        _ => None,
-    }
-}
-
 fn set_named_function(image: &mut Image, name: &Value, function: Rc<Function>) {
     match name {
         Value::Symbol(sym) => image.set_function(*sym, function),
         other => {
-            if let Some(sym) = setf_name(other) {
+            if let Some(sym) = other.setf_name() {
                 image.symbols.get_mut(sym).setf_function = Some(function);
             }
         }
@@ -108,7 +92,7 @@ pub(crate) fn ensure_generic(
     name: &Value,
     parameters: &Parameters,
 ) -> Result<Rc<Function>, Box<Raise>> {
-    if name.as_symbol().is_none() && setf_name(name).is_none() {
+    if name.as_symbol().is_none() && name.setf_name().is_none() {
         return Err(Raise::program(format!(
             "{} is not a function name.",
             super::text(image, name)
@@ -122,7 +106,7 @@ pub(crate) fn ensure_generic(
     {
         return Err(names_ordinary_function(image, name));
     }
-    let function = match named_function(image, name) {
+    let function = match image.named_function(name) {
         Some(function) if function.as_generic().is_some() => return Ok(function),
         Some(function) => match (&function.body, name.as_symbol()) {
             (Body::Native(native), Some(sym)) if EXTENSIBLE.contains(&sym) => {

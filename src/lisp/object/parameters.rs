@@ -3,23 +3,9 @@
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::lisp::value::parameters::Parameters;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-
-/// Numbers of parameters and keywords of a lambda list.
-#[derive(Clone, Default, PartialEq, Eq, Debug)]
-pub(crate) struct Parameters {
-    /// Number of required parameters.
-    pub(crate) required: usize,
-    /// Number of optional parameters.
-    pub(crate) optional: usize,
-    /// Is there a rest parameter?
-    pub(crate) has_rest: bool,
-    /// The keywords, if there is `&key`.
-    pub(crate) keys: Option<Vec<Sym>>,
-    /// Are keywords beyond those allowed?
-    pub(crate) allows_other_keys: bool,
-}
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Section {
@@ -31,23 +17,6 @@ enum Section {
 }
 
 impl Parameters {
-    /// Only required parameters.
-    pub(crate) fn required(count: usize) -> Parameters {
-        Parameters {
-            required: count,
-            ..Parameters::default()
-        }
-    }
-
-    /// Required parameters and any number of further arguments.
-    pub(crate) fn required_and_rest(count: usize) -> Parameters {
-        Parameters {
-            required: count,
-            has_rest: true,
-            ..Parameters::default()
-        }
-    }
-
     /// Reads a lambda list whose parameters may be specialized.
     pub(crate) fn parse(image: &mut Image, lambda_list: &Value) -> Result<Parameters, Box<Raise>> {
         let mut parameters = Parameters::default();
@@ -77,16 +46,6 @@ impl Parameters {
             }
         }
         Ok(parameters)
-    }
-
-    /// May a call have more than the required and optional arguments?
-    pub(crate) fn has_more(&self) -> bool {
-        self.has_rest || self.keys.is_some()
-    }
-
-    /// Is this number of arguments acceptable?
-    pub(crate) fn accepts(&self, count: usize) -> bool {
-        count >= self.required && (self.has_more() || count <= self.required + self.optional)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use crate::lisp::compile::form::{constant_value, form, quote};
+use crate::lisp::value::form::{constant_value, form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Initform, SlotDefinition};

@@ -3,10 +3,10 @@
 use num_bigint::BigInt;
 
 use super::float;
-use super::identity::identity;
 use super::settings::Settings;
 use super::symbol;
 use crate::lisp::image::Image;
+use crate::lisp::image::identity::identity;
 use crate::lisp::reader::char_name::char_name;
 use crate::lisp::stream::StreamKind;
 use crate::lisp::value::Value;

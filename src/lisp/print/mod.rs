@@ -11,7 +11,6 @@ mod circle;
 mod document;
 mod float;
 pub(crate) mod format;
-pub(crate) mod identity;
 mod layout;
 mod printer;
 mod qualified;
@@ -25,8 +24,8 @@ pub(crate) mod test_image;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use super::image::identity::identity;
 pub(crate) use calls::{Call, Calls};
-pub(crate) use identity::identity;
 pub(crate) use qualified::qualified;
 pub(crate) use settings::{Case, Settings};
 

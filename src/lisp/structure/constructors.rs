@@ -1,7 +1,7 @@
 //! The constructors of a structure, as forms.
 
 use super::options::Constructor;
-use crate::lisp::compile::form::form;
+use crate::lisp::value::form::form;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::StructureSlot;

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::accessors;
-use crate::lisp::compile::form::constant_value;
+use crate::lisp::value::form::constant_value;
 use crate::lisp::image::Image;
 use crate::lisp::object::define::{ClassDefinition, no_class};
 use crate::lisp::types::{TypeCheck, typep};

@@ -3,7 +3,7 @@
 use super::constructors::constructor_form;
 use super::options::{Representation, StructureDefinition};
 use super::typed;
-use crate::lisp::compile::form::{doc_form, form, quote};
+use crate::lisp::value::form::{doc_form, form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::object::define::no_class;
 use crate::lisp::object::text;

@@ -5,8 +5,7 @@
 use super::constructors::constructor_form;
 use super::expand::override_slots;
 use super::options::{Representation, StructureDefinition};
-use crate::lisp::builtins::sequence::Sequence;
-use crate::lisp::compile::form::{form, quote};
+use crate::lisp::value::form::{form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::object::define::no_class;
 use crate::lisp::value::Value;
@@ -14,6 +13,7 @@ use crate::lisp::value::class::StructureSlot;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::Sequence;
 use crate::lisp::value::symbol::Sym;
 
 /// One element of such a structure.

@@ -2,14 +2,14 @@
 
 use super::specifier::{Answers, Stop};
 use super::test::typep_with;
-use crate::lisp::builtins::sequence::Sequence;
-use crate::lisp::builtins::sequence_types::SequenceType;
 use crate::lisp::image::Image;
 use crate::lisp::object::text;
+use crate::lisp::types::sequence_types::SequenceType;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::Sequence;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
 /// Converts a value to a type.

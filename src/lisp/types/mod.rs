@@ -7,6 +7,7 @@
 pub(crate) mod asking;
 pub(crate) mod coerce;
 pub(crate) mod parse;
+pub(crate) mod sequence_types;
 pub(crate) mod specifier;
 pub(crate) mod subtype;
 pub(crate) mod test;

@@ -1,8 +1,8 @@
 //! Reading type specifiers.
 
 use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
-use crate::lisp::builtins::sequence_types;
 use crate::lisp::image::Image;
+use crate::lisp::types::sequence_types;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
 use crate::lisp::value::known;

@@ -5,11 +5,11 @@ use std::rc::{Rc, Weak};
 
 use super::Value;
 use super::class::Class;
+use super::dispatch::Dispatch;
 use super::foreign::ForeignBox;
 use super::function::Function;
+use super::parameters::Parameters;
 use super::symbol::{Sym, known};
-use crate::lisp::object::dispatch::Dispatch;
-use crate::lisp::object::parameters::Parameters;
 
 /// What an argument must be for a method to apply.
 #[derive(Clone)]

@@ -7,16 +7,21 @@ pub(crate) mod array;
 pub(crate) mod class;
 pub(crate) mod code;
 pub(crate) mod cons;
+pub(crate) mod dispatch;
 pub(crate) mod equality;
 pub(crate) mod foreign;
+pub(crate) mod form;
 pub(crate) mod function;
 pub(crate) mod generic;
 pub(crate) mod hash_table;
 pub(crate) mod known;
 pub(crate) mod number;
 pub(crate) mod package;
+pub(crate) mod parameters;
 pub(crate) mod raise;
+pub(crate) mod sequence;
 pub(crate) mod slot;
+pub(crate) mod stream;
 pub(crate) mod string;
 pub(crate) mod symbol;
 
@@ -33,9 +38,9 @@ use self::hash_table::HashTable;
 use self::number::Ratio;
 use self::package::PackageId;
 use self::slot::Slot;
+use self::stream::Stream;
 use self::string::LispString;
 use self::symbol::Sym;
-use super::stream::Stream;
 
 /// A Lisp value.
 #[derive(Clone, Default)]
@@ -277,6 +282,14 @@ impl Value {
         let mut iter = self.iter_list();
         let items: Vec<Value> = iter.by_ref().collect();
         iter.rest.is_nil().then_some(items)
+    }
+
+    /// The symbol of the name `(setf symbol)`.
+    pub(crate) fn setf_name(&self) -> Option<Sym> {
+        match self.list_to_vec()?.as_slice() {
+            [Value::Symbol(known::SETF), Value::Symbol(sym)] => Some(*sym),
+            _ => None,
+        }
     }
 
     /// Car of a pair; `NIL` of anything else.

@@ -2,7 +2,6 @@
 
 pub(crate) mod aside;
 pub(crate) mod backtrace;
-pub(crate) mod call;
 pub(crate) mod callable;
 mod calling;
 pub(crate) mod calls;
@@ -11,6 +10,7 @@ mod dynamic;
 pub(crate) mod fiber;
 pub(crate) mod machine;
 pub(crate) mod nested;
+mod open_calls;
 mod primitives;
 pub(crate) mod restart;
 mod run;

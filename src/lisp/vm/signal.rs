@@ -2,12 +2,12 @@
 
 use std::rc::Rc;
 
-use super::call::Call;
 use super::calls::run;
 use super::fiber::{Dynamic, Handler};
 use super::machine::{Machine, Next};
 use super::step::Step;
 use crate::lisp::condition;
+use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
@@ -55,7 +55,7 @@ impl Machine<'_> {
             let mut calls = self.calls();
             if calls.iter().find(|c| c.place.is_some()).map(|c| c.place) != Some(place) {
                 let subject = None;
-                calls.insert(0, Call { place, subject });
+                calls.insert(0, OpenCall { place, subject });
             }
             self.image.set_condition_calls(condition, calls);
         }

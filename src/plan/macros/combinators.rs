@@ -4,7 +4,7 @@ use super::{
     Expansion, check_plan, first_rest, gensym, macro_, option, plan, progn, quoted, thunk_of,
 };
 use crate::lisp::builtin::Operator;
-use crate::lisp::compile::form::form;
+use crate::lisp::value::form::form;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;

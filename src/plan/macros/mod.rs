@@ -12,7 +12,7 @@ mod variables;
 use std::rc::Rc;
 
 use crate::lisp::builtin::{Expander, Operator};
-use crate::lisp::compile::form::{form, quote};
+use crate::lisp::value::form::{form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;

@@ -3,8 +3,8 @@
 
 use super::known::KnownNames;
 use crate::closest_name::closest_name;
-use crate::lisp::compile::notes::NoteKind;
 use crate::lisp::image::Image;
+use crate::lisp::image::notes::NoteKind;
 use crate::lisp::library::definition_of;
 use crate::lisp::print;
 use crate::lisp::value::function::{Body, Function};

@@ -12,8 +12,6 @@ use super::convert::{is_integer, is_rational, is_real, to_double, to_f64, to_sin
 use super::error::{NumberResult, division_by_zero, not_a_number, not_real};
 use super::power::finite;
 use super::transcendental::{atan2, cos, exp, sin};
-use crate::lisp::image::Image;
-use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;

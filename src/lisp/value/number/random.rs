@@ -9,7 +9,6 @@ use rand_pcg::rand_core::Rng;
 
 use super::convert::from_big;
 use super::error::NumberResult;
-use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
@@ -34,16 +33,16 @@ impl Foreign for RandomState {
 
 /// `(make-random-state state)`: a generator that goes on as another one would (`NIL` is
 /// the image's), or, for `T`, as no other does.
-pub(crate) fn make_random_state(image: &mut Image, state: &Value) -> NumberResult {
+pub(crate) fn make_random_state(default: &mut Pcg64, state: &Value) -> NumberResult {
     let copy = match (state, state.as_foreign::<RandomState>()) {
-        (Value::Symbol(known::NIL), _) => image.random.clone(),
+        (Value::Symbol(known::NIL), _) => default.clone(),
         (Value::Symbol(known::T), _) => {
-            let (seed, stream) = (image.random.next_u64(), image.random.next_u64());
+            let (seed, stream) = (default.next_u64(), default.next_u64());
             Pcg64::new(seed.into(), stream.into())
         }
         (_, Some(RandomState { generator })) => match generator {
             Some(generator) => generator.borrow().clone(),
-            None => image.random.clone(),
+            None => default.clone(),
         },
         _ => return Err(Raise::type_error(state, known::RANDOM_STATE)),
     };
@@ -53,12 +52,12 @@ pub(crate) fn make_random_state(image: &mut Image, state: &Value) -> NumberResul
 }
 
 /// `(random limit state)`
-pub(crate) fn random_from(image: &mut Image, limit: &Value, state: &Value) -> NumberResult {
+pub(crate) fn random_from(default: &mut Pcg64, limit: &Value, state: &Value) -> NumberResult {
     match state.as_foreign::<RandomState>() {
         Some(RandomState {
             generator: Some(generator),
         }) => random(&mut generator.borrow_mut(), limit),
-        Some(RandomState { generator: None }) => random(&mut image.random, limit),
+        Some(RandomState { generator: None }) => random(default, limit),
         None => Err(Raise::type_error(state, known::RANDOM_STATE)),
     }
 }

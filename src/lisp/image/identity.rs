@@ -6,14 +6,14 @@
 use std::collections::HashMap;
 use std::rc::{Rc, Weak};
 
-use crate::lisp::image::Image;
-use crate::lisp::stream::Stream;
+use super::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::class::Instance;
 use crate::lisp::value::foreign::ForeignBox;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::hash_table::HashTable;
+use crate::lisp::value::stream::Stream;
 
 /// The first number.
 const FIRST: u64 = 0x10_0100_0000;

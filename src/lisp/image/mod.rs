@@ -1,5 +1,12 @@
 //! One Lisp image: everything that global names mean.
 
+pub(crate) mod identity;
+pub(crate) mod notes;
+pub(crate) mod open_call;
+mod output;
+pub(crate) mod polls;
+pub(crate) mod setf_expander;
+
 use std::any::Any;
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -9,12 +16,15 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use indexmap::IndexMap;
 
+use self::identity::Identities;
+use self::notes::{Note, NoteKind};
+use self::open_call::OpenCall;
+pub(crate) use self::output::Output;
+use self::polls::Polls;
+use self::setf_expander::SetfExpander;
 use super::builtin::{Builtin, Entry, Operator};
-use super::compile::notes::{Note, NoteKind};
-use super::compile::setf::SetfExpander;
 use super::library::Installed;
 use super::native::BuiltinCall;
-use super::object;
 use super::source::{Place, Sources};
 use super::value::Value;
 use super::value::class::Class;
@@ -23,7 +33,6 @@ use super::value::known;
 use super::value::package::{Access, PackageId, PackageTable};
 use super::value::raise::Raise;
 use super::value::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
-use super::vm::call::Call;
 
 /// An image.
 pub(crate) struct Image {
@@ -47,7 +56,7 @@ pub(crate) struct Image {
     pub(crate) interrupt: Arc<AtomicBool>,
     /// How often has the flag been looked at? Counts the same in every run, so that an
     /// interrupt can be repeated.
-    pub(crate) polls: super::polls::Polls,
+    pub(crate) polls: Polls,
     /// Bytes of the Rust stack that the compiler may use for nested forms.
     pub(crate) stack_budget: usize,
     /// What the compiler notices, while somebody wants to know.
@@ -55,7 +64,7 @@ pub(crate) struct Image {
     /// Runs of macro functions inside each other.
     pub(crate) nesting: usize,
     /// The calls in which the conditions signalled last were signalled, newest last.
-    condition_calls: VecDeque<(Vec<Value>, Vec<Call>)>,
+    condition_calls: VecDeque<(Vec<Value>, Vec<OpenCall>)>,
     identities: i64,
     /// What the tables say of functions, macros and special operators, by name: calls, help,
     /// completion, the manual and the test of the examples read this one table.
@@ -67,49 +76,9 @@ pub(crate) struct Image {
     /// The Rust functions of builtins, by number.
     pub(super) natives: Vec<BuiltinCall>,
     /// Made-up addresses of objects that were printed.
-    pub(crate) printed: RefCell<super::print::identity::Identities>,
+    pub(crate) printed: RefCell<Identities>,
     /// What layers above the language keep in the image: one value per type.
     extensions: Vec<Rc<dyn Any>>,
-}
-
-/// Standard output: text in order, and the column where the next character goes.
-#[derive(Default)]
-pub(crate) struct Output {
-    text: String,
-    column: usize,
-}
-
-impl Output {
-    /// Writes a text.
-    pub(crate) fn write(&mut self, text: &str) {
-        match text.rfind('\n') {
-            Some(i) => self.column = text[i + 1..].chars().count(),
-            None => self.column += text.chars().count(),
-        }
-        self.text.push_str(text);
-    }
-
-    /// Starts a new line unless at the start of one.
-    pub(crate) fn fresh_line(&mut self) {
-        if self.column > 0 {
-            self.write("\n");
-        }
-    }
-
-    /// Notes that what is written next stands at the start of a line.
-    pub(crate) fn begin_line(&mut self) {
-        self.column = 0;
-    }
-
-    /// Number of characters on the current line.
-    pub(crate) fn column(&self) -> usize {
-        self.column
-    }
-
-    /// Takes what was written.
-    pub(crate) fn take(&mut self) -> String {
-        std::mem::take(&mut self.text)
-    }
 }
 
 /// The stream of the random generator: any constant does.
@@ -144,7 +113,7 @@ impl Image {
             random: rand_pcg::Pcg64::new(0, STREAM),
             setf_expanders: IndexMap::new(),
             interrupt: Arc::default(),
-            polls: super::polls::Polls::default(),
+            polls: Polls::default(),
             stack_budget: STACK_BUDGET,
             notes: None,
             nesting: 0,
@@ -219,7 +188,7 @@ impl Image {
 
     /// The calls that were open where a condition was signalled, innermost first; none if
     /// that is not known.
-    pub(crate) fn condition_calls(&self, condition: &Value) -> Option<&[Call]> {
+    pub(crate) fn condition_calls(&self, condition: &Value) -> Option<&[OpenCall]> {
         self.condition_calls
             .iter()
             .rev()
@@ -228,7 +197,7 @@ impl Image {
     }
 
     /// Remembers the calls that were open where a condition was signalled.
-    pub(crate) fn set_condition_calls(&mut self, condition: &Value, calls: Vec<Call>) {
+    pub(crate) fn set_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
         if self.condition_calls.len() == REMEMBERED_CONDITIONS {
             self.condition_calls.pop_front();
         }
@@ -237,7 +206,7 @@ impl Image {
     }
 
     /// Adds the calls of the code that a condition has come to from a task of its own.
-    pub(crate) fn add_condition_calls(&mut self, condition: &Value, calls: Vec<Call>) {
+    pub(crate) fn add_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
         let known = self.condition_calls.iter_mut().rev();
         let mut known = known.filter(|(of, _)| of.iter().any(|other| other.is_eq(condition)));
         if let Some((_, inner)) = known.next() {
@@ -267,10 +236,18 @@ impl Image {
                 FunctionCell::Function(f) => Ok(f.clone()),
                 _ => Err(Raise::undefined_function(designator.clone())),
             },
-            other => match object::method::named_function(self, other) {
+            other => match self.named_function(other) {
                 Some(f) => Ok(f),
                 None => Err(Raise::type_error(other, known::FUNCTION)),
             },
+        }
+    }
+
+    /// The function of a name: a symbol, or the list `(setf symbol)`.
+    pub(crate) fn named_function(&self, name: &Value) -> Option<Rc<Function>> {
+        match name {
+            Value::Symbol(sym) => self.function(*sym).cloned(),
+            other => self.symbol(other.setf_name()?).setf_function.clone(),
         }
     }
 

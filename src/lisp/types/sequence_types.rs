@@ -1,12 +1,12 @@
 //! Type specifiers that name kinds of sequences, for results of `map`, `concatenate`,
 //! `merge`, `make-sequence` and `coerce`.
 
-use super::sequence::Kind;
-use super::shown::shown;
 use crate::lisp::image::Image;
+use crate::lisp::object::text as shown;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::Kind;
 use crate::lisp::value::symbol::Sym;
 
 /// A kind of sequence, and the length if the type says one.

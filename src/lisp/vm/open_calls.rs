@@ -2,25 +2,16 @@
 
 use super::fiber::FrameKind;
 use super::machine::Machine;
+use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::source::Place;
-use crate::lisp::value::Value;
 use crate::lisp::value::function::Body;
-
-/// A call that has not returned.
-#[derive(Clone)]
-pub(crate) struct Call {
-    /// The place in the source of what it was doing; none for a builtin.
-    pub(crate) place: Place,
-    /// What the call is about, if the layer that made it says so.
-    pub(crate) subject: Option<Value>,
-}
 
 /// Frames that are looked at.
 const MOST_FRAMES: usize = 256;
 
 impl Machine<'_> {
     /// The open calls that people can be told about, innermost first.
-    pub(super) fn calls(&self) -> Vec<Call> {
+    pub(super) fn calls(&self) -> Vec<OpenCall> {
         let frames = self.fiber.frames.iter().rev().take(MOST_FRAMES);
         frames
             .filter_map(|frame| match &frame.kind {
@@ -31,11 +22,11 @@ impl Machine<'_> {
                         let sources = &self.image.sources;
                         sources
                             .is_of_program(place)
-                            .then_some(Call { place, subject })
+                            .then_some(OpenCall { place, subject })
                     }
                     _ => None,
                 },
-                FrameKind::Native { then, .. } => then.annotation().map(|annotation| Call {
+                FrameKind::Native { then, .. } => then.annotation().map(|annotation| OpenCall {
                     place: Place::NONE,
                     subject: Some(annotation.subject.clone()),
                 }),

@@ -1,0 +1,18 @@
+//! How `setf` treats an operator, as a program has said.
+
+use crate::lisp::value::Value;
+use crate::lisp::value::symbol::Sym;
+
+/// How `setf` of a form with a certain operator is carried out, where no function
+/// `(setf name)` does it.
+#[derive(Clone)]
+pub(crate) enum SetfExpander {
+    /// `(defsetf access update)`: the update function takes the arguments, then the value.
+    Update(Sym),
+    /// `(defsetf access lambda-list (store…) body…)`: a function of the store variables
+    /// (as a list) and the argument variables that returns the storing form.
+    Long(Value, usize),
+    /// `define-setf-expander`: a function of the whole place form that returns the five
+    /// values of a setf expansion.
+    Expander(Value),
+}

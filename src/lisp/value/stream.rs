@@ -1,0 +1,161 @@
+//! Streams of characters: string streams, files, combinations of streams, and the session's
+//! standard output.
+
+use std::cell::RefCell;
+use std::fs::File;
+use std::io::BufWriter;
+use std::rc::Rc;
+
+use super::known;
+use super::raise::Raise;
+use super::string::LispString;
+use super::symbol::Sym;
+
+/// How deep streams may be made of other streams.
+pub(crate) const MAX_NESTING: u32 = 100;
+
+/// A stream.
+pub(crate) struct Stream {
+    /// What stands behind it.
+    pub(crate) kind: RefCell<StreamKind>,
+    /// How many levels of other streams it is made of.
+    pub(crate) nesting: u32,
+}
+
+/// What stands behind a stream.
+pub(crate) enum StreamKind {
+    /// The image's standard output.
+    StandardOutput,
+    /// The image's standard input, which is always at its end: plans are not interactive.
+    StandardInput,
+    /// Collects what is written.
+    StringOutput {
+        /// Text written so far.
+        text: String,
+    },
+    /// Appends what is written to a string with a fill pointer.
+    StringTarget {
+        /// The string.
+        string: Rc<LispString>,
+    },
+    /// Gives the characters of a text: a string, or the contents of a file.
+    StringInput {
+        /// The text.
+        text: Rc<str>,
+        /// Byte offset of the next character.
+        position: usize,
+    },
+    /// Writes a file.
+    FileOutput {
+        /// The open file.
+        file: BufWriter<File>,
+        /// Number of characters on the current line.
+        column: usize,
+        /// Number of bytes written.
+        position: u64,
+    },
+    /// Writes to several streams.
+    Broadcast {
+        /// The streams.
+        targets: Vec<Rc<Stream>>,
+    },
+    /// Reads several streams one after the other.
+    Concatenated {
+        /// The streams that are not used up, the next one first.
+        inputs: Vec<Rc<Stream>>,
+        /// A character given back.
+        unread: Option<char>,
+    },
+    /// Reads one stream and writes another.
+    TwoWay {
+        /// Where characters come from.
+        input: Rc<Stream>,
+        /// Where characters go to.
+        output: Rc<Stream>,
+        /// Is what was read written too?
+        echo: bool,
+        /// A character given back, which is not echoed again.
+        unread: Option<char>,
+    },
+    /// Stands for the stream that is the value of a variable.
+    Synonym {
+        /// The variable.
+        symbol: Sym,
+    },
+    /// Closed.
+    Closed,
+}
+
+impl Stream {
+    /// A stream of a kind that is not made of other streams.
+    pub(crate) fn new(kind: StreamKind) -> Stream {
+        Stream {
+            kind: RefCell::new(kind),
+            nesting: 0,
+        }
+    }
+
+    /// A stream that is made of others.
+    pub(crate) fn compound(kind: StreamKind, parts: &[Rc<Stream>]) -> Result<Stream, Box<Raise>> {
+        let nesting = parts.iter().map(|p| p.nesting).max().unwrap_or(0) + 1;
+        if nesting > MAX_NESTING {
+            return Err(Raise::new(
+                known::STREAM_ERROR,
+                format!("Streams may be nested at most {MAX_NESTING} deep."),
+            ));
+        }
+        Ok(Stream {
+            kind: RefCell::new(kind),
+            nesting,
+        })
+    }
+
+    /// A stream that gives the characters of a text.
+    pub(crate) fn from_text(text: impl Into<Rc<str>>) -> Stream {
+        Stream::new(StreamKind::StringInput {
+            text: text.into(),
+            position: 0,
+        })
+    }
+
+    /// A stream that collects what is written.
+    pub(crate) fn to_text() -> Stream {
+        Stream::new(StreamKind::StringOutput {
+            text: String::new(),
+        })
+    }
+
+    /// Takes the text that a string output stream has collected; none of another kind.
+    pub(crate) fn take_text(&self) -> Option<String> {
+        match &mut *self.kind.borrow_mut() {
+            StreamKind::StringOutput { text } => Some(std::mem::take(text)),
+            _ => None,
+        }
+    }
+
+    /// Can the stream be read?
+    pub(crate) fn is_input(&self) -> bool {
+        matches!(
+            &*self.kind.borrow(),
+            StreamKind::StandardInput
+                | StreamKind::StringInput { .. }
+                | StreamKind::Concatenated { .. }
+                | StreamKind::TwoWay { .. }
+                | StreamKind::Synonym { .. }
+        )
+    }
+
+    /// Can the stream be written?
+    pub(crate) fn is_output(&self) -> bool {
+        matches!(
+            &*self.kind.borrow(),
+            StreamKind::StandardOutput
+                | StreamKind::StringOutput { .. }
+                | StreamKind::StringTarget { .. }
+                | StreamKind::FileOutput { .. }
+                | StreamKind::Broadcast { .. }
+                | StreamKind::TwoWay { .. }
+                | StreamKind::Synonym { .. }
+        )
+    }
+}
