@@ -5,7 +5,7 @@
 use std::rc::Rc;
 
 use super::image::Image;
-use super::library::definition::{Definition, Kind};
+use super::image::definition::{Definition, Kind};
 use super::native::{BuiltinCall, ControlFn, PureFn};
 use super::value::Value;
 use super::value::function::Function;

@@ -5,6 +5,7 @@ pub(crate) mod builtin;
 pub(crate) mod builtins;
 pub(crate) mod compile;
 pub(crate) mod condition;
+pub(crate) mod evaluator;
 pub(crate) mod image;
 pub(crate) mod library;
 pub(crate) mod loop_macro;

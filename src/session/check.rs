@@ -17,6 +17,7 @@ pub(super) use known::KnownNames;
 use super::Session;
 use super::dialogue::{Finding, Severity};
 use crate::lisp::compile;
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::notes::{Note, NoteKind};
 use crate::lisp::reader::Reader;
 use crate::lisp::source::Place;
@@ -24,7 +25,6 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known as names;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::VariableKind;
-use crate::lisp::vm::nested;
 
 impl Session {
     /// The mistakes in a text, in its order.

@@ -3,6 +3,7 @@
 use super::Session;
 use super::dialogue::{Abort, ActionStep};
 use crate::lisp::condition;
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::print;
 use crate::lisp::source::Location;
@@ -10,7 +11,6 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::nested;
 
 /// Actions that are told around a condition.
 const MOST_ACTIONS: usize = 8;

@@ -3,12 +3,12 @@
 use super::console::Suspended;
 use super::dialogue::{Abort, Event, Outcome};
 use super::{Ended, Session};
+use crate::lisp::evaluator::nested;
 use crate::lisp::reader;
 use crate::lisp::reader::Reader;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::nested;
 
 impl Session {
     /// Evaluates all forms of a text. Each is read after those before it have been

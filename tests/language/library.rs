@@ -2,7 +2,6 @@
 
 use crate::lisp::Image;
 use crate::lisp::builtin::arity;
-use crate::lisp::library::deferred::force;
 use crate::lisp::library::definition::Kind;
 use crate::lisp::library::definition_of;
 use crate::lisp::print;
@@ -41,7 +40,7 @@ fn every_definition_can_be_compiled() {
     for function in functions {
         let location = definition_of(image, &function).map(|d| d.location());
         let deferred = function.as_deferred().expect("only such were taken");
-        let forced = force(image, deferred);
+        let forced = image.force(deferred);
         let forced = forced.unwrap_or_else(|raise| {
             let condition = crate::lisp::condition::make(image, &raise).unwrap_or(Value::NIL);
             let report = print::to_string(image, &condition, false);
@@ -60,7 +59,7 @@ fn every_definition_says_what_it_does() {
         let signature = definition.signature();
         assert!(!signature.doc.is_empty(), "{}", definition.location());
         let deferred = function.as_deferred().expect("only such were taken");
-        let Ok(forced) = force(image, deferred) else {
+        let Ok(forced) = image.force(deferred) else {
             continue;
         };
         let Body::Closure { code, .. } = &forced.body else {
@@ -97,7 +96,7 @@ fn compiling_a_definition_leaves_no_trace() {
     );
     for function in library_functions(image) {
         let deferred = function.as_deferred().expect("only such were taken");
-        assert!(force(image, deferred).is_ok());
+        assert!(image.force(deferred).is_ok());
     }
     let after = (
         counts(image),

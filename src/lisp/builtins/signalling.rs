@@ -1,6 +1,8 @@
 //! Signalling conditions, restarts, and throwing.
 
 use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::evaluator::restart::Restart;
+use crate::lisp::evaluator::signal::Declined;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -9,8 +11,6 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::{Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::restart::Restart;
-use crate::lisp::vm::signal::Declined;
 use crate::lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;

@@ -11,6 +11,7 @@ use super::scope::{
 };
 use super::special_forms;
 use crate::closest_name::closest_name;
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::Image;
 use crate::lisp::image::notes::NoteKind;
 use crate::lisp::source::Place;
@@ -20,7 +21,6 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
-use crate::lisp::vm::nested;
 
 /// Result of compiling.
 pub(super) type Compiled<T> = Result<T, Box<Raise>>;

@@ -1,13 +1,13 @@
 //! Environments: what a macro function learns of the scope of its call.
 
 use super::scope::{FunctionMeaning, Scope, VariableMeaning};
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::nested;
 
 /// The scope of a macro call, as a value.
 pub(super) struct Environment(Scope);

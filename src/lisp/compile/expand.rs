@@ -2,11 +2,11 @@
 
 use super::analyze::keep_place;
 use super::environment;
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::FunctionCell;
-use crate::lisp::vm::nested;
 
 /// Expands a form once with global macros; `None` if it is no macro call.
 pub(crate) fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, Box<Raise>> {

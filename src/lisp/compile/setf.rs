@@ -1,5 +1,6 @@
 //! Generalised places: `setf` and the macros that modify a place.
 
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::Image;
 use crate::lisp::image::setf_expander::SetfExpander;
 use crate::lisp::print;
@@ -7,7 +8,6 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::lisp::vm::nested;
 
 /// A place taken apart: evaluate `values` into `temps` in order, bind `stores` to the new
 /// values, evaluate `setter`; `getter` reads the place.

@@ -6,12 +6,12 @@ use super::analyze::{Compiled, Compiler};
 use super::body::parse_body;
 use super::node::{Binding, Node};
 use super::scope::{DynamicKind, Entry, FunctionMeaning, Scope, Tagbody, VariableMeaning};
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::notes::NoteKind;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::{Sym, VariableKind};
-use crate::lisp::vm::nested;
 
 /// Analyses the rest of a form after its operator.
 pub(super) type SpecialForm = fn(&mut Compiler<'_>, &Value, &Scope) -> Compiled<Node>;

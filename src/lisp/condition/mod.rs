@@ -2,7 +2,4 @@
 
 pub(crate) mod classes;
 pub(crate) mod make;
-pub(crate) mod matching;
-
 pub(crate) use make::{Draft, draft, make, make_condition, report};
-pub(crate) use matching::is_of_type;

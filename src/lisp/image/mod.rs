@@ -1,5 +1,6 @@
 //! One Lisp image: everything that global names mean.
 
+pub(crate) mod definition;
 pub(crate) mod identity;
 pub(crate) mod notes;
 pub(crate) mod open_call;
@@ -16,6 +17,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use indexmap::IndexMap;
 
+use self::definition::Installed;
 use self::identity::Identities;
 use self::notes::{Note, NoteKind};
 use self::open_call::OpenCall;
@@ -23,7 +25,6 @@ pub(crate) use self::output::Output;
 use self::polls::Polls;
 use self::setf_expander::SetfExpander;
 use super::builtin::{Builtin, Entry, Operator};
-use super::library::Installed;
 use super::native::BuiltinCall;
 use super::source::{Place, Sources};
 use super::value::Value;

@@ -8,31 +8,19 @@ use std::rc::Rc;
 
 use super::definition::{Definition, Kind};
 use super::standard_value;
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::Image;
 use crate::lisp::reader::Reader;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::{Deferred, Function};
+use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::lisp::vm::nested;
-
-/// The function of a definition, compiled if that has not happened.
-pub(crate) fn force(image: &mut Image, deferred: &Deferred) -> Result<Rc<Function>, Box<Raise>> {
-    if let Some(function) = deferred.function.get() {
-        return Ok(function.clone());
-    }
-    let Some(definition) = image.library.definitions.get(deferred.number).copied() else {
-        return Err(Raise::undefined_function(deferred.name.into()));
-    };
-    let function = compile(image, definition, deferred.name)?;
-    Ok(deferred.function.get_or_init(|| function).clone())
-}
 
 /// Lets a definition define its name, takes the function, and gives the name back what it
 /// meant: it may have been defined anew in the meantime.
-fn compile(
+pub(super) fn compile(
     image: &mut Image,
     definition: &'static Definition,
     name: Sym,

@@ -32,13 +32,14 @@
 //! (`tests/language/library.rs`).
 
 pub(crate) mod deferred;
-pub(crate) mod definition;
 mod index;
 
 use std::rc::Rc;
 use std::sync::LazyLock;
 
 use definition::{Definition, File, Kind};
+
+pub(crate) use super::image::definition;
 
 use super::builtin::Entry;
 use super::image::Image;
@@ -95,16 +96,10 @@ impl Library {
     }
 }
 
-/// What an image keeps of the library.
-#[derive(Default)]
-pub(crate) struct Installed {
-    definitions: Vec<&'static Definition>,
-    sources: Vec<(&'static str, super::source::SourceId)>,
-}
-
 /// Makes the names of a library known in an image, and evaluates its other forms. The
 /// packages of its files must exist.
 pub(crate) fn install(image: &mut Image, library: &'static Library) {
+    image.library.compile = Some(deferred::compile);
     for definition in &library.definitions {
         install_definition(image, definition);
     }

@@ -1,8 +1,8 @@
 //! Method combinations: the builtin ones and the short form of `define-method-combination`.
 
-use crate::lisp::value::form::{form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::{form, quote};
 use crate::lisp::value::generic::Combination;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;

@@ -3,10 +3,10 @@
 use super::define::ClassDefinition;
 use super::method::{MethodDefinition, define_method, remove_method};
 use super::slot_options::{DefinedSlot, evaluated_init, evaluated_slot, init_form, slot_form};
-use crate::lisp::value::form::{doc_form, form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, ClassKind};
+use crate::lisp::value::form::{doc_form, form, quote};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::generic::{Accessor, Specializer};
 use crate::lisp::value::known;

@@ -6,9 +6,9 @@ use super::combination::combination_named;
 use super::method::{
     MethodDefinition, changed, define_method, ensure_generic, method_value, specializer,
 };
-use crate::lisp::value::form::{doc_form, form, quote, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::{doc_form, form, quote, split_body};
 use crate::lisp::value::known;
 use crate::lisp::value::parameters::Parameters;
 use crate::lisp::value::raise::Raise;

@@ -2,10 +2,10 @@
 
 use std::rc::Rc;
 
-use crate::lisp::value::form::{constant_value, form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Initform, SlotDefinition};
+use crate::lisp::value::form::{constant_value, form, quote};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::slot::Slot;

@@ -1,10 +1,10 @@
 //! A small image for the tests of this layer.
 
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::nested;
 
 /// An image as sessions start with.
 pub(crate) fn image() -> Image {

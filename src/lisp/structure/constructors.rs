@@ -1,10 +1,10 @@
 //! The constructors of a structure, as forms.
 
 use super::options::Constructor;
-use crate::lisp::value::form::form;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::StructureSlot;
+use crate::lisp::value::form::form;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 

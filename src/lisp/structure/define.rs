@@ -3,7 +3,6 @@
 use std::rc::Rc;
 
 use super::accessors;
-use crate::lisp::value::form::constant_value;
 use crate::lisp::image::Image;
 use crate::lisp::object::define::{ClassDefinition, no_class};
 use crate::lisp::types::{TypeCheck, typep};
@@ -11,6 +10,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::class::{
     Class, ClassKind, Initform, Instance, SlotDefinition, StructureLayout, StructureSlot,
 };
+use crate::lisp::value::form::constant_value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;

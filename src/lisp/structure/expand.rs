@@ -3,12 +3,12 @@
 use super::constructors::constructor_form;
 use super::options::{Representation, StructureDefinition};
 use super::typed;
-use crate::lisp::value::form::{doc_form, form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::object::define::no_class;
 use crate::lisp::object::text;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{ClassKind, StructureSlot};
+use crate::lisp::value::form::{doc_form, form, quote};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;

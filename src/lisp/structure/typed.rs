@@ -5,11 +5,11 @@
 use super::constructors::constructor_form;
 use super::expand::override_slots;
 use super::options::{Representation, StructureDefinition};
-use crate::lisp::value::form::{form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::object::define::no_class;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::StructureSlot;
+use crate::lisp::value::form::{form, quote};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;

@@ -315,7 +315,7 @@ impl Suspended {
     }
 
     /// Goes on with the value.
-    pub(super) fn resume(
+    pub(crate) fn resume(
         self: Box<Self>,
         machine: &mut Machine<'_>,
         value: Value,

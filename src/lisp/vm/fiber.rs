@@ -144,9 +144,9 @@ pub(crate) struct Fiber {
     /// Unwindings that wait for cleanup code, innermost last.
     pub(crate) pending: Vec<Pending>,
     /// Does whoever made the request that waits want all values of the answer?
-    pub(super) wants_all: bool,
+    pub(crate) wants_all: bool,
     /// A value that was on its way to the innermost frame when an interrupt came.
-    pub(super) undelivered: Option<Value>,
+    pub(crate) undelivered: Option<Value>,
     /// Are the fiber's bindings of special variables in force?
     in_force: bool,
 }

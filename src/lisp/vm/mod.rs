@@ -1,22 +1,9 @@
-//! The machine that runs compiled code: explicit frames, no recursion on the Rust stack.
+//! What runs Lisp, as data: the machine with its fiber, and the steps that builtins tell it
+//! to take. [`super::evaluator`] takes them.
 
-pub(crate) mod aside;
-pub(crate) mod backtrace;
 pub(crate) mod callable;
-mod calling;
 pub(crate) mod calls;
 pub(crate) mod computation;
-mod dynamic;
 pub(crate) mod fiber;
 pub(crate) mod machine;
-pub(crate) mod nested;
-mod open_calls;
-mod primitives;
-pub(crate) mod restart;
-mod run;
-pub(crate) mod signal;
 pub(crate) mod step;
-#[cfg(test)]
-mod tests;
-mod unwind;
-mod variables;

@@ -1,10 +1,10 @@
 //! What the parallel forms expand into.
 
 use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::evaluator::signal::Declined;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::signal::Declined;
 use crate::lisp::vm::step::Step;
 use crate::plan::Result;
 use crate::plan::fluent::FluentRef;

@@ -3,6 +3,7 @@
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::builtins::signalling;
 use crate::lisp::condition;
+use crate::lisp::evaluator::signal::Declined;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -10,7 +11,6 @@ use crate::lisp::value::class::ClassKind;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
-use crate::lisp::vm::signal::Declined;
 use crate::lisp::vm::step::Step;
 use crate::plan::Result;
 use crate::plan::state::Plan;
@@ -102,7 +102,10 @@ fn fail(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     machine.note_place(&condition, place);
     let breaks = machine.image.special(plan.names.break_on_failures).clone();
     let at_prompt = machine.image.special(plan.names.current_task).is_nil();
-    if breaks.is_true() && at_prompt && condition::is_of_type(machine.image, &condition, &breaks)? {
+    if breaks.is_true()
+        && at_prompt
+        && crate::lisp::evaluator::matching::is_of_type(machine.image, &condition, &breaks)?
+    {
         return Ok(Step::Unhandled(condition));
     }
     machine.signal(condition, Declined::Stop)

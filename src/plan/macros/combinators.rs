@@ -4,9 +4,9 @@ use super::{
     Expansion, check_plan, first_rest, gensym, macro_, option, plan, progn, quoted, thunk_of,
 };
 use crate::lisp::builtin::Operator;
-use crate::lisp::value::form::form;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::form;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;

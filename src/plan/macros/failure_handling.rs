@@ -5,9 +5,9 @@
 
 use super::{Expansion, first_rest, gensym, macro_, plan, quoted};
 use crate::lisp::builtin::Operator;
-use crate::lisp::value::form::form;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::form;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;

@@ -3,10 +3,10 @@
 use super::tags::with_tags;
 use super::{Expansion, first_rest, macro_, option, plan, quoted, thunk, thunk_of};
 use crate::lisp::builtin::Operator;
-use crate::lisp::value::form::{form, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::{form, split_body};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;

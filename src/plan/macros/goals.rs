@@ -3,9 +3,9 @@
 use super::tags::with_tags;
 use super::{Expansion, first_rest, gensym, macro_, plan, quoted, thunk_of};
 use crate::lisp::builtin::Operator;
-use crate::lisp::value::form::{doc_form, form, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::{doc_form, form, split_body};
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::builtins::is_variable;

@@ -12,9 +12,9 @@ mod variables;
 use std::rc::Rc;
 
 use crate::lisp::builtin::{Expander, Operator};
-use crate::lisp::value::form::{form, quote};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::{form, quote};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 

@@ -2,9 +2,9 @@
 
 use super::{Expansion, first_rest, gensym, macro_, plan, progn, quoted, thunk, thunk_of};
 use crate::lisp::builtin::Operator;
-use crate::lisp::value::form::{doc_form, form, split_body};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::{doc_form, form, split_body};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;

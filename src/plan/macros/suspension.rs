@@ -2,9 +2,9 @@
 
 use super::{Expansion, check_plan, first_rest, gensym, macro_, plan, progn, thunk_of};
 use crate::lisp::builtin::Operator;
-use crate::lisp::value::form::form;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::form;
 use crate::lisp::value::known;
 
 /// The macros.

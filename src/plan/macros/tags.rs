@@ -7,9 +7,9 @@
 use super::{check_plan, first_rest, macro_, plan, progn, quoted};
 use crate::lisp::builtin::Operator;
 use crate::lisp::compile;
-use crate::lisp::value::form::form;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::form;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 

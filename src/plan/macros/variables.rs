@@ -2,9 +2,9 @@
 
 use super::{Expansion, macro_, option, plan, quoted};
 use crate::lisp::builtin::Operator;
-use crate::lisp::value::form::form;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::form::form;
 use crate::lisp::value::known;
 
 /// The macros.

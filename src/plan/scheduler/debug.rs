@@ -162,7 +162,8 @@ impl Scheduler {
 fn has_handler(image: &mut Image, fiber: &Fiber, condition: &Value) -> bool {
     fiber.dynamic.iter().any(|entry| match entry {
         Dynamic::Handlers(handlers) => handlers.iter().any(|handler| {
-            condition::is_of_type(image, condition, &handler.condition_type).unwrap_or(true)
+            crate::lisp::evaluator::matching::is_of_type(image, condition, &handler.condition_type)
+                .unwrap_or(true)
         }),
         _ => false,
     })

@@ -2,14 +2,14 @@
 
 use super::{Cause, Session};
 use crate::lisp::compile;
+use crate::lisp::evaluator::aside::Aside;
+use crate::lisp::evaluator::backtrace::VariablePlace;
 use crate::lisp::reader::Reader;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{Sym, VariableKind};
-use crate::lisp::vm::aside::Aside;
-use crate::lisp::vm::backtrace::VariablePlace;
 use crate::session::dialogue::{Event, Outcome};
 
 /// A function with the variables of a frame as its parameters, and their values.

@@ -1,6 +1,8 @@
 //! The ways in which an evaluation that stands still can go on.
 
 use super::{Asking, Outcome, Session};
+use crate::lisp::evaluator::nested;
+use crate::lisp::evaluator::restart::Restart;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -9,8 +11,6 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::nested;
-use crate::lisp::vm::restart::Restart;
 use crate::lisp::vm::step::Step;
 use crate::session::dialogue::Event;
 

@@ -14,10 +14,10 @@ mod settle;
 mod stack_frames;
 
 use super::dialogue::{Abort, Event, Outcome};
+use crate::lisp::evaluator::aside::Aside;
 use crate::lisp::reader::Reader;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::lisp::vm::aside::Aside;
 use crate::plan::TaskId;
 
 use super::Session;

@@ -1,9 +1,9 @@
 //! What comes of an evaluation that went on.
 
 use super::{Asking, Cause, Level, Suspended};
+use crate::lisp::evaluator::aside::AsideState;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::vm::aside::AsideState;
 use crate::plan::{Evaluation, Scheduler};
 use crate::session::Session;
 use crate::session::dialogue::{Abort, Event, Outcome, Stop};

@@ -2,10 +2,10 @@
 //! it, innermost first.
 
 use super::Session;
+use crate::lisp::evaluator::backtrace::FrameView;
 use crate::lisp::print;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::lisp::vm::backtrace::FrameView;
 use crate::session::dialogue::{ActionStep, Event, Outcome};
 use crate::session::on_one_line;
 

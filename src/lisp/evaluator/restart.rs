@@ -1,7 +1,5 @@
 //! Restarts: named ways to go on that a condition's handler, or a person, may choose.
 
-use super::fiber::{Dynamic, Frame, FrameKind};
-use super::machine::Machine;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
@@ -9,6 +7,8 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::fiber::{Dynamic, Frame, FrameKind};
+use crate::lisp::vm::machine::Machine;
 
 /// A restart.
 pub(crate) struct Restart {

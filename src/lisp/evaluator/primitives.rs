@@ -1,10 +1,10 @@
 //! Operations that compute a value from the topmost ones: pairs, tests, arithmetic.
 
-use super::machine::Machine;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::machine::Machine;
 
 /// An operation on two numbers.
 type Binary = fn(&Value, &Value) -> Result<Value, Box<Raise>>;

@@ -2,15 +2,16 @@
 
 use std::rc::Rc;
 
-use super::calls::run;
-use super::fiber::{Dynamic, Handler};
-use super::machine::{Machine, Next};
-use super::step::Step;
+use super::entry::Next;
 use crate::lisp::condition;
 use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::run;
+use crate::lisp::vm::fiber::{Dynamic, Handler};
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
 
 /// What happens when every handler has declined.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -46,7 +47,9 @@ impl Machine<'_> {
             Raise::Condition { .. } => None,
         };
         let text = text.unwrap_or_else(|| "An error could not be described.".to_owned());
-        Next::Stop(super::machine::Event::Unhandled(Value::string(text)))
+        Next::Stop(crate::lisp::vm::machine::Event::Unhandled(Value::string(
+            text,
+        )))
     }
 
     /// Remembers where a condition was signalled, unless that is known.
@@ -153,7 +156,11 @@ impl Search {
     ) -> Result<Option<Value>, Box<Raise>> {
         while let Some(handler) = handlers.get(self.tried) {
             self.tried += 1;
-            if condition::is_of_type(machine.image, &self.condition, &handler.condition_type)? {
+            if crate::lisp::evaluator::matching::is_of_type(
+                machine.image,
+                &self.condition,
+                &handler.condition_type,
+            )? {
                 return Ok(Some(handler.function.clone()));
             }
         }

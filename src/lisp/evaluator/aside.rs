@@ -5,16 +5,16 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use super::calls::run;
-use super::fiber::Dynamic;
-use super::machine::Machine;
-use super::step::Step;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::run;
+use crate::lisp::vm::fiber::Dynamic;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
 
 /// How an evaluation on top of a stopped fiber stands.
 #[derive(Clone, Default)]

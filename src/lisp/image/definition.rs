@@ -1,6 +1,13 @@
 //! A definition in a file of the library: where it is, and what its text says of it.
 
+use std::rc::Rc;
 use std::sync::OnceLock;
+
+use super::Image;
+use crate::lisp::source::SourceId;
+use crate::lisp::value::function::{Deferred, Function};
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 
 /// A file of the library.
 pub(crate) struct File {
@@ -44,6 +51,36 @@ pub(crate) struct Definition {
     signature: OnceLock<Signature>,
 }
 
+/// Compiles a definition, which is to be the function of a name.
+pub(crate) type Compile =
+    fn(&mut Image, &'static Definition, Sym) -> Result<Rc<Function>, Box<Raise>>;
+
+/// What an image keeps of the library.
+#[derive(Default)]
+pub(crate) struct Installed {
+    /// The definitions, by number.
+    pub(crate) definitions: Vec<&'static Definition>,
+    /// The files that have been read from, by name.
+    pub(crate) sources: Vec<(&'static str, SourceId)>,
+    /// How a definition is compiled.
+    pub(crate) compile: Option<Compile>,
+}
+
+impl Image {
+    /// The function of a definition, compiled if that has not happened.
+    pub(crate) fn force(&mut self, deferred: &Deferred) -> Result<Rc<Function>, Box<Raise>> {
+        if let Some(function) = deferred.function.get() {
+            return Ok(function.clone());
+        }
+        let definition = self.library.definitions.get(deferred.number).copied();
+        let (Some(definition), Some(compile)) = (definition, self.library.compile) else {
+            return Err(Raise::undefined_function(deferred.name.into()));
+        };
+        let function = compile(self, definition, deferred.name)?;
+        Ok(deferred.function.get_or_init(|| function).clone())
+    }
+}
+
 /// What the text of a definition says to people.
 #[derive(Default, Debug)]
 pub(crate) struct Signature {
@@ -60,7 +97,7 @@ const EXAMPLES: &str = "Examples:";
 
 impl Definition {
     /// A form that has no name yet.
-    pub(super) fn new(file: &'static File, start: usize, end: usize, line: usize) -> Definition {
+    pub(crate) fn new(file: &'static File, start: usize, end: usize, line: usize) -> Definition {
         Definition {
             file,
             start,
@@ -139,7 +176,7 @@ fn on_one_line(text: &str) -> String {
 }
 
 /// Takes a token, a string or a list, and the blanks before it, off a text.
-pub(super) fn take_item<'a>(rest: &mut &'a str) -> &'a str {
+pub(crate) fn take_item<'a>(rest: &mut &'a str) -> &'a str {
     let text = rest.trim_start();
     let mut depth = 0_usize;
     let mut in_string = false;

@@ -1,10 +1,10 @@
 //! The calls that are open in a fiber, as they are told to people.
 
-use super::fiber::FrameKind;
-use super::machine::Machine;
 use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::source::Place;
 use crate::lisp::value::function::Body;
+use crate::lisp::vm::fiber::FrameKind;
+use crate::lisp::vm::machine::Machine;
 
 /// Frames that are looked at.
 const MOST_FRAMES: usize = 256;

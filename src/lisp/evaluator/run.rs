@@ -4,8 +4,7 @@
 //! where code goes on. An operation either falls through to the next one, moves the program
 //! counter, leaves for another frame of code, or leaves the loop.
 
-use super::fiber::{Frame, FrameKind};
-use super::machine::{Event, INTERRUPT_INTERVAL, Machine, Next};
+use super::entry::{INTERRUPT_INTERVAL, Next};
 use super::variables::unbox;
 use crate::lisp::value::Value;
 use crate::lisp::value::code::Op;
@@ -13,6 +12,8 @@ use crate::lisp::value::function::Body;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::lisp::vm::fiber::{Frame, FrameKind};
+use crate::lisp::vm::machine::{Event, Machine};
 
 /// Where a call goes on.
 enum Called {

@@ -1,13 +1,14 @@
 //! Non-local exits: returning from blocks, jumping to tags, throwing, and running cleanup
 //! code on the way.
 
-use super::fiber::{Dynamic, FrameKind, Pending, Target};
-use super::machine::{Event, Machine, Next};
-use super::step::Step;
+use super::entry::Next;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::fiber::{Dynamic, FrameKind, Pending, Target};
+use crate::lisp::vm::machine::{Event, Machine};
+use crate::lisp::vm::step::Step;
 
 impl Machine<'_> {
     pub(super) fn return_from(&mut self, id: &Value, value: Value) -> Next {

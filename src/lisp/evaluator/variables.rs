@@ -2,7 +2,6 @@
 
 use std::rc::Rc;
 
-use super::machine::Machine;
 use crate::lisp::value::Value;
 use crate::lisp::value::code::{Capture, Code};
 use crate::lisp::value::function::Function;
@@ -10,6 +9,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::lisp::vm::machine::Machine;
 
 impl Machine<'_> {
     /// Pushes a local.

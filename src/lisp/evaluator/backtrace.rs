@@ -3,12 +3,12 @@
 
 use std::rc::Rc;
 
-use super::calls::Annotation;
-use super::fiber::{Fiber, Frame, FrameKind};
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::Annotation;
+use crate::lisp::vm::fiber::{Fiber, Frame, FrameKind};
 
 /// A frame as people see it.
 pub(crate) struct FrameView {

@@ -3,13 +3,13 @@
 
 use std::rc::Rc;
 
-use super::fiber::{Dynamic, Handler};
-use super::machine::Machine;
 use crate::lisp::value::Value;
 use crate::lisp::value::code::Code;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::fiber::{Dynamic, Handler};
+use crate::lisp::vm::machine::Machine;
 
 impl Machine<'_> {
     /// Binds a special variable.

@@ -2,10 +2,8 @@
 
 use std::rc::Rc;
 
-use super::fiber::{Dynamic, Frame, FrameKind};
-use super::machine::{Machine, Next};
+use super::entry::Next;
 use crate::lisp::image::Image;
-use crate::lisp::library;
 use crate::lisp::native::NativeCall;
 use crate::lisp::object;
 use crate::lisp::print;
@@ -14,6 +12,8 @@ use crate::lisp::value::code::Code;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::fiber::{Dynamic, Frame, FrameKind};
+use crate::lisp::vm::machine::Machine;
 
 /// Calls that may be open at once.
 const MOST_FRAMES: usize = 1_000_000;
@@ -56,7 +56,7 @@ impl Machine<'_> {
                 Ok(step) => self.take_step(step, multi),
                 Err(raise) => self.raise(raise),
             },
-            Body::Deferred(deferred) => match library::deferred::force(self.image, deferred) {
+            Body::Deferred(deferred) => match self.image.force(deferred) {
                 Ok(function) => self.call_value(Value::Function(function), args, multi),
                 Err(raise) => self.raise(raise),
             },
@@ -183,7 +183,7 @@ impl Machine<'_> {
             };
         }
         if let Body::Deferred(deferred) = &function.body {
-            return match library::deferred::force(self.image, deferred) {
+            return match self.image.force(deferred) {
                 Ok(function) => self.call_on_stack(function, count, cut, multi),
                 Err(raise) => {
                     self.fiber.stack.truncate(cut);

@@ -2,12 +2,12 @@
 
 use std::sync::atomic::Ordering;
 
-use super::fiber::Fiber;
-use super::machine::{Event, Machine};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::fiber::Fiber;
+use crate::lisp::vm::machine::{Event, Machine};
 
 /// Nested runs of macro functions.
 const MOST_NESTED: usize = 64;

@@ -1,11 +1,11 @@
 //! Does a condition fit a handler's type?
 
+use crate::lisp::evaluator::nested;
 use crate::lisp::image::Image;
 use crate::lisp::types::specifier::{Answers, Stop};
 use crate::lisp::types::typep_with;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::nested;
 
 /// Is the condition of the type?
 pub(crate) fn is_of_type(

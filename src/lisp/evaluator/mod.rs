@@ -1,0 +1,18 @@
+//! Runs compiled code: explicit frames, no recursion on the Rust stack.
+
+pub(crate) mod aside;
+pub(crate) mod backtrace;
+mod calling;
+mod dynamic;
+mod entry;
+pub(crate) mod matching;
+pub(crate) mod nested;
+mod open_calls;
+mod primitives;
+pub(crate) mod restart;
+mod run;
+pub(crate) mod signal;
+#[cfg(test)]
+mod tests;
+mod unwind;
+mod variables;
