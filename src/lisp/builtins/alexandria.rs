@@ -195,7 +195,7 @@ fn last_elt(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn lastcar(_: &mut Image, args: &[Value]) -> Outcome {
-    let last = super::lists::last_pair(&args[0])?;
+    let last = crate::lisp::value::sequence::last_pair(&args[0])?;
     Ok(last.map_or(Value::NIL, |cons| cons.car()))
 }
 

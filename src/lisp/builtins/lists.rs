@@ -9,7 +9,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::cons::Cons;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{self, ListBuilder, ListWalk};
+use crate::lisp::value::sequence::{self, ListBuilder, ListWalk, last_pair};
 use crate::lisp::value::{Rounds, Value};
 
 type Outcome = Result<Value, Box<Raise>>;
@@ -86,21 +86,6 @@ pub(crate) fn nconc_all(lists: &[Value]) -> Outcome {
         }
     }
     Ok(result)
-}
-
-/// The last pair of a list that may be dotted.
-pub(crate) fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
-    let mut rounds = Rounds::default();
-    let mut rest = list.clone();
-    let mut last = None;
-    while let Value::Cons(cons) = rest {
-        rest = cons.cdr();
-        if rounds.is_closed_by(&rest) {
-            return Err(sequence::circular(list));
-        }
-        last = Some(cons);
-    }
-    Ok(last)
 }
 
 fn revappend(_: &mut Image, args: &[Value]) -> Outcome {

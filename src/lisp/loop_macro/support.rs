@@ -3,7 +3,6 @@
 use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::builtins::lists::last_pair;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Vector;
@@ -13,6 +12,7 @@ use crate::lisp::value::number;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::Sequence;
+use crate::lisp::value::sequence::last_pair;
 
 type Outcome = Result<Value, Box<Raise>>;
 

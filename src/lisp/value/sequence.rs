@@ -547,3 +547,18 @@ impl ListBuilder {
         self.finish_with(Value::NIL)
     }
 }
+
+/// The last pair of a list that may be dotted.
+pub(crate) fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
+    let mut rounds = Rounds::default();
+    let mut rest = list.clone();
+    let mut last = None;
+    while let Value::Cons(cons) = rest {
+        rest = cons.cdr();
+        if rounds.is_closed_by(&rest) {
+            return Err(circular(list));
+        }
+        last = Some(cons);
+    }
+    Ok(last)
+}
