@@ -1,4 +1,4 @@
-//! The measures of an arm with the joint layout of the PR2's, read from the kinematic tree.
+//! The dimensions of an arm with the PR2's joint layout, read from the kinematic tree.
 
 use nalgebra::Vector3;
 use thiserror::Error;
@@ -35,7 +35,7 @@ const LAYOUT: [(char, bool); ARM_JOINTS] = [
 /// Why the inverse kinematics cannot work with a chain of joints.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub(crate) enum ArmChainError {
-    /// The tip does not hang on the base.
+    /// The tip is not a descendant of the base.
     #[error(
         "link \"{tip}\" does not hang on link \"{base}\"; an arm goes from its base to its tip"
     )]
@@ -58,26 +58,26 @@ pub(crate) enum ArmChainError {
         /// Number of moving joints.
         found: usize,
     },
-    /// A joint is not what the closed form needs.
+    /// A joint does not have the form that the closed-form solution requires.
     #[error("joint \"{joint}\" does not suit the inverse kinematics of the arm: it needs {needed}")]
     Layout {
         /// Name of the joint.
         joint: String,
-        /// What it would have to be.
+        /// What the solution requires.
         needed: String,
     },
 }
 
-/// Measures of an arm: lengths in m, angles in rad.
+/// Dimensions of an arm: lengths in m, angles in rad.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ArmChain {
     /// The joints from the shoulder to the wrist.
     pub(crate) joints: [JointId; ARM_JOINTS],
     /// Their names.
     pub(crate) names: [String; ARM_JOINTS],
-    /// Their limits, the soft ones where there are any; `None` for the continuous ones.
+    /// Their limits, soft limits where the URDF gives them; `None` for continuous joints.
     pub(crate) limits: [Option<Limits>; ARM_JOINTS],
-    /// Where the pan axis is in the frame of the arm's base, at the height of the lift axis.
+    /// Position of the pan axis in the frame of the arm's base, at the height of the lift axis.
     pub(crate) shoulder: Vector3<f64>,
     /// From the pan axis to the lift axis.
     pub(crate) shoulder_offset: f64,
@@ -147,7 +147,7 @@ impl ArmChain {
         Ok(chain)
     }
 
-    /// Limits of a joint; everything for a continuous one.
+    /// Limits of a joint; unbounded for a continuous one.
     pub(crate) fn limits(&self, joint: usize) -> Limits {
         self.limits[joint].unwrap_or(Limits {
             lower: f64::NEG_INFINITY,
@@ -155,8 +155,8 @@ impl ArmChain {
         })
     }
 
-    /// The closed form needs links of some length, an elbow and a wrist that bend one way
-    /// only, and an upper arm that never points back over the pan axis.
+    /// The closed-form solution requires links of nonzero length, an elbow and a wrist that
+    /// bend one way only, and an upper arm that never points back over the pan axis.
     fn check_measures(&self) -> Result<(), ArmChainError> {
         for (i, length) in [
             (LIFT, self.shoulder_offset),

@@ -1,8 +1,8 @@
-//! Inverse kinematics of an arm with the PR2's joint layout: which joint positions hold
-//! the wrist at a pose, in closed form and complete over the one freedom that is left.
+//! Inverse kinematics of an arm with the PR2's joint layout: the joint positions that put
+//! the wrist at a pose, in closed form and complete over the one redundant freedom.
 //!
 //! Limits are the soft limits of the URDF (those of the safety controller) where it gives
-//! any. All measures come from the kinematic tree. Poses of the wrist are those of the
+//! any. All dimensions come from the kinematic tree. A pose of the wrist is the pose of the
 //! arm's tip link in the frame of the arm's base link; nothing here knows of tools,
 //! collisions or other arms.
 
@@ -12,9 +12,9 @@ use super::unreachable::Unreachable;
 use super::{JointId, KinematicTree, Limits, LinkId};
 use crate::spatial::{Pose, trig};
 
-/// Positions up to this far (rad) outside of a limit are put onto the limit.
+/// Positions up to this far (rad) outside a limit are clamped to the limit.
 const SLACK: f64 = 1e-9;
-/// Places looked at on each stretch before the best one is refined.
+/// Samples evaluated on each stretch before the best one is refined.
 const PLACES: usize = 9;
 /// Steps of refinement; each narrows the stretch to 62 %.
 const REFINEMENTS: usize = 8;
@@ -29,7 +29,7 @@ struct Candidate {
     positions: ArmPositions,
 }
 
-/// The nearer of two candidates, the first one when they are equally near.
+/// The nearer of two candidates, or the first if they are equally near.
 fn nearer(a: Option<Candidate>, b: Option<Candidate>) -> Option<Candidate> {
     match (a, b) {
         (Some(a), Some(b)) => Some(if b.distance < a.distance { b } else { a }),
@@ -61,12 +61,12 @@ impl ArmKinematics {
         &self.chain.joints
     }
 
-    /// The limits (rad) that solutions keep; `None` for the continuous joints.
+    /// The limits (rad) that solutions respect; `None` for continuous joints.
     pub(crate) fn limits(&self) -> &[Option<Limits>; ARM_JOINTS] {
         &self.chain.limits
     }
 
-    /// The solutions with the upper arm rolled to `roll` (rad): at most two, continuous
+    /// The solutions with the upper arm rolled to `roll` (rad): at most two, with continuous
     /// joints within -π..π.
     pub(crate) fn solve(&self, wrist: &Pose, roll: f64) -> Vec<ArmPositions> {
         let curve = ElbowCurve::new(&self.chain, wrist);
@@ -74,8 +74,8 @@ impl ArmKinematics {
         found.filter_map(|q| self.within_limits(q)).collect()
     }
 
-    /// Solutions from every part of the solution set, neighbours about `step` (rad) apart
-    /// in their most moving shoulder joint; continuous joints within -π..π.
+    /// Solutions from every part of the solution set, with continuous joints within -π..π.
+    /// Neighbours are about `step` (rad) apart in the shoulder joint that moves most.
     ///
     /// Empty exactly when the pose is unreachable.
     pub(crate) fn solutions(&self, wrist: &Pose, step: f64) -> Vec<ArmPositions> {
@@ -101,9 +101,9 @@ impl ArmKinematics {
 
     /// A solution near `seed`: continuous joints are within half a turn of the seed.
     ///
-    /// Near means that the sum of the squared joint differences is least, among places
-    /// spread over all parts of the solution set, refined around the best one. When there
-    /// is no solution at all the answer says why.
+    /// "Near" means the least sum of squared joint differences among samples spread over all
+    /// parts of the solution set, refined around the best one. If there is no solution, the
+    /// error says why.
     pub(crate) fn nearest(
         &self,
         wrist: &Pose,
@@ -142,7 +142,7 @@ impl ArmKinematics {
         })
     }
 
-    /// Golden-section search between the neighbours of the best place.
+    /// Golden-section search between the neighbours of the best sample.
     fn refine(&self, curve: &ElbowCurve<'_>, best: Candidate, seed: &ArmPositions) -> Candidate {
         const GOLDEN: f64 = 0.618_033_988_749_894_8;
         let at = |share: f64| self.candidate(curve, best.stretch, share, seed);
@@ -167,8 +167,8 @@ impl ArmKinematics {
         nearer(Some(best.clone()), refined).unwrap_or(best)
     }
 
-    /// The positions put onto limits that they break by rounding only; `None` when they
-    /// break one by more.
+    /// The positions, clamped to limits that they exceed only by rounding; `None` if they
+    /// exceed a limit by more.
     fn within_limits(&self, mut positions: ArmPositions) -> Option<ArmPositions> {
         for (position, limits) in positions.iter_mut().zip(&self.chain.limits) {
             if let Some(limits) = limits {

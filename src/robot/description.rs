@@ -2,8 +2,8 @@
 //! grippers, postures, speeds, and which links may touch.
 //!
 //! Read from `world/pr2.sexp` or a file like it, and checked against the kinematic tree,
-//! so that every name in here is a link or joint of that tree. The rest of the program
-//! asks this description and never names a link itself.
+//! so that every name in it is a link or joint of that tree. The rest of the program
+//! uses this description and never names a link itself.
 
 use super::torso_search::TorsoSearch;
 use super::{
@@ -41,7 +41,7 @@ pub(crate) struct Torso {
     pub(crate) link: LinkId,
     /// The joint.
     pub(crate) joint: JointId,
-    /// Heights that it can have (m), the hard limits of the URDF.
+    /// Range of heights (m), the hard limits of the URDF.
     pub(crate) limits: Limits,
     /// Height after start-up (m).
     pub(crate) start: f64,
@@ -86,15 +86,15 @@ pub(crate) struct Camera {
 pub(crate) struct Arm {
     /// Which one it is.
     pub(crate) side: Side,
-    /// The link that the arm hangs on.
+    /// The link that the arm is mounted on.
     pub(crate) base: LinkId,
-    /// The last link, whose pose the inverse kinematics is asked for.
+    /// The last link, the tip of the inverse kinematics.
     pub(crate) wrist: LinkId,
     /// The frame between the fingers, as the URDF gives it.
     pub(crate) tool: LinkId,
     /// From the wrist to where grasps place the tool (m), along the wrist's x axis.
     pub(crate) tool_offset: f64,
-    /// Orientation of the tool (x forward) in the frame that grasps are given in (z
+    /// Orientation of the tool (x forward) in the frame in which grasps are given (z
     /// forward, x across the palm).
     pub(crate) tool_axes: UnitQuaternion<f64>,
     /// Inverse kinematics from `base` to `wrist`.
@@ -108,7 +108,7 @@ pub(crate) struct Arm {
 }
 
 impl Arm {
-    /// The joint positions of that posture.
+    /// The joint positions of the named posture.
     pub(crate) fn posture(&self, name: &str) -> Option<&ArmPositions> {
         let posture = self.postures.iter().find(|(n, _)| n == name);
         posture.map(|(_, positions)| positions)
@@ -124,19 +124,19 @@ impl Arm {
         self.joints().map(|joint| q.get(joint))
     }
 
-    /// Puts the arm's joints to the positions.
+    /// Sets the arm's joints to the positions.
     pub(crate) fn set_positions(&self, q: &mut JointPositions, positions: &ArmPositions) {
         for (joint, position) in self.joints().iter().zip(positions) {
             q.set(*joint, *position);
         }
     }
 
-    /// The wrist's pose that brings the tool to `tool`, in the same frame.
+    /// The wrist pose that brings the tool to `tool`, in the same frame.
     pub(crate) fn wrist_for_tool(&self, tool: &Pose) -> Pose {
         tool * Translation3::new(-self.tool_offset, 0.0, 0.0)
     }
 
-    /// The tool's pose when the wrist is at `wrist`, in the same frame.
+    /// The tool pose when the wrist is at `wrist`, in the same frame.
     pub(crate) fn tool_for_wrist(&self, wrist: &Pose) -> Pose {
         wrist * Translation3::new(self.tool_offset, 0.0, 0.0)
     }
@@ -145,7 +145,7 @@ impl Arm {
 /// A gripper with two parallel jaws that one joint moves.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Gripper {
-    /// The link that the fingers hang on.
+    /// The link that the fingers are mounted on.
     pub(crate) palm: LinkId,
     /// The joint that moves both fingers (rad, 0 is closed).
     pub(crate) joint: JointId,
@@ -211,9 +211,9 @@ pub(crate) struct RobotDescription {
     pub(crate) cameras: Vec<Camera>,
     /// The left and the right arm.
     pub(crate) arms: [Arm; 2],
-    /// Links within one group are never judged against each other.
+    /// Links within one group are never checked against each other.
     pub(crate) touching: Vec<Vec<LinkId>>,
-    /// Links that roll on the floor, never judged against it or the robot.
+    /// Links that roll on the floor; never checked against it or the robot.
     pub(crate) wheels: Vec<LinkId>,
     /// Joints that could move but never do.
     pub(crate) idle_joints: Vec<JointId>,
@@ -241,7 +241,7 @@ impl RobotDescription {
         })
     }
 
-    /// Where the joints stand after start-up.
+    /// Positions of all joints after start-up.
     pub(crate) fn start_positions(&self, tree: &KinematicTree) -> JointPositions {
         let mut q = tree.zero_positions();
         q.set(self.torso.joint, self.torso.start);

@@ -7,7 +7,7 @@ use super::{ArmKinematics, ArmPositions, JointId, JointKind, KinematicTree, Limi
 use crate::closest_name::closest_name;
 use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
 
-/// Records that a description consists of, each with its keys.
+/// The records of a description, each with its keys.
 const RECORDS: &[(&str, &[&str])] = &[
     ("robot", &[]),
     (
@@ -70,7 +70,7 @@ const RECORDS: &[(&str, &[&str])] = &[
 ];
 
 impl RobotDescription {
-    /// Reads a description of the robot with that tree; `file_name` is only used in errors.
+    /// Reads a description of the robot with that tree; `file_name` is used only in errors.
     pub(crate) fn from_sexp(
         text: &str,
         file_name: &str,
@@ -95,7 +95,7 @@ impl RobotDescription {
     }
 }
 
-/// The records of a file, and the tree whose names they use.
+/// The records of a file, and the tree that they refer to.
 struct Reader<'a> {
     tree: &'a KinematicTree,
     file: &'a DataFile,
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The record of that head for one side.
+    /// The record with that head for one side.
     fn sided(&self, head: &'static str, side: Side) -> Result<&Record<'a>, DataError> {
         let mut found = None;
         for record in self.all(head) {
@@ -180,7 +180,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// A joint that can be moved within limits, and the limits.
+    /// A joint with limits, and the limits.
     fn limited_joint(&self, node: Node<'_>) -> Result<(JointId, Limits), DataError> {
         let id = self.joint(node)?;
         let joint = self.tree.joint(id);
@@ -382,7 +382,7 @@ fn speed(record: &Record<'_>, velocity: &str, acceleration: &str) -> Result<Spee
     })
 }
 
-/// A rotation given by the rows of its matrix.
+/// A rotation, given as the rows of its matrix.
 fn rotation(node: Node<'_>) -> Result<UnitQuaternion<f64>, DataError> {
     let wrong = || node.expected("the three rows of a rotation matrix");
     let rows = node.list().map_err(|_| wrong())?;

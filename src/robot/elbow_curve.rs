@@ -1,6 +1,6 @@
-//! All ways to hold the wrist at a given pose: the curve of possible elbow places.
+//! All ways to hold the wrist at a given pose: the curve of possible elbow positions.
 //!
-//! With the wrist held, seven joints leave one freedom. The elbow lies on a sphere about
+//! With the wrist fixed, seven joints leave one freedom. The elbow lies on a sphere about
 //! the wrist (radius: forearm) and on a torus about the pan axis (upper arm turned about
 //! the lift axis, which the pan axis carries around): their intersection is a curve with
 //! the shoulder lift angle as its natural parameter. For each lift angle the pan angle is
@@ -8,8 +8,8 @@
 //!
 //! Where along the curve a joint meets a limit is known in closed form: for pan, lift,
 //! roll and elbow from `A cos + B sin = C`, for the wrist flex from a quartic in the
-//! tangent of half the lift angle. Between two such places every limit is either kept or
-//! broken throughout, so the search is complete: nothing is sampled.
+//! tangent of half the lift angle. Between two such points every limit is either kept or
+//! violated throughout, so the search is complete: nothing is sampled.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -17,7 +17,7 @@ use super::arm_chain::{ArmChain, ArmPositions, ELBOW, FLEX, LIFT, PAN, ROLL};
 use super::polynomial::quartic_roots;
 use crate::spatial::{Pose, trig};
 
-/// Positions up to this far (rad) outside of a limit count as on the limit.
+/// Positions up to this far (rad) outside a limit count as on the limit.
 const SLACK: f64 = 1e-9;
 
 /// A stretch of the curve, given by lift angles (rad), on which all limits are kept.
@@ -29,9 +29,9 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
-    /// The lift angle (rad) at the share 0..1 of the stretch.
+    /// The lift angle (rad) at a fraction 0..1 of the stretch.
     ///
-    /// Lift angles are denser towards the ends, where the pan angle changes fastest.
+    /// Equal steps yield denser lift angles towards the ends, where the pan angle changes fastest.
     pub(crate) fn lift_at(&self, share: f64) -> f64 {
         let inset = 1e-9 * (self.to - self.from);
         let (from, to) = (self.from + inset, self.to - inset);
@@ -56,7 +56,7 @@ pub(super) struct ElbowCurve<'a> {
     chain: &'a ArmChain,
     /// Orientation of the wrist in the frame of the arm's base.
     rotation: Matrix3<f64>,
-    /// The wrist relative to the shoulder: distance from the pan axis, direction, height.
+    /// The wrist relative to the shoulder: distance from the pan axis, direction and height.
     reach: f64,
     direction: f64,
     toward: (f64, f64),
@@ -71,7 +71,7 @@ impl<'a> ElbowCurve<'a> {
         let w: Vector3<f64> = wrist.translation.vector - chain.shoulder;
         let (d, l1, l2) = (chain.shoulder_offset, chain.upper_arm, chain.forearm);
         // On the pan axis itself the direction is arbitrary; a reach of half a nanometre
-        // stands for none, which keeps one formula for all places.
+        // stands for zero, so that one formula covers all positions.
         let horizontal = libm::hypot(w.x, w.y);
         let (reach, toward) = if horizontal > 5e-10 {
             (horizontal, (w.x / horizontal, w.y / horizontal))
@@ -89,7 +89,7 @@ impl<'a> ElbowCurve<'a> {
         }
     }
 
-    /// The stretches on which every joint keeps its limits.
+    /// The stretches on which every joint is within its limits.
     pub(crate) fn stretches(&self) -> Vec<Stretch> {
         let lift = self.chain.limits(LIFT);
         let mut cuts = vec![lift.lower, lift.upper];
@@ -128,13 +128,13 @@ impl<'a> ElbowCurve<'a> {
     }
 
     /// The joint positions at a lift angle (rad), or `None` where the curve has no point.
-    /// Limits are not looked at; continuous joints are within -π..π.
+    /// Limits are ignored; continuous joints are within -π..π.
     pub(crate) fn positions(&self, lift: f64, bend: f64) -> Option<ArmPositions> {
         self.point(lift, bend).map(|point| self.with_wrist(&point))
     }
 
     /// The joint positions with the upper arm rolled to `roll` (rad): at most two.
-    /// Limits are not looked at.
+    /// Limits are ignored.
     pub(crate) fn positions_at_roll(&self, roll: f64) -> [Option<ArmPositions>; 2] {
         let (sin, cos) = trig::sin_cos(roll);
         self.elbow_cosines(sin).map(|elbow_cos| {
@@ -172,7 +172,7 @@ impl<'a> ElbowCurve<'a> {
         (squares - l1 * l1 - l2 * l2 - 2.0 * l1 * l2 * elbow_cos) / (2.0 * d)
     }
 
-    /// The cosines of the elbow angle that go with the sine of the upper arm roll.
+    /// The cosines of the elbow angle that match the sine of the upper arm roll.
     fn elbow_cosines(&self, roll_sin: f64) -> [Option<f64>; 2] {
         let d = self.chain.shoulder_offset;
         let ahead = d + self.forward(0.0);
@@ -186,7 +186,7 @@ impl<'a> ElbowCurve<'a> {
         if discriminant < 0.0 || a.abs() < 1e-12 {
             return [None, None];
         }
-        // Without cancellation: the larger root first, the other one from the product.
+        // To avoid cancellation, compute the larger root first and the other one from the product.
         let q = half_b + discriminant.sqrt().copysign(half_b);
         let other = if q == 0.0 { 0.0 } else { c / q };
         [Some(q / a), Some(other)]
@@ -217,7 +217,7 @@ impl<'a> ElbowCurve<'a> {
         }
         let beside = bend * beside_squared.max(0.0).sqrt();
         let (cos, sin) = (ahead / around, beside / around);
-        // The wrist in the frame that pan and lift carry.
+        // The wrist in the frame that pan and lift move.
         let (x, y) = (self.reach * cos - d, self.reach * sin);
         let along = c2 * x - s2 * self.height;
         let above = s2 * x + c2 * self.height;
@@ -246,7 +246,7 @@ impl<'a> ElbowCurve<'a> {
         })
     }
 
-    /// The angle, by full turns brought into the limits of the joint, or at least nearest to them.
+    /// The angle, moved by full turns into the limits of the joint, or as near to them as possible.
     fn turned_into(&self, joint: usize, angle: f64) -> f64 {
         let limits = self.chain.limits(joint);
         let middle = 0.5 * (limits.lower + limits.upper);
@@ -270,7 +270,7 @@ impl<'a> ElbowCurve<'a> {
         [pan, lift, roll, elbow, forearm, flex, wrist]
     }
 
-    /// Whether pan, roll and elbow keep their limits at the lift angle.
+    /// Whether pan, roll and elbow are within their limits at the lift angle.
     fn shoulder_allows(&self, lift: f64, bend: f64) -> bool {
         let allows =
             |joint: usize, position: f64| self.chain.limits(joint).excess(position) <= SLACK;
@@ -278,7 +278,7 @@ impl<'a> ElbowCurve<'a> {
             .is_some_and(|p| allows(PAN, p.pan) && allows(ROLL, p.roll) && allows(ELBOW, p.elbow))
     }
 
-    /// Keeps of a stretch the parts on which the wrist flex keeps its limits.
+    /// Keeps the parts of a stretch on which the wrist flex is within its limits.
     fn split_by_wrist_flex(&self, whole: Stretch, kept: &mut Vec<Stretch>) {
         let flex = self.chain.limits(FLEX);
         // The flex goes from 0 (cosine 1) to -π (cosine -1).
@@ -302,7 +302,7 @@ impl<'a> ElbowCurve<'a> {
             let keeps = |c: f64| c >= cosines[0] - SLACK && c <= cosines[1] + SLACK;
             if to > from && cosine.is_some_and(keeps) {
                 match kept.last_mut() {
-                    // A cut that turned out to be none.
+                    // The bound was not crossed here after all.
                     Some(last) if last.bend == whole.bend && last.to == from => last.to = to,
                     _ => kept.push(Stretch { from, to, ..whole }),
                 }

@@ -1,4 +1,4 @@
-//! Whether a robot has the links and joints that a description names.
+//! Check that a robot has the links and joints that a description names.
 
 use std::fmt;
 
@@ -21,14 +21,14 @@ const LINK_KEYS: &[&str] = &[
 ];
 const JOINT_KEYS: &[&str] = &["joint", "pan-joint", "tilt-joint", "tip-joint"];
 
-/// Records whose things are links, and records whose things are joints.
+/// Records whose entries are links, and records whose entries are joints.
 const LINK_RECORDS: &[&str] = &["touching", "wheels"];
 const JOINT_RECORDS: &[&str] = &["idle-joints", "speed"];
 
-/// Names that are told of each kind; the rest is counted.
+/// Number of names listed of each kind; the rest are only counted.
 const MOST_TOLD: usize = 6;
 
-/// The names in a description that a robot does not have, each once, in their order.
+/// The names in a description that a robot lacks, each once, in order of appearance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct MissingNames {
     /// Links.
@@ -38,7 +38,7 @@ pub(crate) struct MissingNames {
 }
 
 impl MissingNames {
-    /// Those that the description names and the tree lacks.
+    /// The links and joints that the description names and the tree lacks.
     pub(crate) fn of(
         description: &str,
         file_name: &str,
@@ -70,13 +70,13 @@ impl MissingNames {
         Ok(missing)
     }
 
-    /// Whether the robot has all that is named.
+    /// Whether the robot has everything that the description names.
     pub(crate) fn is_empty(&self) -> bool {
         self.links.is_empty() && self.joints.is_empty()
     }
 }
 
-/// A name, or the names of a list.
+/// A single name, or the names in a list.
 fn names<'a>(node: &Node<'a>) -> Vec<&'a str> {
     match node.symbol() {
         Ok(name) => vec![name],

@@ -3,10 +3,10 @@
 use super::JointId;
 
 /// Positions of the joints of one [`KinematicTree`](super::KinematicTree): rad for
-/// revolute and continuous joints, m for prismatic ones, nothing of interest for fixed ones.
+/// revolute and continuous joints, m for prismatic ones, unused for fixed ones.
 ///
-/// The entry of a joint that mimics another is not looked at; ask
-/// [`KinematicTree::position`](super::KinematicTree::position) for what it really is.
+/// The entry of a joint that mimics another is ignored; use
+/// [`KinematicTree::position`](super::KinematicTree::position) to get its actual position.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct JointPositions(Vec<f64>);
 
@@ -16,7 +16,7 @@ impl JointPositions {
         Self(vec![0.0; joint_count])
     }
 
-    /// Position that was set for the joint (rad or m); zero for a joint of another tree.
+    /// Position set for the joint (rad or m); zero for a joint of another tree.
     pub(crate) fn get(&self, joint: JointId) -> f64 {
         self.0.get(joint.index()).copied().unwrap_or(0.0)
     }

@@ -1,5 +1,5 @@
-//! The robot's body: links and joints read from a URDF, where every link is for
-//! given joint positions, and which joint positions bring a hand to a given place.
+//! The robot's body: links and joints read from a URDF, the poses of all links for given
+//! joint positions, and the joint positions that bring a hand to a given pose.
 //!
 //! The same kinematic tree also describes the furniture. Nothing here knows of
 //! time, physics or the plan language; poses are those of [`crate::spatial`].
@@ -38,5 +38,5 @@ pub(crate) const PR2_URDF: &str = include_str!("../../world/pr2.urdf");
 /// The text of the built-in kitchen, `world/kitchen.urdf`; its root is the map frame.
 pub(crate) const KITCHEN_URDF: &str = include_str!("../../world/kitchen.urdf");
 
-/// The text of what the PR2's links and joints are for, `world/pr2.sexp`.
+/// The text of the built-in description of the PR2's links and joints, `world/pr2.sexp`.
 pub(crate) const PR2_DESCRIPTION: &str = include_str!("../../world/pr2.sexp");

@@ -24,7 +24,7 @@ impl Roots {
 /// Roots in `lo..=hi` of `c[0] + c[1] t + … + c[4] t⁴` where the polynomial changes sign.
 ///
 /// Works upwards from the third derivative: between two neighbouring extremes a
-/// polynomial is monotone, so each sign change encloses exactly one root.
+/// polynomial is monotonic, so each sign change encloses exactly one root.
 pub(super) fn quartic_roots(c: &[f64; 5], lo: f64, hi: f64) -> Roots {
     let mut extremes = Roots::default();
     for derivative in (0..4).rev() {
@@ -64,8 +64,8 @@ fn slope(c: &[f64; 5], t: f64) -> f64 {
     ((4.0 * c[4] * t + 3.0 * c[3]) * t + 2.0 * c[2]) * t + c[1]
 }
 
-/// The root between two points (t, value) of different sign: Newton's method, halving
-/// the interval whenever a step would leave it.
+/// The root between two points (t, value) of opposite sign: Newton's method, with
+/// bisection whenever a step would leave the interval.
 fn root_between(c: &[f64; 5], a: (f64, f64), b: (f64, f64)) -> f64 {
     let rising = a.1 < 0.0;
     let (mut lo, mut hi) = (a.0, b.0);

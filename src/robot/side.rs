@@ -39,7 +39,7 @@ impl Side {
         }
     }
 
-    /// The side of that name.
+    /// The side with that name.
     pub(crate) fn named(name: &str) -> Option<Self> {
         Self::BOTH.into_iter().find(|side| side.name() == name)
     }

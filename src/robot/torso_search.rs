@@ -1,5 +1,5 @@
-//! Reaching with the help of the torso: at which height the arm can hold its wrist where
-//! it is wanted.
+//! Reaching with the help of the torso: the heights at which the arm can bring its wrist to
+//! a pose.
 
 use super::description::{Arm, Torso};
 use super::{ArmPositions, JointPositions, KinematicTree, Limits, LinkId, Unreachable};
@@ -12,7 +12,7 @@ pub(crate) const TORSO_STEP: f64 = 0.01;
 /// those at multiples of [`TORSO_STEP`] above the lower limit and the upper limit itself.
 ///
 /// Of two equally near heights the higher one comes first. (CRAM tries the current height,
-/// then all others from the top down; the set is the same, the torso moves less here.)
+/// then all others from the top down; the set is the same, but the torso moves less here.)
 pub(crate) fn torso_heights(current: f64, limits: Limits) -> Vec<f64> {
     let current = limits.clamp(current);
     let steps = ((limits.upper - limits.lower) / TORSO_STEP + 1e-9)
@@ -33,7 +33,7 @@ pub(crate) fn torso_heights(current: f64, limits: Limits) -> Vec<f64> {
     heights
 }
 
-/// A way to hold the wrist: the torso's height (m) and the arm's joint positions (rad).
+/// A solution for a wrist pose: the torso's height (m) and the arm's joint positions (rad).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Reach {
     /// Height of the torso (m).
@@ -51,7 +51,7 @@ pub(crate) struct TorsoSearch<'a> {
     seed: ArmPositions,
     /// Pose of the arm's base with the torso at height 0, in the robot's frame on the floor.
     lowest: Pose,
-    /// Shift of the arm's base per metre of height.
+    /// Displacement of the arm's base per metre of height.
     rise: nalgebra::Vector3<f64>,
 }
 
@@ -66,7 +66,7 @@ impl<'a> TorsoSearch<'a> {
         let base_at = |height: f64| {
             let mut q = q.clone();
             q.set(torso.joint, height);
-            // The reader has checked that the arm hangs on the frame.
+            // The reader has checked that the arm is a descendant of the frame.
             tree.relative_pose(frame, arm.base, &q)
                 .unwrap_or_else(Pose::identity)
         };
@@ -81,7 +81,7 @@ impl<'a> TorsoSearch<'a> {
         }
     }
 
-    /// The pose of the wrist in the frame of the arm's base, when the torso is at `height`
+    /// The pose of the wrist in the frame of the arm's base if the torso is at `height`
     /// (m) and the wrist is at `wrist` in the robot's frame on the floor.
     pub(crate) fn in_arm_base(&self, wrist: &Pose, height: f64) -> Pose {
         let mut base = self.lowest;
@@ -89,7 +89,7 @@ impl<'a> TorsoSearch<'a> {
         base.inv_mul(wrist)
     }
 
-    /// All heights (m) that are tried, in their order.
+    /// All heights (m) that are tried, in order.
     pub(crate) fn heights(&self) -> Vec<f64> {
         torso_heights(self.current, self.limits)
     }
@@ -103,8 +103,8 @@ impl<'a> TorsoSearch<'a> {
     }
 
     /// The reach whose height is nearest to the current one; `wrist` is given in the
-    /// robot's frame on the floor. When no height will do, the reason is that of the
-    /// height that comes nearest to it.
+    /// robot's frame on the floor. If no height works, the reason is that of the height
+    /// that comes nearest to reaching it.
     pub(crate) fn reach(&self, wrist: &Pose) -> Result<Reach, Unreachable> {
         let mut nearest: Option<Unreachable> = None;
         for height in self.heights() {

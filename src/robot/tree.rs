@@ -1,8 +1,9 @@
-//! Links joined by joints: the robot's body, and the furniture with its drawers and doors.
+//! Links connected by joints: the robot's body, or the furniture with its drawers and doors.
 //!
 //! A tree has exactly one root, every other link has exactly one parent joint, and every
-//! link and frame of the URDF is kept, those without geometry or mass too. A tree never
-//! changes after it was read; where its joints stand is a [`JointPositions`] beside it.
+//! link and frame of the URDF is kept, including those without geometry or mass. A tree
+//! never changes after it has been read; its joint positions are a separate
+//! [`JointPositions`].
 
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
@@ -14,7 +15,7 @@ use crate::spatial::{PlacedShape, Pose, trig};
 pub(crate) struct LinkId(usize);
 
 impl LinkId {
-    /// Place of the link in [`KinematicTree::links`].
+    /// Index of the link in [`KinematicTree::links`].
     pub(crate) fn index(self) -> usize {
         self.0
     }
@@ -25,7 +26,7 @@ impl LinkId {
 pub(crate) struct JointId(usize);
 
 impl JointId {
-    /// Place of the joint in [`KinematicTree::joints`].
+    /// Index of the joint in [`KinematicTree::joints`].
     pub(crate) fn index(self) -> usize {
         self.0
     }
@@ -40,9 +41,9 @@ pub(crate) struct Link {
     pub(crate) parent_joint: Option<JointId>,
     /// The joints that the link carries, in the order of the file.
     pub(crate) children: Vec<JointId>,
-    /// Solids that touch things, in the link's frame.
+    /// Collision geometry, in the link's frame.
     pub(crate) collisions: Vec<PlacedShape>,
-    /// Solids that are seen, in the link's frame.
+    /// Visual geometry, in the link's frame.
     pub(crate) visuals: Vec<PlacedShape>,
     /// Mass (kg), 0 for a mere frame.
     pub(crate) mass: f64,
@@ -71,17 +72,17 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// Whether the position lies in the range.
+    /// Whether the position is in the range.
     pub(crate) fn contains(&self, position: f64) -> bool {
         (self.lower..=self.upper).contains(&position)
     }
 
-    /// The position of the range that is nearest to the given one.
+    /// The position in the range that is nearest to the given one.
     pub(crate) fn clamp(&self, position: f64) -> f64 {
         position.max(self.lower).min(self.upper)
     }
 
-    /// How far the position lies outside of the range; 0 inside.
+    /// How far the position is outside the range; 0 inside.
     pub(crate) fn excess(&self, position: f64) -> f64 {
         (self.lower - position).max(position - self.upper).max(0.0)
     }
@@ -90,7 +91,7 @@ impl Limits {
 /// A joint that follows another one: `multiplier * position of the other + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Mimic {
-    /// The joint that is followed; itself no follower.
+    /// The joint that is followed; never itself a follower.
     pub(crate) joint: JointId,
     /// Factor on the other joint's position.
     pub(crate) multiplier: f64,
@@ -111,13 +112,13 @@ pub(crate) struct Joint {
     pub(crate) child: LinkId,
     /// Pose of the child in the frame of the parent when the joint is at 0.
     pub(crate) origin: Pose,
-    /// Direction, in the child's frame, that the joint turns about or slides along.
+    /// Axis, in the child's frame, that the joint turns about or slides along.
     pub(crate) axis: Unit<Vector3<f64>>,
     /// Range of positions; `None` for fixed and continuous joints.
     pub(crate) limits: Option<Limits>,
     /// Narrower range of the safety controller, where the URDF gives one.
     pub(crate) soft_limits: Option<Limits>,
-    /// Greatest speed (rad/s or m/s) that the URDF gives.
+    /// Maximum speed (rad/s or m/s) given by the URDF.
     pub(crate) max_velocity: Option<f64>,
     /// Set when the joint follows another one.
     pub(crate) mimic: Option<Mimic>,
@@ -153,7 +154,7 @@ fn turn(axis: &Unit<Vector3<f64>>, angle: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::new(c, s * axis.x, s * axis.y, s * axis.z))
 }
 
-/// A link as it is handed to [`KinematicTree::assemble`]: joints are attached there.
+/// A link as passed to [`KinematicTree::assemble`], which attaches the joints.
 pub(super) struct LinkPart {
     pub(crate) name: String,
     pub(crate) collisions: Vec<PlacedShape>,
@@ -161,7 +162,7 @@ pub(super) struct LinkPart {
     pub(crate) mass: f64,
 }
 
-/// A joint as it is handed to [`KinematicTree::assemble`]: links and masters are indices.
+/// A joint as passed to [`KinematicTree::assemble`]: links and followed joints are indices.
 pub(super) struct JointPart {
     pub(crate) name: String,
     pub(crate) kind: JointKind,
@@ -176,7 +177,7 @@ pub(super) struct JointPart {
     pub(crate) mimic: Option<(usize, f64, f64)>,
 }
 
-/// Links and joints that hang together in one tree.
+/// Links and joints that form one tree.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct KinematicTree {
     name: String,
@@ -188,7 +189,7 @@ pub(crate) struct KinematicTree {
 }
 
 impl KinematicTree {
-    /// Name that the URDF gives to the whole.
+    /// Name of the robot in the URDF.
     pub(crate) fn name(&self) -> &str {
         &self.name
     }
@@ -240,7 +241,7 @@ impl KinematicTree {
         })
     }
 
-    /// Whether `link` is `carrier` or hangs on it.
+    /// Whether `link` is `carrier` or one of its descendants.
     pub(crate) fn carries(&self, carrier: LinkId, link: LinkId) -> bool {
         link == carrier
             || self
@@ -253,7 +254,7 @@ impl KinematicTree {
         JointPositions::zero(self.joints.len())
     }
 
-    /// Where the joint stands (rad or m): its own entry, or what the joint that it follows makes of it.
+    /// Position of the joint (rad or m): its own entry, or derived from the joint it follows.
     pub(crate) fn position(&self, q: &JointPositions, joint: JointId) -> f64 {
         match self.joint(joint).mimic {
             Some(m) => m.multiplier * q.get(m.joint) + m.offset,
@@ -282,7 +283,7 @@ impl KinematicTree {
             .unwrap_or_else(Pose::identity)
     }
 
-    /// Pose of `link` in the frame of `base`, or `None` when `link` does not hang on `base`.
+    /// Pose of `link` in the frame of `base`, or `None` if `link` is not a descendant of `base`.
     pub(crate) fn relative_pose(
         &self,
         base: LinkId,
@@ -301,9 +302,9 @@ impl KinematicTree {
     }
 
     /// Joins the parts, whose indices must form one tree; followers of followers are
-    /// made to follow the last one directly.
+    /// made to follow the last joint of the chain directly.
     ///
-    /// Returns the index of a link that hangs on itself, or of a joint that follows itself.
+    /// Fails with the index of a link that is its own ancestor, or of a joint that follows itself.
     pub(super) fn assemble(
         name: String,
         links: Vec<LinkPart>,
@@ -353,7 +354,7 @@ impl KinematicTree {
         let Some(mut link) = reached.iter().position(|r| !r) else {
             return Ok(());
         };
-        // Going up from a link that is not reached must end in a circle.
+        // The parents of an unreachable link must lead into a cycle.
         for _ in 0..self.links.len() {
             if let Some(joint) = self.links[link].parent_joint {
                 link = self.joints[joint.0].parent.0;
@@ -363,7 +364,7 @@ impl KinematicTree {
     }
 }
 
-/// Why parts do not make a tree; holds the index of the part.
+/// Why parts do not form a tree; holds the index of the part.
 pub(super) enum AssemblyError {
     LinkHangsOnItself(usize),
     JointFollowsItself(usize),

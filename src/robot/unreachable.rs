@@ -1,4 +1,4 @@
-//! Why an arm cannot hold its wrist at a pose.
+//! Why an arm cannot bring its wrist to a pose.
 
 use std::fmt;
 
@@ -6,16 +6,16 @@ use super::Limits;
 use super::arm_chain::{ARM_JOINTS, ArmChain, ArmPositions, LIFT};
 use super::elbow_curve::ElbowCurve;
 
-/// A joint that would have to leave its limits.
+/// A joint that would have to exceed its limits.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LimitViolation {
     /// Name of the joint.
     pub(crate) joint: String,
-    /// Where it would have to be (rad).
+    /// The position it would need (rad).
     pub(crate) position: f64,
-    /// Where it may be (rad).
+    /// Its limits (rad).
     pub(crate) limits: Limits,
-    /// How far (rad) the position is outside of the limits.
+    /// How far (rad) the position is outside the limits.
     pub(crate) excess: f64,
 }
 
@@ -30,25 +30,25 @@ impl fmt::Display for LimitViolation {
     }
 }
 
-/// Proof that a pose of the wrist is unreachable, and what comes nearest.
+/// Proof that a wrist pose is unreachable, and what comes nearest.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Unreachable {
     /// The arm is too short, or cannot fold tightly enough.
     OutOfReach {
-        /// Distance (m) of the wrist from the nearest place that the arm's lengths reach.
+        /// Distance (m) of the wrist from the nearest point that the arm's lengths reach.
         missing: f64,
     },
-    /// The arm is long enough, but joints would have to leave their limits.
+    /// The arm is long enough, but joints would have to exceed their limits.
     Limits {
-        /// The joint positions (rad) that break their limits least.
+        /// The joint positions (rad) that exceed their limits least.
         positions: ArmPositions,
-        /// The broken limits, worst first; never empty.
+        /// The violations, worst first; never empty.
         violations: Vec<LimitViolation>,
     },
 }
 
 impl Unreachable {
-    /// A measure of how bad it is: being out of reach is worse than broken limits, more
+    /// A measure of how bad it is: out of reach is worse than limits exceeded, and more
     /// metres or radians are worse than fewer.
     pub(crate) fn badness(&self) -> f64 {
         match self {
@@ -57,11 +57,11 @@ impl Unreachable {
         }
     }
 
-    /// Looks for the point of the curve that breaks the limits least.
+    /// Finds the point of the curve that violates the limits least.
     pub(super) fn explain(chain: &ArmChain, curve: &ElbowCurve<'_>) -> Self {
         const PLACES: i32 = 256;
-        // Lift angles beyond the limits are of interest too: they show that the lift is
-        // what is missing.
+        // Lift angles beyond the limits are considered too: they show that the lift joint is
+        // the one that falls short.
         let lift = chain.limits(LIFT);
         let (from, to) = (lift.lower - 1.0, lift.upper + 1.0);
         let lift_at = |i: i32| from + (to - from) * f64::from(i) / f64::from(PLACES);

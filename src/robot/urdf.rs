@@ -1,7 +1,7 @@
 //! Reading a kinematic tree from a URDF.
 //!
-//! Everything that is wrong with the file is reported before anything is built, one
-//! clear error at a time. Meshes are not supported: solids are primitives only.
+//! Errors in the file are reported one at a time, before anything is built. Meshes are
+//! not supported: solids are primitives only.
 
 use nalgebra::{Unit, Vector3};
 use urdf_rs::{Geometry, JointType};
@@ -15,7 +15,7 @@ use crate::spatial::pose::from_xyz_rpy;
 use crate::spatial::{PlacedShape, Pose, Shape};
 
 impl KinematicTree {
-    /// Reads the text of a URDF; `file_name` is only used in errors.
+    /// Reads the text of a URDF; `file_name` is used only in errors.
     pub(crate) fn from_urdf(text: &str, file_name: &str) -> Result<Self, UrdfError> {
         let place = |(offset, problem): (usize, UrdfProblem)| UrdfError {
             place: Place::at(file_name, text, offset),
@@ -43,8 +43,8 @@ impl KinematicTree {
     }
 }
 
-/// Where the links and joints of the robot stand; both in the order of the file, as
-/// `urdf_rs` keeps them too.
+/// Where the links and joints are in the file; both in the order of the file, which
+/// `urdf_rs` keeps too.
 struct Source<'a> {
     text: &'a str,
     links: Vec<usize>,
@@ -67,7 +67,7 @@ impl Source<'_> {
     }
 }
 
-/// Offsets of the elements of that name directly under the outermost one.
+/// Offsets of the elements with that name directly under the outermost one.
 fn top_level(elements: &[Element<'_>], name: &str) -> Vec<usize> {
     let wanted = elements
         .iter()
@@ -126,7 +126,7 @@ fn check_unique(
     Err((offset(pair[1].1), problem))
 }
 
-/// The one link that no joint carries.
+/// The one link that is no joint's child.
 fn find_root(names: &[&str], joints: &[JointPart], source: &Source<'_>) -> Result<usize, Wrong> {
     let mut parent: Vec<Option<usize>> = vec![None; names.len()];
     for (i, joint) in joints.iter().enumerate() {
@@ -177,7 +177,7 @@ fn link_part(link: &urdf_rs::Link, materials: &[urdf_rs::Material]) -> LinkPart 
     }
 }
 
-/// `None` for meshes and capsules, which the schema has refused before.
+/// `None` for meshes and capsules, which the schema has already rejected.
 fn placed(
     geometry: &Geometry,
     origin: &urdf_rs::Pose,
@@ -203,7 +203,7 @@ fn pose(origin: &urdf_rs::Pose) -> Pose {
     from_xyz_rpy(origin.xyz.0, origin.rpy.0)
 }
 
-/// The colour of the material itself, or of the robot's material of the same name.
+/// The colour of the material itself, or of the robot's material with the same name.
 fn color(
     material: Option<&urdf_rs::Material>,
     materials: &[urdf_rs::Material],

@@ -1,9 +1,9 @@
-//! The URDF reader's data made from elements that have been checked.
+//! The URDF reader's data structures, built from elements that have been checked.
 //!
-//! `urdf_rs` reads a text three times over, which takes most of a session's start. The
-//! elements are here already and the schema has judged their values, so that nothing
-//! remains but to sort them into its structures. What it knows beyond that, references
-//! such as `&amp;` and the rules of later versions of the format, stays with it.
+//! `urdf_rs` parses a text three times, which takes most of a session's start-up time. Here
+//! the elements are already parsed and their values checked by the schema, so they only
+//! need to be sorted into its structures. Texts that need more, such as references like
+//! `&amp;` or the rules of later versions of the format, are left to `urdf_rs`.
 
 use urdf_rs::{
     Axis, Calibration, Collision, Color, Dynamics, Geometry, Inertia, Inertial, Joint, JointLimit,
@@ -13,14 +13,14 @@ use urdf_rs::{
 
 use super::xml_elements::Element;
 
-/// Whether [`robot`] gives what `urdf_rs` would read from the text: version 1.0 of the
+/// Whether [`robot`] yields what `urdf_rs` would read from the text: version 1.0 of the
 /// format, without references.
 pub(super) fn is_plain(text: &str, elements: &[Element<'_>]) -> bool {
     let version = elements.first().and_then(|root| root.attribute("version"));
     version.is_none_or(|v| v.value == "1.0") && !text.contains('&')
 }
 
-/// The robot that the elements describe; the schema holds for them.
+/// The robot that the elements describe; they must satisfy the schema.
 pub(super) fn robot(elements: &[Element<'_>]) -> Robot {
     let root = Node { elements, index: 0 };
     Robot {
@@ -32,7 +32,7 @@ pub(super) fn robot(elements: &[Element<'_>]) -> Robot {
     }
 }
 
-/// An element among all.
+/// An element in the list of all elements.
 #[derive(Clone, Copy)]
 struct Node<'a> {
     elements: &'a [Element<'a>],
@@ -48,7 +48,7 @@ impl<'a> Node<'a> {
     fn contents(self) -> impl Iterator<Item = Node<'a>> {
         let elements = self.elements;
         let parent = Some(self.index);
-        // What an element contains follows it directly, in the order of the file.
+        // The contents of an element follow it directly, in the order of the file.
         (self.index + 1..elements.len())
             .take_while(move |&i| elements[i].parent >= parent)
             .filter(move |&i| elements[i].parent == parent)
@@ -79,7 +79,7 @@ impl<'a> Node<'a> {
         self.value(attribute)?.trim().parse().ok()
     }
 
-    /// A number that is 0 where the file says nothing.
+    /// A number that defaults to 0.
     fn number_or_zero(self, attribute: &str) -> f64 {
         self.number(attribute).unwrap_or_default()
     }
@@ -215,7 +215,7 @@ fn joint(node: Node<'_>) -> Joint {
                 upper: limit.number_or_zero("upper"),
                 effort: limit.number_or_zero("effort"),
                 velocity: limit.number_or_zero("velocity"),
-                // Version 1.0 knows none of the others.
+                // Version 1.0 has none of the others.
                 ..JointLimit::default()
             })
             .unwrap_or_default(),
@@ -249,7 +249,7 @@ mod tests {
     use crate::robot::xml_elements::elements;
     use crate::robot::{KITCHEN_URDF, PR2_URDF};
 
-    /// Everything that a URDF of version 1.0 can say to this program.
+    /// Everything in a URDF of version 1.0 that this program understands.
     const ALL: &str = r#"<?xml version="1.0"?>
         <!-- a comment with <link name="x"/> -->
         <robot name="r" version="1.0">

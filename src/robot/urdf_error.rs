@@ -1,4 +1,4 @@
-//! What can be wrong with a URDF, with its place and what would be right.
+//! What can be wrong with a URDF, where, and what would be right.
 
 use std::fmt;
 
@@ -8,9 +8,9 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{place}: {problem}")]
 pub(crate) struct UrdfError {
-    /// Where it is.
+    /// Where the problem is.
     pub(crate) place: Place,
-    /// What it is.
+    /// What the problem is.
     pub(crate) problem: Box<UrdfProblem>,
 }
 
@@ -19,7 +19,7 @@ pub(crate) struct UrdfError {
 pub(crate) struct Place {
     /// Name of the file as it was given.
     pub(crate) file: String,
-    /// Line and column, where they are known.
+    /// Line and column, if known.
     pub(crate) line_column: Option<(usize, usize)>,
 }
 
@@ -52,15 +52,15 @@ pub(crate) enum UrdfProblem {
     /// A comment, tag or attribute does not end.
     #[error("this {0} has no end; expected `{1}` before the end of the file")]
     Unterminated(&'static str, &'static str),
-    /// Something that is not an attribute stands in a tag.
+    /// A tag contains something that is not an attribute.
     #[error("expected an attribute such as name=\"…\" in <{element}>, found {found:?}")]
     NotAnAttribute {
         /// Name of the element.
         element: String,
-        /// What stands there.
+        /// The character found there.
         found: char,
     },
-    /// An attribute stands twice in a tag.
+    /// An attribute appears twice in a tag.
     #[error("<{element}> has {attribute} twice; keep one of them")]
     RepeatedAttribute {
         /// Name of the element.
@@ -68,7 +68,7 @@ pub(crate) enum UrdfProblem {
         /// The attribute.
         attribute: String,
     },
-    /// A closing tag closes another element than the one that is open.
+    /// A closing tag does not match the open element.
     #[error("</{found}> closes nothing; expected </{expected}>, which line {line} opens")]
     WrongClosingTag {
         /// Name in the closing tag.
@@ -78,13 +78,13 @@ pub(crate) enum UrdfProblem {
         /// Line on which that element starts.
         line: usize,
     },
-    /// A closing tag stands where no element is open.
+    /// A closing tag appears where no element is open.
     #[error("</{0}> closes nothing; there is no open element here")]
     StrayClosingTag(String),
     /// An element is never closed.
     #[error("<{0}> is never closed; add </{0}>")]
     Unclosed(String),
-    /// Elements within elements without end.
+    /// Elements are nested too deeply.
     #[error("<{0}> is nested more than {1} deep; a URDF needs five levels")]
     TooDeep(String, usize),
     /// The file's outermost element is not a robot.
@@ -110,7 +110,7 @@ pub(crate) enum UrdfProblem {
         /// What it could look like.
         example: &'static str,
     },
-    /// A child element that may stand only once stands twice.
+    /// A child element that may appear only once appears twice.
     #[error("<{element}> has a second <{child}>; keep one")]
     RepeatedChild {
         /// Name of the element.
@@ -158,7 +158,7 @@ pub(crate) enum UrdfProblem {
         /// The nearest known name.
         closest: Option<String>,
     },
-    /// A link hangs on two joints.
+    /// A link is the child of two joints.
     #[error("link \"{link}\" is the child of two joints, \"{first}\" and \"{second}\"; keep one")]
     TwoParents {
         /// The link.
@@ -181,7 +181,7 @@ pub(crate) enum UrdfProblem {
         /// Another root.
         second: String,
     },
-    /// There is no link at all.
+    /// There are no links.
     #[error("there is no link; a robot needs at least one <link name=\"…\"/>")]
     NoLinks,
     /// Limits whose lower end is above their upper end.
@@ -202,7 +202,7 @@ pub(crate) enum UrdfProblem {
     /// A joint that follows itself.
     #[error("joint \"{0}\" mimics itself, directly or through other joints")]
     MimicCycle(String),
-    /// Anything else that the URDF reader says.
+    /// Any other error of the URDF reader.
     #[error("{0}")]
     Other(String),
 }

@@ -1,10 +1,10 @@
-//! What a URDF may look like: which attributes and children each element needs and
-//! which values they may have. One table, checked before the file is read.
+//! What a URDF may contain: the attributes and children that each element needs, and
+//! the values they may have. Checked before the file is read.
 
 use super::urdf_error::UrdfProblem;
 use super::xml_elements::Element;
 
-/// What the value of an attribute may be.
+/// The kind of value that an attribute may have.
 #[derive(Clone, Copy)]
 enum Value {
     Text,
@@ -91,7 +91,7 @@ const ATTRIBUTES: &[(&str, &str, Value, Option<&str>)] = &[
     ("color", "rgba", Value::Color, Some("0.5 0.5 0.5 1")),
 ];
 
-/// Element, child that it needs, and an example of the child.
+/// Element, required child, and an example of the child.
 const CHILDREN: &[(&str, &str, &str)] = &[
     ("joint", "parent", "<parent link=\"…\"/>"),
     ("joint", "child", "<child link=\"…\"/>"),
@@ -113,7 +113,7 @@ const CHILDREN: &[(&str, &str, &str)] = &[
     ),
 ];
 
-/// Elements whose children may each stand only once.
+/// Elements whose children may each appear only once.
 const SINGLE_CHILDREN: &[&str] = &[
     "joint",
     "inertial",
@@ -130,7 +130,7 @@ fn is_single(element: &str, child: &str) -> bool {
 
 /// Finds the first element that breaks the rules: its byte offset and what is wrong.
 ///
-/// Only links, joints and materials are looked at; other elements of a robot, such as
+/// Only links, joints and materials are checked; other elements of a robot, such as
 /// `transmission` and `gazebo`, have no meaning here.
 pub(super) fn check(elements: &[Element<'_>]) -> Result<(), (usize, UrdfProblem)> {
     match elements.first() {
@@ -201,7 +201,7 @@ fn check_attributes(element: &Element<'_>) -> Result<(), (usize, UrdfProblem)> {
 
 fn check_children(elements: &[Element<'_>], i: usize) -> Result<(), (usize, UrdfProblem)> {
     let element = &elements[i];
-    // What an element contains follows it directly, in the order of the file.
+    // The contents of an element follow it directly, in the order of the file.
     let contents = || elements[i + 1..].iter().take_while(|e| e.parent >= Some(i));
     let children = || contents().filter(|e| e.parent == Some(i));
     let missing = |child: &'static str, example: &'static str| {

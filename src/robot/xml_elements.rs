@@ -1,4 +1,4 @@
-//! The elements of an XML text with their places.
+//! The elements of an XML text with their positions.
 //!
 //! The URDF reader says what a file means but not where; this scanner says where each
 //! element and attribute stands, and reports text that is not well-formed. It reads
@@ -21,7 +21,7 @@ pub(super) struct Element<'a> {
     /// Byte offset of its `<`.
     pub(crate) offset: usize,
     pub(crate) attributes: Vec<Attribute<'a>>,
-    /// Index of the element around it.
+    /// Index of the enclosing element.
     pub(crate) parent: Option<usize>,
 }
 
@@ -36,7 +36,7 @@ impl<'a> Element<'a> {
 const DEEPEST: usize = 64;
 
 /// All elements of `text` in the order of their start tags, or the byte offset of the
-/// first thing that is not well-formed and what it is.
+/// first thing that is not well-formed, and what is wrong there.
 pub(super) fn elements(text: &str) -> Result<Vec<Element<'_>>, (usize, UrdfProblem)> {
     Scanner {
         text,
@@ -87,11 +87,11 @@ impl<'a> Scanner<'a> {
     }
 
     fn rest(&self) -> &'a str {
-        // `at` only moves by lengths of what was found in the rest.
+        // `at` only advances by the lengths of matches in the rest.
         &self.text[self.at..]
     }
 
-    /// Moves behind the next `end`.
+    /// Moves past the next `end`.
     fn skip(&mut self, what: &'static str, end: &'static str) -> Result<(), (usize, UrdfProblem)> {
         match self.rest().find(end) {
             Some(i) => {
@@ -102,7 +102,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// Moves over the letters of a name.
+    /// Moves past the letters of a name.
     fn name(&mut self) -> &'a str {
         let rest = self.rest();
         let end = rest
