@@ -1,9 +1,9 @@
-//! Pairs of bodies that a motion expects to touch.
+//! Pairs of bodies that are expected to touch during a motion.
 
 use super::body_name::BodyName;
 
-/// Pairs that collision queries pass over, such as the fingers and the object to grasp, or
-/// an object and what it stands on.
+/// Pairs that collision queries ignore, such as the fingers and the object to grasp, or
+/// an object and the surface it stands on.
 ///
 /// An object that is attached to a gripper needs no entry for that gripper: the two are
 /// expected to touch.
@@ -37,7 +37,7 @@ impl AllowedPairs {
         self
     }
 
-    /// All pairs, as they were added.
+    /// All pairs, in the order in which they were added.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &(BodyName, BodyName)> {
         self.pairs.iter()
     }

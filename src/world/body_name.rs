@@ -1,4 +1,4 @@
-//! How bodies are called in reports.
+//! The names of bodies in reports.
 
 use std::fmt;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use crate::robot::LinkId;
 pub(crate) struct LinkName {
     /// The link in its tree.
     pub(crate) id: LinkId,
-    /// The name that the URDF gives to it.
+    /// Its name in the URDF.
     pub(crate) name: Arc<str>,
 }
 

@@ -1,14 +1,15 @@
-//! What touches what, for any configuration of the robot.
+//! Collision queries for any configuration of the robot.
 //!
-//! A query reads the world and changes nothing, and it does not look at where the robot
-//! is: the configuration to judge is handed in. Attached objects are carried along with the
-//! link that holds them. The pairs judged are robot or held object against furniture, floor
-//! and objects, and the robot against itself; furniture is never judged against furniture.
+//! A query reads the world without changing it, and does not depend on where the robot is:
+//! the configuration to check is passed in. Attached objects move with the link that holds
+//! them. The pairs checked are robot or held object against furniture, floor and objects,
+//! and the robot against itself; furniture is never checked against furniture.
 //!
-//! Castors never meet the floor, which they roll on, and links that are neighbours or
-//! always overlap are left out as the robot's description says. Queries may ask for a gap.
-//! Between parts of the robot no more than 5 mm are asked for, and between the floor and
-//! anything but arms and what they hold nothing: these gaps are as the robot was built.
+//! Castors are never checked against the floor, on which they roll. Links that are
+//! neighbours or always overlap are left out, as given by the robot's description. Queries
+//! may require a gap. Between parts of the robot at most 5 mm is required, and between the
+//! floor and anything but the arms and what they hold none: the robot's build determines
+//! these gaps.
 
 use std::ops::ControlFlow;
 
@@ -22,20 +23,20 @@ use super::robot_configuration::RobotConfiguration;
 use super::solid::from_parry_vector;
 use crate::spatial::Pose;
 
-/// Two bodies that are nearer to each other than a query allows.
+/// Two bodies that are closer together than a query allows.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CollisionHit {
     /// The robot's link, or the object that the robot holds.
     pub(crate) moving: BodyName,
     /// The other body.
     pub(crate) other: BodyName,
-    /// How far the two overlap (m); negative for a gap that is smaller than asked for.
+    /// How far the two overlap (m); negative for a gap smaller than required.
     pub(crate) depth: f64,
     /// A point of the overlap, or between the two, in the map frame (m).
     pub(crate) point: Point3<f64>,
 }
 
-/// The two bodies that are nearest to each other.
+/// The two bodies that are closest to each other.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Clearance {
     /// The robot's link, or the object that the robot holds.
@@ -46,9 +47,9 @@ pub(crate) struct Clearance {
     pub(crate) distance: f64,
 }
 
-/// Judges configurations of the robot in one state of the world.
+/// Checks configurations of the robot in one state of the world.
 ///
-/// Making one costs a few microseconds, a query about as much: keep it for a whole search.
+/// Creating one takes a few microseconds, as does a query: keep it for a whole search.
 pub(crate) struct CollisionChecker<'w> {
     surroundings: Surroundings<'w>,
     poses: Vec<Pose>,
@@ -64,9 +65,9 @@ impl<'w> CollisionChecker<'w> {
         }
     }
 
-    /// Whether nothing but allowed pairs is nearer than `margin` (m).
+    /// Whether no pairs but the allowed ones are closer than `margin` (m).
     ///
-    /// With a negative margin, overlaps of up to that depth pass.
+    /// With a negative margin, overlaps up to that depth are accepted.
     pub(crate) fn is_free(
         &mut self,
         robot: &RobotConfiguration,
@@ -93,8 +94,8 @@ impl<'w> CollisionChecker<'w> {
         free
     }
 
-    /// Some pair that is nearer than `margin` (m) and not allowed, the first one found in a
-    /// fixed order; `None` when there is none.
+    /// A pair that is closer than `margin` (m) and not allowed, the first one found in a
+    /// fixed order; `None` if there is none.
     pub(crate) fn first_hit(
         &mut self,
         robot: &RobotConfiguration,
@@ -121,7 +122,7 @@ impl<'w> CollisionChecker<'w> {
         found.and_then(|near| self.report(&near))
     }
 
-    /// Every pair of bodies that is nearer than `margin` (m) and not allowed, the deepest first.
+    /// Every pair of bodies that is closer than `margin` (m) and not allowed, the deepest first.
     pub(crate) fn all_hits(
         &mut self,
         robot: &RobotConfiguration,
@@ -146,8 +147,8 @@ impl<'w> CollisionChecker<'w> {
         found.iter().filter_map(|near| self.report(near)).collect()
     }
 
-    /// The pair with the smallest gap among those nearer than `reach` (m) and not allowed. Pairs
-    /// of the robot with itself do not count: how close those are is a matter of posture.
+    /// The pair with the smallest gap among those closer than `reach` (m) and not allowed. Pairs
+    /// of the robot's own links do not count: how close those are is a matter of posture.
     pub(crate) fn clearance(
         &mut self,
         robot: &RobotConfiguration,
@@ -162,7 +163,7 @@ impl<'w> CollisionChecker<'w> {
                 Wanted::HowMuchToOthers,
                 reach,
                 |near, margin| {
-                    // From here on, only what is nearer still matters.
+                    // From here on, only closer pairs matter.
                     *margin = near.separation.distance;
                     found = Some(near);
                     ControlFlow::Continue(())
@@ -277,7 +278,7 @@ mod tests {
         World::new(models, RobotConfiguration { base, joints })
     }
 
-    /// The smallest distance (m) between the robot and the furniture, by looking at all pairs.
+    /// The smallest distance (m) between the robot and the furniture, from all pairs.
     fn distance_by_brute_force(world: &World, robot: &RobotConfiguration) -> f64 {
         let models = world.models();
         let mut poses = Vec::new();

@@ -1,7 +1,7 @@
-//! The search behind collision queries: which primitives come near each other.
+//! The search behind collision queries: which primitives are close to each other.
 //!
-//! Bounds are compared first, from links down to primitives, and everything that moves is
-//! placed only when it is looked at: a robot that stands in a wall is found out by its base.
+//! Bounds are compared first, from links down to primitives, and moving parts are placed
+//! only when they are needed: for a robot that stands in a wall, the base is enough.
 
 use std::ops::ControlFlow;
 
@@ -16,11 +16,11 @@ use super::solid::{Solid, to_parry};
 use crate::robot::LinkId;
 use crate::spatial::Pose;
 
-/// Greatest gap (m) that is asked for between parts of the robot, which are made to pass each
-/// other closely.
+/// Largest gap (m) required between parts of the robot, which are built to pass each other
+/// closely.
 const SELF_MARGIN: f64 = 0.005;
 
-/// An object where it lies.
+/// A free object at its pose.
 pub(crate) struct ObjectAt<'w> {
     pub(crate) key: PartKey,
     pub(crate) name: &'w str,
@@ -42,7 +42,7 @@ pub(crate) struct HeldObject<'w> {
     pub(crate) at: Pose,
 }
 
-/// Everything that a robot may meet.
+/// Everything that a robot may collide with.
 pub(crate) struct Surroundings<'w> {
     pub(crate) models: &'w Models,
     pub(crate) furniture: &'w Obstacles,
@@ -50,25 +50,25 @@ pub(crate) struct Surroundings<'w> {
     pub(crate) held: Vec<HeldObject<'w>>,
 }
 
-/// One pair that is near.
+/// A pair closer than the margin.
 pub(crate) struct Near {
     pub(crate) moving: PartKey,
     pub(crate) other: PartKey,
     pub(crate) separation: Separation,
 }
 
-/// What a query wants to know of a pair.
+/// What a query wants to know about a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wanted {
-    /// Only that it is nearer than the margin; distance and point mean nothing then.
+    /// Only that it is closer than the margin; distance and point are meaningless then.
     Whether,
-    /// How near it is, and where.
+    /// The distance, and where.
     HowMuch,
-    /// As [`Wanted::HowMuch`], without the pairs of the robot with itself.
+    /// As [`Wanted::HowMuch`], without pairs of the robot's own links.
     HowMuchToOthers,
 }
 
-/// Memory that queries use again.
+/// Memory reused between queries.
 #[derive(Default)]
 pub(crate) struct Scratch {
     movers: Vec<Mover>,
@@ -81,7 +81,7 @@ struct Mover {
     pose: ParryPose,
     /// Bounds in the map frame (m).
     bounds: Aabb,
-    /// Where its solids begin in the scratch memory, once they were needed.
+    /// Index of its first solid in the scratch memory, once they have been placed.
     placed: Option<usize>,
 }
 
@@ -90,7 +90,7 @@ struct PlacedSolid {
     bounds: Aabb,
 }
 
-/// One query on its way.
+/// One running query.
 struct Search<'s, 'w, V> {
     around: &'s Surroundings<'w>,
     link_poses: &'s [Pose],
@@ -102,8 +102,8 @@ struct Search<'s, 'w, V> {
 }
 
 impl<'w> Surroundings<'w> {
-    /// Visits the pairs that are nearer than the margin (m) and not allowed, in a fixed order,
-    /// until told to stop. The visitor may lower the margin.
+    /// Visits the pairs that are closer than the margin (m) and not allowed, in a fixed order,
+    /// until the visitor stops. The visitor may lower the margin.
     pub(crate) fn search(
         &self,
         link_poses: &[Pose],
@@ -128,7 +128,7 @@ impl<'w> Surroundings<'w> {
         let _stopped = search.run();
     }
 
-    /// The solids of the mover at that place: first come the links, then the held objects.
+    /// The solids of the mover with that index: links come first, then held objects.
     fn solids(&self, mover: usize) -> &[Solid] {
         let links = &self.models.robot_geometry.solid_links;
         match links.get(mover) {
@@ -143,8 +143,8 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         let around = self.around;
         let links = &around.models.robot_geometry.solid_links;
         for (place, link) in links.iter().enumerate() {
-            // A pose for every link is the contract of the query; a link without one is taken
-            // to be at the origin.
+            // The caller must pass a pose for every link; a link without one is taken to be at
+            // the origin.
             let pose = self
                 .link_poses
                 .get(link.link.index())
@@ -191,7 +191,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         });
     }
 
-    /// Judges one mover against furniture, objects and floor.
+    /// Checks one mover against furniture, objects and floor.
     fn against_world(&mut self, place: usize) -> ControlFlow<()> {
         let around = self.around;
         let Some(mover) = self.scratch.movers.get(place) else {
@@ -238,7 +238,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         ControlFlow::Continue(())
     }
 
-    /// Judges two movers.
+    /// Checks two movers against each other.
     fn against_each_other(&mut self, a: usize, b: usize) -> ControlFlow<()> {
         let around = self.around;
         let movers = &self.scratch.movers;
@@ -263,7 +263,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         ControlFlow::Continue(())
     }
 
-    /// Judges the solids of a mover against one solid.
+    /// Checks the solids of a mover against one solid.
     fn solids_against(
         &mut self,
         place: usize,
@@ -301,10 +301,10 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         ControlFlow::Continue(())
     }
 
-    /// Places the solids of the mover unless that was done, and returns where they begin.
+    /// Places the solids of the mover if needed, and returns the index of the first.
     fn place_solids(&mut self, place: usize) -> usize {
         let Scratch { movers, solids } = &mut *self.scratch;
-        // Callers have looked the mover up before.
+        // Callers pass the index of an existing mover.
         let mover = &mut movers[place];
         *mover.placed.get_or_insert_with(|| {
             let first = solids.len();

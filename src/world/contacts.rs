@@ -1,4 +1,4 @@
-//! Who presses on whom, as the last physics step found out.
+//! Contact forces between bodies, as of the last physics step.
 
 use super::body_name::BodyName;
 use super::error::WorldError;
@@ -24,7 +24,7 @@ pub(crate) struct WeldError {
     pub(crate) distance: f64,
     /// Angle (rad) between the two orientations.
     pub(crate) angle: f64,
-    /// Force (N) that the hold exerts.
+    /// Force (N) that the weld exerts.
     pub(crate) force: f64,
 }
 
@@ -35,7 +35,7 @@ impl World {
         Ok(self.forces_on(body, |_| true))
     }
 
-    /// Sum of the forces (N) on the object by anything but the robot: its support and what it
+    /// Sum of the forces (N) on the object from anything but the robot: its support and what it
     /// bumps into.
     pub(crate) fn support_force(&self, name: &str) -> Result<f64, WorldError> {
         let mut sum = 0.0;
@@ -48,7 +48,7 @@ impl World {
         Ok(sum)
     }
 
-    /// What carries or stops the object, the robot excepted.
+    /// What carries or stops the object, except the robot.
     pub(crate) fn supports(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
         let mut forces = self.object_contacts(name)?;
         forces.retain(|f| f.body.robot_link().is_none());
@@ -74,7 +74,7 @@ impl World {
         })
     }
 
-    /// How far the held object lags behind its hold; `None` when nothing holds it.
+    /// How far the held object lags behind its grip; `None` if nothing holds it.
     pub(crate) fn weld_error(&self, name: &str) -> Result<Option<WeldError>, WorldError> {
         let object = self.object(name)?;
         let Some(attachment) = object.attachment else {

@@ -1,35 +1,35 @@
-//! Why the world refuses an order.
+//! Why the world rejects a change.
 
 use thiserror::Error;
 
-/// An order that cannot be carried out; nothing was changed.
+/// A change that cannot be made; the world is left as it was.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub(crate) enum WorldError {
-    /// There is no object of that name.
+    /// There is no object with that name.
     #[error("there is no object named {name}{}", suggestion(.closest))]
     UnknownObject {
-        /// The name that was asked for.
+        /// The requested name.
         name: String,
-        /// The name that comes nearest.
+        /// The most similar name.
         closest: Option<String>,
     },
-    /// There is no type of that name in the object library.
+    /// There is no type with that name in the object library.
     #[error("there is no object type {name}{}", suggestion(.closest))]
     UnknownType {
-        /// The type that was asked for.
+        /// The requested type.
         name: String,
-        /// The type that comes nearest.
+        /// The most similar type.
         closest: Option<String>,
     },
-    /// The kitchen has no joint of that name that can move.
+    /// The kitchen has no movable joint with that name.
     #[error("the kitchen has no moving joint {name}{}", suggestion(.closest))]
     UnknownKitchenJoint {
-        /// The joint that was asked for.
+        /// The requested joint.
         name: String,
-        /// The joint that comes nearest.
+        /// The most similar joint.
         closest: Option<String>,
     },
-    /// The object has no solid part, so that it cannot be put anywhere.
+    /// The object has no solid part, so it cannot be placed anywhere.
     #[error("an object of type {type_name} has no solid part")]
     NoSolid {
         /// Type of the object.
@@ -38,9 +38,9 @@ pub(crate) enum WorldError {
     /// A number is infinite or not a number, or a mass is not positive.
     #[error("{quantity} of {name} is {value}, which cannot be")]
     ImpossibleNumber {
-        /// What the number measures.
+        /// The quantity that the number gives.
         quantity: &'static str,
-        /// Whose number it is.
+        /// The thing that it belongs to.
         name: String,
         /// The number.
         value: f64,

@@ -17,14 +17,14 @@ use crate::spatial::Pose;
 /// The text of the built-in library, `world/grasps.sexp`.
 pub(crate) const GRASPS: &str = include_str!("../../world/grasps.sexp");
 
-/// How far the rows of a rotation may be from unit length and right angles; hand-written
-/// matrices such as those with 0.707 are within.
+/// How far the rows of a rotation may deviate from unit length and right angles; it allows
+/// for hand-written matrices with entries such as 0.707.
 const ROTATION_SLACK: f64 = 0.01;
 
 /// One way to grasp objects of one type with one arm; lengths in m, along the object's axes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct GraspDefinition {
-    /// Place of the hand in the object's frame.
+    /// Position of the hand in the object's frame.
     pub(crate) translation: [f64; 3],
     /// Orientation of the hand in the object's frame: the rows of the matrix as written.
     pub(crate) rotation: [[f64; 3]; 3],
@@ -38,14 +38,14 @@ pub(crate) struct GraspDefinition {
     pub(crate) second_lift: Lift,
 }
 
-/// How the hand leaves with what it has grasped. CRAM has had two ways to say it; both
-/// together add up.
+/// How the hand lifts what it has grasped. CRAM has had two notations for this; if both are
+/// given, they add up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lift {
-    /// Place of the hand relative to that of the grasp, along the object's axes (m). For an
-    /// object that lies on its side this does not lead upwards.
+    /// Position of the hand relative to that of the grasp, along the object's axes (m). For an
+    /// object that lies on its side this does not point upwards.
     pub(crate) offset: [f64; 3],
-    /// Then hand and object are moved by this in the frame of the robot's base, whatever
+    /// Further displacement of hand and object in the frame of the robot's base, whatever
     /// the orientation of the object.
     pub(crate) in_base: Pose,
 }
@@ -60,22 +60,22 @@ impl Lift {
     }
 }
 
-/// Where the robot's tool goes for a grasp, in the frame of the robot's base.
+/// Poses of the robot's tool for a grasp, in the frame of the robot's base.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ToolPoses {
-    /// The tool comes here first.
+    /// The tool approaches here first.
     pub(crate) pregrasp: Pose,
     /// Then here.
     pub(crate) second_pregrasp: Pose,
     /// Here the gripper closes.
     pub(crate) grasp: Pose,
-    /// The tool leaves to here.
+    /// The tool lifts to here.
     pub(crate) lift: Pose,
     /// Then to here.
     pub(crate) second_lift: Pose,
 }
 
-/// A matrix that is no rotation, by its rows.
+/// A matrix that is not a rotation, as rows.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error(
     "{0:?} is not a rotation: its rows must have length 1, be at right angles to each other \
@@ -84,16 +84,16 @@ pub(crate) struct ToolPoses {
 pub(crate) struct NotARotation(pub(crate) [[f64; 3]; 3]);
 
 impl GraspDefinition {
-    /// Orientation of the hand in the object's frame; small flaws of the matrix are evened out.
+    /// Orientation of the hand in the object's frame; small errors of the matrix are corrected.
     pub(crate) fn orientation(&self) -> Result<UnitQuaternion<f64>, NotARotation> {
         let matrix = Matrix3::from(self.rotation).transpose();
         let flaw = (matrix * matrix.transpose() - Matrix3::identity()).amax();
-        // Not a number is a flaw too.
+        // NaN counts as a flaw too.
         let sound = flaw <= ROTATION_SLACK && matrix.determinant() > 0.0;
         if !sound {
             return Err(NotARotation(self.rotation));
         }
-        // Squared up from the third column, the approach direction, on.
+        // Orthonormalised starting from the third column, the approach direction.
         let z = matrix.column(2).normalize();
         let x: Vector3<f64> = matrix.column(0) - z * z.dot(&matrix.column(0));
         let x = x.normalize();
@@ -125,7 +125,7 @@ impl GraspDefinition {
     }
 }
 
-/// How hard to grip and how wide to open before.
+/// How hard to grip, and how wide to open beforehand.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Grip {
     /// Effort (N).
@@ -134,7 +134,7 @@ pub(crate) struct Grip {
     pub(crate) opening: f64,
 }
 
-/// All that is known of grasping.
+/// The grasps, grips and named rotations.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct GraspLibrary {
     rotations: IndexMap<String, [[f64; 3]; 3]>,
@@ -146,7 +146,7 @@ pub(crate) struct GraspLibrary {
     grasps: IndexMap<(String, Side, String), GraspDefinition>,
 }
 
-/// Records that a library consists of, each with its keys.
+/// The records of a library, each with its keys.
 const RECORDS: &[(&str, &[&str])] = &[
     ("rotation", &[]),
     ("default-grip", &["effort", "opening"]),
@@ -168,7 +168,7 @@ const RECORDS: &[(&str, &[&str])] = &[
 ];
 
 impl GraspLibrary {
-    /// Reads a library; `file_name` is only used in errors.
+    /// Reads a library; `file_name` is used only in errors.
     pub(crate) fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
         let file = DataFile::read(text, file_name)?;
         let mut default_grip = None;
@@ -207,12 +207,12 @@ impl GraspLibrary {
         Ok(library)
     }
 
-    /// The grasps of a type in the order in which they are tried; none for an unknown type.
+    /// The grasps of a type in the order in which they are tried; empty for an unknown type.
     pub(crate) fn grasps(&self, object_type: &str) -> &[String] {
         self.order.get(object_type).map_or(&[], Vec::as_slice)
     }
 
-    /// The grasp of that name for objects of that type with that arm.
+    /// The grasp with that name for objects of that type with that arm.
     pub(crate) fn get(
         &self,
         object_type: &str,
@@ -229,13 +229,13 @@ impl GraspLibrary {
         grip.unwrap_or(self.default_grip)
     }
 
-    /// The rows of the rotation of that name.
+    /// The rows of the rotation with that name.
     pub(crate) fn rotation(&self, name: &str) -> Option<[[f64; 3]; 3]> {
         self.rotations.get(name).copied()
     }
 
-    /// Adds a grasp, or overrides the one that the type has under that name for that arm. A
-    /// new name comes last in the order in which grasps are tried.
+    /// Adds a grasp, or replaces the one that the type has under that name for that arm. A
+    /// new name is tried last.
     pub(crate) fn define(
         &mut self,
         object_type: &str,
@@ -353,7 +353,7 @@ mod tests {
         }
     }
 
-    /// A gripper frame whose z axis is the tool's x axis, as that of the PR2.
+    /// A gripper frame whose z axis is the tool's x axis, like the PR2's.
     fn tool_axes() -> UnitQuaternion<f64> {
         let turn = definition([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]);
         turn.orientation().expect("a rotation")
@@ -404,7 +404,7 @@ mod tests {
         assert_eq!(place(&poses.grasp), [1.0, 1.98, 3.005]);
         assert_eq!(place(&poses.lift), [1.0, 1.98, 3.155]);
         assert_eq!(place(&poses.second_lift), [1.0, 1.98, 3.155]);
-        // The tool looks along -y, its z axis up.
+        // The tool points along -y, with its z axis up.
         let axes = [Vector3::x(), Vector3::z()].map(|axis| poses.grasp.rotation * axis);
         assert!((axes[0] + Vector3::y()).norm() < 1e-12);
         assert!((axes[1] - Vector3::z()).norm() < 1e-12);
@@ -462,7 +462,7 @@ mod tests {
     #[test]
     fn a_new_grasp_is_tried_last_and_an_old_one_is_overridden() {
         let mut library = library();
-        // The tutorial's diagonal grasp, whose matrix is right to four digits only.
+        // The tutorial's diagonal grasp, whose matrix is accurate to four digits only.
         let s = 7071.0 / 10_000.0;
         let diagonal = definition([[s, 0.0, -s], [-s, 0.0, -s], [0.0, 1.0, 0.0]]);
         for _ in 0..2 {

@@ -18,7 +18,7 @@ impl Hasher {
         }
     }
 
-    /// Feeds text and its end.
+    /// Feeds text and an end marker.
     pub(crate) fn text(&mut self, text: &str) {
         self.bytes(text.as_bytes());
         self.bytes(&[0xff]);
@@ -42,7 +42,7 @@ impl Hasher {
         }
     }
 
-    /// The hash of what was fed.
+    /// The hash of everything fed so far.
     pub(crate) fn finish(self) -> u64 {
         self.0
     }

@@ -6,16 +6,16 @@ use super::scene::World;
 use crate::robot::LinkId;
 
 impl World {
-    /// Welds the object softly to the robot's link, where it is now. An object that was
-    /// attached elsewhere is let go there.
+    /// Welds the object softly to the robot's link at its current pose. An object that was
+    /// attached elsewhere is detached first.
     pub(crate) fn attach(&mut self, name: &str, link: LinkId) -> Result<(), WorldError> {
         self.detach(name)?;
         let body = self.object(name)?.body;
         let Some((carrier, root)) = self.body_of_link(link) else {
-            // A link of another tree has no body here, hence nothing to hold with.
+            // A link of another tree has no body here that could hold anything.
             return Ok(());
         };
-        // The engine's poses, since the robot may be set to move on in the next step.
+        // The engine's poses, since the robot may already be set to move in the next step.
         let grip = self.physics.pose(carrier).inverse() * self.physics.pose(body);
         let weld = self.physics.weld(carrier, &grip, body);
         let at = self.link_pose(link).inverse() * self.link_pose(root) * grip;

@@ -22,7 +22,7 @@ impl World {
     }
 
     /// Makes a drawer or door move to the position (rad or m) during the next step, taking
-    /// along what is in it. The position is brought into the joint's limits and returned.
+    /// along what is in it. The position is clamped to the joint's limits and returned.
     #[cfg(test)]
     pub(crate) fn set_kitchen_joint(
         &mut self,
@@ -35,7 +35,7 @@ impl World {
     }
 
     /// Puts a drawer or door at the position (rad or m) at once; what is in it stays behind.
-    /// The position is brought into the joint's limits and returned.
+    /// The position is clamped to the joint's limits and returned.
     pub(crate) fn teleport_kitchen_joint(
         &mut self,
         name: &str,

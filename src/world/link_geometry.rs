@@ -1,6 +1,6 @@
 //! The solids of a tree's links, prepared for physics and for collision queries.
 //!
-//! Made once per tree; nothing here depends on where joints stand.
+//! Built once per tree; nothing here depends on joint positions.
 
 use std::sync::Arc;
 
@@ -20,14 +20,14 @@ pub(crate) struct LinkSolids {
     pub(crate) bounds: Aabb,
 }
 
-/// Links that never move against each other, hence one body of the physics engine.
+/// Links that never move relative to each other, hence one body of the physics engine.
 pub(crate) struct RigidGroup {
     /// The link whose frame is the body's frame.
     pub(crate) root: LinkId,
-    /// All links of the group that have solids, as places in [`TreeGeometry::solid_links`],
-    /// with the pose of each in the root's frame.
+    /// All links of the group that have solids, as indices into
+    /// [`TreeGeometry::solid_links`], with the pose of each in the root's frame.
     pub(crate) members: Vec<(usize, crate::spatial::Pose)>,
-    /// Whether the body's frame can move against the root of the tree.
+    /// Whether the body's frame can move relative to the root of the tree.
     pub(crate) moves: bool,
 }
 
@@ -37,15 +37,15 @@ pub(crate) struct TreeGeometry {
     pub(crate) names: Vec<LinkName>,
     /// The links that have solids, in the order of the tree.
     pub(crate) solid_links: Vec<LinkSolids>,
-    /// For each link at [`LinkId::index`]: the group that it belongs to.
+    /// The group of each link, at [`LinkId::index`].
     pub(crate) group_of: Vec<usize>,
-    /// The groups; those without solids are kept so that things can be welded to them.
+    /// The groups, including those without solids, so that things can be welded to them.
     pub(crate) groups: Vec<RigidGroup>,
 }
 
 impl TreeGeometry {
-    /// Prepares the tree. `is_idle` tells joints that can move but never do, such as those of
-    /// castors: they count as fixed.
+    /// Prepares the tree. `is_idle` selects joints that could move but never do, such as those
+    /// of castors: they count as fixed.
     pub(crate) fn new(tree: &KinematicTree, is_idle: impl Fn(JointId) -> bool) -> Self {
         let zero = tree.zero_positions();
         let names: Vec<_> = tree
@@ -109,7 +109,7 @@ impl TreeGeometry {
         }
     }
 
-    /// The name of the link at that place of the tree.
+    /// The name of the link with that index in the tree.
     pub(crate) fn name(&self, index: u32) -> Option<&LinkName> {
         self.names.get(usize::try_from(index).ok()?)
     }

@@ -1,10 +1,10 @@
 //! The physical world: kitchen, robot, objects, and how they touch and move each other.
 //!
-//! A [`World`] is built from [`Models`], which never change. Time passes in [`World::step`]
-//! only. Whether a configuration of the robot is possible is asked of a
-//! [`CollisionChecker`], which changes nothing. The physics engine is known to
-//! [`physics`] alone; every pose here is a [`Pose`](crate::spatial::Pose) in the map frame
-//! unless its name says otherwise. Nothing here knows of motions or of the plan language.
+//! A [`World`] is built from [`Models`], which never change. Time passes only in
+//! [`World::step`]. A [`CollisionChecker`] tells whether a configuration of the robot is
+//! possible, and changes nothing. Only [`physics`] uses the physics engine; every pose here
+//! is a [`Pose`](crate::spatial::Pose) in the map frame unless its name says otherwise.
+//! Nothing here knows of motions or of the plan language.
 
 pub(crate) mod allowed_pairs;
 pub(crate) mod body_name;

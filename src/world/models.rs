@@ -1,5 +1,5 @@
-//! Everything about a world that never changes: the trees of robot and kitchen and what
-//! the robot's links are for and the kinds of objects, with the geometry prepared for queries.
+//! Everything about a world that never changes: the trees of robot and kitchen, the robot's
+//! description and the kinds of objects, with the geometry prepared for queries.
 
 use super::body_name::BodyName;
 use super::link_geometry::TreeGeometry;
@@ -17,7 +17,7 @@ use thiserror::Error;
 pub(crate) struct Models {
     /// The robot's body.
     pub(crate) robot: KinematicTree,
-    /// What the robot's links and joints are for.
+    /// The roles of the robot's links and joints.
     pub(crate) description: RobotDescription,
     /// The furniture.
     pub(crate) kitchen: KinematicTree,
@@ -25,38 +25,38 @@ pub(crate) struct Models {
     pub(crate) objects: ObjectLibrary,
     pub(crate) robot_geometry: TreeGeometry,
     pub(crate) kitchen_geometry: TreeGeometry,
-    /// Pairs of places in the robot's solid links that must not touch.
+    /// Pairs of indices into the robot's solid links that must not touch.
     pub(crate) self_pairs: Vec<(usize, usize)>,
-    /// For each link of the robot: the hand that it belongs to.
+    /// The hand that each link of the robot belongs to, if any.
     hand_of: Vec<Option<Side>>,
-    /// For each link of the robot: how it stands to the floor.
+    /// The relation of each link of the robot to the floor.
     footing: Vec<Footing>,
 }
 
-/// How a link stands to the floor.
+/// The relation of a link to the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Footing {
     /// It rolls on the floor.
     Rolls,
-    /// It is carried over the floor at its own height.
+    /// It moves over the floor at its own height.
     Rides,
     /// It may reach for the floor.
     Reaches,
 }
 
-/// A file about the world that cannot be read.
+/// An error in a file that describes the world.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub(crate) enum ModelsError {
-    /// It is a tree of links and joints.
+    /// In a URDF.
     #[error(transparent)]
     Urdf(#[from] UrdfError),
-    /// It is data of our own format.
+    /// In a file of s-expressions.
     #[error(transparent)]
     Data(#[from] DataError),
 }
 
 impl Models {
-    /// The PR2 in the kitchen, which are built in.
+    /// The built-in PR2 in the built-in kitchen.
     pub(crate) fn pr2_in_kitchen() -> Result<Self, ModelsError> {
         let robot = KinematicTree::from_urdf(PR2_URDF, "pr2.urdf")?;
         let description = RobotDescription::from_sexp(PR2_DESCRIPTION, "pr2.sexp", &robot)?;
@@ -65,7 +65,7 @@ impl Models {
         Ok(Self::new(robot, description, kitchen, objects))
     }
 
-    /// Prepares the models; the description must be one of that robot.
+    /// Prepares the models; the description must belong to that robot.
     pub(crate) fn new(
         robot: KinematicTree,
         description: RobotDescription,
@@ -141,7 +141,7 @@ impl Models {
         }
     }
 
-    /// How the part stands to the floor; held objects may reach for it.
+    /// The relation of the part to the floor; held objects may reach for it.
     pub(crate) fn footing(&self, key: PartKey) -> Footing {
         let PartKey::Robot(i) = key else {
             return Footing::Reaches;
@@ -151,7 +151,7 @@ impl Models {
     }
 }
 
-/// Whether two links of the robot are never judged against each other.
+/// Whether two links of the robot are never checked against each other.
 fn may_touch(description: &RobotDescription, a: LinkId, b: LinkId) -> bool {
     let rolls = |link| description.wheels.contains(&link);
     let together = |group: &Vec<LinkId>| group.contains(&a) && group.contains(&b);

@@ -1,4 +1,4 @@
-//! A thing that can be carried about.
+//! Movable objects.
 
 use std::sync::Arc;
 
@@ -10,12 +10,12 @@ use super::solid::Solid;
 use crate::robot::LinkId;
 use crate::spatial::{PlacedShape, Pose};
 
-/// A hold of an object by a link.
+/// The attachment of an object to a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Attachment {
     /// The link that carries the object.
     pub(crate) link: LinkId,
-    /// Pose of the object in the link's frame when the hold was made.
+    /// Pose of the object in the link's frame when it was attached.
     pub(crate) at: Pose,
     pub(crate) weld: WeldHandle,
 }
@@ -50,12 +50,12 @@ impl Object {
         self.color
     }
 
-    /// Its shapes in its own frame.
+    /// Shapes, in the object's own frame.
     pub(crate) fn shapes(&self) -> &[PlacedShape] {
         &self.shapes
     }
 
-    /// The hold on it, if a link carries it.
+    /// The attachment, if a link carries the object.
     pub(crate) fn attachment(&self) -> Option<&Attachment> {
         self.attachment.as_ref()
     }

@@ -1,5 +1,5 @@
-//! The kinds of objects that can be spawned: their shapes, masses, colours, and which type
-//! is a kind of which other.
+//! The kinds of objects that can be spawned: their shapes, masses and colours, and the
+//! hierarchy of types.
 //!
 //! Names are lower-case and without a colon: `bottle`. The built-in library is
 //! `world/objects.sexp`.
@@ -31,13 +31,13 @@ pub(crate) struct ObjectType {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ObjectLibrary {
     objects: IndexMap<String, ObjectType>,
-    /// Names of the listed types, in their order.
+    /// Names of the listed types, in order.
     available: Vec<String>,
-    /// The type that each type is a kind of.
+    /// The supertype of each type.
     kind_of: IndexMap<String, String>,
 }
 
-/// Records that a library consists of, each with its keys.
+/// The records of a library, each with its keys.
 const RECORDS: &[(&str, &[&str])] = &[
     ("available", &[]),
     ("kinds", &[]),
@@ -45,7 +45,7 @@ const RECORDS: &[(&str, &[&str])] = &[
 ];
 
 impl ObjectLibrary {
-    /// Reads a library; `file_name` is only used in errors.
+    /// Reads a library; `file_name` is used only in errors.
     pub(crate) fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
         let file = DataFile::read(text, file_name)?;
         let mut library = Self {
@@ -77,29 +77,29 @@ impl ObjectLibrary {
         Ok(library)
     }
 
-    /// The types that are listed to the user, in their order.
+    /// The types that are listed to the user, in order.
     pub(crate) fn types(&self) -> impl ExactSizeIterator<Item = &ObjectType> {
         // The reader has checked that every listed name is an object.
         self.available.iter().map(|name| &self.objects[name])
     }
 
-    /// The type of that name, listed or not.
+    /// The type with that name, listed or not.
     pub(crate) fn get(&self, name: &str) -> Option<&ObjectType> {
         self.objects.get(name)
     }
 
-    /// The name that is nearest to a mistyped one.
+    /// The name most similar to a mistyped one.
     pub(crate) fn closest_name(&self, wanted: &str) -> Option<&str> {
         closest_name(wanted, self.objects.keys().map(String::as_str))
     }
 
-    /// The type itself, then the type that it is a kind of, and so on.
+    /// The type itself, then its supertype, and so on.
     pub(crate) fn lineage<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a str> {
         let parent = |name: &&'a str| self.kind_of.get(*name).map(String::as_str);
         std::iter::successors(Some(name), parent)
     }
 
-    /// Whether the type is `other` or a kind of it.
+    /// Whether the type is `other` or a subtype of it.
     pub(crate) fn is_kind_of(&self, name: &str, other: &str) -> bool {
         self.lineage(name).any(|n| n == other)
     }

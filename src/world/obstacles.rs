@@ -1,4 +1,4 @@
-//! The furniture where it stands, ready to be bumped into.
+//! The furniture placed in the map frame, for collision queries.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::part_key::{PartKey, index};
 use super::solid::{Solid, to_parry};
 use crate::spatial::Pose;
 
-/// A piece of furniture, placed in the map frame.
+/// A solid of the furniture, placed in the map frame.
 pub(crate) struct Obstacle {
     pub(crate) key: PartKey,
     pub(crate) solid: Solid,
@@ -27,7 +27,7 @@ pub(crate) struct Obstacles {
 }
 
 impl Obstacles {
-    /// The furniture for the poses of its links.
+    /// The furniture with its links at the poses.
     pub(crate) fn new(geometry: &TreeGeometry, poses: &[Pose]) -> Self {
         let mut all = Vec::new();
         let mut links = Vec::new();
@@ -56,12 +56,12 @@ impl Obstacles {
         &self.all
     }
 
-    /// The solids whose bounds meet the given ones (m).
+    /// The solids whose bounds intersect the given ones (m).
     pub(crate) fn near<'a>(&'a self, bounds: &'a Aabb) -> impl Iterator<Item = &'a Obstacle> {
         self.links
             .iter()
             .filter(|(link, _)| link.intersects(bounds))
-            // The ranges were taken from this very list.
+            // The ranges index this list.
             .flat_map(|(_, range)| &self.all[range.clone()])
             .filter(|obstacle| obstacle.bounds.intersects(bounds))
     }

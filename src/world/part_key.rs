@@ -1,22 +1,22 @@
-//! Which body a primitive belongs to, small enough to be carried by every primitive.
+//! The body that a primitive belongs to, small enough to be stored with every primitive.
 
 use crate::robot::LinkId;
 
-/// The owner of a primitive. Links are counted as in their tree.
+/// The owner of a primitive. Links are numbered as in their tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum PartKey {
     /// The floor.
     Floor,
-    /// A link of the kitchen, by its place in the tree.
+    /// A link of the kitchen, by its index in the tree.
     Furniture(u32),
-    /// A link of the robot, by its place in the tree.
+    /// A link of the robot, by its index in the tree.
     Robot(u32),
-    /// An object, by the number that it got when it appeared. Numbers are not used twice.
+    /// An object, by the number assigned when it was spawned. Numbers are never reused.
     Object(u32),
 }
 
 impl PartKey {
-    /// The key as one number, and back by [`PartKey::from_code`].
+    /// The key as one number; [`PartKey::from_code`] is the inverse.
     pub(crate) fn code(self) -> u64 {
         let (kind, index) = match self {
             Self::Floor => (0, 0),
@@ -27,7 +27,7 @@ impl PartKey {
         (kind << 32) | u64::from(index)
     }
 
-    /// The key of the number; numbers that no key has count as the floor.
+    /// The key with that number; numbers that belong to no key count as the floor.
     pub(crate) fn from_code(code: u64) -> Self {
         // The low half is the index by construction.
         let index = (code & u64::from(u32::MAX)) as u32;
@@ -40,9 +40,9 @@ impl PartKey {
     }
 }
 
-/// The link's place in its tree as keys count it.
+/// The link's index in its tree, as used in keys.
 pub(crate) fn index(link: LinkId) -> u32 {
-    // A tree of four milliard links does not fit into memory.
+    // A tree of four billion links does not fit into memory.
     u32::try_from(link.index()).unwrap_or(u32::MAX)
 }
 

@@ -1,4 +1,4 @@
-//! The check on the world as it really is: no link may stick in anything.
+//! The check of the actual world: no link may penetrate anything.
 
 use super::allowed_pairs::AllowedPairs;
 use super::collision::{CollisionChecker, CollisionHit};
@@ -7,8 +7,8 @@ use super::scene::World;
 
 impl World {
     /// The deepest overlap, deeper than `tolerance` (m), of the robot or of an object in its
-    /// hand with anything, where they are now. Allowed pairs and a hand with what it holds do
-    /// not count.
+    /// hand with anything, at their current poses. Allowed pairs, and a hand with what it
+    /// holds, do not count.
     pub(crate) fn deepest_penetration(
         &self,
         allowed: &AllowedPairs,
@@ -19,7 +19,7 @@ impl World {
         for object in self.objects() {
             let lying = self.object_at(object);
             match object.attachment() {
-                // Where the object is, not where its hold wants it to be.
+                // Where the object is, not where its weld pulls it.
                 Some(hold) => held.push(HeldObject {
                     key: lying.key,
                     name: lying.name,

@@ -1,19 +1,19 @@
-//! The rigid-body engine behind a small door: bodies, welds, contact forces, steps,
+//! A narrow interface to the rigid-body engine: bodies, welds, contact forces, steps,
 //! snapshots.
 //!
-//! This is the only file that names rapier. Poses that cross its border are nalgebra,
-//! forces are newtons. It knows bodies and the keys of their parts, but neither names nor
+//! This is the only file that names rapier. Poses that cross its boundary are nalgebra's,
+//! forces are in newtons. It knows bodies and the keys of their parts, but neither names nor
 //! what a robot is.
 //!
-//! Held true here:
-//! - The settings are those that were measured to hold and place objects exactly (see
-//!   [`Physics::new`]); contact recycling in particular stays off, because it keeps stale
-//!   contact points of things as small as a bottle.
+//! Invariants:
+//! - The settings are those with which objects were measured to be held and placed exactly
+//!   (see [`Physics::new`]); contact recycling in particular stays off, because it keeps
+//!   stale contact points of things as small as a bottle.
 //! - The engine runs on one thread with portable floating point: the same calls give the
 //!   same bits.
-//! - A snapshot holds every set of the engine. Poses and velocities alone are not enough to
+//! - A snapshot holds all sets of the engine. Poses and velocities alone are not enough to
 //!   continue with the same bits, since warm-start impulses and sleep belong to the state.
-//! - Reading changes nothing. In particular no collision detection is run outside of a step.
+//! - Reading changes nothing. In particular no collision detection runs outside a step.
 
 use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{
@@ -38,21 +38,21 @@ pub(crate) const STEP_SECONDS: f64 = 1.0 / 240.0;
 /// Acceleration of free fall (m/s²), towards -z.
 pub(crate) const GRAVITY: f64 = 9.81;
 
-/// Parts into which the solver divides a step.
+/// Number of parts into which the solver divides a step.
 const SOLVER_ITERATIONS: usize = 4;
 
 /// Friction of furniture, objects and the robot's body.
 const FRICTION: f64 = 0.6;
 
-/// Friction of what is made to grip; the larger of two coefficients counts there.
+/// Friction of gripping surfaces; there the larger of the two coefficients counts.
 const GRIP_FRICTION: f64 = 1.0;
 
-/// Natural frequency (Hz) and damping ratio of a weld: soft enough that a wall wins, stiff
+/// Natural frequency (Hz) and damping ratio of a weld: soft enough to yield to a wall, stiff
 /// enough that gravity bends it by less than 1 mm.
 const WELD_FREQUENCY: f64 = 30.0;
 const WELD_DAMPING: f64 = 1.0;
 
-/// Stands in for rolling friction, which the engine lacks (1/s).
+/// Angular damping (1/s) that stands in for rolling friction, which the engine lacks.
 const ANGULAR_DAMPING: f64 = 1.0;
 
 const FURNITURE: Group = Group::GROUP_1;
@@ -67,7 +67,7 @@ pub(crate) struct BodyHandle(RigidBodyHandle);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct WeldHandle(ImpulseJointHandle);
 
-/// What a body is to the others.
+/// The role of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum BodyKind {
     /// Furniture that never moves.
@@ -94,14 +94,14 @@ pub(crate) struct RawContact {
     pub(crate) force: f64,
 }
 
-/// The engine with everything that is in it.
+/// The engine with everything in it.
 pub(crate) struct Physics {
     sets: Sets,
     parameters: IntegrationParameters,
     pipeline: PhysicsPipeline,
 }
 
-/// The state of the engine. Shapes are shared, so that a clone costs some 25 µs.
+/// The state of the engine. Shapes are shared, so a clone takes about 25 µs.
 #[derive(Clone)]
 pub(crate) struct Sets {
     bodies: RigidBodySet,
@@ -126,7 +126,7 @@ impl Clone for Physics {
 }
 
 impl Physics {
-    /// An empty space with gravity along -z.
+    /// Empty space with gravity along -z.
     pub(crate) fn new() -> Self {
         let parameters = IntegrationParameters {
             dt: STEP_SECONDS,
@@ -162,7 +162,7 @@ impl Physics {
         self.sets.colliders.insert(floor);
     }
 
-    /// Adds a body of the solids, each with the key of its part and whether it is made to grip.
+    /// Adds a body made of the solids, each with the key of its part and whether it grips.
     ///
     /// The mass of an object is spread over its solids by volume.
     pub(crate) fn add_body(
@@ -202,7 +202,7 @@ impl Physics {
         BodyHandle(handle)
     }
 
-    /// Removes the body with its welds; what rested on it wakes up.
+    /// Removes the body and its welds; what rested on it wakes up.
     pub(crate) fn remove_body(&mut self, body: BodyHandle) {
         let s = &mut self.sets;
         s.bodies.remove(
@@ -216,7 +216,7 @@ impl Physics {
         );
     }
 
-    /// Pose of the body, identity for one that was removed.
+    /// Pose of the body; identity for a removed one.
     pub(crate) fn pose(&self, body: BodyHandle) -> Pose {
         self.sets
             .bodies
@@ -234,7 +234,7 @@ impl Physics {
             })
     }
 
-    /// Puts the body somewhere else, at rest. An edit of the world, not a motion.
+    /// Puts the body at the pose, at rest. An edit of the world, not a motion.
     pub(crate) fn place(&mut self, body: BodyHandle, pose: &Pose) {
         if let Some(b) = self.sets.bodies.get_mut(body.0) {
             b.set_position(to_parry(pose), true);
@@ -245,12 +245,12 @@ impl Physics {
         }
     }
 
-    /// Lets a kinematic body move to the pose during the next step.
+    /// Makes a kinematic body move to the pose during the next step.
     pub(crate) fn move_to(&mut self, body: BodyHandle, pose: &Pose) {
         if let Some(b) = self.sets.bodies.get_mut(body.0) {
             let mut next = to_parry(pose);
-            // Of the two quaternions of an orientation the other one would be a full turn
-            // within one step to the engine, which throws what the body carries.
+            // An orientation has two quaternions. To the engine, the wrong one would be a full
+            // turn within one step, which would throw off what the body carries.
             if next.rotation.dot(*b.rotation()) < 0.0 {
                 next.rotation = -next.rotation;
             }
@@ -258,7 +258,7 @@ impl Physics {
         }
     }
 
-    /// Wakes the body up.
+    /// Wakes the body.
     pub(crate) fn wake(&mut self, body: BodyHandle) {
         self.sets
             .islands
@@ -273,8 +273,8 @@ impl Physics {
         }
     }
 
-    /// Welds `carried` softly to `carrier` so that its origin stays at `at` in the carrier's
-    /// frame. The two no longer collide with each other.
+    /// Welds `carried` softly to `carrier` at pose `at` in the carrier's frame. The two no
+    /// longer collide with each other.
     pub(crate) fn weld(
         &mut self,
         carrier: BodyHandle,
@@ -301,7 +301,7 @@ impl Physics {
     pub(crate) fn weld_force(&self, weld: WeldHandle) -> f64 {
         self.sets.impulse_joints.get(weld.0).map_or(0.0, |joint| {
             let [x, y, z, ..] = joint.impulses;
-            // Impulses of joints are those of the last of the solver's equal parts of a step.
+            // A joint's impulse covers only the last of the equal parts of a step.
             (x * x + y * y + z * z).sqrt() * SOLVER_ITERATIONS as f64 / STEP_SECONDS
         })
     }
@@ -322,7 +322,7 @@ impl Physics {
     }
 
     fn raw_contact(&self, own: ColliderHandle, pair: &ContactPair) -> Option<RawContact> {
-        // Pairs exist from 2 cm of distance on; only an active one touches.
+        // Pairs exist from a distance of 2 cm; only active ones touch.
         if !pair.has_any_active_contact() {
             return None;
         }
@@ -368,8 +368,8 @@ impl Physics {
         self.sets.clone()
     }
 
-    /// Goes back to the state. What the pipeline remembers of its last step belongs to the
-    /// state that is left.
+    /// Restores the state. What the pipeline remembers of its last step belongs to the state
+    /// being left.
     pub(crate) fn load(&mut self, sets: &Sets) {
         self.sets.clone_from(sets);
         self.pipeline = PhysicsPipeline::new();
@@ -391,8 +391,8 @@ impl Physics {
 
 /// Sum of the normal impulses (N s) of the last step.
 ///
-/// The engine's own sum counts every point of a manifold; points that the solver did not
-/// use keep the impulse of an earlier step, which would make a bottle of 2 N weigh 3 N.
+/// The engine's own sum includes every point of a manifold, but points that the solver did
+/// not use keep the impulse of an earlier step; a bottle of 2 N would weigh 3 N.
 fn normal_impulse(pair: &ContactPair) -> f64 {
     let mut sum = 0.0;
     for manifold in pair.solver_manifolds() {
@@ -407,8 +407,8 @@ fn normal_impulse(pair: &ContactPair) -> f64 {
     sum
 }
 
-/// Furniture never meets furniture, and the robot meets only objects: where a kinematic
-/// body goes is checked by geometry before and during a motion.
+/// Furniture never collides with furniture, and the robot only with objects: where a
+/// kinematic body goes is checked geometrically before and during a motion.
 fn groups(kind: BodyKind) -> InteractionGroups {
     let (own, others) = match kind {
         BodyKind::Static | BodyKind::MovingFurniture => (FURNITURE, OBJECT),

@@ -1,4 +1,4 @@
-//! Where a robot stands and how its joints are set.
+//! The configuration of a robot: base pose and joint positions.
 
 use crate::robot::JointPositions;
 use crate::spatial::Pose;

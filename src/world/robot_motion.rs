@@ -1,4 +1,4 @@
-//! Where the robot is in the world, and how it gets elsewhere.
+//! The robot's configuration in the world, and how it changes.
 
 use super::robot_configuration::RobotConfiguration;
 use super::scene::{World, pose_of};
@@ -6,13 +6,13 @@ use crate::robot::LinkId;
 use crate::spatial::Pose;
 
 impl World {
-    /// Where the robot stands and how its joints are set.
+    /// The current base pose and joint positions.
     pub(crate) fn robot_configuration(&self) -> &RobotConfiguration {
         &self.state.robot
     }
 
     /// Makes the robot move to the configuration during the next step. Meant for one tick of
-    /// a smooth motion: the way there is not checked.
+    /// a smooth motion: the path there is not checked.
     pub(crate) fn set_robot_configuration(&mut self, configuration: &RobotConfiguration) {
         if self.state.robot != *configuration {
             self.place_robot_links(configuration);

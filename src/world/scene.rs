@@ -1,10 +1,10 @@
 //! The world: robot, kitchen, objects, and the time that has passed.
 //!
-//! Held true here:
-//! - Time passes in [`World::step`] only, and there by exactly one physics step.
+//! Invariants:
+//! - Time passes only in [`World::step`], by exactly one physics step.
 //! - The robot and the kitchen follow their joint vectors exactly. `set_…` makes them move
-//!   there during the next step, pushing what is in the way; `teleport_…` puts them there,
-//!   which is an edit of the world and no motion.
+//!   there during the next step, pushing what is in the way; `teleport_…` puts them there
+//!   at once, which is an edit of the world, not a motion.
 //! - An object that is attached to a link is welded to it softly until it is detached.
 //! - Objects are kept in the order in which they appeared.
 
@@ -30,7 +30,7 @@ use crate::spatial::Pose;
 
 /// A kitchen with a robot and objects in it.
 ///
-/// A clone is a world of its own that goes on from the same state with the same bits.
+/// A clone is an independent world that continues from the same state with the same bits.
 #[derive(Clone)]
 pub(crate) struct World {
     pub(super) models: Arc<Models>,
@@ -40,7 +40,7 @@ pub(crate) struct World {
     pub(super) kitchen_bodies: Arc<[Option<BodyHandle>]>,
 }
 
-/// What a world knows besides the state of the physics engine.
+/// The state of a world besides that of the physics engine.
 #[derive(Clone)]
 pub(super) struct State {
     pub(super) robot: RobotConfiguration,
@@ -56,7 +56,7 @@ pub(super) struct State {
 }
 
 impl World {
-    /// A world without objects, the kitchen closed and the robot as given.
+    /// A world without objects, with the kitchen closed and the robot in the given configuration.
     pub(crate) fn new(models: Arc<Models>, robot: RobotConfiguration) -> Self {
         let mut physics = Physics::new();
         physics.add_floor(PartKey::Floor.code());
@@ -124,12 +124,12 @@ impl World {
         }
     }
 
-    /// The models that the world is built from.
+    /// The models from which the world was built.
     pub(crate) fn models(&self) -> &Arc<Models> {
         &self.models
     }
 
-    /// Lets one physics step pass: robot and kitchen move to where they were set, objects
+    /// Advances by one physics step: robot and kitchen move to where they were set; objects
     /// fall, slide and are carried.
     pub(crate) fn step(&mut self) {
         if self.state.robot_moves {
@@ -168,8 +168,8 @@ impl World {
         self.state.steps += 1;
     }
 
-    /// Lets time pass until every object is at rest, at most `seconds` (s). Returns whether
-    /// all came to rest.
+    /// Lets time pass until every object is at rest, but at most `seconds` (s). Returns whether
+    /// all have come to rest.
     pub(crate) fn settle(&mut self, seconds: f64) -> bool {
         let mut quiet = 0;
         let mut left = steps_in(seconds);
@@ -209,7 +209,7 @@ impl World {
         self.state.objects.values()
     }
 
-    /// The object of that name.
+    /// The object with that name.
     pub(crate) fn object(&self, name: &str) -> Result<&Object, WorldError> {
         self.state
             .objects
@@ -226,8 +226,8 @@ impl World {
         Ok(self.physics.pose(self.object(name)?.body))
     }
 
-    /// Keeps all objects of now from falling asleep, which makes every step cost what it costs
-    /// while things move. For measurements.
+    /// Keeps all current objects from falling asleep, so that every step costs as much as while
+    /// things move. For measurements.
     pub(crate) fn keep_objects_awake(&mut self) {
         for object in self.state.objects.values() {
             self.physics.keep_awake(object.body);
@@ -244,7 +244,7 @@ impl World {
         ))
     }
 
-    /// A judge of robot configurations for the world as it is now.
+    /// A checker of robot configurations for the current state of the world.
     pub(crate) fn collision_checker(&self) -> CollisionChecker<'_> {
         let mut lying = Vec::new();
         let mut held = Vec::new();
@@ -303,7 +303,7 @@ impl World {
     }
 }
 
-/// Steps of quiet that count as rest: a tenth of a second.
+/// Number of still steps that count as rest: a tenth of a second.
 const QUIET_STEPS: u32 = 24;
 
 /// Speeds (m/s, rad/s) below which an object counts as resting.
@@ -330,7 +330,7 @@ fn group_parts(
 ) -> Vec<(super::solid::Solid, u64, bool)> {
     let mut parts = Vec::new();
     for (place, pose) in &geometry.groups[group].members {
-        // Members are places in this very list.
+        // Members are indices into this list.
         let link = &geometry.solid_links[*place];
         for solid in &link.solids {
             let mut solid = solid.clone();

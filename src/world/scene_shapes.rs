@@ -1,11 +1,11 @@
-//! Every shape in the world with its place, for cameras and viewers.
+//! Every shape in the world with its pose, for cameras and viewers.
 
 use super::part_key::PartKey;
 use super::scene::World;
 use crate::robot::KinematicTree;
 use crate::spatial::{PlacedShape, Pose, Shape};
 
-/// A shape where it is now.
+/// A shape at its current pose.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SceneShape<'w> {
     /// The body that it belongs to.
@@ -17,8 +17,8 @@ pub(crate) struct SceneShape<'w> {
 }
 
 impl World {
-    /// The shapes that touch things: first the kitchen's, then the robot's, then those of the
-    /// objects. The floor, which is endless, is left out.
+    /// The collision shapes: first the kitchen's, then the robot's, then the objects'. The
+    /// floor, which is infinite, is left out.
     pub(crate) fn shapes(&self) -> Vec<SceneShape<'_>> {
         let mut found = Vec::new();
         add_tree(

@@ -5,19 +5,19 @@ use parry3d_f64::query;
 
 use super::solid::Solid;
 
-/// How two solids lie to each other.
+/// The separation of two solids.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Separation {
     /// Gap (m), negative for an overlap.
     pub(crate) distance: f64,
-    /// A point between or inside the two, in the map frame (m).
+    /// A point between the two or in their overlap, in the map frame (m).
     pub(crate) point: Vector,
 }
 
 /// The separation of two solids (their own poses in the map frame) when it is below `margin`
 /// (m); with a negative margin only deeper overlaps count.
 ///
-/// Compare bounds before: this is the expensive part.
+/// Compare bounds first: this is the expensive part.
 pub(crate) fn separation(
     pose1: &ParryPose,
     solid1: &Solid,
@@ -41,7 +41,7 @@ pub(crate) fn separation(
     })
 }
 
-/// Whether two solids overlap, told by a separation whose numbers mean nothing.
+/// Whether two solids overlap, as a separation whose numbers are meaningless.
 pub(crate) fn overlap(
     pose1: &ParryPose,
     solid1: &Solid,

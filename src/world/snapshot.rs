@@ -1,10 +1,10 @@
-//! Going back to an earlier state.
+//! Snapshots of a world, to return to an earlier state.
 
 use super::physics::Sets;
 use super::scene::{State, World};
 
-/// The whole state of a world at one moment. A world that goes back to it goes on with the
-/// same bits as before.
+/// The whole state of a world at one moment. A world restored to it continues with the same
+/// bits as before.
 #[derive(Clone)]
 pub(crate) struct Snapshot {
     physics: Sets,
@@ -12,7 +12,7 @@ pub(crate) struct Snapshot {
 }
 
 impl World {
-    /// The state now.
+    /// The current state.
     pub(crate) fn snapshot(&self) -> Snapshot {
         Snapshot {
             physics: self.physics.save(),
@@ -20,7 +20,7 @@ impl World {
         }
     }
 
-    /// Goes back to a state of this world, or of one that was cloned from it.
+    /// Restores a state of this world, or of one that was cloned from it.
     pub(crate) fn restore(&mut self, snapshot: &Snapshot) {
         self.physics.load(&snapshot.physics);
         self.state.clone_from(&snapshot.state);

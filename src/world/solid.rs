@@ -1,8 +1,8 @@
-//! A convex primitive in the form that geometric queries need, and the conversion of
-//! poses between nalgebra (ours) and the query library.
+//! A convex primitive in the form that geometric queries need, and the conversion of poses
+//! between nalgebra (ours) and the query library's types.
 //!
-//! A solid keeps the axis fix-up that the library wants (its cylinders lie along y), so
-//! nobody else has to think of it. Shapes are shared: a clone costs a reference count.
+//! A solid includes the axis fix-up that the library needs (its cylinders lie along y), so
+//! no other code has to deal with it. Shapes are shared: a clone costs a reference count.
 
 use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 use parry3d_f64::bounding_volume::Aabb;
@@ -49,7 +49,7 @@ pub(crate) struct Solid {
 }
 
 impl Solid {
-    /// The solid of a placed shape; `None` when its size is not positive and finite or a
+    /// The solid of a placed shape; `None` if its size is not positive and finite, or if a
     /// hull has no volume.
     pub(crate) fn new(placed: &PlacedShape) -> Option<Self> {
         let place = to_parry(&placed.pose);
@@ -60,7 +60,7 @@ impl Solid {
                 (SharedShape::cuboid(x, y, z), place)
             }
             Shape::Cylinder { radius, length } if positive(&[*radius, *length]) => {
-                // A quarter turn about x takes the library's axis y to our axis z.
+                // A quarter turn about x maps the library's y axis to our z axis.
                 let half = std::f64::consts::FRAC_1_SQRT_2;
                 let turn = ParryPose::from_rotation(Rotation::from_xyzw(half, 0.0, 0.0, half));
                 (SharedShape::cylinder(length / 2.0, *radius), place * turn)
@@ -84,7 +84,7 @@ impl Solid {
     }
 }
 
-/// Bounds (m) of all solids in their owner's frame, `None` without solids.
+/// Bounds (m) of all solids in their owner's frame; `None` if there are none.
 pub(crate) fn bounds_of(solids: &[Solid]) -> Option<Aabb> {
     let mut points = solids
         .iter()

@@ -1,8 +1,9 @@
-//! Putting objects into the world, moving them about and taking them out.
+//! Adding objects to the world, placing them elsewhere and removing them.
 //!
-//! An object that would overlap something is lifted until it is free, or shifted aside where
-//! that takes less, and set down exactly on what is below; one that hovers closely is set
-//! down too. So nothing is ever thrown out of furniture by the physics engine. These are edits of the world: no time passes.
+//! An object that would overlap something is lifted until it is free, or shifted aside if
+//! that is a smaller displacement, and set down exactly on what is below; one that hovers
+//! just above something is set down too. So the physics engine never throws anything out of
+//! furniture. These are edits of the world: no time passes.
 
 use std::sync::Arc;
 
@@ -21,16 +22,16 @@ use super::separation::{lowest_point, separation};
 use super::solid::{Solid, bounds_of, from_parry_vector, to_parry};
 use crate::spatial::Pose;
 
-/// Steps (m) in which an overlapping object is lifted while looking for free space.
+/// Step (m) by which an overlapping object is lifted in search of free space.
 const LIFT_STEP: f64 = 0.005;
 
 /// Lift (m) up to which an object is not shifted aside.
 const NEAR_LIFT: f64 = 0.6;
 
-/// Highest lift (m): above everything in a kitchen.
+/// Largest lift (m): above everything in a kitchen.
 const LIFT_LIMIT: f64 = 4.0;
 
-/// Steps (m) and limit (m) of shifts to the side.
+/// Step (m) and limit (m) of shifts to the side.
 const SHIFT_STEP: f64 = 0.02;
 const SHIFT_LIMIT: f64 = 0.3;
 
@@ -55,24 +56,24 @@ const SNAP_GAP: f64 = 0.05;
 /// Overlap (m) that counts as touching.
 const TOUCH: f64 = 1e-6;
 
-/// What became of an order to put an object somewhere.
+/// Where an object was placed, and how that differs from the request.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct SpawnReport {
-    /// Whether the object is new; otherwise it was only moved.
+    /// Whether the object is new; otherwise an existing one was moved.
     pub(crate) is_new: bool,
     /// Where the object is now, in the map frame.
     pub(crate) pose: Pose,
-    /// How much higher (m) that is than asked for; negative when it was set down.
+    /// How much higher (m) that is than requested; negative if it was set down.
     pub(crate) lifted: f64,
-    /// How far (m) to the side that is.
+    /// How far (m) it was shifted to the side.
     pub(crate) shifted: f64,
-    /// What the object would have overlapped where it was asked for.
+    /// What the object would have overlapped at the requested pose.
     pub(crate) blocked_by: Option<BodyName>,
-    /// What the object was set down on; `None` when it is left to fall.
+    /// What the object was set down on; `None` if it is left to fall.
     pub(crate) support: Option<BodyName>,
 }
 
-/// A body near the place of a new object.
+/// A body near the requested pose of an object.
 struct Neighbour {
     key: PartKey,
     pose: ParryPose,
@@ -81,9 +82,9 @@ struct Neighbour {
 }
 
 impl World {
-    /// Puts a new object of a type of the library at the pose, with the type's colour and mass
-    /// (kg) unless others are given, or moves the object that has the name already (its type,
-    /// colour and mass stay then).
+    /// Adds an object of a type in the library at the pose, with the type's colour and mass
+    /// (kg) unless others are given. If an object with that name exists, it is moved there
+    /// instead, and keeps its type, colour and mass.
     pub(crate) fn spawn(
         &mut self,
         name: &str,
@@ -108,7 +109,7 @@ impl World {
         self.spawn_kind(name, &object, pose)
     }
 
-    /// As [`World::spawn`], for an object that need not be in the library.
+    /// As [`World::spawn`], for a type that need not be in the library.
     pub(crate) fn spawn_kind(
         &mut self,
         name: &str,
@@ -162,7 +163,7 @@ impl World {
         Ok(report)
     }
 
-    /// Puts the object somewhere else, let go and at rest.
+    /// Puts the object elsewhere, detached and at rest.
     pub(crate) fn move_object(
         &mut self,
         name: &str,
@@ -178,24 +179,24 @@ impl World {
         Ok(report)
     }
 
-    /// Takes the object out of the world.
+    /// Removes the object from the world.
     pub(crate) fn remove(&mut self, name: &str) -> Result<(), WorldError> {
         self.detach(name)?;
-        // The line above has found it. Later objects keep their order.
+        // The line above has found it. The remaining objects keep their order.
         if let Some(object) = self.state.objects.shift_remove(name) {
             self.physics.remove_body(object.body);
         }
         Ok(())
     }
 
-    /// Takes all objects out of the world.
+    /// Removes all objects from the world.
     pub(crate) fn remove_all(&mut self) {
         for (_, object) in std::mem::take(&mut self.state.objects) {
             self.physics.remove_body(object.body);
         }
     }
 
-    /// A free place for the solids near the pose: above it, else beside it, else high above.
+    /// A free pose for the solids near the given one: above it, else beside it, else high above.
     fn find_place(
         &self,
         own: PartKey,
@@ -215,7 +216,7 @@ impl World {
                 .or_else(|| self.beside(own, solids, &bounds, &wanted))
                 .or_else(|| raised(&wanted, LIFT_STEP, LIFT_LIMIT, is_free))
         };
-        // Nothing in a kitchen is as high as the last attempt.
+        // Nothing in a kitchen is as high as the last pose tried.
         let place = place.unwrap_or(wanted);
         let around = self.neighbours(own, &bounds.loosened(SHIFT_LIMIT));
         let landing = drop_onto(solids, &place, &around)
@@ -234,7 +235,7 @@ impl World {
         }
     }
 
-    /// The nearest free place to the side of the wanted one, lifted a little where needed.
+    /// The nearest free pose to the side of the wanted one, lifted a little if necessary.
     fn beside(
         &self,
         own: PartKey,
@@ -261,7 +262,7 @@ impl World {
         None
     }
 
-    /// Everything above, below and in the bounds, the floor not included.
+    /// Everything above, below and within the bounds, except the floor.
     fn neighbours(&self, own: PartKey, bounds: &Aabb) -> Vec<Neighbour> {
         let mut column = *bounds;
         column.mins.z = f64::NEG_INFINITY;
@@ -296,7 +297,7 @@ impl World {
         found
     }
 
-    /// The name of the body that has the key.
+    /// The name of the body with that key.
     pub(crate) fn body_name(&self, key: PartKey) -> Option<BodyName> {
         Some(match key {
             PartKey::Floor => BodyName::Floor,
@@ -325,7 +326,7 @@ fn check_finite(name: &str, pose: &Pose) -> Result<(), WorldError> {
     }
 }
 
-/// The lowest free place above, in steps of `step` (m) up to `limit` (m).
+/// The lowest free pose above, in steps of `step` (m) up to `limit` (m).
 fn raised(
     from: &ParryPose,
     step: f64,
