@@ -3,7 +3,7 @@
 use super::names::{Names, Packages};
 use super::package::reexport;
 use super::state::Plan;
-use super::{builtins, failure_table, library, macros};
+use super::{builtins, failure_table, library};
 use crate::lisp::image::Image;
 use crate::lisp::object::define::ClassDefinition;
 use crate::lisp::value::Value;
@@ -35,10 +35,6 @@ pub(crate) fn install(image: &mut Image) {
         image.install(packages.system, table);
     }
     image.install(PackageTable::CL, builtins::COMMON_LISP);
-    for table in macros::OPERATORS {
-        image.install_operators(packages.implementation, table);
-    }
-    image.install_operators(PackageTable::KEYWORD, macros::KEYWORD_OPERATORS);
     define_variables(image, &names);
     define_types(image, &names);
     // The tables are consistent: every superclass is defined before.

@@ -13,7 +13,6 @@ pub(crate) mod host;
 mod install;
 mod journal;
 mod library;
-mod macros;
 mod names;
 mod overview;
 pub(crate) mod package;

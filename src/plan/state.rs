@@ -28,26 +28,10 @@ pub(crate) struct Plan {
     pub(crate) task_variables: RefCell<Vec<(Sym, Option<Value>)>>,
     /// Task trees of named top-level plans.
     pub(crate) trees: RefCell<IndexMap<Sym, Rc<TreeNode>>>,
-    /// Goals by name, in order of definition.
-    pub(crate) goals: RefCell<IndexMap<Sym, Vec<Goal>>>,
-    /// Policies by name.
-    pub(crate) policies: RefCell<IndexMap<Sym, Value>>,
     /// What became of tasks.
     pub(super) journal: Journal,
     /// Numbers given to fluents and tasks without a name.
     numbers: Cell<u64>,
-}
-
-/// A plan that is called when its pattern matches.
-pub(crate) struct Goal {
-    /// The pattern of the arguments.
-    pub(crate) pattern: Value,
-    /// The variables of the pattern, in the order in which the function takes their values.
-    pub(crate) variables: Vec<Sym>,
-    /// The plan.
-    pub(crate) function: Value,
-    /// The documentation, or `NIL`.
-    pub(crate) doc: Value,
 }
 
 /// The first number in generated names.
@@ -61,8 +45,6 @@ impl Plan {
             woken: RefCell::default(),
             task_variables: RefCell::default(),
             trees: RefCell::default(),
-            goals: RefCell::default(),
-            policies: RefCell::default(),
             journal: Journal::default(),
             numbers: Cell::new(FIRST_NUMBER),
         }

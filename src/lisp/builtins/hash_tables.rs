@@ -340,31 +340,6 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     ),
 ];
 
-/// The same under the names of `ALEXANDRIA`.
-pub(crate) static ALEXANDRIA_TABLE: &[Builtin] = &[
-    pure(
-        "HASH-TABLE-KEYS",
-        "table",
-        "The keys of a table.",
-        &["(alexandria:hash-table-keys (make-hash-table)) => NIL"],
-        hash_keys,
-    ),
-    pure(
-        "HASH-TABLE-VALUES",
-        "table",
-        "The values of a table.",
-        &["(alexandria:hash-table-values (make-hash-table)) => NIL"],
-        hash_values,
-    ),
-    pure(
-        "HASH-TABLE-ALIST",
-        "table",
-        "The entries of a table as an association list.",
-        &["(alexandria:hash-table-alist (make-hash-table)) => NIL"],
-        hash_alist,
-    ),
-];
-
 /// Places for `setf`; the new value is the first argument.
 pub(crate) static SETTERS: &[Builtin] = &[pure(
     "GETHASH",

@@ -3,7 +3,6 @@
 use std::rc::Rc;
 
 use super::keywords;
-use super::list_trees::PairCount;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::cons::Cons;
@@ -88,19 +87,6 @@ pub(crate) fn nconc_all(lists: &[Value]) -> Outcome {
     Ok(result)
 }
 
-fn revappend(_: &mut Image, args: &[Value]) -> Outcome {
-    let mut result = args[1].clone();
-    let mut walk = ListWalk::new(args[0].clone());
-    while let Some(item) = walk.next()? {
-        result = Value::cons(item, result);
-    }
-    Ok(result)
-}
-
-fn nreconc(_: &mut Image, args: &[Value]) -> Outcome {
-    nreverse_onto(&args[0], args[1].clone())
-}
-
 /// Turns the links of a proper list round, in front of `tail`.
 pub(crate) fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
     let mut conses = sequence::conses(list)?;
@@ -138,16 +124,23 @@ fn copy_list(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(builder.finish_with(iter.rest))
 }
 
-fn copy_alist(_: &mut Image, args: &[Value]) -> Outcome {
-    let mut builder = ListBuilder::new();
-    let mut walk = ListWalk::new(args[0].clone());
-    while let Some(item) = walk.next()? {
-        builder.push(match &item {
-            Value::Cons(pair) => Value::cons(pair.car(), pair.cdr()),
-            _ => item,
-        });
+/// Pairs that a tree may have before it is taken for a circular one.
+const MOST_PAIRS: usize = 10_000_000;
+
+/// Counts the pairs of a tree that is walked.
+#[derive(Default)]
+struct PairCount(usize);
+
+impl PairCount {
+    /// One more pair; an error if there are so many that the tree must be circular.
+    fn add_one(&mut self) -> Result<(), Box<Raise>> {
+        self.0 += 1;
+        if self.0 <= MOST_PAIRS {
+            return Ok(());
+        }
+        let text = format!("The tree has more than {MOST_PAIRS} pairs; it must be circular.");
+        Err(Raise::simple(text))
     }
-    Ok(builder.finish())
 }
 
 fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
@@ -169,46 +162,6 @@ fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
         cons.set_cdr(copy_of(&cons.cdr(), &mut pending));
     }
     Ok(result)
-}
-
-fn ldiff(_: &mut Image, args: &[Value]) -> Outcome {
-    let (list, tail) = (&args[0], &args[1]);
-    if !list.is_list() {
-        return Err(Raise::type_error(list, known::LIST));
-    }
-    let mut builder = ListBuilder::new();
-    let mut rest = list.clone();
-    let mut rounds = Rounds::default();
-    while !rest.is_eql(tail) {
-        if rounds.is_closed_by(&rest) {
-            return Err(sequence::circular(list));
-        }
-        let Value::Cons(cons) = &rest else {
-            return Ok(builder.finish_with(rest));
-        };
-        builder.push(cons.car());
-        let next = cons.cdr();
-        rest = next;
-    }
-    Ok(builder.finish())
-}
-
-fn tailp(_: &mut Image, args: &[Value]) -> Outcome {
-    let mut rest = args[1].clone();
-    let mut rounds = Rounds::default();
-    loop {
-        if rest.is_eql(&args[0]) {
-            return Ok(Value::T);
-        }
-        if rounds.is_closed_by(&rest) {
-            return Ok(Value::NIL);
-        }
-        let Value::Cons(cons) = &rest else {
-            return Ok(Value::NIL);
-        };
-        let next = cons.cdr();
-        rest = next;
-    }
 }
 
 fn is_cons(_: &mut Image, args: &[Value]) -> Outcome {
@@ -268,20 +221,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         nconc,
     ),
     pure(
-        "REVAPPEND",
-        "list tail",
-        "The elements of a list in reverse order, in front of a tail.",
-        &["(revappend '(1 2) '(3)) => (2 1 3)"],
-        revappend,
-    ),
-    pure(
-        "NRECONC",
-        "list tail",
-        "Like `revappend`, but reuses the pairs of the list.",
-        &["(nreconc (list 1 2) '(3)) => (2 1 3)"],
-        nreconc,
-    ),
-    pure(
         "LIST-LENGTH",
         "list",
         "Number of elements of a list; `NIL` if it is circular.",
@@ -296,32 +235,11 @@ pub(crate) static TABLE: &[Builtin] = &[
         copy_list,
     ),
     pure(
-        "COPY-ALIST",
-        "alist",
-        "A copy of an association list and of its pairs.",
-        &["(copy-alist '((a . 1))) => ((A . 1))"],
-        copy_alist,
-    ),
-    pure(
         "COPY-TREE",
         "tree",
         "A copy of a tree of pairs.",
         &["(copy-tree '(1 (2 3))) => (1 (2 3))"],
         copy_tree,
-    ),
-    pure(
-        "LDIFF",
-        "list tail",
-        "A copy of the part of a list before one of its tails.",
-        &["(let* ((a (list 1 2 3)) (b (cddr a))) (ldiff a b)) => (1 2)"],
-        ldiff,
-    ),
-    pure(
-        "TAILP",
-        "tail list",
-        "Is the first argument a tail of the list?",
-        &["(let ((a (list 1 2))) (tailp (cdr a) a)) => T"],
-        tailp,
     ),
     pure(
         "CONSP",

@@ -1,7 +1,5 @@
 //! The builtin functions: one table per topic.
 
-pub(crate) mod alexandria;
-pub(crate) mod alexandria_macros;
 pub(crate) mod arguments;
 pub(crate) mod array_index;
 pub(crate) mod array_make;
@@ -24,8 +22,6 @@ pub(crate) mod help;
 pub(crate) mod implementation;
 pub(crate) mod keywords;
 pub(crate) mod list_search;
-pub(crate) mod list_sets;
-pub(crate) mod list_trees;
 pub(crate) mod lists;
 pub(crate) mod loading;
 pub(crate) mod mapping;

@@ -172,18 +172,6 @@ fn butlast(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(items))
 }
 
-fn nbutlast(_: &mut Image, args: &[Value]) -> Outcome {
-    let count = args.get(1).map_or(Ok(1), sequence::index)?;
-    let kept = elements(&args[0])?.len().saturating_sub(count);
-    if kept == 0 {
-        return Ok(Value::NIL);
-    }
-    if let Value::Cons(cons) = nth_cdr(kept - 1, &args[0])? {
-        cons.set_cdr(Value::NIL);
-    }
-    Ok(args[0].clone())
-}
-
 fn endp(_: &mut Image, args: &[Value]) -> Outcome {
     match &args[0] {
         Value::Cons(_) => Ok(Value::NIL),
@@ -243,7 +231,6 @@ pub(crate) static TABLE: &[Builtin] = &[
     pure("NTHCDR", "n list", "The list without its first `n` elements.", &["(nthcdr 2 '(a b c)) => (C)"], nthcdr),
     pure("LAST", "list &optional n", "The last `n` (1) pairs of a list.", &["(last '(1 2 3)) => (3)", "(last '(1 2 3) 2) => (2 3)"], last),
     pure("BUTLAST", "list &optional n", "A copy of a list without its last `n` (1) elements.", &["(butlast '(1 2 3)) => (1 2)"], butlast),
-    pure("NBUTLAST", "list &optional n", "Cuts the last `n` (1) elements off a list.", &["(nbutlast (list 1 2 3)) => (1 2)"], nbutlast),
     pure("ENDP", "list", "Is the list at its end? An error for anything but a list.", &["(endp nil) => T"], endp),
 ];
 

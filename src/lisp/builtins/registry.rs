@@ -17,8 +17,6 @@ pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
     evaluation::TABLE,
     generic_functions::TABLE,
     list_search::TABLE,
-    list_sets::TABLE,
-    list_trees::TABLE,
     lists::TABLE,
     implementation::TABLE,
     loading::TABLE,
@@ -121,5 +119,12 @@ pub(crate) fn install(image: &mut Image) {
         image.install_operators(PackageTable::SYSTEM, table);
     }
     standard_names::install(image);
-    alexandria::install(image);
+    make_alexandria(image);
+}
+
+/// Makes the package that the library's alexandria fills.
+fn make_alexandria(image: &mut Image) {
+    if let Some(package) = image.packages.make("ALEXANDRIA", &["ALEXANDRIA.1.0.0"]) {
+        image.packages.use_package(package, PackageTable::CL);
+    }
 }

@@ -75,8 +75,13 @@ static FILES: &[File] = &[
     library_file!("src/lisp/library", "places.lisp"),
     library_file!("src/lisp/library", "conditions.lisp"),
     library_file!("src/lisp/library", "packages.lisp"),
+    library_file!("src/lisp/library", "lists.lisp"),
+    library_file!("src/lisp/library", "trees.lisp"),
+    library_file!("src/lisp/library", "sets.lisp"),
     library_file!("src/lisp/library", "streams.lisp"),
     library_file!("src/lisp/library", "printer.lisp"),
+    library_file!("src/lisp/library", "alexandria.lisp"),
+    library_file!("src/lisp/library", "alexandria-macros.lisp"),
 ];
 
 /// The library of the language without robots.

@@ -1,6 +1,6 @@
-//! Failing, and what the macros of failure handling expand into.
+//! Failing.
 
-use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::signalling;
 use crate::lisp::condition;
 use crate::lisp::evaluator::signal::Declined;
@@ -25,31 +25,6 @@ pub(crate) static TABLE: &[Builtin] = &[control(
     ],
     fail,
 )];
-
-/// Builtins of package `PLAN-SYSTEM`.
-pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
-    pure(
-        "EXPAND-DO-RETRY",
-        "counters counter body",
-        "The expansion of DO-RETRY.",
-        &[],
-        |_, args| Ok(crate::plan::macros::do_retry(&args[0], &args[1], &args[2])),
-    ),
-    pure(
-        "EXPAND-GET-COUNTER",
-        "counters counter",
-        "The expansion of GET-COUNTER.",
-        &[],
-        |_, args| Ok(crate::plan::macros::get_counter(&args[0], &args[1])),
-    ),
-    pure(
-        "EXPAND-RESET-COUNTER",
-        "counters counter",
-        "The expansion of RESET-COUNTER.",
-        &[],
-        |image, args| crate::plan::macros::reset_counter(image, &args[0], &args[1]),
-    ),
-];
 
 fn fail(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let plan = Plan::of(machine.image);

@@ -1,17 +1,15 @@
 //! The functions of the plan language, by topic.
 
 mod arithmetic;
+mod code_search;
 mod combinators;
 mod common;
 mod failures;
 mod fluents;
-mod goals;
 mod networks;
 mod policies;
 mod tasks;
 mod tree;
-
-pub(super) use goals::is_variable;
 
 use crate::lisp::builtin::Builtin;
 use crate::lisp::value::Value;
@@ -31,7 +29,6 @@ pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
     policies::TABLE,
     tasks::TABLE,
     tree::TABLE,
-    goals::TABLE,
 ];
 
 /// Functions of package `CRAM-LANGUAGE` itself: those that stand in for Common Lisp's.
@@ -39,9 +36,8 @@ pub(crate) static LANGUAGE: &[&[Builtin]] = &[arithmetic::TABLE];
 
 /// Functions of package `PLAN-SYSTEM`.
 pub(crate) static SYSTEM: &[&[Builtin]] = &[
+    code_search::SYSTEM_TABLE,
     combinators::SYSTEM_TABLE,
-    failures::SYSTEM_TABLE,
-    goals::SYSTEM_TABLE,
     policies::SYSTEM_TABLE,
     tasks::SYSTEM_TABLE,
     tree::SYSTEM_TABLE,

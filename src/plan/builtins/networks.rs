@@ -1,6 +1,5 @@
 //! Networks of fluents: `fl-and`, `fl-funcall` and their kin.
 
-use super::arithmetic::{add, divide, eq, eql, equal, greater, less, multiply, not, subtract};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
 use crate::lisp::native::PureFn;
@@ -72,76 +71,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         value_changed,
     ),
     control(
-        "FL+",
-        "&rest numbers",
-        "As CPL:+.",
-        &["(cpl:value (cpl:fl+ (cpl:make-fluent :value 1) 2)) => 3"],
-        |m, a| pure(m, "FN-FL+", add, a),
-    ),
-    control(
-        "FL-",
-        "number &rest numbers",
-        "As CPL:-.",
-        &["(cpl:value (cpl:fl- (cpl:make-fluent :value 1) 2)) => -1"],
-        |m, a| pure(m, "FN-FL-", subtract, a),
-    ),
-    control(
-        "FL*",
-        "&rest numbers",
-        "As CPL:*.",
-        &["(cpl:value (cpl:fl* (cpl:make-fluent :value 3) 2)) => 6"],
-        |m, a| pure(m, "FN-FL*", multiply, a),
-    ),
-    control(
-        "FL/",
-        "number &rest numbers",
-        "As CPL:/.",
-        &["(cpl:value (cpl:fl/ (cpl:make-fluent :value 6) 2)) => 3"],
-        |m, a| pure(m, "FN-FL/", divide, a),
-    ),
-    control(
-        "FL<",
-        "number &rest numbers",
-        "As CPL:<.",
-        &["(cpl:value (cpl:fl< (cpl:make-fluent :value 1) 2)) => T"],
-        |m, a| pure(m, "FN-FL<", less, a),
-    ),
-    control(
-        "FL>",
-        "number &rest numbers",
-        "As CPL:>.",
-        &["(cpl:value (cpl:fl> (cpl:make-fluent :value 1) 2)) => NIL"],
-        |m, a| pure(m, "FN-FL>", greater, a),
-    ),
-    control(
-        "FL=",
-        "number &rest numbers",
-        "As CPL:=.",
-        &["(cpl:value (cpl:fl= (cpl:make-fluent :value 2) 2)) => T"],
-        |m, a| pure(m, "FN-FL=", equal, a),
-    ),
-    control(
-        "FL-EQ",
-        "a b",
-        "As CPL:EQ.",
-        &["(cpl:value (cpl:fl-eq (cpl:make-fluent :value 'a) 'a)) => T"],
-        |m, a| pure(m, "FN-FL-EQ", eq, a),
-    ),
-    control(
-        "FL-EQL",
-        "a b",
-        "As CPL:EQL.",
-        &["(cpl:value (cpl:fl-eql (cpl:make-fluent :value 2) 2)) => T"],
-        |m, a| pure(m, "FN-FL-EQL", eql, a),
-    ),
-    control(
-        "FL-NOT",
-        "object",
-        "As CPL:NOT.",
-        &["(cpl:value (cpl:fl-not (cpl:make-fluent :value t))) => NIL"],
-        |m, a| pure(m, "FN-FL-NOT", not, a),
-    ),
-    control(
         "FL-MEMBER",
         "item list",
         "The tail of a list that begins with the item; a fluent if an argument is one.",
@@ -156,15 +85,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         },
     ),
 ];
-
-fn pure(
-    machine: &mut Machine<'_>,
-    prefix: &'static str,
-    function: PureFn,
-    args: Vec<Value>,
-) -> Result<Step> {
-    operate(machine, prefix, Operation::Pure(function), args)
-}
 
 /// Is there a fluent among the values?
 fn has_fluent(args: &[Value]) -> bool {

@@ -7,13 +7,27 @@ use crate::lisp::library::definition::File;
 use crate::lisp::library::{Library, library_file};
 
 /// What needs no designators; installed with the plan language.
-static LANGUAGE_FILES: &[File] = &[library_file!("src/plan/library", "policies.lisp")];
+static LANGUAGE_FILES: &[File] = &[
+    library_file!("src/plan/library", "fluents.lisp"),
+    library_file!("src/plan/library", "combinators.lisp"),
+    library_file!("src/plan/library", "failure-handling.lisp"),
+    library_file!("src/plan/library", "plans.lisp"),
+    library_file!("src/plan/library", "goals.lisp"),
+    library_file!("src/plan/library", "policies.lisp"),
+    library_file!("src/plan/library", "suspension.lisp"),
+];
+
+/// Bindings and lazy lists: CRAM's utilities, which need nothing of the plan language.
+static UTILITY_FILES: &[File] = &[library_file!("src/plan/library", "utilities.lisp")];
 
 /// What needs designators; installed after them.
 static DESIGNATOR_FILES: &[File] = &[library_file!("src/plan/library", "process-modules.lisp")];
 
 /// The library of the plan language.
 pub(super) static LANGUAGE: LazyLock<Library> = LazyLock::new(|| Library::of(LANGUAGE_FILES));
+
+/// The library of CRAM's utilities.
+pub(super) static UTILITIES: LazyLock<Library> = LazyLock::new(|| Library::of(UTILITY_FILES));
 
 /// The library of plans with designators.
 pub(super) static DESIGNATORS: LazyLock<Library> = LazyLock::new(|| Library::of(DESIGNATOR_FILES));

@@ -1,80 +1,48 @@
-//! Tags: names for the tasks of parts of a plan.
+//! What macros of the plan language look for in the code that they get: all of it is
+//! walked each time, so that this must be fast.
 //!
 //! `with-tags` binds a variable for each `(:tag name …)` in its body before the body runs,
 //! so it looks for them in the forms: also in what macros of the program expand into, not
 //! in quoted data, nor in a `with-tags` inside, which binds its own.
 
-use super::{check_plan, first_rest, macro_, plan, progn, quoted};
-use crate::lisp::builtin::Operator;
+use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::compile;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::form::form;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
+use crate::plan::state::Plan;
 
-/// The macros.
-pub(crate) static OPERATORS: &[Operator] = &[macro_(
-    "WITH-TAGS",
-    "&body body",
-    "Runs the body, in which (:TAG NAME FORM…) runs forms in a task of that name; the names are bound to the tasks.",
-    &[
-        "(cpl:top-level (cpl:with-tags (:tag a 1) (list (cpl:value (cpl:status a)) (cpl:result a)))) => (:SUCCEEDED 1)",
-    ],
-    |image, form| {
-        let check = check_plan(&plan(image), "WITH-TAGS");
-        let body = with_tags(image, form.cdr_or_nil());
-        Ok(form![known::PROGN, check, body])
-    },
-)];
-
-/// Macros named by keywords.
-pub(crate) static KEYWORD_OPERATORS: &[Operator] = &[macro_(
-    "TAG",
-    "name &body body",
-    "Inside WITH-TAGS, runs forms in a task of that name.",
-    &["(cpl:top-level (cpl:with-tags (:tag a 1))) => 1"],
-    |image, form| {
-        let (name, _) = first_rest(form);
-        Ok(form![plan(image).names.sys_tag_outside, quoted(name)])
-    },
-)];
+/// Builtins of package `PLAN-SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "FIND-TAGS",
+        "forms",
+        "The names of the tags in forms, in order.",
+        &["(plan-system:find-tags '((:tag a 1) (list (:tag b 2)) '(:tag c 3))) => (A B)"],
+        |image, args| {
+            let tags = find_tags(image, &args[0]);
+            Ok(Value::list(
+                tags.into_iter().map(Value::from).collect::<Vec<_>>(),
+            ))
+        },
+    ),
+    pure(
+        "MENTIONS-FUNCTION",
+        "name form",
+        "Does (FUNCTION NAME) occur in a form?",
+        &["(plan-system:mentions-function 'f '(mapc #'f list)) => T"],
+        |_, args| Ok(Value::bool(mentions_function(&args[1], &args[0]))),
+    ),
+];
 
 /// Macro expansions that one search for tags may make.
 const MOST_EXPANSIONS: usize = 10_000;
 
-/// A body inside which tags mean tasks.
-pub(super) fn with_tags(image: &mut Image, body: Value) -> Value {
-    let tags = find_tags(image, &body);
-    if tags.is_empty() {
-        return progn(body);
-    }
-    let names = plan(image).names;
-    let bindings: Vec<Value> = tags
-        .iter()
-        .map(|tag| form![*tag, form![names.sys_make_tag, quoted(*tag)]])
-        .collect();
-    let (name, forms) = (image.gensym("NAME"), image.gensym("BODY"));
-    // (:tag name form…) => (progn (setq name (fresh-tag name 'name))
-    //                             (run-tag name (lambda () form…)))
-    let quote_name = form![known::LIST, quoted(known::QUOTE), name];
-    let fresh = form![known::LIST, quoted(names.sys_fresh_tag), name, quote_name];
-    let set = form![known::LIST, quoted(known::SETQ), name, fresh];
-    let function = form![known::LIST_STAR, quoted(known::LAMBDA), Value::NIL, forms];
-    let run = form![known::LIST, quoted(names.sys_run_tag), name, function];
-    let expansion = form![known::LIST, quoted(known::PROGN), set, run];
-    let parameters = form![name, known::L_BODY, forms];
-    let tag_macro = form![names.tag, parameters, expansion];
-    form![
-        known::LET_STAR,
-        Value::list(bindings),
-        form![known::MACROLET, form![tag_macro]; body],
-    ]
-}
-
 /// The names of the tags in forms, in order.
 fn find_tags(image: &mut Image, body: &Value) -> Vec<Sym> {
-    let names = plan(image).names;
+    let names = Plan::of(image).names;
     let mut tags = Vec::new();
     let mut expansions = 0;
     let mut pending: Vec<Value> = body.list_to_vec().unwrap_or_default();
@@ -132,4 +100,21 @@ fn push_elements(pending: &mut Vec<Value>, list: &Value) {
     let start = pending.len();
     pending.extend(list.iter_list());
     pending[start..].reverse();
+}
+
+/// Does `(function name)` occur in a form?
+fn mentions_function(form: &Value, name: &Value) -> bool {
+    let mut pending = vec![form.clone()];
+    while let Some(Value::Cons(cons)) = pending.pop() {
+        let (head, rest) = (cons.car(), cons.cdr());
+        if head.as_symbol() == Some(known::FUNCTION) && rest.car_or_nil().is_eq(name) {
+            return true;
+        }
+        for value in [head, rest] {
+            if matches!(value, Value::Cons(_)) {
+                pending.push(value);
+            }
+        }
+    }
+    false
 }
