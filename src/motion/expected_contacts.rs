@@ -1,6 +1,6 @@
 //! What a motion of the hands declares to touch.
 
-use super::gripper::hand_names;
+use super::hand::hand_names;
 use super::hold::held_objects;
 use crate::robot::Side;
 use crate::world::{AllowedPairs, BodyName, World};

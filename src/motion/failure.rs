@@ -9,7 +9,7 @@ use thiserror::Error;
 
 use super::base_path::BasePlace;
 use super::guard::StuckObject;
-use super::job::ProcessModule;
+use super::process_module::ProcessModule;
 use super::unreachable::{UnreachablePose, UnreachableReason};
 use crate::perception::Visibility;
 use crate::robot::{LimitViolation, Side};

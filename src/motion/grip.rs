@@ -1,8 +1,8 @@
 //! Closing the fingers of a hand until both press on one object.
 
 use super::failure::MotionFailure;
-use super::gripper::{gripper_of, hand_may_touch_objects, pressing};
 use super::guard;
+use super::hand::{gripper_of, hand_may_touch_objects, pressing};
 use super::job::{MotionOutcome, MotionStatus};
 use super::joint_follower::with_joints;
 use super::speeds;

@@ -1,7 +1,8 @@
-//! Opening, closing and positioning the fingers, and what a hand may touch.
+//! Opening, closing and positioning the fingers.
 
 use super::failure::MotionFailure;
 use super::grip::Grip;
+use super::hand::{gripper_of, hand_may_touch_objects, pressing};
 use super::job::{
     Activity, Job, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite,
 };
@@ -10,15 +11,11 @@ use super::joint_limit::violation;
 use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
-use crate::robot::description::Gripper;
 use crate::robot::{LinkId, Side};
-use crate::world::{AllowedPairs, BodyName, CollisionHit, ContactForce, World};
+use crate::world::{CollisionHit, World};
 
 /// A goal farther outside of the limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
-/// Force (N) from which on a finger counts as pressing.
-pub(crate) const GRIP_FORCE: f64 = 2.0;
-
 /// What to do with the fingers of a hand.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum GripperCommand {
@@ -83,37 +80,6 @@ impl Activity for Fingers {
             },
         }
     }
-}
-
-/// Any object may be touched by any link of the hand.
-pub(super) fn hand_may_touch_objects(world: &World, side: Side) -> AllowedPairs {
-    let names = hand_names(world, side);
-    world.objects().fold(AllowedPairs::none(), |all, object| {
-        all.and_all(names.clone(), &BodyName::Object(object.name().to_owned()))
-    })
-}
-
-/// The links of a hand as bodies.
-pub(super) fn hand_names(world: &World, side: Side) -> Vec<BodyName> {
-    let models = world.models();
-    let links = models.description.arm(side).gripper.links();
-    links.map(|link| models.robot_body(link)).collect()
-}
-
-/// The gripper of a hand.
-pub(super) fn gripper_of(world: &World, side: Side) -> &Gripper {
-    &world.models().description.arm(side).gripper
-}
-
-/// What each finger of a hand presses on.
-pub(super) fn pressing(world: &World, side: Side) -> [Option<ContactForce>; 2] {
-    let contacts = world.finger_contacts(side);
-    contacts.map(|forces| {
-        let objects = forces.into_iter().filter(|f| f.body.object().is_some());
-        objects
-            .filter(|f| f.force > GRIP_FORCE)
-            .max_by(|a, b| a.force.total_cmp(&b.force))
-    })
 }
 
 impl FingerGoal {

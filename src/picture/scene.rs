@@ -9,12 +9,8 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use super::looks;
-use super::looks::Looks;
 use super::surface::Surface;
-use crate::robot::{KinematicTree, LinkId};
 use crate::spatial::{PlacedShape, Pose, Shape};
-use crate::world::{Object, World};
 
 /// Thickness of coordinate axes as a share of their length.
 const AXIS_THICKNESS: f64 = 0.04;
@@ -87,26 +83,6 @@ pub(crate) struct Scene {
 }
 
 impl Scene {
-    /// The world as it is now. To draw it repeatedly, keep the [`Looks`] instead.
-    pub(crate) fn of(world: &World) -> Self {
-        Looks::of(world.models()).scene(world)
-    }
-
-    /// The appearance of a link, in the link's frame.
-    pub(crate) fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
-        let kind = if is_robot {
-            Kind::Robot
-        } else {
-            Kind::Furniture
-        };
-        looks::link_scene(tree, link, kind)
-    }
-
-    /// The appearance of an object, in its own frame.
-    pub(crate) fn of_object(object: &Object) -> Self {
-        looks::object_scene(object)
-    }
-
     /// Adds coordinate axes with bars of the length (m): x red, y green, z blue.
     pub(crate) fn add_axes(&mut self, pose: &Pose, length: f64) {
         let thickness = length * AXIS_THICKNESS;

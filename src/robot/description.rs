@@ -5,7 +5,6 @@
 //! so that every name in it is a link or joint of that tree. The rest of the program
 //! uses this description and never names a link itself.
 
-use super::torso_search::TorsoSearch;
 use super::{
     ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId, Side,
 };
@@ -249,15 +248,5 @@ impl RobotDescription {
             arm.set_positions(&mut q, &arm.start);
         }
         q
-    }
-
-    /// The search for a torso height from which an arm reaches, with the other joints as in `q`.
-    pub(crate) fn torso_search<'a>(
-        &'a self,
-        tree: &'a KinematicTree,
-        q: &'a JointPositions,
-        side: Side,
-    ) -> TorsoSearch<'a> {
-        TorsoSearch::new(tree, &self.torso, self.base.frame, self.arm(side), q)
     }
 }

@@ -1,6 +1,6 @@
 //! One position per joint of a kinematic tree.
 
-use super::JointId;
+use super::ids::JointId;
 
 /// Positions of the joints of one [`KinematicTree`](super::KinematicTree): rad for
 /// revolute and continuous joints, m for prismatic ones, unused for fixed ones.

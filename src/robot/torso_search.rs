@@ -1,8 +1,8 @@
 //! Reaching with the help of the torso: the heights at which the arm can bring its wrist to
 //! a pose.
 
-use super::description::{Arm, Torso};
-use super::{ArmPositions, JointPositions, KinematicTree, Limits, LinkId, Unreachable};
+use super::description::{Arm, RobotDescription, Torso};
+use super::{ArmPositions, JointPositions, KinematicTree, Limits, LinkId, Side, Unreachable};
 use crate::spatial::Pose;
 
 /// Distance (m) between the heights that are tried.
@@ -53,6 +53,18 @@ pub(crate) struct TorsoSearch<'a> {
     lowest: Pose,
     /// Displacement of the arm's base per metre of height.
     rise: nalgebra::Vector3<f64>,
+}
+
+impl RobotDescription {
+    /// The search for a torso height from which an arm reaches, with the other joints as in `q`.
+    pub(crate) fn torso_search<'a>(
+        &'a self,
+        tree: &'a KinematicTree,
+        q: &'a JointPositions,
+        side: Side,
+    ) -> TorsoSearch<'a> {
+        TorsoSearch::new(tree, &self.torso, self.base.frame, self.arm(side), q)
+    }
 }
 
 impl<'a> TorsoSearch<'a> {

@@ -7,30 +7,9 @@
 
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::JointPositions;
+use super::ids::{JointId, LinkId};
+use super::joint_positions::JointPositions;
 use crate::spatial::{PlacedShape, Pose, trig};
-
-/// A link of one [`KinematicTree`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) struct LinkId(usize);
-
-impl LinkId {
-    /// Index of the link in [`KinematicTree::links`].
-    pub(crate) fn index(self) -> usize {
-        self.0
-    }
-}
-
-/// A joint of one [`KinematicTree`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) struct JointId(usize);
-
-impl JointId {
-    /// Index of the joint in [`KinematicTree::joints`].
-    pub(crate) fn index(self) -> usize {
-        self.0
-    }
-}
 
 /// A rigid part, or a mere frame when it has neither shapes nor mass.
 #[derive(Clone, Debug, PartialEq)]

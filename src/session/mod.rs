@@ -11,6 +11,7 @@ pub(crate) mod dialogue;
 pub(crate) mod functions;
 mod host;
 mod live_host;
+mod log_level;
 mod options;
 mod person;
 mod plans;
@@ -40,8 +41,8 @@ use simulation::Simulation;
 use printing::on_one_line;
 
 pub(crate) use audience::{Audience, Filming, WatchError};
+pub use log_level::LogLevel;
 pub use options::{SessionError, SessionOptions};
-pub use simulation::LogLevel;
 
 /// A session.
 pub struct Session {
@@ -71,7 +72,8 @@ impl Session {
         crate::plan::pose::install(&mut image);
         crate::plan::designator::install(&mut image);
         functions::install(&mut image);
-        let simulation = Simulation::new(Arc::new(options.models()?), options)?;
+        let simulation = Simulation::new(Arc::new(options.models()?), options.log_level)
+            .map_err(|error| SessionError::Models(error.to_string()))?;
         let mut session = Session {
             image,
             scheduler: Scheduler::new(),

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::simulation::LogLevel;
+use super::log_level::LogLevel;
 use crate::robot::{
     KITCHEN_URDF, KinematicTree, MissingNames, PR2_DESCRIPTION, PR2_URDF, RobotDescription,
 };

@@ -2,7 +2,7 @@
 
 use lexpr::datum::Ref;
 
-use super::{DataError, DataProblem, Record};
+use super::{DataError, DataProblem};
 
 /// A value and its place.
 #[derive(Clone, Copy, Debug)]
@@ -95,11 +95,6 @@ impl<'a> Node<'a> {
     /// A list of names.
     pub(crate) fn symbols(&self) -> Result<Vec<&'a str>, DataError> {
         self.list()?.iter().map(Node::symbol).collect()
-    }
-
-    /// A record whose keys are all among `keys`.
-    pub(crate) fn record(&self, keys: &[&str]) -> Result<Record<'a>, DataError> {
-        Record::read(*self, keys)
     }
 
     /// The head of a record: the symbol that its list begins with.

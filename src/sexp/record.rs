@@ -12,8 +12,15 @@ pub(crate) struct Record<'a> {
     fields: Vec<(&'a str, Node<'a>)>,
 }
 
+impl<'a> Node<'a> {
+    /// A record whose keys are all among `keys`.
+    pub(crate) fn record(&self, keys: &[&str]) -> Result<Record<'a>, DataError> {
+        Record::read(*self, keys)
+    }
+}
+
 impl<'a> Record<'a> {
-    pub(super) fn read(node: Node<'a>, keys: &[&str]) -> Result<Self, DataError> {
+    fn read(node: Node<'a>, keys: &[&str]) -> Result<Self, DataError> {
         let head = node.head()?;
         let mut rest = node.list()?.into_iter().skip(1).peekable();
         let mut things = Vec::new();

@@ -92,7 +92,7 @@ impl Looks {
 }
 
 /// The appearance of a link, in the link's frame.
-pub(crate) fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scene {
+fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scene {
     let mut scene = Scene::default();
     let dressed = Dressed::new(tree, link, tree.link(link), kind);
     dressed.add(&Pose::identity(), &mut scene.bodies);
@@ -100,11 +100,33 @@ pub(crate) fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scen
 }
 
 /// The appearance of an object, in its own frame.
-pub(crate) fn object_scene(object: &Object) -> Scene {
+fn object_scene(object: &Object) -> Scene {
     let mut scene = Scene::default();
     let looks = objects::looks_of(object.type_name(), object.shapes());
     add_object(object, &looks, &Pose::identity(), &mut scene.bodies);
     scene
+}
+
+impl Scene {
+    /// The world as it is now. To draw it repeatedly, keep the [`Looks`] instead.
+    pub(crate) fn of(world: &World) -> Self {
+        Looks::of(world.models()).scene(world)
+    }
+
+    /// The appearance of a link, in the link's frame.
+    pub(crate) fn of_link(tree: &KinematicTree, link: LinkId, is_robot: bool) -> Self {
+        let kind = if is_robot {
+            Kind::Robot
+        } else {
+            Kind::Furniture
+        };
+        link_scene(tree, link, kind)
+    }
+
+    /// The appearance of an object, in its own frame.
+    pub(crate) fn of_object(object: &Object) -> Self {
+        object_scene(object)
+    }
 }
 
 fn add_object(object: &Object, looks: &[Look], pose: &Pose, bodies: &mut Vec<Body>) {

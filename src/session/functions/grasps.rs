@@ -10,10 +10,11 @@ use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 use crate::plan::pose::argument;
+use crate::session::LogLevel;
 use crate::session::host::call::{done, host};
+use crate::session::simulation::Simulation;
 use crate::session::simulation::motions::sides;
 use crate::session::simulation::names::type_text;
-use crate::session::simulation::{LogLevel, Simulation};
 use crate::world::grasp_library::{GraspDefinition, Lift};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;

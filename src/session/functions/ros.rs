@@ -6,8 +6,9 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
+use crate::session::LogLevel;
 use crate::session::host::call::{done, host};
-use crate::session::simulation::{LogLevel, Simulation};
+use crate::session::simulation::Simulation;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 

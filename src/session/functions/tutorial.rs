@@ -14,11 +14,12 @@ use crate::lisp::value::symbol::Sym;
 use crate::plan::Reply;
 use crate::plan::designator::value::current;
 use crate::plan::pose::value::{as_placement, frame_of, pose_stamped, transform_stamped};
+use crate::session::LogLevel;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::motions::side;
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use crate::session::simulation::properties::property;
-use crate::session::simulation::{Axes, LogLevel, Simulation};
+use crate::session::simulation::{Axes, Simulation};
 
 /// Length of coordinate axes (m) unless told.
 const AXES_SIZE: f64 = 0.3;

@@ -19,10 +19,11 @@ use std::sync::Arc;
 
 use indexmap::IndexMap;
 
-use super::{SessionError, SessionOptions};
+use super::log_level::LogLevel;
 use crate::lisp::value::Value;
 use crate::motion::DetectQuery;
 use crate::picture::Looks;
+use crate::sexp::DataError;
 use crate::spatial::Pose;
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
 use crate::world::object_library::ObjectLibrary;
@@ -60,29 +61,10 @@ pub(crate) struct Simulation {
     pub(super) now: f64,
 }
 
-/// Severity of log lines.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub enum LogLevel {
-    /// Everything.
-    Debug,
-    /// Progress of plans.
-    Info,
-    /// What may be wrong.
-    Warn,
-    /// What is wrong.
-    Error,
-    /// Nothing.
-    None,
-}
-
 impl Simulation {
     /// The robot as after start-up: at the origin of the map, its arms tucked.
-    pub(super) fn new(
-        models: Arc<Models>,
-        options: &SessionOptions,
-    ) -> Result<Simulation, SessionError> {
-        let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp")
-            .map_err(|error| SessionError::Models(error.to_string()))?;
+    pub(super) fn new(models: Arc<Models>, log_level: LogLevel) -> Result<Simulation, DataError> {
+        let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp")?;
         Ok(Simulation {
             world: starting_world(&models),
             models,
@@ -91,7 +73,7 @@ impl Simulation {
             held: IndexMap::new(),
             jobs: Jobs::default(),
             axes: None,
-            log_level: options.log_level,
+            log_level,
             last_failure: None,
             sought: None,
             looks: OnceCell::new(),

@@ -1,0 +1,39 @@
+//! A hand: its links, and what its fingers press on.
+
+use crate::robot::Side;
+use crate::robot::description::Gripper;
+use crate::world::{AllowedPairs, BodyName, ContactForce, World};
+
+/// Force (N) from which on a finger counts as pressing.
+pub(crate) const GRIP_FORCE: f64 = 2.0;
+
+/// Any object may be touched by any link of the hand.
+pub(super) fn hand_may_touch_objects(world: &World, side: Side) -> AllowedPairs {
+    let names = hand_names(world, side);
+    world.objects().fold(AllowedPairs::none(), |all, object| {
+        all.and_all(names.clone(), &BodyName::Object(object.name().to_owned()))
+    })
+}
+
+/// The links of a hand as bodies.
+pub(super) fn hand_names(world: &World, side: Side) -> Vec<BodyName> {
+    let models = world.models();
+    let links = models.description.arm(side).gripper.links();
+    links.map(|link| models.robot_body(link)).collect()
+}
+
+/// The gripper of a hand.
+pub(super) fn gripper_of(world: &World, side: Side) -> &Gripper {
+    &world.models().description.arm(side).gripper
+}
+
+/// What each finger of a hand presses on.
+pub(super) fn pressing(world: &World, side: Side) -> [Option<ContactForce>; 2] {
+    let contacts = world.finger_contacts(side);
+    contacts.map(|forces| {
+        let objects = forces.into_iter().filter(|f| f.body.object().is_some());
+        objects
+            .filter(|f| f.force > GRIP_FORCE)
+            .max_by(|a, b| a.force.total_cmp(&b.force))
+    })
+}

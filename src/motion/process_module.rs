@@ -1,0 +1,34 @@
+//! The parts of the robot that motions need for themselves.
+
+use std::fmt;
+
+/// The part of the robot that a motion needs for itself. At most one job per module may be
+/// active at a time; jobs of different modules write different joints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum ProcessModule {
+    /// The base.
+    Navigation,
+    /// The torso lift.
+    Torso,
+    /// Pan and tilt of the head.
+    Neck,
+    /// The cameras.
+    Perception,
+    /// The fingers of both hands.
+    Grippers,
+    /// Both arms, and the torso when a hand's goal needs another height.
+    Arms,
+}
+
+impl fmt::Display for ProcessModule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Navigation => "navigation",
+            Self::Torso => "torso",
+            Self::Neck => "neck",
+            Self::Perception => "perception",
+            Self::Grippers => "grippers",
+            Self::Arms => "arms",
+        })
+    }
+}
