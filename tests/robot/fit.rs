@@ -39,12 +39,17 @@ fn a_robot_without_its_description_is_told_what_it_lacks() {
 fn a_description_is_told_where_it_is_wrong() {
     assert_eq!(
         refusal(Some(PR2_DESCRIPTION.to_owned())),
-        "my.sexp:16:14: there is no link named torso_lift_link; did you mean l_torso_lift_side_plate_link?"
+        "my.sexp:14:14: there is no link named torso_lift_link"
+    );
+    let typo = renamed(PR2_DESCRIPTION).replace(":body base_link", ":body base_lnk");
+    assert_eq!(
+        refusal(Some(typo)),
+        "my.sexp:9:13: there is no link named base_lnk; did you mean base_link?"
     );
     let typo = renamed(PR2_DESCRIPTION).replace("(neck ", "(neek ");
     assert_eq!(
         refusal(Some(typo)),
-        "my.sexp:19:1: there is no record named neek; did you mean neck?"
+        "my.sexp:17:1: there is no record named neek; did you mean neck?"
     );
     let none = refusal(Some(String::new()));
     assert_eq!(none, "my.sexp:1:1: the file has no (robot …); add one");
@@ -55,12 +60,13 @@ fn a_robot_with_other_names_moves() {
     let description = renamed(PR2_DESCRIPTION);
     let mut session = Session::new(&options(Some(description))).unwrap();
     let mut printed = String::new();
-    let mut sink = |event: Event| {
-        if let Event::Values(values) = event {
-            printed.push_str(&values.join(" "));
-        }
+    let mut sink = |event: Event| match event {
+        Event::Values(values) => printed.push_str(&values.join(" ")),
+        Event::Aborted(abort) => printed.push_str(&abort.report),
+        _ => {}
     };
-    let form = "(pr2-proj:with-simulated-robot
+    let form = "(in-package :pp-tut)
+                (with-simulated-robot
                   (perform (a motion (type moving-torso) (joint-angle 0.2)))
                   (perform (a motion (type looking) (direction down))))";
     let outcome = session.evaluate("test", form, &mut sink);
