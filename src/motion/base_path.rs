@@ -1,11 +1,11 @@
-//! Search for a path of the robot's base over the floor that touches nothing.
+//! Search for a collision-free path of the robot's base over the floor.
 //!
-//! The base may move in every direction and turn in place. The straight path is tried
-//! first, then A* on a lattice of places and headings whose origin is the start; states
-//! are checked only when the search gets to them, edges only when a path uses them. The
+//! The base may move in any direction and turn in place. The straight path is tried
+//! first, then A* on a lattice of positions and headings whose origin is the start; states
+//! are checked only when the search reaches them, edges only when a path uses them. The
 //! result is shortened. Paths keep a distance from obstacles where they can: the search
-//! first asks for a margin, then for none. What "touches" means is the caller's closure,
-//! so the robot is taken as it stands, its arms and what they hold included.
+//! first requires a margin, then none. The caller's closure checks for collisions, so the
+//! robot's present posture and what its arms hold are taken into account.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -14,10 +14,10 @@ use std::f64::consts::FRAC_PI_8;
 use super::interruption;
 use crate::spatial::trig;
 
-/// A place of the base: x (m), y (m), heading (rad, not wrapped) in the map frame.
+/// A pose of the base: x (m), y (m), heading (rad, not wrapped) in the map frame.
 pub(crate) type BasePlace = [f64; 3];
 
-/// The part of the floor where paths are looked for, in the map frame.
+/// The part of the floor that is searched, in the map frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FloorArea {
     /// Smallest x and y (m).
@@ -32,45 +32,45 @@ impl FloorArea {
     }
 }
 
-/// Why there is no path; `P` is what the caller's check names.
+/// Why there is no path; `P` is what the caller's check returns.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum BasePathFailure<P> {
-    /// The robot touches something where it stands.
+    /// The robot is in collision at the start.
     StartOccupied(P),
-    /// Something is where the robot shall stand.
+    /// The goal is occupied.
     GoalOccupied(P),
-    /// Start and goal are free, but no way leads from one to the other.
+    /// Start and goal are free, but no path connects them.
     Enclosed {
-        /// What stands in the way that touches least, without repetition, in the order met.
+        /// The obstacles on the path with the fewest collisions, without repetition, in order.
         blockers: Vec<P>,
     },
 }
 
-/// Free distance (m) that a path keeps where it can.
+/// Clearance (m) that a path keeps where it can.
 pub(super) const MARGIN: f64 = 0.04;
-/// No margin is asked for at places this near (m) to the start or the goal.
+/// No margin is required this close (m) to the start or the goal.
 const NO_MARGIN_WITHIN: f64 = 0.35;
-/// Between two checked places no part of the robot moves by more than this (m).
+/// Between two checked poses no part of the robot moves by more than this (m).
 const RESOLUTION: f64 = 0.01;
-/// Distance of neighbouring lattice places (m), in the order in which they are tried.
+/// Lattice spacings (m), in the order in which they are tried.
 const SPACINGS: [(f64, f64); 2] = [(0.10, MARGIN), (0.05, 0.0)];
 /// Angle between neighbouring headings of the lattice.
 const TURN: f64 = FRAC_PI_8;
-/// What a radian of turning costs in metres of driving.
+/// Cost of a radian of turning, in metres of driving.
 const TURN_COST: f64 = 0.5;
-/// How much the estimate of the remaining way counts; above 1 the search is faster and
-/// the path may be longer by that factor.
+/// Weight of the heuristic; above 1 the search is faster, and the path may be longer by
+/// that factor.
 const GREED: f64 = 1.3;
-/// A path that would touch something costs this much (m) more per place.
+/// Extra cost (m) per pose in collision.
 const TOUCH_COST: f64 = 2.0;
 
 type Check<'a, P> = dyn FnMut(&BasePlace, f64) -> Option<P> + 'a;
 
 /// A path from `start` to `goal`, both included; the goal's heading is unwound so that the
-/// robot turns the shorter way.
+/// robot turns in the shorter direction.
 ///
-/// `blocked` names what the robot touches at a place, or comes nearer to than the margin
-/// (m). `reach` (m) is the greatest distance of any part of the robot from the base's axis.
+/// `blocked` returns what the robot touches at a pose, or what is closer than the margin
+/// (m). `reach` (m) is the largest distance of any part of the robot from the base's axis.
 pub(crate) fn find_base_path<P: Clone + PartialEq>(
     start: BasePlace,
     goal: BasePlace,
@@ -130,7 +130,7 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
         (self.blocked)(p, margin)
     }
 
-    /// What blocks the straight way, coarse steps first; the ends are taken as free.
+    /// What blocks the straight leg, coarse steps first; the ends are assumed to be free.
     fn edge(&mut self, from: &BasePlace, to: &BasePlace) -> Option<P> {
         let way =
             libm::hypot(to[0] - from[0], to[1] - from[1]) + (to[2] - from[2]).abs() * self.reach;
@@ -148,8 +148,8 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
         None
     }
 
-    /// Leaves out places where the straight way is free, the longest way first; then cuts
-    /// the corners that remain.
+    /// Replaces detours by free straight legs, the longest first; then cuts the corners that
+    /// remain.
     fn shorten(&mut self, path: Vec<BasePlace>) -> Vec<BasePlace> {
         let mut short = self.skip(path);
         for _ in 0..3 {
@@ -194,7 +194,7 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
     }
 }
 
-/// Adds the middle of every leg that is longer than 20 cm or turns more than 20 degrees.
+/// Adds the midpoint of every leg that is longer than 20 cm or turns more than 20 degrees.
 fn halve(path: &[BasePlace]) -> Vec<BasePlace> {
     let mut fine: Vec<BasePlace> = path.first().copied().into_iter().collect();
     for leg in path.windows(2) {
@@ -210,21 +210,21 @@ fn cost(path: &[BasePlace]) -> f64 {
     path.windows(2).map(|l| step_cost(&l[0], &l[1])).sum()
 }
 
-/// The place at `fraction` of the way.
+/// The pose at `fraction` of the leg.
 fn between(from: &BasePlace, to: &BasePlace, fraction: f64) -> BasePlace {
     [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * fraction)
 }
 
-/// Driving and turning at once cost as much as the longer of both.
+/// Driving and turning at the same time cost as much as the longer of the two.
 fn step_cost(from: &BasePlace, to: &BasePlace) -> f64 {
     let drive = libm::hypot(to[0] - from[0], to[1] - from[1]);
     drive.max((to[2] - from[2]).abs() * TURN_COST)
 }
 
-/// A place of the lattice: steps in x, y and heading from the start.
+/// A cell of the lattice: steps in x, y and heading from the start.
 type Cell = [i32; 3];
 
-/// The goal, which in general lies between the lattice's places.
+/// The goal, which in general is between the lattice's cells.
 const GOAL: Cell = [i32::MAX; 3];
 /// Number of headings.
 const HEADINGS: i32 = 16;
@@ -232,7 +232,7 @@ const HEADINGS: i32 = 16;
 struct Lattice<'s, 'a, 'c, P> {
     search: &'s mut Search<'a, 'c, P>,
     spacing: f64,
-    /// Whether places may be passed where the robot touches something, at a price.
+    /// Whether the path may pass through collisions, at extra cost.
     through: bool,
     free: BTreeMap<Cell, bool>,
     bad_edges: BTreeSet<(Cell, Cell)>,
@@ -280,7 +280,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         [x + i * self.spacing, y + j * self.spacing, yaw + k * TURN]
     }
 
-    /// Places of the cells with headings that go on from one to the next.
+    /// Poses of the cells, with headings that are continuous from one to the next.
     fn unwound(&self, cells: &[Cell]) -> Vec<BasePlace> {
         let mut yaw = self.search.start[2];
         let unwind = |&cell: &Cell| {
@@ -305,7 +305,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         free
     }
 
-    /// Least cost from the place to the goal if nothing were in the way.
+    /// Least cost from the pose to the goal if nothing were in the way.
     fn estimate(&self, place: &BasePlace) -> f64 {
         let goal = &self.search.goal;
         let turn = trig::wrap(goal[2] - place[2]).abs() * TURN_COST;
@@ -333,7 +333,7 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
         all
     }
 
-    /// A* over cells that are free; edges are taken as free unless known otherwise.
+    /// A* over free cells; edges are assumed to be free unless known otherwise.
     fn cheapest(&mut self) -> Option<Vec<Cell>> {
         let start: Cell = [0; 3];
         let mut costs: BTreeMap<Cell, (f64, Cell)> = BTreeMap::from([(start, (0.0, start))]);
@@ -389,7 +389,7 @@ fn trace(costs: &BTreeMap<Cell, (f64, Cell)>) -> Vec<Cell> {
     cells
 }
 
-/// A cell to look at; the greatest is the one with the least total cost.
+/// A cell to expand; the greatest is the one with the least total cost.
 #[derive(Debug, PartialEq)]
 struct Candidate {
     total: f64,

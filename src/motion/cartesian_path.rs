@@ -1,4 +1,4 @@
-//! Configurations that lead the tools of the arms along straight lines.
+//! Configurations that move the tools of the arms along straight lines.
 
 use super::configuration_checker::ConfigurationChecker;
 use super::joint_path::{between, blocked_between};
@@ -10,13 +10,13 @@ use crate::world::{Models, RobotConfiguration, World};
 
 /// Distance (m) and angle (rad) between neighbouring configurations of a line.
 const STEP: (f64, f64) = (0.01, 0.05);
-/// Greatest change (rad) of a joint between neighbouring configurations: more is a jump from one
-/// branch of the inverse kinematics to another.
+/// Largest change (rad) of a joint between neighbouring configurations; more is a jump from
+/// one branch of the inverse kinematics to another.
 const JUMP: f64 = 0.35;
-/// Between neighbouring configurations no part moves farther (m) than this without a check.
+/// No part moves farther (m) than this without a check between neighbouring configurations.
 const RESOLUTION: f64 = 0.02;
 
-/// A straight line of the tool of one arm, in the frame of the base.
+/// A straight line for the tool of one arm, in the frame of the base.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CartesianLine {
     pub(super) side: Side,
@@ -24,18 +24,18 @@ pub(super) struct CartesianLine {
     pub(super) to: Pose,
 }
 
-/// Straight lines that both arms, or one, follow at the same time while the torso goes to
-/// a height.
+/// Straight lines that one or both arms follow at the same time while the torso moves to a
+/// height.
 pub(super) struct CartesianTask<'a> {
     pub(super) models: &'a Models,
     pub(super) robot: RobotConfiguration,
     pub(super) group: PlanningGroup,
     pub(super) lines: Vec<CartesianLine>,
-    /// Height (m) of the torso in the end, when it is the first of the axes.
+    /// Final height (m) of the torso, if it is the first of the axes.
     pub(super) torso: Option<f64>,
 }
 
-/// The robot's joints along a line, and how far the tool has moved (m) at each place.
+/// The robot's joints along a line, and how far the tool has moved (m) at each point.
 #[derive(Clone, Debug, Default)]
 pub(super) struct CartesianPath {
     pub(super) points: Vec<Vec<f64>>,
@@ -44,11 +44,11 @@ pub(super) struct CartesianPath {
     pub(super) steps: u32,
 }
 
-/// Where a line ended.
+/// How a line ended.
 #[derive(Debug)]
 pub(super) enum CartesianEnd {
     Complete,
-    /// No configuration, or none near the one before.
+    /// No configuration, or none near the previous one.
     Unreachable,
     Blocked,
 }
@@ -63,8 +63,9 @@ impl CartesianTask<'_> {
         lengths.fold(0.0, f64::max)
     }
 
-    /// Follows the lines as far as possible. Each configuration is the one nearest to the one
-    /// before; with a final configuration, to one that drifts there. Without a checker nothing is in the way.
+    /// Follows the lines as far as possible. Each configuration is the one nearest to the
+    /// previous one or, if a final configuration is given, to a seed that drifts towards it.
+    /// Without a checker nothing is in the way.
     pub(super) fn follow(
         &self,
         start: &[f64],
@@ -116,7 +117,7 @@ impl CartesianTask<'_> {
             || blocked_between(&self.group.axes, before, next, RESOLUTION, &mut blocked).is_some()
     }
 
-    /// The configuration at that share of the way that is nearest to the seed.
+    /// The configuration at that fraction of the line that is nearest to the seed.
     pub(super) fn configuration(
         &self,
         share: f64,
@@ -145,7 +146,7 @@ impl CartesianTask<'_> {
     }
 }
 
-/// The wrist's pose in the frame of the torso, for a pose of the tool in that of the base.
+/// The wrist pose in the frame of the torso for a tool pose in the frame of the base.
 pub(super) fn wrist_in_torso(
     models: &Models,
     robot: &RobotConfiguration,
@@ -160,7 +161,7 @@ pub(super) fn wrist_in_torso(
     torso.inverse() * arm.wrist_for_tool(tcp_in_base)
 }
 
-/// Where the tool of the arm is now, in the frame of the base.
+/// Current pose of the arm's tool in the frame of the base.
 pub(crate) fn tcp_in_base(world: &World, side: Side) -> Pose {
     let arm = world.models().description.arm(side);
     let base = world.robot_configuration().base;

@@ -1,4 +1,4 @@
-//! Judging configurations of some joints while everything else stays as it is.
+//! Checking configurations of some joints while everything else stays as it is.
 
 use super::expected_contacts::ExpectedContacts;
 use super::guard::GUARD_DEPTH;
@@ -6,13 +6,13 @@ use super::touching::TouchingPairs;
 use crate::robot::JointId;
 use crate::world::{CollisionChecker, CollisionHit, RobotConfiguration, World};
 
-/// Gap (m) that planned configurations keep to everything.
+/// Clearance (m) of planned configurations from everything.
 pub(super) const PLAN_MARGIN: f64 = 0.004;
-/// Overlap (m) of pairs that are near at the start, up to which configurations pass.
+/// Overlap (m) accepted for pairs that are close at the start.
 const TOUCH_DEPTH: f64 = GUARD_DEPTH - 0.0003;
 
-/// Tells which configurations are free. Pairs that are near each other at the start, such as a
-/// held object and what it stands on, may stay near, but not overlap more.
+/// Tells which configurations are free. Pairs that are close at the start, such as a held
+/// object and what it stands on, may stay close, but not overlap more.
 pub(super) struct ConfigurationChecker<'w> {
     checker: CollisionChecker<'w>,
     robot: RobotConfiguration,
@@ -33,7 +33,7 @@ impl<'w> ConfigurationChecker<'w> {
         }
     }
 
-    /// Pairs that come as near as touching at the goal may do so on the way, too.
+    /// Pairs that touch at the goal may also touch on the way.
     pub(super) fn accept_goal(&mut self, positions: &[f64]) {
         self.set(positions);
         self.touching
@@ -46,14 +46,14 @@ impl<'w> ConfigurationChecker<'w> {
         }
     }
 
-    /// What forbids the joints to be at the positions, if anything does.
+    /// What rules out the joint positions, if anything does.
     pub(super) fn blocked(&mut self, positions: &[f64]) -> Option<CollisionHit> {
         self.set(positions);
         self.touching
             .first_hit(&mut self.checker, &self.robot, PLAN_MARGIN)
     }
 
-    /// Whether the configuration would also be free with other joints elsewhere than they are now.
+    /// Whether the configuration would also be free with other joints at the given positions.
     pub(super) fn is_free_with(&mut self, positions: &[f64], others: &[(JointId, f64)]) -> bool {
         let joints = &self.robot.joints;
         let before: Vec<_> = others

@@ -10,26 +10,26 @@ use crate::world::World;
 /// Which objects are looked for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct DetectQuery {
-    /// Name in the world; any when absent.
+    /// Name in the world; any if absent.
     pub(crate) name: Option<String>,
-    /// Types of the object library of which the object has one; any when empty.
+    /// Acceptable types of the object library; any if empty.
     pub(crate) types: Vec<String>,
-    /// What failures call the object, such as its designator.
+    /// How failures refer to the object, for example by its designator.
     pub(crate) description: String,
 }
 
-/// Finds all objects that match the query and that the camera sees, in the order in which
-/// they appeared in the world.
+/// Finds all objects that match the query and are seen by the camera, in the order in which
+/// they were added to the world.
 pub(crate) type Detect = Job<Search>;
 
-/// A look for objects.
+/// A detection of objects.
 #[derive(Clone, Debug)]
 pub(crate) struct Search {
     query: DetectQuery,
 }
 
 impl Detect {
-    /// Looks once, with the head as it is.
+    /// Detects once, with the head as it is.
     pub(crate) fn new(query: DetectQuery) -> Self {
         Self::begin(Search { query })
     }
@@ -42,7 +42,7 @@ impl Search {
             && (self.query.types.is_empty() || self.query.types.iter().any(|t| same(t, type_name)))
     }
 
-    /// A known type with a name like the one that is asked for, which is unknown.
+    /// The known type whose name is most similar to a requested type that is unknown.
     fn type_that_was_meant(&self, world: &World) -> Option<String> {
         let known = &world.models().objects;
         let [wanted] = self.query.types.as_slice() else {
@@ -63,7 +63,7 @@ impl Search {
         let sight = Sight::of_robot(world);
         let (mut seen, mut candidates) = (Vec::new(), Vec::new());
         for object in wanted() {
-            // The names come from the world itself.
+            // The names come from the world, so they exist.
             let Ok(visibility) = sight.visibility(object.name()) else {
                 continue;
             };

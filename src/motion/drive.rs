@@ -1,10 +1,10 @@
 //! Driving the base to a pose in the map, around what is in the way.
 //!
-//! The goal is checked first, then a path is searched for the robot as it stands: with its
-//! arms where they are and with what they hold. Other jobs may move arms and torso
-//! meanwhile. While they do, the base keeps a larger distance from everything ahead, slows
-//! down and stops where it cannot, and goes on when the posture is steady; where the way has
-//! become blocked it then looks for another one.
+//! The goal is checked first, then a path is searched for the robot in its present posture
+//! and with what it holds. Other jobs may move arms and torso meanwhile. While they do, the
+//! base keeps a larger distance from everything ahead; where it cannot, it slows down and
+//! stops, and continues once the posture is steady. If the path has become blocked, it then
+//! plans another one.
 
 use super::base_path::BasePlace;
 use super::drive_plan::{at_place, is_trajectory_free, plan_drive};
@@ -22,49 +22,49 @@ use crate::spatial::{Pose, pose};
 use crate::world::physics::STEP_SECONDS;
 use crate::world::{AllowedPairs, CollisionHit, World};
 
-/// Times ahead (s) at which the way is looked at while the posture changes.
+/// Times ahead (s) at which the path is checked while the posture changes.
 const LOOK_AHEAD: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
-/// Steps between two looks ahead.
+/// Steps between two such checks.
 const LOOK_EVERY: u32 = 12;
-/// Free distance (m) that is kept ahead while the posture changes.
+/// Clearance (m) that is kept ahead while the posture changes.
 const CHANGING_MARGIN: f64 = 0.10;
-/// How often the base slows down for that reason.
+/// How many times the base slows down for that reason.
 const MOST_YIELDS: u32 = 3;
 /// A posture is steady when it has not changed for this long (s).
 const STEADY: f64 = 0.05;
-/// How long (s) the robot may be still without a path before the drive fails: when there has
-/// been none yet, and when there has been one that became blocked. The arms wait shorter, so
-/// that they get out of the way.
+/// How long (s) the robot may stand still without a path before the drive fails: if there has
+/// been none yet, and if there was one that became blocked. The arms wait less long, so that
+/// they get out of the way.
 const FIRST_TIMEOUT: f64 = 0.1;
 const LATER_TIMEOUT: f64 = 1.0;
-/// How often a path is found, and then blocked, before giving up.
+/// How many paths are found, and then blocked, before giving up.
 const MOST_PLANS: u32 = 8;
 
 /// Drives the base to a pose.
 pub(crate) type Drive = Job<BaseMotion>;
 
-/// A motion of the base to a place.
+/// A motion of the base to a pose.
 #[derive(Clone, Debug)]
 pub(crate) struct BaseMotion {
     goal: BasePlace,
     follower: Option<TrajectoryFollower>,
-    /// Torso and arms in the last tick, and for how long (s) they have been so.
+    /// Torso and arm joints in the last tick, and for how long (s) they have not changed.
     posture: Vec<f64>,
     steady: f64,
     ticks: u32,
-    /// What the robot would come too near to on the way ahead.
+    /// What the robot would come too close to on the path ahead.
     ahead: Option<CollisionHit>,
-    /// How often the base has slowed down because of a changing posture.
+    /// How many times the base has slowed down because of a changing posture.
     yields: u32,
-    /// Whether the posture was steady when that was found out.
+    /// Whether the posture was steady when that was found.
     ahead_is_sure: bool,
-    /// Paths that were found.
+    /// Number of paths found so far.
     plans: u32,
     replanning: Replanning,
 }
 
 impl Drive {
-    /// To the pose in the map frame, of which only x, y and the heading count.
+    /// Drives to the pose in the map frame, of which only x, y and the heading count.
     pub(crate) fn new(goal: &Pose) -> Self {
         let t = goal.translation;
         Self::begin(BaseMotion {
@@ -111,7 +111,7 @@ impl BaseMotion {
         let limits = [drive, turn];
         let points: Vec<Vec<f64>> = path.iter().map(|p| p.to_vec()).collect();
         let round = Trajectory::new(&points, &limits, Corners::Round);
-        // Rounding leaves the path that was checked, so what comes out is checked again.
+        // Rounding corners leaves the checked path, so the result is checked again.
         let free = points.len() <= 2 || is_trajectory_free(world, &round);
         let trajectory = if free {
             round
@@ -121,7 +121,7 @@ impl BaseMotion {
         Ok(TrajectoryFollower::new(trajectory))
     }
 
-    /// Searches a path; what is in the way while the posture changes may be gone later.
+    /// Searches for a path; what is in the way while the posture changes may be gone later.
     fn try_plan(&mut self, world: &World) -> Option<MotionStatus> {
         let timeout = if self.plans == 0 {
             FIRST_TIMEOUT
@@ -149,7 +149,7 @@ impl BaseMotion {
         }
     }
 
-    /// Looks at the way ahead as long as arms or torso move, or something was there.
+    /// Checks the path ahead as long as arms or torso move, or something was in the way.
     fn look_ahead(&mut self, world: &World) {
         if !self.ticks.is_multiple_of(LOOK_EVERY) || (self.is_steady() && self.ahead.is_none()) {
             return;
@@ -158,7 +158,7 @@ impl BaseMotion {
             return;
         };
         // Arms that wait for the base and a base that waits for the arms would creep along
-        // together; so the base yields a few times only.
+        // together, so the base yields only a few times.
         let yields = !self.is_steady() && self.yields < MOST_YIELDS;
         let margin = if yields {
             CHANGING_MARGIN
@@ -167,7 +167,7 @@ impl BaseMotion {
         };
         let robot = world.robot_configuration();
         let mut checker = world.collision_checker();
-        // What is near already does not come from driving on.
+        // What is already close has not been brought about by driving on.
         let near = checker.all_hits(robot, &AllowedPairs::none(), margin);
         let allowed = near.into_iter().fold(AllowedPairs::none(), |all, hit| {
             all.and(hit.moving, hit.other)
@@ -216,7 +216,7 @@ impl BaseMotion {
         None
     }
 
-    /// Stops; another way is looked for in the next ticks.
+    /// Stops; another path is searched for in the next ticks.
     fn give_up_trajectory(&mut self, hit: CollisionHit) -> Option<MotionStatus> {
         self.follower = None;
         let (goal, hit) = (self.goal, Box::new(hit));

@@ -1,4 +1,4 @@
-//! Planning a drive: the path of the base for the robot as it stands.
+//! Planning a drive: the path of the base for the robot's present posture.
 
 use std::f64::consts::FRAC_PI_8;
 
@@ -12,20 +12,20 @@ use crate::world::{
     AllowedPairs, BodyName, CollisionChecker, CollisionHit, RobotConfiguration, World,
 };
 
-/// What the robot's links add (m) to the distance of their frames from the base's axis.
+/// How far (m) the robot's links extend beyond their frames.
 const LINK_EXTENT: f64 = 0.15;
-/// Free floor (m) that is searched around robot, goal and furniture.
+/// Width (m) of the floor that is searched around robot, goal and furniture.
 const AREA_BORDER: f64 = 1.0;
-/// Places to get out of a contact that are tried (m): spacing and number of steps.
+/// Displacements (m) tried to get out of a contact: spacing and number of steps.
 const WAY_OUT: (f64, u32) = (0.01, 12);
-/// Gap (m) to everything with which the robot is out of a contact.
+/// Clearance (m) at which the robot counts as out of a contact.
 const WAY_OUT_GAP: f64 = 0.005;
-/// Time (s) between two places of a trajectory that are checked.
+/// Time (s) between two checked points of a trajectory.
 const CHECK_EVERY: f64 = 0.04;
-/// Places around an occupied goal that are tried (m): spacing and number of rings.
+/// Poses tried around an occupied goal: spacing (m) and number of rings.
 const NEARBY: (f64, u32) = (0.05, 16);
 
-/// The configuration with the base elsewhere; its height stays.
+/// The configuration with the base at another pose; its height stays.
 pub(super) fn at_place(robot: &RobotConfiguration, place: &[f64]) -> RobotConfiguration {
     let mut there = robot.clone();
     if let [x, y, yaw] = *place {
@@ -35,15 +35,15 @@ pub(super) fn at_place(robot: &RobotConfiguration, place: &[f64]) -> RobotConfig
     there
 }
 
-/// Judges places of the base for the posture that the robot has now.
+/// Checks poses of the base for the robot's present posture.
 pub(super) struct BaseChecker<'w> {
     checker: CollisionChecker<'w>,
     robot: RobotConfiguration,
-    /// Poses of the links in the frame of the base, and in the map for the place judged last.
+    /// Poses of the links in the frame of the base, and in the map for the pose checked last.
     in_base: Vec<Pose>,
     in_map: Vec<Pose>,
     touching: TouchingPairs,
-    /// Pairs that belong to the robot and ride along.
+    /// Pairs that move with the robot.
     own: AllowedPairs,
 }
 
@@ -51,7 +51,7 @@ impl<'w> BaseChecker<'w> {
     pub(super) fn new(world: &'w World) -> Self {
         let mut checker = world.collision_checker();
         let robot = world.robot_configuration().clone();
-        // Parts of the robot do not come nearer to each other by driving.
+        // Driving brings no parts of the robot closer to each other.
         let near = checker.all_hits(&robot, &AllowedPairs::none(), MARGIN);
         let rides = |body: &BodyName| match body {
             BodyName::Robot(_) => true,
@@ -82,7 +82,7 @@ impl<'w> BaseChecker<'w> {
         }
     }
 
-    /// What the robot would come nearer to than the margin (m) at the place.
+    /// What would be closer to the robot than the margin (m) at the pose.
     pub(super) fn blocked(&mut self, place: &BasePlace, margin: f64) -> Option<CollisionHit> {
         self.robot = at_place(&self.robot, place);
         for (in_map, in_base) in self.in_map.iter_mut().zip(&self.in_base) {
@@ -98,8 +98,8 @@ impl<'w> BaseChecker<'w> {
             .first_hit(&mut self.checker, &self.robot, margin)
     }
 
-    /// Where the robot, which touches something at the start, does not touch it any more; the
-    /// straight way there leads out of the contact from the first centimetre on.
+    /// A pose at which the robot, which touches something at the start, no longer does; the
+    /// straight path there leads out of the contact from the first centimetre on.
     fn way_out(&mut self, start: &BasePlace) -> Option<BasePlace> {
         if self.touching.is_empty() {
             return None;
@@ -125,20 +125,20 @@ impl<'w> BaseChecker<'w> {
         None
     }
 
-    /// Whether the robot touches anything at the place, whatever it touches now.
+    /// Whether the robot touches anything at the pose, whatever it touches now.
     fn touches(&mut self, place: &BasePlace) -> bool {
         self.robot = at_place(&self.robot, place);
         !self.checker.is_free(&self.robot, &self.own, WAY_OUT_GAP)
     }
 
-    /// The greatest distance (m) of any part of the robot from the axis of the base.
+    /// The largest distance (m) of any part of the robot from the axis of the base.
     fn reach(&self) -> f64 {
         let places = self.in_base.iter().map(|p| p.translation);
         places.map(|t| libm::hypot(t.x, t.y)).fold(0.0, f64::max) + LINK_EXTENT
     }
 }
 
-/// Whether the robot touches nothing all along the trajectory.
+/// Whether the robot touches nothing along the trajectory.
 pub(super) fn is_trajectory_free(world: &World, trajectory: &Trajectory) -> bool {
     let mut checker = BaseChecker::new(world);
     let parts = (trajectory.duration() / CHECK_EVERY).ceil().max(1.0) as u32;
@@ -149,7 +149,7 @@ pub(super) fn is_trajectory_free(world: &World, trajectory: &Trajectory) -> bool
     })
 }
 
-/// The path of the base from where it is, for the robot's present posture.
+/// The path of the base from its current pose, for the robot's present posture.
 pub(crate) fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, MotionFailure> {
     let base = world.robot_configuration().base;
     let t = base.translation;
@@ -183,7 +183,7 @@ pub(crate) fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace
     })
 }
 
-/// A hit that equals another one with the same obstacle, wherever they touch.
+/// A hit that counts as equal to another one with the same obstacle, wherever they touch.
 #[derive(Clone, Debug)]
 struct Obstacle(CollisionHit);
 
@@ -193,7 +193,7 @@ impl PartialEq for Obstacle {
     }
 }
 
-/// Places around the goal with the goal's heading, the nearest first.
+/// Poses around the goal with the goal's heading, the nearest first.
 fn nearby(goal: &BasePlace) -> Vec<BasePlace> {
     let (spacing, rings) = NEARBY;
     let mut places = Vec::new();
@@ -207,7 +207,7 @@ fn nearby(goal: &BasePlace) -> Vec<BasePlace> {
     places
 }
 
-/// The floor that holds the robot, its goal and all furniture.
+/// The part of the floor that contains the robot, its goal and all furniture.
 fn floor_area(world: &World, start: &BasePlace, goal: &BasePlace) -> FloorArea {
     let links = world.models().kitchen.links();
     let furniture = links

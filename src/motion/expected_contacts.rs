@@ -1,4 +1,4 @@
-//! What a motion of the hands declares to touch.
+//! The contacts that a motion of the hands declares.
 
 use super::hand::hand_names;
 use super::hold::held_objects;
@@ -13,7 +13,7 @@ pub(crate) enum CollisionMode {
     /// The hand may touch objects, and what it holds may stand on something.
     AllowHand,
     /// The hand may touch objects, and what it holds may be pressed against anything, as far
-    /// as the guard lets it. Arms and hands never go through furniture.
+    /// as the guard permits. Arms and hands never pass through furniture.
     AllowAll,
 }
 
@@ -22,12 +22,12 @@ pub(crate) enum CollisionMode {
 pub(super) struct ExpectedContacts {
     /// Pairs that may overlap.
     pub(super) allowed: AllowedPairs,
-    /// Pairs that may come as near as touching.
+    /// Pairs that may touch.
     pub(super) touching: AllowedPairs,
 }
 
 impl ExpectedContacts {
-    /// Those of a motion of the hands.
+    /// The pairs for a motion of the hands.
     pub(super) fn of(
         world: &World,
         hands: impl Iterator<Item = Side>,
@@ -60,7 +60,7 @@ impl ExpectedContacts {
     }
 }
 
-/// All pieces of furniture that can be touched, and the floor.
+/// All links of the furniture that can be touched, and the floor.
 fn furniture(world: &World) -> Vec<BodyName> {
     let models = world.models();
     let links = models

@@ -1,9 +1,9 @@
 //! Why a motion did not reach its goal.
 //!
 //! A failure carries what is known: the pair of bodies that touch, the limit that is
-//! violated and by how much, what was tried and what would work. The words are in
-//! `Display` alone: a first line as CRAM has it, or a sentence that says what and why, and
-//! where it can be computed a second one that says what would work.
+//! violated and by how much, what was tried and what would work. The wording is in
+//! `Display` alone: a first line as in CRAM, or a sentence that says what and why, and
+//! where it can be computed, a second sentence that says what would work.
 
 use thiserror::Error;
 
@@ -18,17 +18,17 @@ use crate::world::{BodyName, CollisionHit};
 /// Why a motion did not reach its goal.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub(crate) enum MotionFailure {
-    /// Something is where the base shall stand.
+    /// The goal of the base is occupied.
     #[error("the robot cannot stand at {}: {}{}", place(.goal), touch(.hit), nearest(.nearest_free))]
     GoalOccupied {
         /// Where the base shall stand, in the map frame.
         goal: BasePlace,
         /// What would touch.
         hit: Box<CollisionHit>,
-        /// The nearest place with the same heading where the robot can stand as it is.
+        /// The nearest pose with the same heading where the robot fits in its present posture.
         nearest_free: Option<BasePlace>,
     },
-    /// No way leads to the goal.
+    /// No path leads to the goal.
     #[error(
         "no way leads to {} for the robot as it stands{}",
         place(.goal), list(", in the way: ", .blockers)
@@ -36,16 +36,16 @@ pub(crate) enum MotionFailure {
     Enclosed {
         /// Where the base shall stand, in the map frame.
         goal: BasePlace,
-        /// What stands in the way that touches least.
+        /// The obstacles on the path with the fewest collisions.
         blockers: Vec<BodyName>,
     },
-    /// The robot touches something and cannot drive away.
+    /// The robot is in collision and cannot drive out of it.
     #[error("the robot cannot drive: {}", touch(.hit))]
     DriveStartOccupied {
         /// What touches.
         hit: Box<CollisionHit>,
     },
-    /// The way was free and is not any more.
+    /// The path was free and has become blocked.
     #[error("on the way to {} the robot was stopped: {}", place(.goal), touch(.hit))]
     DriveBlocked {
         /// Where the base shall stand, in the map frame.
@@ -53,7 +53,7 @@ pub(crate) enum MotionFailure {
         /// What would touch.
         hit: Box<CollisionHit>,
     },
-    /// The torso is at its limit, short of the goal.
+    /// The torso has reached its limit, short of the goal.
     #[error("Torso goal {goal} was out of joint limits\nthe torso goes from {lower} to {upper} m")]
     TorsoGoalOutOfLimits {
         /// Height that was wanted (m).
@@ -73,7 +73,7 @@ pub(crate) enum MotionFailure {
         /// What would touch.
         hit: Box<CollisionHit>,
     },
-    /// The neck is at its limit, short of the goal.
+    /// The neck has reached its limit, short of the goal.
     #[error("Look action wanted to twist the neck\n{violation}")]
     NeckLimit {
         /// The joint and its range.
@@ -85,14 +85,14 @@ pub(crate) enum MotionFailure {
         /// What would touch.
         hit: Box<CollisionHit>,
     },
-    /// No object that was asked for is in sight.
+    /// No object that matches the query is in sight.
     #[error("Could not find object {wanted}.{}", sights(.candidates, .wanted, .meant.as_deref()))]
     ObjectNotFound {
         /// What was looked for.
         wanted: String,
-        /// How much of each object that was asked for is in sight.
+        /// How much of each matching object is in sight.
         candidates: Vec<Visibility>,
-        /// If there is no such type: the one with the most similar name.
+        /// The type with the most similar name, if there is no such type.
         meant: Option<String>,
     },
     /// The fingers met without an object between them.
@@ -103,12 +103,12 @@ pub(crate) enum MotionFailure {
         /// The hand.
         side: Side,
     },
-    /// The fingers hold something else.
+    /// The fingers hold another object.
     #[error("the {side} hand has {held} between its fingers, not {wanted}")]
     WrongObject {
         /// The hand.
         side: Side,
-        /// What was to be gripped.
+        /// The object that was to be gripped.
         wanted: String,
         /// What is between the fingers.
         held: BodyName,
@@ -131,7 +131,7 @@ pub(crate) enum MotionFailure {
         /// What would touch.
         hit: Box<CollisionHit>,
     },
-    /// A joint goal is outside of the joint's range.
+    /// A joint goal is outside the joint's range.
     #[error("{violation}")]
     JointLimit {
         /// The joint and its range.
@@ -163,7 +163,7 @@ pub(crate) enum MotionFailure {
         /// Torso heights (m) that suit the right hand: least and greatest.
         right: Option<[f64; 2]>,
     },
-    /// The arms would touch something in the goal.
+    /// The arms would touch something at the goal.
     #[error("the arms cannot be put there: {}", touch(.hit))]
     ArmGoalInCollision {
         /// What would touch.
@@ -175,12 +175,12 @@ pub(crate) enum MotionFailure {
         /// What touches.
         hit: Box<CollisionHit>,
     },
-    /// No path of the arms was found.
+    /// No path for the arms was found.
     #[error("no path of the arms was found in {samples} attempts: {}", touch(.hit))]
     ArmPathNotFound {
         /// What would touch on the straight path.
         hit: Box<CollisionHit>,
-        /// How many random postures were tried.
+        /// Number of random configurations tried.
         samples: usize,
     },
     /// The arms were stopped.
@@ -189,7 +189,7 @@ pub(crate) enum MotionFailure {
         /// What would touch.
         hit: Box<CollisionHit>,
     },
-    /// A hand ended beside its goal, because something else moved the robot meanwhile.
+    /// A hand missed its goal because something else moved the robot meanwhile.
     #[error(
         "the {side} hand ended {:.1} mm and {:.1} degrees beside its goal, because torso or \
          base were moved at the same time", .distance * 1e3, .angle.to_degrees()
@@ -214,19 +214,19 @@ pub(crate) enum MotionFailure {
         /// The hand.
         side: Side,
     },
-    /// A goal has a coordinate that is infinite or no number.
+    /// A goal has a coordinate that is infinite or NaN.
     #[error("the goal for the {module} is not a finite number")]
     NotFinite {
         /// The part of the robot that the goal is for.
         module: ProcessModule,
     },
-    /// The world does not know the object, or the frame.
+    /// The world has no such object or frame.
     #[error("{0}")]
     UnknownName(String),
 }
 
 impl MotionFailure {
-    /// Whether the reason may pass while other jobs go on to move the robot.
+    /// Whether the cause may go away while other jobs move the robot.
     pub(super) fn may_pass(&self) -> bool {
         match self {
             Self::GoalOccupied { .. }
@@ -242,7 +242,7 @@ impl MotionFailure {
         }
     }
 
-    /// The two bodies that touch, or would, if that is the reason.
+    /// The two bodies that touch, or would, if that is the cause.
     pub(crate) fn hit(&self) -> Option<&CollisionHit> {
         match self {
             Self::GoalOccupied { hit, .. }
@@ -259,7 +259,7 @@ impl MotionFailure {
         }
     }
 
-    /// Name of CRAM's failure class that handlers name to catch this failure.
+    /// Name of CRAM's failure class, by which handlers catch this failure.
     pub(crate) fn class_name(&self) -> &'static str {
         match self {
             Self::GoalOccupied { .. } | Self::Enclosed { .. } => "NAVIGATION-POSE-UNREACHABLE",

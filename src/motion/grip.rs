@@ -10,7 +10,7 @@ use crate::robot::Side;
 use crate::world::World;
 use crate::world::physics::STEP_SECONDS;
 
-/// How long (s) fingers may press on different things before that counts as a failure.
+/// How long (s) the fingers may press on different things before that counts as a failure.
 const UNEQUAL: f64 = 0.25;
 
 /// Fingers that close around an object: the named one, or any.
@@ -18,12 +18,12 @@ const UNEQUAL: f64 = 0.25;
 pub(crate) struct Grip {
     side: Side,
     object: Option<String>,
-    /// For how long (s) they have pressed on different things.
+    /// How long (s) they have pressed on different things.
     unequal: f64,
 }
 
 impl Grip {
-    /// With one hand.
+    /// Grips with one hand.
     pub(super) fn new(side: Side, object: Option<String>) -> Self {
         Self {
             side,

@@ -14,20 +14,20 @@ use super::trajectory::{Corners, Trajectory};
 use crate::robot::{LinkId, Side};
 use crate::world::{CollisionHit, World};
 
-/// A goal farther outside of the limits than this (rad) is a failure.
+/// A goal farther outside the limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
 /// What to do with the fingers of a hand.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum GripperCommand {
     /// Open as far as possible.
     Open,
-    /// Close completely, or as far as what is in between lets them.
+    /// Close completely, or until something between them stops them.
     Close,
     /// To an opening (m).
     Position(f64),
     /// Close until both fingers press on one object: the named one, or any.
     Grip {
-        /// Name of the object, when another one would be wrong.
+        /// Name of the object, if another one would be wrong.
         object: Option<String>,
     },
 }
@@ -35,7 +35,7 @@ pub(crate) enum GripperCommand {
 /// Moves the fingers of one hand.
 pub(crate) type MoveGripper = Job<Fingers>;
 
-/// What the fingers of a hand do.
+/// What the fingers of a hand are doing.
 #[derive(Clone, Debug)]
 pub(crate) enum Fingers {
     /// They move to an opening.
@@ -44,7 +44,7 @@ pub(crate) enum Fingers {
     Grip(Grip),
 }
 
-/// Where the fingers of a hand are to be.
+/// The opening that the fingers of a hand are to reach.
 #[derive(Clone, Debug)]
 pub(crate) struct FingerGoal {
     side: Side,
@@ -83,7 +83,7 @@ impl Activity for Fingers {
 }
 
 impl FingerGoal {
-    /// Position of the finger joint (rad) that is wanted.
+    /// Desired position of the finger joint (rad).
     fn position(&self, world: &World) -> f64 {
         let gripper = gripper_of(world, self.side);
         match self.command {
@@ -101,8 +101,8 @@ impl FingerGoal {
 
 impl JointGoal for FingerGoal {
     const MODULE: ProcessModule = ProcessModule::Grippers;
-    /// Longer than the arms wait before they look for another path: often it is the own
-    /// forearm that fingers would touch.
+    /// Longer than the arms wait before they look for another path: often the fingers would
+    /// touch the robot's own forearm.
     const BLOCKED_TIMEOUT: f64 = 1.0;
 
     fn what(&self) -> &'static str {
@@ -132,7 +132,7 @@ impl JointGoal for FingerGoal {
         Vec::new()
     }
 
-    /// Closing fingers stop when something is between them.
+    /// Closing fingers have arrived when something is between them.
     fn met(&self, world: &World, _: f64) -> Option<MotionOutcome> {
         let is_held = || pressing(world, self.side).iter().any(Option::is_some);
         (self.is_closing(world) && is_held()).then_some(MotionOutcome::Arrived)

@@ -1,30 +1,30 @@
 //! The last check before the robot moves by one step.
 //!
-//! Paths are planned free of collisions, but the world goes on while a path is followed:
-//! other jobs move other joints, objects are pushed about. So every single step is checked
-//! again, whatever was planned. A step is refused when it brings the robot, or what it
-//! holds, deeper into something than [`GUARD_DEPTH`]. Where two bodies overlap that much
-//! already, steps that part them or slide along are taken all the same, or the robot could
-//! never get away; but none that leads beyond [`GREATEST_DEPTH`].
+//! Planned paths are collision-free, but the world changes while a path is followed: other
+//! jobs move other joints, and objects get pushed. So every single step is checked again,
+//! whatever was planned. A step is refused if it brings the robot, or what it holds, deeper
+//! into something than [`GUARD_DEPTH`]. If two bodies already overlap that much, steps that
+//! separate them or slide along are still taken, or the robot could never get away; but no
+//! step may exceed [`GREATEST_DEPTH`].
 
 use crate::robot::LinkId;
 use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
 
-/// Overlap (m) that a step may bring about: much less than the 2 mm that are
-/// never exceeded, to leave room for sliding away.
+/// Overlap (m) that a step may cause: much less than the 2 mm that are never exceeded, to
+/// leave room for sliding away.
 pub(crate) const GUARD_DEPTH: f64 = 0.0008;
-/// Lag (m) of a held object behind the hand from which on it is taken to be stuck.
+/// Lag (m) of a held object behind the hand above which it counts as stuck.
 pub(crate) const GREATEST_LAG: f64 = 0.01;
-/// Force (N) between a held object and what it bumps into from which on it is stuck.
+/// Force (N) between a held object and what it bumps into above which it counts as stuck.
 pub(crate) const GREATEST_FORCE: f64 = 50.0;
-/// Overlap (m) that no step brings about, however it began.
+/// Overlap (m) that no step exceeds, however deep it was before.
 const GREATEST_DEPTH: f64 = 0.0019;
-/// A step that slides along may seem to go deeper by this (m): rounding, not motion.
+/// A sliding step may seem to go deeper by this much (m): rounding, not motion.
 const SLIDE: f64 = 2e-5;
-/// Pairs that overlap less than this (m) do not overlap already.
+/// Pairs that overlap less than this (m) do not count as overlapping before the step.
 const NOT_YET: f64 = GUARD_DEPTH / 2.0;
 
-/// What forbids the robot to be in the configuration after the next step, if anything does.
+/// What rules out the configuration after the next step, if anything does.
 pub(super) fn obstacle(
     world: &World,
     next: &RobotConfiguration,
@@ -54,11 +54,11 @@ pub(super) fn obstacle(
 pub(crate) struct StuckObject {
     /// Name of the object.
     pub(crate) object: String,
-    /// How far it lags behind the hand (m).
+    /// How far (m) it lags behind the hand.
     pub(crate) lag: f64,
-    /// Force (N) with which it is pressed against something else than the robot.
+    /// Force (N) with which it is pressed against something other than the robot.
     pub(crate) force: f64,
-    /// What it is pressed against most, where it is known.
+    /// What it is pressed against most, if known.
     pub(crate) against: Option<crate::world::BodyName>,
 }
 

@@ -6,12 +6,12 @@ use crate::robot::Side;
 use crate::world::World;
 use crate::world::physics::STEP_SECONDS;
 
-/// Steps without motion that count as rest.
+/// Number of steps without motion that count as rest.
 const QUIET: u32 = 24;
-/// Longest time (s) that an object is given to come to rest.
+/// Longest time (s) that an object has to come to rest.
 const SETTLE: f64 = 2.0;
 
-/// Welds the object softly to the palm of the hand, where it is now.
+/// Welds the object softly to the palm of the hand at its current pose.
 pub(crate) fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), MotionFailure> {
     let palm = world.models().description.arm(side).gripper.palm;
     world
@@ -31,7 +31,7 @@ pub(crate) fn held_objects(world: &World, side: Side) -> Vec<String> {
 /// Lets go of an object and waits until everything is at rest.
 pub(crate) type LetGo = Job<Release>;
 
-/// The end of a hold.
+/// Releasing an object.
 #[derive(Clone, Debug)]
 pub(crate) struct Release {
     side: Side,
@@ -42,7 +42,7 @@ pub(crate) struct Release {
 }
 
 impl LetGo {
-    /// Of the named object, or of whatever the hand holds.
+    /// Releases the named object, or whatever the hand holds.
     pub(crate) fn new(side: Side, object: Option<String>) -> Self {
         Self::begin(Release {
             side,

@@ -1,9 +1,10 @@
-//! Giving up the planning of a motion half-way, because a person wants the robot to stop.
+//! Abandoning the planning of a motion half-way when the user interrupts it.
 //!
-//! A search for a path may take seconds. Searches look at the interrupt flag between two
-//! checks of a configuration and, when it is set, leave the whole tick by unwinding. Whoever
-//! ticks the motion puts back the copy that it took before ([`super::Motion::before_planning`]),
-//! and so nothing has happened. Until a search ends, a tick changes nothing but its motion.
+//! A search for a path may take seconds. Searches test the interrupt flag between two
+//! configuration checks and, if it is set, leave the whole tick by unwinding. The caller of
+//! the tick then restores the copy of the motion that it took before
+//! ([`super::Motion::before_planning`]), so that nothing has happened. Until a search ends,
+//! a tick changes nothing but its motion.
 
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -11,14 +12,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 thread_local! {
-    /// The flag that ends the searches of this thread, while they may be given up.
+    /// The flag that ends this thread's searches, while they may be interrupted.
     static FLAG: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
 }
 
-/// What unwinds.
+/// The payload of the unwinding.
 struct GivenUp;
 
-/// Does something that searches may end early; none if one did.
+/// Runs something that a search may abandon; returns `None` if one did.
 pub(crate) fn interruptible<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T) -> Option<T> {
     FLAG.set(Some(Arc::clone(flag)));
     let done = catch_unwind(AssertUnwindSafe(work));
@@ -30,7 +31,7 @@ pub(crate) fn interruptible<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T)
     }
 }
 
-/// Ends the search that calls it, if that is wanted.
+/// Ends the calling search if an interrupt is pending.
 pub(super) fn look() {
     let is_wanted = FLAG.with_borrow(|flag| {
         flag.as_ref()
@@ -57,7 +58,7 @@ mod tests {
             steps += 1;
         });
         assert_eq!((done, steps), (None, 1));
-        // Outside nothing ends.
+        // Outside, no search is ended.
         look();
     }
 }

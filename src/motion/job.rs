@@ -7,7 +7,7 @@ use crate::robot::JointId;
 use crate::spatial::Pose;
 use crate::world::{BodyName, World};
 
-/// What a motion has brought about.
+/// The result of a motion.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum MotionOutcome {
     /// The goal is reached.
@@ -19,15 +19,15 @@ pub(crate) enum MotionOutcome {
         /// Name of the object.
         object: String,
     },
-    /// A held object was put down as far as something carries it.
+    /// A held object was put down.
     Put {
-        /// What carries it; `None` when nothing was met below the goal.
+        /// What carries it; `None` if nothing was met below the goal.
         support: Option<BodyName>,
-        /// How much higher (m) than its goal the hand is; negative below the goal. Poses for
-        /// retracting that were derived from the same goal must be raised by as much.
+        /// How much higher (m) than its goal the hand is; negative below the goal. Retract poses
+        /// derived from the same goal must be raised by the same amount.
         raised: f64,
     },
-    /// An object was let go.
+    /// An object was released.
     Released {
         /// Name of the object.
         object: String,
@@ -49,18 +49,18 @@ pub(crate) struct DetectedObject {
     pub(crate) pose_in_map: Pose,
 }
 
-/// How a motion stands after a tick.
+/// The status of a motion after a tick.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum MotionStatus {
-    /// It goes on.
+    /// The motion continues.
     Running,
-    /// It has ended well.
+    /// It has succeeded.
     Done(MotionOutcome),
-    /// It has ended otherwise; the robot is at rest.
+    /// It has failed; the robot is at rest.
     Failed(Box<MotionFailure>),
 }
 
-/// Fails when one of the numbers is infinite or none.
+/// Fails if one of the numbers is infinite or NaN.
 pub(super) fn check_finite(module: ProcessModule, goal: &[f64]) -> Result<(), MotionFailure> {
     let finite = goal.iter().all(|v| v.is_finite());
     if finite {
@@ -70,7 +70,7 @@ pub(super) fn check_finite(module: ProcessModule, goal: &[f64]) -> Result<(), Mo
     }
 }
 
-/// Position and quaternion of a pose as numbers.
+/// Components of the position and quaternion of a pose.
 pub(super) fn numbers_of(pose: &Pose) -> Vec<f64> {
     pose.translation
         .vector
@@ -81,28 +81,28 @@ pub(super) fn numbers_of(pose: &Pose) -> Vec<f64> {
 }
 
 impl MotionStatus {
-    /// The end with that failure.
+    /// The status for that failure.
     pub(super) fn failed(failure: MotionFailure) -> Self {
         Self::Failed(Box::new(failure))
     }
 }
 
-/// What a motion is doing, for a line that shows it.
+/// What a motion is doing, for a progress line.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Progress {
-    /// What is going on, such as "driving".
+    /// The activity, such as "driving".
     pub(crate) what: &'static str,
-    /// How much of it is done, 0..1.
+    /// The fraction that is done, 0..1.
     pub(crate) fraction: f64,
 }
 
-/// A motion of the robot as a job that is advanced step by step.
+/// A motion of the robot as a job that is polled step by step.
 ///
-/// `tick` is called once before every [`World::step`] until it returns something else than
+/// `tick` is called once before every [`World::step`] until it returns something other than
 /// [`MotionStatus::Running`]; planning happens in the first tick. Several jobs of different
-/// modules may be active at once; they are polled one after the other in a fixed order.
+/// modules may be active at once; they are polled one after another in a fixed order.
 pub(crate) trait Motion {
-    /// The part of the robot that the job needs for itself.
+    /// The part of the robot that the job uses exclusively.
     fn module(&self) -> ProcessModule;
 
     /// Sets the robot's joints for the next step, or reports the end.
@@ -114,26 +114,26 @@ pub(crate) trait Motion {
     /// What the job is doing.
     fn progress(&self) -> Progress;
 
-    /// The trajectory that it follows, once that is planned, for those who want to see it.
+    /// The trajectory that the job follows, once it is planned, for display.
     fn planned(&self) -> Option<PlannedTrajectory<'_>>;
 
-    /// A copy to go back to, when the next tick may plan and so be given up half-way (see
+    /// A copy to restore, if the next tick may plan and so be abandoned half-way (see
     /// [`super::interruption`]).
     fn before_planning(&self) -> Option<Box<dyn Motion>>;
 }
 
 /// What one kind of motion does, step by step, from its start to its end.
 pub(crate) trait Activity: Clone + 'static {
-    /// The part of the robot that it needs for itself.
+    /// The part of the robot that it uses exclusively.
     const MODULE: ProcessModule;
 
-    /// Sets the robot's joints for the next step; or says how it has ended.
+    /// Sets the robot's joints for the next step, or reports the end.
     fn step(&mut self, world: &mut World) -> Option<MotionStatus>;
 
     /// What it is doing.
     fn progress(&self) -> Progress;
 
-    /// The trajectory that it follows, once that is planned.
+    /// The trajectory that it follows, once it is planned.
     fn planned(&self) -> Option<PlannedTrajectory<'_>> {
         None
     }
@@ -144,7 +144,7 @@ pub(crate) trait Activity: Clone + 'static {
     }
 }
 
-/// An activity as a job: it ends once, and does nothing afterwards.
+/// An activity as a job: it ends once and does nothing afterwards.
 #[derive(Clone, Debug)]
 pub(crate) struct Job<A> {
     pub(super) activity: A,
@@ -152,7 +152,7 @@ pub(crate) struct Job<A> {
 }
 
 impl<A> Job<A> {
-    /// The activity at its start.
+    /// A job that starts the activity.
     pub(super) fn begin(activity: A) -> Self {
         Self {
             activity,
@@ -197,12 +197,12 @@ impl<A: Activity> Motion for Job<A> {
     }
 }
 
-/// A trajectory that was planned.
+/// A planned trajectory.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlannedTrajectory<'a> {
     /// What the numbers of the trajectory mean.
     pub(crate) axes: TrajectoryAxes<'a>,
-    /// Where the axes are when.
+    /// The positions of the axes over time.
     pub(crate) trajectory: &'a Trajectory,
 }
 
@@ -211,6 +211,6 @@ pub(crate) struct PlannedTrajectory<'a> {
 pub(crate) enum TrajectoryAxes<'a> {
     /// The base: x, y (m) and heading (rad) in the map.
     Base,
-    /// Joints (rad or m); axes of the trajectory beyond them move nothing.
+    /// Joints (rad or m); further axes of the trajectory move nothing.
     Joints(&'a [JointId]),
 }

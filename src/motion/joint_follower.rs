@@ -8,21 +8,21 @@ use super::trajectory_follower::TrajectoryFollower;
 use crate::robot::{JointId, LinkId};
 use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
 
-/// What became of a step.
+/// The outcome of a step.
 #[derive(Debug)]
 pub(super) enum FollowStep {
-    /// The joints move on.
+    /// The joints continue.
     Moving,
-    /// The joints are where the trajectory ends.
+    /// The joints are at the end of the trajectory.
     Arrived,
     /// The step was refused.
     Blocked {
         /// What would touch.
         hit: CollisionHit,
-        /// For how long (s) the whole robot has not moved.
+        /// How long (s) the whole robot has not moved.
         still: f64,
     },
-    /// A held object does not follow.
+    /// A held object does not follow the hand.
     Stuck(StuckObject),
 }
 
@@ -47,7 +47,7 @@ impl JointFollower {
         }
     }
 
-    /// The way as it was planned.
+    /// The planned trajectory.
     pub(super) fn planned(&self) -> PlannedTrajectory<'_> {
         PlannedTrajectory {
             axes: TrajectoryAxes::Joints(&self.joints),
@@ -59,7 +59,7 @@ impl JointFollower {
         self.follower.fraction()
     }
 
-    /// Sets the joints for the next step; `is_hand` tells links whose held objects must follow.
+    /// Sets the joints for the next step; objects held by links for which `is_hand` must follow.
     pub(super) fn tick(
         &mut self,
         world: &mut World,
@@ -94,7 +94,7 @@ impl JointFollower {
     }
 }
 
-/// The configuration with some joints elsewhere.
+/// The configuration with some joints at other positions.
 pub(super) fn with_joints(
     robot: &RobotConfiguration,
     joints: &[JointId],

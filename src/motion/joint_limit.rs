@@ -1,8 +1,8 @@
-//! Saying that a joint was wanted outside of its limits.
+//! Reporting a joint goal outside the joint's limits.
 
 use crate::robot::{Joint, LimitViolation, Limits};
 
-/// The violation of a joint that was wanted at `wanted` (rad or m).
+/// The violation of a joint's limits by the goal `wanted` (rad or m).
 pub(super) fn violation(joint: &Joint, limits: Limits, wanted: f64) -> LimitViolation {
     LimitViolation {
         joint: joint.name.clone(),

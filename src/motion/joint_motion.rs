@@ -1,5 +1,5 @@
-//! What all motions share that bring joints to a goal: planning a trajectory, following it,
-//! and planning again where it is blocked.
+//! What all motions of joints to a goal share: planning a trajectory, following it, and
+//! replanning if it is blocked.
 
 use super::failure::MotionFailure;
 use super::job::{
@@ -10,21 +10,21 @@ use super::replanning::{Attempt, Replanning};
 use crate::robot::LinkId;
 use crate::world::{CollisionHit, World};
 
-/// A goal of joints: how a trajectory there is planned, and what it means to be there.
+/// A goal for joints: how to plan a trajectory to it, and when it counts as reached.
 pub(crate) trait JointGoal: Clone + 'static {
     /// The part of the robot that moves.
     const MODULE: ProcessModule;
-    /// How long (s) planning or the trajectory may be blocked while nothing moves.
+    /// How long (s) planning or the trajectory may stay blocked while nothing moves.
     const BLOCKED_TIMEOUT: f64;
-    /// How often a trajectory is planned before giving up.
+    /// How many trajectories are planned before giving up.
     const MOST_PLANS: u32 = 1;
     /// Whether planning searches for a path, which may take seconds.
     const SEARCHES: bool = false;
 
-    /// What the robot does, such as "looking".
+    /// What the robot is doing, such as "looking".
     fn what(&self) -> &'static str;
 
-    /// The trajectory to the goal; `plans` have been made before.
+    /// The trajectory to the goal; `plans` is the number of earlier plans.
     fn plan(&mut self, world: &World, plans: u32) -> Result<JointFollower, MotionFailure>;
 
     /// The links whose held objects must follow.
@@ -33,29 +33,29 @@ pub(crate) trait JointGoal: Clone + 'static {
         arms.map(|arm| arm.gripper.palm).collect()
     }
 
-    /// What ends the motion before the trajectory does, if anything has come about; `fraction`
-    /// (0..1) of the trajectory is behind.
+    /// What ends the motion before the trajectory does, if anything; `fraction` (0..1) of the
+    /// trajectory has been completed.
     fn met(&self, _: &World, _fraction: f64) -> Option<MotionOutcome> {
         None
     }
 
-    /// How the motion ends where the trajectory does.
+    /// How the motion ends at the end of the trajectory.
     fn arrived(&mut self, _: &mut World) -> Arrival {
         Arrival::Done(MotionOutcome::Arrived)
     }
 
-    /// The failure of a motion that was stopped for good.
+    /// The failure of a motion that was stopped and could not continue.
     fn blocked(&self, world: &World, hit: CollisionHit) -> MotionFailure;
 }
 
-/// How things are where a trajectory ends.
+/// The state at the end of a trajectory.
 #[derive(Debug)]
 pub(crate) enum Arrival {
     /// The goal is reached.
     Done(MotionOutcome),
-    /// The goal could not be reached any better.
+    /// The goal was reached only as far as possible.
     Failed(MotionFailure),
-    /// The goal is elsewhere by now; a new trajectory may lead there.
+    /// The goal has moved meanwhile; a new trajectory may lead there.
     Missed(MotionFailure),
 }
 
@@ -69,7 +69,7 @@ pub(crate) struct JointMotion<G> {
 }
 
 impl<G: JointGoal> JointMotion<G> {
-    /// To the goal, from where the joints are when the motion starts.
+    /// A motion to the goal from where the joints are when it starts.
     pub(super) fn to(goal: G) -> Self {
         Self {
             goal,
@@ -79,7 +79,7 @@ impl<G: JointGoal> JointMotion<G> {
         }
     }
 
-    /// Plans; what is in the way while the robot still moves may be gone later.
+    /// Plans. What is in the way while the robot is still moving may be gone later.
     fn try_plan(&mut self, world: &World) -> Result<(), MotionFailure> {
         match self.replanning.next(world, G::BLOCKED_TIMEOUT) {
             Attempt::Later => return Ok(()),
@@ -101,7 +101,7 @@ impl<G: JointGoal> JointMotion<G> {
         }
     }
 
-    /// Plans anew in the next step, unless that has been done often enough.
+    /// Replans in the next step, unless that has been done often enough.
     fn plan_anew(&mut self, failure: MotionFailure) -> Result<(), MotionFailure> {
         if self.plans >= G::MOST_PLANS {
             return Err(failure);
@@ -110,7 +110,7 @@ impl<G: JointGoal> JointMotion<G> {
         Ok(())
     }
 
-    /// Goes on by one step; what has come about, if the motion ends.
+    /// Advances by one step; returns the result if the motion ends.
     fn go_on(&mut self, world: &mut World) -> Result<Option<MotionOutcome>, MotionFailure> {
         if self.follower.is_none() {
             self.try_plan(world)?;

@@ -1,10 +1,10 @@
-//! Search for a joint path between two configurations that touches nothing.
+//! Search for a collision-free joint path between two configurations.
 //!
-//! The straight path is tried first, then RRT-Connect (Kuffner and LaValle, 2000): for one
-//! chain of joints after the other where there are several, then for all at once. The result
-//! is shortened. What "touches" means is the caller's: a closure that names what
-//! blocks a configuration. All randomness comes from the generator that is passed in, so
-//! the same input gives the same path. Nothing here knows of robots or time.
+//! The straight path is tried first, then RRT-Connect (Kuffner and LaValle, 2000): if there
+//! are several chains of joints, for one after another, then for all at once. The result is
+//! shortened. The caller checks for collisions, with a closure that returns what blocks a
+//! configuration. All randomness comes from the generator passed in, so the same input gives
+//! the same path. Nothing here knows of robots or time.
 
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
@@ -12,28 +12,28 @@ use rand_pcg::rand_core::Rng;
 /// One axis of the search space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PathAxis {
-    /// Least value that is tried (rad or m).
+    /// Smallest value to try (rad or m).
     pub(crate) lower: f64,
-    /// Greatest value that is tried (rad or m).
+    /// Largest value to try (rad or m).
     pub(crate) upper: f64,
-    /// How far (m) any part of the robot moves at most per unit of the axis.
+    /// Upper bound (m) on the motion of any part of the robot per unit of the axis.
     pub(crate) reach: f64,
-    /// The chain of joints that the axis is part of, such as one of two arms: axes of
-    /// different chains move different parts. [`ALL_CHAINS`] for an axis that moves all.
+    /// The chain of joints that the axis belongs to, such as one of two arms: axes of
+    /// different chains move different parts. [`ALL_CHAINS`] for an axis that moves them all.
     pub(crate) chain: usize,
 }
 
 /// The chain of an axis that carries all other chains.
 pub(crate) const ALL_CHAINS: usize = 0;
 
-/// Why there is no path; `P` is what the caller's check names.
+/// Why there is no path; `P` is what the caller's check returns.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum JointPathFailure<P> {
     /// The start is blocked.
     Start(P),
     /// The goal is blocked.
     Goal(P),
-    /// None was found.
+    /// No path was found.
     NotFound {
         /// What blocks the straight path first.
         blocker: P,
@@ -42,14 +42,14 @@ pub(crate) enum JointPathFailure<P> {
     },
 }
 
-/// How fine and how long to search.
+/// Resolution and limits of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct JointPathEffort {
-    /// Greatest motion (m) of any part of the robot between two checked configurations.
+    /// Largest motion (m) of any part of the robot between two checked configurations.
     pub(crate) resolution: f64,
-    /// Greatest number of random configurations.
+    /// Maximum number of random configurations.
     pub(crate) samples: usize,
-    /// Greatest number of configurations that are checked, for all together.
+    /// Maximum number of configurations checked in total.
     pub(crate) checks: usize,
     /// Attempts to shorten the path.
     pub(crate) shortcuts: usize,
@@ -66,18 +66,18 @@ impl Default for JointPathEffort {
     }
 }
 
-/// Longest new branch of a tree, as a bound on the motion of any part of the robot (m).
+/// Longest new branch of a tree, as a bound (m) on the motion of any part of the robot.
 const BRANCH: f64 = 0.5;
 
-/// How much coarser than the result the search is checked.
+/// How much coarser the edges are checked during the search than in the result.
 const COARSENESS: f64 = 2.5;
 
-/// Number of chains that are told apart, [`ALL_CHAINS`] included.
+/// Number of distinct chains, including [`ALL_CHAINS`].
 const CHAINS: usize = 3;
 
 type Point = Vec<f64>;
 
-/// A path from `start` to `goal`, both included, on which `blocked` names nothing.
+/// A path from `start` to `goal`, both included, on which `blocked` returns nothing.
 pub(crate) fn find_joint_path<P>(
     axes: &[PathAxis],
     start: &[f64],
@@ -101,7 +101,7 @@ pub(crate) fn find_joint_path<P>(
     let Some(blocker) = search.edge(start, goal) else {
         return Ok(vec![start.to_vec(), goal.to_vec()]);
     };
-    // A coarse search is mostly right; where it is not, a fine one follows.
+    // A coarse search usually suffices; if it does not, a fine one follows.
     for coarseness in [COARSENESS, 1.0] {
         search.effort.resolution = effort.resolution * coarseness;
         let found = search.in_turns(start, goal, rng);
@@ -148,11 +148,11 @@ struct Search<'a, P> {
     axes: &'a [PathAxis],
     effort: JointPathEffort,
     blocked: &'a mut dyn FnMut(&[f64]) -> Option<P>,
-    /// Configurations that were checked.
+    /// Number of configurations checked.
     checks: usize,
 }
 
-/// Configurations that are connected to the first one; each with its parent's place.
+/// Configurations connected to the first one, each with its parent's index.
 struct Tree(Vec<(Point, usize)>);
 
 enum Growth {
@@ -175,7 +175,7 @@ impl<P> Search<'_, P> {
         chains.into_iter().fold(0.0, f64::max) + all
     }
 
-    /// Checks the inner points of the edge, coarse ones first.
+    /// Checks the interior points of the edge, coarse steps first.
     fn edge(&mut self, from: &[f64], to: &[f64]) -> Option<P> {
         super::interruption::look();
         let parts = (self.distance(from, to) / self.effort.resolution)
@@ -195,7 +195,7 @@ impl<P> Search<'_, P> {
         None
     }
 
-    /// One chain after the other, in either order.
+    /// Moves one chain after another, trying each order.
     fn in_turns(&mut self, start: &[f64], goal: &[f64], rng: &mut Pcg64) -> Option<Vec<Point>> {
         for order in [[1, 2], [2, 1]] {
             if !order
@@ -353,7 +353,7 @@ impl<P> Search<'_, P> {
         path.windows(2).map(|w| self.distance(&w[0], &w[1])).sum()
     }
 
-    /// The leg and the point at that distance along the path.
+    /// The leg and the point at a distance along the path.
     fn place(&self, path: &[Point], mut along: f64) -> (usize, Point) {
         for (i, leg) in path.windows(2).enumerate() {
             let length = self.distance(&leg[0], &leg[1]);
@@ -370,7 +370,7 @@ impl<P> Search<'_, P> {
 }
 
 impl Tree {
-    /// From the node to the root.
+    /// The configurations from the node to the root.
     fn branch(&self, mut node: usize) -> Vec<Point> {
         let mut points = vec![self.0[node].0.clone()];
         while node != 0 {
@@ -381,7 +381,7 @@ impl Tree {
     }
 }
 
-/// The point at `fraction` of the way.
+/// The point at `fraction` of the edge.
 pub(crate) fn between(from: &[f64], to: &[f64], fraction: f64) -> Point {
     from.iter()
         .zip(to)
@@ -389,7 +389,7 @@ pub(crate) fn between(from: &[f64], to: &[f64], fraction: f64) -> Point {
         .collect()
 }
 
-/// A random number in 0..1, of 53 bits.
+/// A random number in 0..1 with 53 bits.
 pub(super) fn unit(rng: &mut Pcg64) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }

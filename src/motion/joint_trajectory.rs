@@ -1,4 +1,4 @@
-//! From a planned path of the arms to a trajectory that keeps to it.
+//! Turning a planned path of the arms into a trajectory that stays on it.
 
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::SeedableRng;
@@ -11,10 +11,10 @@ use super::speeds;
 use super::trajectory::{AxisGroup, Corners, Trajectory};
 use crate::world::{CollisionHit, World};
 
-/// Time (s) between two places of a trajectory that are checked.
+/// Time (s) between two checked points of a trajectory.
 const CHECK_EVERY: f64 = 0.02;
 
-/// A path of the axes from where they are now to the goal, as a trajectory.
+/// A path of the axes from their current positions to the goal, as a trajectory.
 pub(super) fn plan_joint_trajectory(
     world: &World,
     group: &PlanningGroup,
@@ -22,7 +22,7 @@ pub(super) fn plan_joint_trajectory(
     checker: &mut ConfigurationChecker<'_>,
     effort: JointPathEffort,
 ) -> Result<Trajectory, MotionFailure> {
-    // One generator per plan, seeded by the time: a plan depends on nothing but the world.
+    // One generator per plan, seeded by simulated time: a plan depends only on the world.
     let mut rng = Pcg64::seed_from_u64(world.steps());
     let mut blocked = |q: &[f64]| checker.blocked(q);
     let path = find_joint_path(
@@ -38,7 +38,7 @@ pub(super) fn plan_joint_trajectory(
     Ok(smooth(&path, &limits, checker))
 }
 
-/// The path with rounded corners where they are free, and stops in them otherwise.
+/// The path with rounded corners if that is collision-free, else with stops at the corners.
 pub(super) fn smooth(
     path: &[Vec<f64>],
     limits: &[AxisGroup],

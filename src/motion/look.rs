@@ -1,7 +1,7 @@
 //! Turning the head to look at something.
 //!
 //! The head is aimed, not one of its cameras: the x axis of the tilted link passes through
-//! the point when the point is level with it.
+//! the point if the point is level with it.
 
 use nalgebra::Point3;
 
@@ -16,10 +16,10 @@ use crate::robot::{JointId, LimitViolation, LinkId, RobotDescription};
 use crate::spatial::{Pose, trig};
 use crate::world::{AllowedPairs, CollisionHit, World};
 
-/// An angle farther outside of its limits than this (rad) is a failure.
+/// An angle farther outside its limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
 
-/// A direction to look in, as seen from the robot.
+/// A direction to look in, relative to the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LookDirection {
     /// Straight ahead, both neck joints at 0.
@@ -35,7 +35,7 @@ pub(crate) enum LookDirection {
 }
 
 impl LookDirection {
-    /// The point in the base's frame (m) that is looked at; `None` for straight ahead.
+    /// The point (m) in the base's frame to look at; `None` for straight ahead.
     fn point(self) -> Option<Point3<f64>> {
         match self {
             Self::Forward => None,
@@ -50,21 +50,21 @@ impl LookDirection {
 /// What to look at.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum LookTarget {
-    /// A pose in the map frame: its origin.
+    /// The origin of a pose in the map frame.
     InMap(Pose),
-    /// A pose in the frame of the robot's base: its origin.
+    /// The origin of a pose in the frame of the robot's base.
     InBase(Pose),
-    /// The origin of a link of the robot or the kitchen, or of an object, by its name.
+    /// The origin of a link of the robot or the kitchen, or of an object, by name.
     Frame(String),
     /// A direction.
     Direction(LookDirection),
 }
 
-/// Turns the head. Angles beyond the neck's limits are first cropped and reached as far as
-/// possible, then reported.
+/// Turns the head. Angles beyond the neck's limits are clamped, the head moves as far as
+/// possible, and then the motion fails.
 pub(crate) type Look = Job<JointMotion<LookGoal>>;
 
-/// What the head is to be aimed at.
+/// The point at which the head is to be aimed.
 #[derive(Clone, Debug)]
 pub(crate) struct LookGoal {
     target: LookTarget,
@@ -72,7 +72,7 @@ pub(crate) struct LookGoal {
 }
 
 impl Look {
-    /// At the target as it is when the motion starts.
+    /// Looks at the target's position when the motion starts.
     pub(crate) fn new(target: LookTarget) -> Self {
         Self::begin(JointMotion::to(LookGoal {
             target,
@@ -179,7 +179,7 @@ pub(crate) fn pan_and_tilt(world: &World, point: &Point3<f64>) -> [f64; 2] {
     let (pan, tilt) = (body.neck.pan_link, body.neck.tilt_link);
     let level = with_joints(world.robot_configuration(), &neck_joints(body), &[0.0, 0.0]);
     let frame_of = |link| tree.link_pose(link, &level.base, &level.joints);
-    // Both joints turn about an axis of their own frame: pan about z, tilt about y.
+    // Each joint turns about an axis of its own frame: pan about z, tilt about y.
     let seen = frame_of(pan).inverse_transform_point(point);
     let axis = frame_of(pan).inverse() * frame_of(tilt);
     let pan_angle = trig::atan2(seen.y, seen.x);

@@ -1,4 +1,4 @@
-//! Moving one or both arms to given joint positions, around what is in the way.
+//! Moving one or both arms to given joint positions, around obstacles.
 
 use super::configuration_checker::ConfigurationChecker;
 use super::expected_contacts::ExpectedContacts;
@@ -20,13 +20,13 @@ pub(crate) type MoveJoints = Job<JointMotion<ArmGoal>>;
 /// Positions of the joints of one or both arms.
 #[derive(Clone, Debug)]
 pub(crate) struct ArmGoal {
-    /// Those of the left and of the right arm.
+    /// Goals of the left and of the right arm.
     positions: [Option<Vec<f64>>; 2],
 }
 
 impl MoveJoints {
-    /// The positions (rad) of the left and of the right arm, from the shoulder to the wrist;
-    /// an arm without positions stays. Continuous joints turn the shorter way.
+    /// Moves to the positions (rad) of the left and of the right arm, from the shoulder to the
+    /// wrist; an arm without positions stays. Continuous joints turn in the shorter direction.
     pub(crate) fn new(left: Option<Vec<f64>>, right: Option<Vec<f64>>) -> Self {
         Self::begin(JointMotion::to(ArmGoal {
             positions: [left, right],
@@ -42,7 +42,7 @@ impl ArmGoal {
             .collect()
     }
 
-    /// The goals one after the other, within hard limits.
+    /// The goals of all axes in order, within hard limits.
     fn goal(&self, world: &World, group: &PlanningGroup) -> Result<Vec<f64>, MotionFailure> {
         let mut goal = Vec::new();
         for (side, given) in Side::BOTH.into_iter().zip(&self.positions) {
@@ -74,7 +74,7 @@ impl ArmGoal {
         Ok(goal)
     }
 
-    /// Gives the joints the very numbers that were asked for: continuous joints were unwound.
+    /// Sets the joints to exactly the requested numbers: continuous joints were unwound.
     fn name_positions(&self, world: &mut World) {
         let group = PlanningGroup::new(world, false, &self.sides());
         let goal: Vec<f64> = self.positions.iter().flatten().flatten().copied().collect();

@@ -1,4 +1,4 @@
-//! Bringing one or both hands to poses.
+//! Moving one or both hands to poses.
 
 use super::cartesian_path::tcp_in_base;
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
@@ -15,7 +15,7 @@ use crate::world::{AllowedPairs, CollisionHit, World};
 /// A hand that ends farther from its goal than this (m, rad) has missed it.
 const MISSED: (f64, f64) = (0.001, 0.01);
 
-/// A pose of a tool centre point.
+/// A goal pose of a tool centre point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PoseGoal {
     /// In the frame of the robot's base when the motion starts.
@@ -24,29 +24,29 @@ pub(crate) enum PoseGoal {
     InMap(Pose),
 }
 
-/// The way that a hand takes.
+/// The kind of path that a hand takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TcpPath {
-    /// Any way around what is there.
+    /// Any path around obstacles.
     Free,
-    /// Straight, as for approaching and lifting; any way where there is no straight one.
+    /// Straight, as for approaching and lifting; any path if there is no straight one.
     Straight,
 }
 
-/// Moves one or both hands to poses, with the torso's help where that is needed.
+/// Moves one or both hands to poses, with the torso's help if necessary.
 pub(crate) type MoveTcp = Job<JointMotion<HandGoal>>;
 
 /// Poses of one or both hands.
 #[derive(Clone, Debug)]
 pub(crate) struct HandGoal {
-    /// Those of the left and of the right hand.
+    /// Goals of the left and of the right hand.
     poses: [Option<PoseGoal>; 2],
     path: TcpPath,
     mode: CollisionMode,
 }
 
 impl MoveTcp {
-    /// Goals of the left and of the right hand; a hand without one stays with its arm.
+    /// Moves the left and the right hand to their goals; an arm without a goal stays.
     pub(crate) fn new(
         left: Option<PoseGoal>,
         right: Option<PoseGoal>,
@@ -94,9 +94,9 @@ impl JointGoal for HandGoal {
             if let Some(straight) = task.plan_line() {
                 return Ok(straight);
             }
-            // A hand that comes straight may touch an object; one that goes around would
-            // sweep it away. So it takes another posture first, from which it can go
-            // straight in the next plan, or goes around without touching.
+            // A hand that approaches straight may touch an object; one on a detour would sweep
+            // it away. So the arm first takes another posture, from which the next plan can
+            // lead straight, or makes the detour without touching.
             if self.mode == CollisionMode::AllowHand {
                 let careful = ExpectedContacts {
                     allowed: AllowedPairs::none(),
@@ -113,7 +113,7 @@ impl JointGoal for HandGoal {
         task.plan_free()
     }
 
-    /// Another job may have moved the torso, or the base under a goal in the map.
+    /// Another job may have moved the torso, or the base for a goal in the map frame.
     fn arrived(&mut self, world: &mut World) -> Arrival {
         let base = world.robot_configuration().base;
         for (side, goal) in Side::BOTH.into_iter().zip(self.poses) {

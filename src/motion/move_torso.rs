@@ -9,14 +9,14 @@ use super::trajectory::{Corners, Trajectory};
 use crate::robot::Limits;
 use crate::world::{AllowedPairs, CollisionHit, World};
 
-/// A goal farther outside of the limits than this (m) is a failure.
+/// A goal farther outside the limits than this (m) is a failure.
 const CROPPED: f64 = 1e-4;
 
-/// Moves the torso to a height. A goal beyond the joint's limits is first cropped and
-/// reached as far as possible, then reported.
+/// Moves the torso to a height. A goal beyond the joint's limits is clamped, the torso moves
+/// as far as possible, and then the motion fails.
 pub(crate) type MoveTorso = Job<JointMotion<TorsoGoal>>;
 
-/// A height of the torso.
+/// A goal height of the torso.
 #[derive(Clone, Debug)]
 pub(crate) struct TorsoGoal {
     /// Position (m) of the lift joint.
@@ -24,7 +24,7 @@ pub(crate) struct TorsoGoal {
 }
 
 impl MoveTorso {
-    /// To the height (m) of the lift joint.
+    /// Moves to the height (m) of the lift joint.
     pub(crate) fn new(height: f64) -> Self {
         Self::begin(JointMotion::to(TorsoGoal { height }))
     }

@@ -5,12 +5,12 @@ use crate::robot::description::Arm;
 use crate::robot::{JointId, KinematicTree, Limits, Side};
 use crate::world::World;
 
-/// What a hand adds (m) to the distance from the wrist: its own length and what it holds.
+/// How far (m) a hand extends beyond the wrist: its own length and what it holds.
 const HAND_EXTENT: f64 = 0.3;
-/// What turns about the wrist's own axis is at most this far (m) away from it.
+/// Parts that turn about the wrist's own axis are at most this far (m) from it.
 const HAND_WIDTH: f64 = 0.15;
 
-/// Joints of the arms, and of the torso where it moves along.
+/// Joints of the arms, and of the torso if it moves too.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PlanningGroup {
     pub(super) joints: Vec<JointId>,
@@ -18,7 +18,7 @@ pub(super) struct PlanningGroup {
 }
 
 impl PlanningGroup {
-    /// The axes of the arms of those sides, after that of the torso if it is to move.
+    /// The axes of the arms of those sides, preceded by the torso's if it is to move.
     pub(super) fn new(world: &World, torso: bool, sides: &[Side]) -> Self {
         let tree = &world.models().robot;
         let body = &world.models().description;
@@ -54,14 +54,14 @@ impl PlanningGroup {
         });
     }
 
-    /// Where the joints are now.
+    /// Current positions of the joints.
     pub(super) fn now(&self, world: &World) -> Vec<f64> {
         let joints = &world.robot_configuration().joints;
         self.joints.iter().map(|j| joints.get(*j)).collect()
     }
 }
 
-/// How far (m) any part of arm and hand is at most from the axis of each joint.
+/// Upper bound (m) on the distance of any part of arm and hand from the axis of each joint.
 fn reaches(tree: &KinematicTree, arm: &Arm) -> [f64; 7] {
     let joints = arm.kinematics.joints();
     let length = |i: usize| tree.joint(joints[i]).origin.translation.vector.norm();

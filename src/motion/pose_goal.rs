@@ -1,9 +1,9 @@
-//! Choosing a height of the torso and configurations of the arms for goals of their hands, and
-//! planning the way there.
+//! Choosing a torso height and arm configurations for goals of the hands, and planning the
+//! path there.
 //!
 //! The present height of the torso comes first, then others, the nearest first. At each
-//! height all configurations over the arm's free angle are looked at, those that touch something
-//! are left out, the rest is ranked by how far away it is and how much room it leaves.
+//! height all configurations over the arm's redundant angle are considered; those in collision
+//! are left out, the rest are ranked by how far away they are and how much clearance they have.
 
 use super::cartesian_path::{
     CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base, wrist_in_torso,
@@ -24,30 +24,30 @@ use crate::robot::{self, JointId, Limits, RobotDescription, Side};
 use crate::spatial::{Pose, trig};
 use crate::world::{CollisionHit, World};
 
-/// Distance of neighbouring configurations over the free angle (rad).
+/// Distance of neighbouring configurations over the redundant angle (rad).
 const CONFIGURATION_STEP: f64 = 0.15;
-/// Steps of the torso's height (m) that are tried.
+/// Step (m) between torso heights that are tried.
 const TORSO_STEP: f64 = 0.01;
-/// Steps of the torso's height (m) at which a reason for failing is looked for.
+/// Step (m) between torso heights at which a cause of failure is looked for.
 pub(super) const REASON_STEP: f64 = 0.03;
-/// How many configurations are judged by the room they leave.
+/// How many configurations are ranked by clearance.
 const SHORT_LIST: usize = 10;
-/// Room (m) around the arm beyond which more is not better.
+/// Clearance (m) around the arm beyond which more is not better.
 const ROOM: f64 = 0.05;
-/// What a configuration without any room costs, in radians of joint motion.
+/// Cost of a configuration without any clearance, in radians of joint motion.
 const NO_ROOM_COST: f64 = 2.0;
-/// What a configuration costs in which the empty hand could not open, in radians of joint motion.
+/// Cost of a configuration in which the empty hand could not open, in radians of joint motion.
 const SHUT_COST: f64 = 4.0;
-/// Distance (rad) from a joint's limit below which configurations cost more, and how much.
+/// Distance (rad) from a joint's limit below which configurations cost more, and how much more.
 const LIMIT_MARGIN: (f64, f64) = (0.2, 1.0);
-/// How many configurations at one height are tried with a long search for a path.
+/// Number of configurations at one height that get a long search for a path.
 const LONG_SEARCHES: usize = 2;
-/// How many final configurations at one height are tried for a straight line.
+/// Number of final configurations at one height that are tried for a straight line.
 const LINE_ENDS: usize = 6;
-/// At how many heights a search for a path may fail before giving up.
+/// Number of heights at which the search for a path may fail before giving up.
 const MOST_HEIGHTS: usize = 4;
 
-/// Goals of the hands: poses of their tools in the frame of the base.
+/// Goals of the hands: tool poses in the frame of the base.
 pub(super) struct PoseGoalTask<'a> {
     pub(super) world: &'a World,
     pub(super) goals: Vec<(Side, Pose)>,
@@ -57,7 +57,7 @@ pub(super) struct PoseGoalTask<'a> {
 /// A configuration that reaches the goals.
 pub(super) struct GoalConfiguration {
     cost: f64,
-    /// Positions of the axes, that of the torso first if it moves.
+    /// Positions of the axes, the torso's first if it moves.
     pub(super) positions: Vec<f64>,
 }
 
@@ -94,7 +94,7 @@ impl PoseGoalTask<'_> {
         others
     }
 
-    /// The torso is one of the axes only when it has to move.
+    /// The torso is one of the axes only if it has to move.
     pub(super) fn group(&self, height: f64) -> PlanningGroup {
         PlanningGroup::new(self.world, height != self.torso_now(), &self.sides())
     }
@@ -108,7 +108,7 @@ impl PoseGoalTask<'_> {
         wrist_in_torso(self.world.models(), &robot, self.body().arm(side), tcp)
     }
 
-    /// All configurations at the height, the best one first; what they touch is not looked at.
+    /// All configurations at the height, the best one first; collisions are not checked.
     pub(super) fn configurations(
         &self,
         height: f64,
@@ -131,7 +131,7 @@ impl PoseGoalTask<'_> {
                     let mut positions = before.positions.clone();
                     let mut cost = before.cost;
                     for (q, limits) in solution.iter().zip(kinematics.limits()) {
-                        // One axis per joint of all goals' arms: there is one left.
+                        // There is one axis per joint of every arm with a goal, so one is left.
                         let from = now[positions.len()];
                         let to = match limits {
                             Some(_) => *q,
@@ -144,14 +144,14 @@ impl PoseGoalTask<'_> {
                 }
             }
             next.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-            // Two arms: the product of all configurations of both would be too much.
+            // For two arms, the product of all configurations of both would be too large.
             next.truncate(400);
             all = next;
         }
         all
     }
 
-    /// The finger joints of the empty hands that are to move, wide open.
+    /// The finger joints of the moving empty hands, wide open.
     fn open_hands(&self) -> Vec<(JointId, f64)> {
         let empty = self.sides().into_iter();
         let empty = empty.filter(|side| held_objects(self.world, *side).is_empty());
@@ -161,8 +161,8 @@ impl PoseGoalTask<'_> {
             .collect()
     }
 
-    /// The configurations at the height that touch nothing, the best one first; or how many there
-    /// are and what one of them touches.
+    /// The collision-free configurations at the height, the best one first; or else how many
+    /// were checked and what one of them touches.
     fn free_configurations(
         &self,
         configurations: Vec<GoalConfiguration>,
@@ -195,7 +195,7 @@ impl PoseGoalTask<'_> {
         Ok(free)
     }
 
-    /// A path to the goals, wherever it leads the hands in between.
+    /// A path to the goals, whatever route the hands take.
     pub(super) fn plan_free(&self) -> Result<JointFollower, MotionFailure> {
         let mut touching: Option<(usize, CollisionHit)> = None;
         let mut last_failure = None;
@@ -235,7 +235,7 @@ impl PoseGoalTask<'_> {
         Err(last_failure.unwrap_or_else(|| self.unreachable(touching)))
     }
 
-    /// Straight ways to the best configurations first, then long searches to the very best ones.
+    /// Tries straight joint paths to the best configurations, then long searches to the very best.
     fn plan_to_one_of(
         &self,
         free: &[GoalConfiguration],
@@ -293,7 +293,7 @@ impl PoseGoalTask<'_> {
         }
     }
 
-    /// A path that leads the tools straight to the goals, if there is one.
+    /// A path that moves the tools straight to the goals, if there is one.
     pub(super) fn plan_line(&self) -> Option<JointFollower> {
         for height in self.heights(REASON_STEP) {
             let group = self.group(height);
@@ -325,8 +325,8 @@ impl PoseGoalTask<'_> {
         None
     }
 
-    /// A way to another configuration in which the tools are where they are now, but can be led
-    /// straight to the goals from there; on it the robot touches only what is given.
+    /// A path to another configuration with the same tool poses, from which the tools can move
+    /// straight to the goals; on it the robot touches only what is given.
     pub(super) fn plan_to_start_of_line(
         &self,
         contacts: &ExpectedContacts,
@@ -371,7 +371,8 @@ impl PoseGoalTask<'_> {
         None
     }
 
-    /// The path in time: the tool's way is one more axis, with its own speed limit.
+    /// The path as a trajectory: the distance travelled by the tool is one more axis, with its own
+    /// speed limit.
     pub(super) fn cartesian_trajectory(
         &self,
         path: &CartesianPath,
@@ -394,7 +395,7 @@ impl PoseGoalTask<'_> {
         smooth(&points, &limits, checker)
     }
 
-    /// Says why no configuration was found.
+    /// Explains why no configuration was found.
     fn unreachable(&self, touching: Option<(usize, CollisionHit)>) -> MotionFailure {
         let limits = self.torso_limits();
         let torso = [limits.lower, limits.upper];
@@ -463,7 +464,7 @@ impl PoseGoalTask<'_> {
     }
 }
 
-/// What a position near its limit costs (rad).
+/// Cost (rad) of a position near its limit.
 fn limit_cost(limits: &Limits, position: f64) -> f64 {
     let (margin, cost) = LIMIT_MARGIN;
     let room = (position - limits.lower).min(limits.upper - position);

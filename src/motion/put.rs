@@ -1,8 +1,8 @@
 //! Putting a held object down.
 //!
-//! The hand goes straight to the goal, slowly, and ends as soon as something carries the
-//! object: earlier than the goal when the surface is higher, below the goal when it is lower.
-//! Without any surface within reach below the goal it ends in the goal.
+//! The hand moves slowly and straight to the goal, and stops as soon as something carries the
+//! object: before the goal if the surface is higher, below the goal if it is lower. Without
+//! any surface within reach below the goal it ends at the goal.
 
 use super::cartesian_path::tcp_in_base;
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
@@ -17,17 +17,17 @@ use super::put_plan::PutPlan;
 use crate::robot::{LinkId, Side};
 use crate::world::{BodyName, CollisionHit, World};
 
-/// How far (m) below the goal a surface is looked for.
+/// How far (m) below the goal to look for a surface.
 const DEPTH: f64 = 0.10;
-/// Force (N) from which on something carries the object.
+/// Force (N) above which something counts as carrying the object.
 const CARRIED: f64 = 0.5;
-/// The share of the trajectory on which what the object stood on does not count.
+/// The fraction of the trajectory during which the surface the object stood on is ignored.
 const LEAVING: f64 = 0.1;
 
 /// Puts down what a hand holds.
 pub(crate) type Put = Job<JointMotion<PutGoal>>;
 
-/// Where a held object is to be put down.
+/// The goal of putting down a held object.
 #[derive(Clone, Debug)]
 pub(crate) struct PutGoal {
     side: Side,
@@ -38,7 +38,7 @@ pub(crate) struct PutGoal {
 }
 
 impl Put {
-    /// With the tool centre point going to the pose.
+    /// Puts the object down with the tool centre point at the pose.
     pub(crate) fn new(side: Side, pose: PoseGoal) -> Self {
         Self::begin(JointMotion::to(PutGoal {
             side,

@@ -1,4 +1,4 @@
-//! Planning how to put a held object down: where it meets something, and a way there.
+//! Planning how to put a held object down: where it meets a surface, and a path there.
 
 use super::cartesian_path::{CartesianEnd, CartesianLine, CartesianPath, CartesianTask};
 use super::configuration_checker::ConfigurationChecker;
@@ -10,26 +10,26 @@ use crate::robot::Side;
 use crate::spatial::{Pose, pose};
 use crate::world::{AllowedPairs, BodyName};
 
-/// How far (m) the hand may go on below the place where the object meets something.
+/// How far (m) the hand may continue below the point where the object meets something.
 const PRESS: f64 = 0.004;
-/// Steps of refinement of that place; each halves the centimetre between two configurations.
+/// Steps of bisection of that point, starting from one centimetre between two configurations.
 const REFINEMENTS: u32 = 6;
 /// How many final configurations at one height are tried.
 const CONFIGURATIONS: usize = 6;
 
-/// Plans the way of a hand with an object: straight to the goal of the task, which has one,
-/// and from there straight down.
+/// Plans the path of a hand with an object: straight to the task's only goal, and from there
+/// straight down.
 pub(super) struct PutPlan<'a> {
     pub(super) task: PoseGoalTask<'a>,
     pub(super) side: Side,
     /// Name of the held object.
     pub(super) object: BodyName,
-    /// How far (m) below the goal a surface is looked for.
+    /// How far (m) below the goal to look for a surface.
     pub(super) depth: f64,
 }
 
 impl PutPlan<'_> {
-    /// The way to where the object meets something, or to the goal where it meets nothing.
+    /// The path to where the object meets something, or to the goal if it meets nothing.
     pub(super) fn plan(mut self) -> Result<JointFollower, super::failure::MotionFailure> {
         let Some(&(side, goal)) = self.task.goals.first() else {
             return self.task.plan_free();
@@ -79,7 +79,7 @@ impl PutPlan<'_> {
         None
     }
 
-    /// The pose of the hand in which the object first meets something, whatever the arm
+    /// The pose of the hand at which the object first meets something, whatever the arm
     /// itself would touch on the way.
     fn contact(&self) -> Option<Pose> {
         for height in self.task.heights(REASON_STEP) {
@@ -120,7 +120,7 @@ impl PutPlan<'_> {
                 .iter()
                 .any(|hit| hit.moving == self.object)
         };
-        // Where the object starts it may stand on something.
+        // At the start the object may be standing on something.
         let met =
             (1..path.points.len()).find(|&i| path.points.get(i).is_some_and(|p| touches(p)))?;
         let share = |i: usize| i as f64 / (path.steps as f64).max(1.0);
@@ -139,7 +139,7 @@ impl PutPlan<'_> {
     }
 }
 
-/// Lets the lines go on straight down from where they end.
+/// Extends the lines straight down from where they end.
 fn lower(task: &mut CartesianTask<'_>, depth: f64) {
     for line in &mut task.lines {
         let mut to = line.to;

@@ -1,8 +1,7 @@
-//! What the robot could do from a place, without moving: stand there, and bring a hand to a
-//! pose.
+//! What the robot could do at a base pose, without moving: stand there, and bring a hand to
+//! a pose.
 //!
-//! The answers are those that the motions would come to; whether there is a way is not
-//! looked at.
+//! The answers agree with those of the motions; whether there is a path is not checked.
 
 use super::base_path::BasePlace;
 use super::configuration_checker::ConfigurationChecker;
@@ -13,14 +12,14 @@ use crate::robot::Side;
 use crate::spatial::Pose;
 use crate::world::{AllowedPairs, CollisionHit, World};
 
-/// Whether the base could be at the place (m, m, rad) with torso and arms as they are,
-/// touching nothing.
+/// Whether the base could be at the pose (m, m, rad) with torso and arms as they are,
+/// without collision.
 pub(crate) fn can_stand(world: &World, place: &BasePlace) -> bool {
     BaseChecker::new(world).blocked(place, 0.0).is_none()
 }
 
-/// What the robot would touch with its base at the place (m, m, rad), torso and arms as they
-/// are.
+/// What the robot would touch with its base at the pose (m, m, rad) and torso and arms as
+/// they are.
 pub(crate) fn touching_at(world: &World, place: &BasePlace) -> Vec<CollisionHit> {
     let robot = at_place(world.robot_configuration(), place);
     let mut checker = world.collision_checker();
@@ -28,7 +27,7 @@ pub(crate) fn touching_at(world: &World, place: &BasePlace) -> Vec<CollisionHit>
 }
 
 /// Whether the tool of a hand could be at the pose in the frame of the base, at any height
-/// of the torso, while the robot touches nothing but what the mode lets it.
+/// of the torso, while the robot touches nothing but what the mode permits.
 pub(crate) fn can_reach(world: &World, side: Side, tool: &Pose, mode: CollisionMode) -> bool {
     let contacts = ExpectedContacts::of(world, [side].into_iter(), mode);
     let task = PoseGoalTask {

@@ -5,24 +5,24 @@ use super::standstill::StandstillTimer;
 use crate::world::physics::STEP_SECONDS;
 use crate::world::{RobotConfiguration, World};
 
-/// The robot is steady when it has not moved for this long (s).
+/// After this time (s) without motion the robot counts as steady.
 const STEADY: f64 = 0.05;
-/// While it moves, a plan that failed is tried again after this time (s).
+/// While it moves, planning is retried after this time (s).
 const AGAIN: f64 = 0.5;
 
-/// What to do about a plan in this tick.
+/// What to do about planning in this tick.
 #[derive(Debug)]
 pub(super) enum Attempt {
     /// Plan.
     Now,
     /// Wait.
     Later,
-    /// Nothing has changed for too long.
+    /// Give up: nothing has changed for too long.
     GiveUp(MotionFailure),
 }
 
-/// When to plan again after a plan has failed: when other jobs have moved the robot into
-/// another configuration, since the way may be free then.
+/// Decides when to plan again after planning has failed: once other jobs have moved the
+/// robot into another configuration, in which the path may be free.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Replanning {
     standstill: StandstillTimer,
@@ -31,8 +31,8 @@ pub(super) struct Replanning {
 }
 
 impl Replanning {
-    /// To be called in every tick without a plan; `give_up_after` is how long (s) the robot
-    /// may stay in a configuration for which there is no plan.
+    /// Call in every tick without a plan; `give_up_after` is how long (s) the robot may stay
+    /// in a configuration for which there is no plan.
     pub(super) fn next(&mut self, world: &World, give_up_after: f64) -> Attempt {
         let still = self.standstill.wait(world);
         self.since += STEP_SECONDS;
@@ -53,13 +53,13 @@ impl Replanning {
         }
     }
 
-    /// To be called when the plan has failed.
+    /// Call when planning has failed.
     pub(super) fn failed(&mut self, world: &World, failure: MotionFailure) {
         self.failed = Some((world.robot_configuration().clone(), failure));
         self.since = 0.0;
     }
 
-    /// To be called when there is a plan.
+    /// Call when planning has succeeded.
     pub(super) fn reset(&mut self) {
         *self = Self::default();
     }

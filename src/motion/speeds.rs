@@ -1,4 +1,4 @@
-//! How fast the robot moves where its description does not say it.
+//! Speeds that the robot's description does not give.
 
 use super::trajectory::AxisGroup;
 use crate::robot::description::Speed;
@@ -17,7 +17,7 @@ pub(crate) const HAND: Speed = Speed {
     acceleration: 1.0,
 };
 
-/// The limits of the joints, in their order.
+/// The limits of the joints, in order.
 pub(super) fn limits_of(body: &RobotDescription, joints: &[JointId]) -> Vec<AxisGroup> {
     let limit = |(axis, &joint): (usize, &JointId)| {
         let Speed {

@@ -1,10 +1,10 @@
-//! For how long the robot has stood still while a job is blocked.
+//! How long the robot has stood still while a job is blocked.
 
 use crate::world::physics::STEP_SECONDS;
 use crate::world::{RobotConfiguration, World};
 
-/// Watches whether the robot still moves while a job is blocked: as long as another job
-/// moves it, the way may become free.
+/// Tracks whether the robot still moves while a job is blocked: as long as another job
+/// moves it, the path may become free.
 #[derive(Clone, Debug, Default)]
 pub(super) struct StandstillTimer {
     last: Option<RobotConfiguration>,
@@ -12,8 +12,8 @@ pub(super) struct StandstillTimer {
 }
 
 impl StandstillTimer {
-    /// To be called in every tick in which the job is blocked. Returns for how long (s) the
-    /// robot has not moved at all.
+    /// Call in every tick in which the job is blocked. Returns how long (s) the robot has not
+    /// moved at all.
     pub(super) fn wait(&mut self, world: &World) -> f64 {
         let now = world.robot_configuration();
         if self.last.as_ref() == Some(now) {
@@ -25,7 +25,7 @@ impl StandstillTimer {
         f64::from(self.still) * STEP_SECONDS
     }
 
-    /// To be called when the job goes on.
+    /// Call when the job continues.
     pub(super) fn reset(&mut self) {
         *self = Self::default();
     }

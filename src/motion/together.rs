@@ -3,14 +3,14 @@
 use super::job::{Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress};
 use crate::world::World;
 
-/// Motions that end together: when all have arrived, or with the first failure.
+/// Motions that end together: when all have succeeded, or with the first failure.
 pub(crate) struct Together {
     module: ProcessModule,
     running: Vec<Box<dyn Motion>>,
 }
 
 impl Together {
-    /// The motions, all of that module.
+    /// Runs the motions, all of that module, together.
     pub(crate) fn new(module: ProcessModule, motions: Vec<Box<dyn Motion>>) -> Self {
         Self {
             module,

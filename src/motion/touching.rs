@@ -1,30 +1,30 @@
 //! Pairs that touch before a motion begins.
 //!
-//! Such pairs must be able to part, wherever the contact came from, but a motion must not
+//! Such pairs must be able to separate, wherever the contact came from, but a motion must not
 //! press them together any further.
 
 use super::expected_contacts::ExpectedContacts;
 use super::guard::GREATEST_LAG;
 use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration};
 
-/// A pair may come this much (m) deeper: rounding, not motion.
+/// A pair may seem to overlap this much (m) more: rounding, not motion.
 const SAME_DEPTH: f64 = 5e-5;
 
-/// The pairs that are near each other in the beginning, with how deep they overlap then.
+/// The pairs that are close at the start, with their initial overlap.
 #[derive(Clone, Debug)]
 pub(super) struct TouchingPairs {
     hits: Vec<CollisionHit>,
     /// Pairs that the motion declares.
     allowed: AllowedPairs,
-    /// Those, the pairs that are expected to touch, and the near pairs.
+    /// The declared pairs, the pairs that are expected to touch, and the close pairs.
     relaxed: AllowedPairs,
-    /// Overlap (m) that any near pair may have.
+    /// Overlap (m) that any close pair may have.
     depth: f64,
 }
 
 impl TouchingPairs {
-    /// The pairs nearer than `margin` (m) for the robot as it is; each of them may overlap by
-    /// `depth` (m), or as much as it does already.
+    /// The pairs closer than `margin` (m) in the robot's present configuration; each may overlap
+    /// by `depth` (m), or as much as it already does.
     pub(super) fn new(
         checker: &mut CollisionChecker<'_>,
         robot: &RobotConfiguration,
@@ -47,7 +47,7 @@ impl TouchingPairs {
         }
     }
 
-    /// Also lets those pairs touch that touch, but do not overlap, in the configuration.
+    /// Also allows contact for pairs that touch, but do not overlap, in the configuration.
     pub(super) fn expect(
         &mut self,
         checker: &mut CollisionChecker<'_>,
@@ -62,17 +62,17 @@ impl TouchingPairs {
         }
     }
 
-    /// Whether nothing is near in the beginning, nor expected to touch.
+    /// Whether nothing is close at the start, nor expected to touch.
     pub(super) fn is_empty(&self) -> bool {
         self.relaxed == self.allowed
     }
 
-    /// The pairs that were near, and those that are declared.
+    /// The pairs that were close, and those that are declared.
     pub(super) fn relaxed(&self) -> &AllowedPairs {
         &self.relaxed
     }
 
-    /// What is nearer than `margin` (m) in the configuration, or deeper than it may be.
+    /// A pair closer than `margin` (m) in the configuration, or overlapping more than allowed.
     pub(super) fn first_hit(
         &self,
         checker: &mut CollisionChecker<'_>,

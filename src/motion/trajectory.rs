@@ -1,23 +1,23 @@
-//! Time along a path: where every axis is at each moment of a motion.
+//! Trajectories: timed motions along a path.
 //!
 //! A path is a polyline of points with one number per axis (rad or m). Every leg is
-//! driven at one speed, the greatest that all limits allow, so all axes arrive together;
-//! the resulting piecewise linear motion is then averaged over two sliding windows. What
-//! holds true of the result:
-//! - it starts and ends at rest, exactly in the first and the last point;
+//! traversed at constant speed, the highest that all limits allow, so all axes arrive
+//! together; the resulting piecewise linear motion is then averaged over two sliding windows.
+//! Properties of the result:
+//! - it starts and ends at rest, exactly at the first and the last point;
 //! - position, velocity and acceleration are continuous (the jerk is bounded);
 //! - velocities are averages of the legs' velocities and so never exceed a limit;
 //! - accelerations are differences of legs' velocities divided by the first window, which
 //!   is made long enough for the acceleration limits;
-//! - at a corner it leaves the polyline to the inside, unless it was told to stop there.
+//! - it cuts corners of the polyline on the inside, unless it stops there.
 //!
 //! A continuous joint is an axis like any other: the caller unwinds its values first.
 //! Nothing here knows of robots or collisions.
 
 use std::ops::Range;
 
-/// Speed limits that apply to some neighbouring axes together: to the Euclidean norm of
-/// their velocities and accelerations. A single joint is a group of one.
+/// Limits that apply to some neighbouring axes together: to the Euclidean norms of their
+/// velocities and accelerations. A single joint is a group of one.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct AxisGroup {
     /// The axes of the group.
@@ -29,7 +29,7 @@ pub(crate) struct AxisGroup {
 }
 
 impl AxisGroup {
-    /// The limits of one axis on its own.
+    /// The limits of a single axis.
     pub(crate) fn single(axis: usize, velocity: f64, acceleration: f64) -> Self {
         Self {
             axes: axis..axis + 1,
@@ -48,12 +48,12 @@ impl AxisGroup {
     }
 }
 
-/// What a trajectory does where two legs of its path meet.
+/// What a trajectory does at the corners of its path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Corners {
-    /// Rounds them: faster and smoother, but inside of the polyline.
+    /// Rounds them: faster and smoother, but cuts inside the polyline.
     Round,
-    /// Stops in them: never leaves the polyline.
+    /// Stops at them: never leaves the polyline.
     Stop,
 }
 
@@ -62,7 +62,7 @@ const JERK_WINDOW: f64 = 0.5;
 /// Legs that would take less time than this (s) are dropped.
 const SHORTEST_LEG: f64 = 1e-9;
 
-/// One leg of the path in time, before averaging.
+/// One timed leg of the path, before averaging.
 #[derive(Clone, Debug, PartialEq)]
 struct Leg {
     start: f64,
@@ -70,20 +70,20 @@ struct Leg {
     velocity: Vec<f64>,
 }
 
-/// A motion along a path within limits, see the module's comment.
+/// A timed motion along a path within limits; see the module documentation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Trajectory {
     first: Vec<f64>,
     last: Vec<f64>,
     legs: Vec<Leg>,
-    /// Lengths of the two averaging windows (s); zero without any motion.
+    /// Lengths of the two averaging windows (s); zero if there is no motion.
     windows: [f64; 2],
     duration: f64,
 }
 
 impl Trajectory {
-    /// The fastest motion of this kind along the points; all have as many numbers as the
-    /// first, missing ones count as "does not move". An empty path is a motion of no axis.
+    /// The fastest motion of this kind along the points; all have as many numbers as the first,
+    /// and missing ones mean that the axis does not move. An empty path is a motion of no axis.
     pub(crate) fn new(points: &[Vec<f64>], limits: &[AxisGroup], corners: Corners) -> Self {
         let first = points.first().cloned().unwrap_or_default();
         let last = points.last().cloned().unwrap_or_default();
@@ -156,7 +156,7 @@ impl Trajectory {
         &self.last
     }
 
-    /// Positions `t` seconds after the start; before it the first, after the end the last point.
+    /// Positions `t` seconds after the start: the first point before it, the last after the end.
     pub(crate) fn position(&self, t: f64) -> Vec<f64> {
         if t <= 0.0 {
             return self.first.clone();
@@ -167,7 +167,7 @@ impl Trajectory {
         self.blend(&self.first, t, ramp_integral)
     }
 
-    /// Velocities `t` seconds after the start; zero outside of the motion.
+    /// Velocities `t` seconds after the start; zero before the start and after the end.
     #[cfg(test)]
     pub(crate) fn velocity(&self, t: f64) -> Vec<f64> {
         let zero = vec![0.0; self.first.len()];
@@ -192,7 +192,7 @@ impl Trajectory {
     }
 }
 
-/// A number of a vector, 0 beyond its end.
+/// An element of a vector, 0 beyond its end.
 fn at(vector: &[f64], axis: usize) -> f64 {
     vector.get(axis).copied().unwrap_or(0.0)
 }
@@ -201,7 +201,7 @@ fn displacement(from: &[f64], to: &[f64]) -> Vec<f64> {
     from.iter().zip(to).map(|(a, b)| b - a).collect()
 }
 
-/// The time (s) in which any of the speeds, or rest, may turn into any other.
+/// The time (s) needed to change from any of the speeds, or rest, to any other.
 fn longest_ramp(speeds: &[Vec<f64>], limits: &[AxisGroup], corners: Corners) -> f64 {
     let mut longest = 0.0_f64;
     for group in limits {
@@ -312,7 +312,7 @@ mod tests {
             let t = Trajectory::new(&points, &limits, corners);
             prop_assert_eq!(&t.position(0.0), &points[0]);
             prop_assert_eq!(&t.position(t.duration()), &points[points.len() - 1]);
-            // Just before the end the sum must already be there: no jump onto the last point.
+            // Just before the end the sum must already be at the last point: no jump onto it.
             for (a, b) in t.position(t.duration() * (1.0 - 1e-12)).iter().zip(t.last()) {
                 prop_assert!((a - b).abs() < 1e-8);
             }
@@ -327,7 +327,7 @@ mod tests {
                     prop_assert!(g.norm(|x| v[x]) <= g.velocity * (1.0 + 1e-9));
                     prop_assert!(g.norm(|x| a[x]) <= g.acceleration * (1.0 + 1e-6));
                     if let Some(b) = &before {
-                        // The greatest change within h that the jerk window allows.
+                        // The largest change within h that the jerk window allows.
                         let jerk = 2.0 * g.acceleration / t.windows[1];
                         prop_assert!(g.norm(|x| a[x] - b[x]) <= jerk * h * (1.0 + 1e-6) + 1e-6);
                     }

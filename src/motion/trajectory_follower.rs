@@ -1,15 +1,15 @@
-//! Following a trajectory step by step, with stopping and going on in between.
+//! Following a trajectory step by step, with stops and resumption.
 //!
-//! Time along the trajectory normally runs as fast as the world's. When something is in the
-//! way it stops at once; afterwards it comes back to full speed gradually.
+//! Time along the trajectory normally runs as fast as the world's. If something is in the
+//! way it stops at once; afterwards it gradually returns to full speed.
 
 use super::trajectory::Trajectory;
 use crate::world::physics::STEP_SECONDS;
 
-/// How fast the rate of time comes back to 1 after a stop, and falls when braking (1/s).
+/// How fast (1/s) the rate of time returns to 1 after a stop, and falls when braking.
 const RATE_CHANGE: f64 = 4.0;
 
-/// A place on a trajectory that moves on with time.
+/// A point on a trajectory that advances with time.
 #[derive(Clone, Debug)]
 pub(super) struct TrajectoryFollower {
     trajectory: Trajectory,
@@ -31,17 +31,17 @@ impl TrajectoryFollower {
         &self.trajectory
     }
 
-    /// Whether the end has been taken.
+    /// Whether the last step has been taken.
     pub(super) fn is_at_end(&self) -> bool {
         self.time >= self.trajectory.duration()
     }
 
-    /// Where the axes shall be after the next step.
+    /// Positions of the axes after the next step.
     pub(super) fn next(&self) -> Vec<f64> {
         self.trajectory.position(self.next_time())
     }
 
-    /// Where the axes will be that much later (s) at full speed.
+    /// Positions of the axes that much later (s) at full speed.
     pub(super) fn ahead(&self, seconds: f64) -> Vec<f64> {
         self.trajectory.position(self.time + seconds)
     }
@@ -50,29 +50,29 @@ impl TrajectoryFollower {
         self.time + self.rate * STEP_SECONDS
     }
 
-    /// Takes the step that [`Self::next`] has told.
+    /// Takes the step that [`Self::next`] has returned.
     pub(super) fn advance(&mut self) {
         self.time = self.next_time();
         self.rate = (self.rate + RATE_CHANGE * STEP_SECONDS).min(1.0);
     }
 
-    /// Takes the step, and makes the following ones shorter.
+    /// Takes the step and makes the following ones shorter.
     pub(super) fn brake(&mut self) {
         self.time = self.next_time();
         self.rate = (self.rate - RATE_CHANGE * STEP_SECONDS).max(0.0);
     }
 
-    /// Whether braking has come to an end.
+    /// Whether braking has come to a stop.
     pub(super) fn is_stopped(&self) -> bool {
         self.rate <= 0.0
     }
 
-    /// Stays here.
+    /// Holds the current point; the rate of time starts again from almost zero.
     pub(super) fn hold(&mut self) {
         self.rate = RATE_CHANGE * STEP_SECONDS;
     }
 
-    /// How much of the time has passed, 0..1.
+    /// Fraction of the time that has passed, 0..1.
     pub(super) fn fraction(&self) -> f64 {
         let duration = self.trajectory.duration();
         if duration > 0.0 {

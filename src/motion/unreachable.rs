@@ -1,4 +1,4 @@
-//! What is known about a hand pose that no posture of the arm reaches.
+//! What is known about a hand pose that no configuration of the arm reaches.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use crate::robot::{self, Side};
 use crate::spatial::Pose;
 use crate::world::CollisionHit;
 
-/// A pose that the arm cannot bring its hand to, at any height of the torso.
+/// A pose to which the arm cannot bring its hand at any height of the torso.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct UnreachablePose {
     /// The arm.
@@ -17,27 +17,27 @@ pub(crate) struct UnreachablePose {
     pub(crate) wrist: Pose,
     /// Pose of the tool in the frame of the base.
     pub(crate) tool: Pose,
-    /// Torso heights that were tried (m): least and greatest.
+    /// Range of torso heights (m) that were tried: lowest and highest.
     pub(crate) torso: [f64; 2],
-    /// Why.
+    /// The reason.
     pub(crate) reason: UnreachableReason,
 }
 
-/// Why no posture was good enough.
+/// Why no configuration will do.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum UnreachableReason {
-    /// The arm is too short, or joints would have to leave their ranges.
+    /// The arm is too short, or joints would have to exceed their ranges.
     Arm {
-        /// What is missing at the height of the torso where least is missing.
+        /// What is missing at the torso height where the least is missing.
         nearest: robot::Unreachable,
         /// That height (m).
         torso: f64,
     },
-    /// There are postures, but all touch something.
+    /// There are configurations, but all are in collision.
     Collisions {
         /// What one of them touches.
         hit: CollisionHit,
-        /// How many postures were looked at.
+        /// Number of configurations checked.
         configurations: usize,
     },
 }
