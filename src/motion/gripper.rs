@@ -16,6 +16,7 @@ use crate::world::{CollisionHit, World};
 
 /// A goal farther outside the limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
+
 /// What to do with the fingers of a hand.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum GripperCommand {

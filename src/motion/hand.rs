@@ -4,10 +4,10 @@ use crate::robot::Side;
 use crate::robot::description::Gripper;
 use crate::world::{AllowedPairs, BodyName, ContactForce, World};
 
-/// Force (N) from which on a finger counts as pressing.
+/// Force (N) above which a finger counts as pressing.
 pub(crate) const GRIP_FORCE: f64 = 2.0;
 
-/// Any object may be touched by any link of the hand.
+/// Allows any link of the hand to touch any object.
 pub(super) fn hand_may_touch_objects(world: &World, side: Side) -> AllowedPairs {
     let names = hand_names(world, side);
     world.objects().fold(AllowedPairs::none(), |all, object| {

@@ -1,9 +1,9 @@
-//! The parts of the robot that motions need for themselves.
+//! The parts of the robot that motions use exclusively.
 
 use std::fmt;
 
-/// The part of the robot that a motion needs for itself. At most one job per module may be
-/// active at a time; jobs of different modules write different joints.
+/// The part of the robot that a motion uses exclusively. At most one job per module may be
+/// active at a time; jobs of different modules set different joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum ProcessModule {
     /// The base.
@@ -16,7 +16,7 @@ pub(crate) enum ProcessModule {
     Perception,
     /// The fingers of both hands.
     Grippers,
-    /// Both arms, and the torso when a hand's goal needs another height.
+    /// Both arms, and the torso if a hand's goal needs another height.
     Arms,
 }
 

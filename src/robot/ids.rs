@@ -1,4 +1,4 @@
-//! What tells the links and joints of a tree apart.
+//! Identifiers of the links and joints of a tree.
 
 /// A link of one [`KinematicTree`](super::KinematicTree).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -1,16 +1,16 @@
-//! How severe a log line is.
+//! The severity of log lines.
 
-/// Severity of log lines.
+/// Severity of a log line, or the threshold from which lines are shown.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum LogLevel {
-    /// Everything.
+    /// Details.
     Debug,
     /// Progress of plans.
     Info,
-    /// What may be wrong.
+    /// Possible problems.
     Warn,
-    /// What is wrong.
+    /// Problems.
     Error,
-    /// Nothing.
+    /// As a threshold: no lines at all.
     None,
 }
