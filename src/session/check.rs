@@ -1,9 +1,9 @@
-//! Looking for mistakes without running anything.
+//! Checking a text without running it.
 //!
 //! A text is read and compiled form by form. Definitions take effect, so that later forms
 //! can be read and compiled with them and calls can be checked; nothing else is evaluated,
-//! and the values of variables are not computed. What the compiler noted is judged at the
-//! end, when all definitions are known.
+//! and the values of variables are not computed. The compiler's notes are judged at the end,
+//! when all definitions are known.
 
 mod judge;
 mod known;
@@ -27,7 +27,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::VariableKind;
 
 impl Session {
-    /// The mistakes in a text, in its order.
+    /// The mistakes in a text, in the order of the text.
     pub(super) fn check_text(&mut self, source_name: &str, text: &str) -> Vec<Finding> {
         let source = self.image.sources.add(source_name, text);
         let mut reader = Reader::new(&self.image, source);
@@ -41,7 +41,7 @@ impl Session {
                 Err(error) => {
                     let finding = self.finding(error.raise());
                     findings.push(finding);
-                    // What the rest defines is not known.
+                    // What the rest of the text defines is unknown.
                     self.checked.is_open = true;
                     break;
                 }
@@ -107,7 +107,7 @@ impl Session {
         }
     }
 
-    /// What must be done for the forms after this one to be read and compiled.
+    /// Does what later forms need to be read and compiled.
     fn effect(&self, form: &Value) -> Effect {
         let Some(head) = form.car_or_nil().as_symbol() else {
             return Effect::None;
@@ -161,7 +161,7 @@ impl Session {
         })
     }
 
-    /// The place of a name in a form, or that of the form.
+    /// The place of a name in a form, or of the form itself.
     fn place_of_name(&mut self, form: Place, name: &str) -> Place {
         let sources = &mut self.image.sources;
         let range = sources.text(form).and_then(|text| tokens::find(text, name));
@@ -171,15 +171,15 @@ impl Session {
     }
 }
 
-/// What a form does for those after it.
+/// The effect of a form on later forms.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Effect {
-    /// Nothing that matters here.
+    /// None that matters here.
     None,
     /// Later forms cannot be read or expanded without it.
     Reading,
     /// It defines something.
     Definition,
-    /// It defines a variable, whose value must not be computed.
+    /// It defines a variable; its value must not be computed.
     Variable,
 }

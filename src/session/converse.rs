@@ -1,4 +1,4 @@
-//! The session as the prompt talks to it.
+//! The session's side of the dialogue with the prompt.
 
 use super::Session;
 use super::dialogue::{Completions, Converse};

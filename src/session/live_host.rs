@@ -1,4 +1,4 @@
-//! The scheduler's host, with output told as it comes.
+//! The scheduler's host, with output reported as it is produced.
 
 use std::any::Any;
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ use crate::lisp::image::Image;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
 use crate::watch::WatchEvent;
 
-/// The host, and whom to tell what is printed meanwhile.
+/// The host, and the sink for what is printed meanwhile.
 pub(super) struct LiveHost<'a> {
     host: &'a mut SimulationHost,
     sink: &'a mut dyn FnMut(Event),
@@ -30,11 +30,11 @@ impl<'a> LiveHost<'a> {
     }
 }
 
-/// How long a motion runs until its progress is told, and how often that is.
+/// How long a motion runs before its progress is reported, and the interval between reports.
 const FIRST_PROGRESS: Duration = Duration::from_millis(150);
 const BETWEEN_PROGRESS: Duration = Duration::from_millis(100);
 
-/// Tells what was written to standard output, and what became of tasks.
+/// Reports what was written to standard output, and changes in the states of tasks.
 pub(super) fn flush(image: &mut Image, host: &mut SimulationHost, sink: &mut dyn FnMut(Event)) {
     host.audience.tell_tasks(image);
     let text = image.output.take();
@@ -64,7 +64,7 @@ impl Host for LiveHost<'_> {
         let mut told = begin;
         let sink = &mut *self.sink;
         self.host.advance_watched(image, now, until, &mut |host| {
-            // The real time decides what is shown, never what happens.
+            // Real time determines what is shown, never what happens.
             let is_long = begin.elapsed() > FIRST_PROGRESS;
             if is_long && told.elapsed() > BETWEEN_PROGRESS {
                 told = Instant::now();

@@ -1,6 +1,6 @@
 //! One session: an image, a world, and what happens when text is evaluated in them.
 //!
-//! A session takes text and tells events; it prints nothing itself.
+//! A session takes text and reports events; it prints nothing itself.
 
 mod assist;
 mod audience;
@@ -49,9 +49,9 @@ pub struct Session {
     image: Image,
     scheduler: Scheduler,
     host: SimulationHost,
-    /// What checked texts define.
+    /// What the checked texts define.
     checked: check::KnownNames,
-    /// What stands still, and what a person may do with it.
+    /// Stopped evaluations, and what the user may do with them.
     console: console::Console,
 }
 
@@ -59,7 +59,7 @@ pub struct Session {
 enum Ended {
     Values(Vec<Value>),
     Aborted(Box<Abort>),
-    /// It stands still; only where a person can decide.
+    /// It has stopped; only in an interactive session.
     Stopped(Evaluation),
 }
 
@@ -85,8 +85,8 @@ impl Session {
         Ok(session)
     }
 
-    /// Bytes of the Rust stack that the compiler may use: a thread with a large stack can
-    /// compile forms that are nested more deeply.
+    /// Sets how many bytes of the Rust stack the compiler may use: a thread with a large stack
+    /// can compile forms that are nested more deeply.
     pub(crate) fn set_stack_budget(&mut self, bytes: usize) {
         self.image.stack_budget = bytes;
     }
@@ -104,7 +104,7 @@ impl Session {
             .collect()
     }
 
-    /// What the language knows.
+    /// The tables of the language.
     pub(crate) fn image(&self) -> &Image {
         &self.image
     }
@@ -120,23 +120,23 @@ impl Session {
         &self.host.simulation
     }
 
-    /// Who watches.
+    /// The outputs that show the session.
     pub(crate) fn audience(&self) -> &Audience {
         &self.host.audience
     }
 
-    /// Has somebody watch the world after every step that a motion takes.
+    /// Sets a function to be called after every step of a motion.
     #[cfg(test)]
     pub(crate) fn set_observer(&mut self, observer: audience::Observer) {
         self.host.audience.set_observer(observer);
     }
 
-    /// Keeps a shot every now and then from here on.
+    /// Starts to film.
     pub(crate) fn start_film(&mut self, wanted: Filming) -> Result<(), ViewError> {
         self.host.audience.start_film(&self.host.simulation, wanted)
     }
 
-    /// The shots since the film was started, the last of them as everything is now.
+    /// Ends the film and returns its shots; the last one shows the present state.
     pub(crate) fn end_film(&mut self) -> Vec<Shot> {
         self.host.audience.end_film(&self.host.simulation)
     }
@@ -147,14 +147,14 @@ impl Session {
         host.audience.open_view(&host.simulation, &self.image)
     }
 
-    /// Records from here on what happens into an MCAP file.
+    /// Starts to record the session into an MCAP file.
     pub(crate) fn begin_recording(&mut self, path: &Path) -> Result<(), WatchError> {
         let host = &mut self.host;
         host.audience
             .begin_recording(&host.simulation, &self.image, path)
     }
 
-    /// Ends the recording, if there is one, and tells what went wrong with it.
+    /// Ends the recording, if there is one; fails if it could not be written.
     pub(crate) fn end_recording(&mut self) -> Result<(), WatchError> {
         self.host.audience.end_recording(&self.host.simulation)
     }
@@ -196,18 +196,18 @@ impl Session {
         ended
     }
 
-    /// Leaves an evaluation that has stopped: its cleanup forms run.
+    /// Unwinds a stopped evaluation, running its cleanup forms.
     fn abort(&mut self, sink: &mut dyn FnMut(Event)) {
         let mut host = LiveHost::new(&mut self.host, sink, self.console.is_interactive);
         self.scheduler.abort(&mut self.image, &mut host);
     }
 
-    /// Tells what was written to standard output.
+    /// Reports what was written to standard output.
     fn flush(&mut self, sink: &mut dyn FnMut(Event)) {
         live_host::flush(&mut self.image, &mut self.host, sink);
     }
 
-    /// The name of the current package, or a short one.
+    /// The name of the current package, or a nickname.
     fn package_name(&self) -> String {
         let package = self.image.current_package();
         if package == PackageTable::USER {
@@ -263,7 +263,7 @@ fn interrupted() -> Abort {
 impl Evaluate for Session {
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
         self.image.polls.begin(self.console.interrupt_next.take());
-        // Somebody who asked to leave and goes on has changed their mind.
+        // A user who asked to leave and then continues has changed their mind.
         self.host.person.quit = None;
         if let Some(outcome) = self.inspector_input(text, sink) {
             return outcome;

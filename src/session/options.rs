@@ -17,14 +17,14 @@ pub struct SessionOptions {
     pub seed: u64,
     /// Name and text of a URDF in place of the built-in robot's.
     pub robot: Option<(String, String)>,
-    /// Name and text of a description in place of the built-in robot's: what the links and
-    /// joints are for.
+    /// Name and text of a description of the robot's links and joints, in place of the
+    /// built-in robot's.
     pub robot_description: Option<(String, String)>,
     /// Name and text of a URDF in place of the built-in kitchen's.
     pub world: Option<(String, String)>,
-    /// Least severe log lines that are shown.
+    /// The least severe log lines that are shown.
     pub log_level: LogLevel,
-    /// How many simulated seconds pass in a real one; as many as possible if none.
+    /// How many simulated seconds pass per real second; as many as possible if `None`.
     pub realtime: Option<f64>,
 }
 
@@ -47,7 +47,7 @@ pub enum SessionError {
     /// A description of the robot, the kitchen or the objects is wrong.
     #[error("{0}")]
     Models(String),
-    /// A robot was given without a description, and the built-in one is not for it.
+    /// A robot was given without a description, and the built-in one does not fit it.
     #[error(
         "{robot} lacks {missing}, which the built-in description of the PR2 names: say with \
          --robot-description FILE which links and joints are the base, the torso lift, the neck, \
@@ -87,7 +87,7 @@ impl SessionOptions {
         Ok(Models::new(robot, description, kitchen, objects))
     }
 
-    /// Reads what the robot's links and joints are for.
+    /// Reads the description of the robot's links and joints.
     fn description(&self, robot: &KinematicTree) -> Result<RobotDescription, SessionError> {
         let wrong = |error: DataError| SessionError::Models(error.to_string());
         if let Some((name, text)) = &self.robot_description {

@@ -1,4 +1,4 @@
-//! The plans that come with the program: `plans/lib`.
+//! The built-in plans: `plans/lib`.
 
 use super::{Ended, Session, SessionError};
 use crate::lisp::reader::Reader;
@@ -28,7 +28,7 @@ const LIBRARY: &[(&str, &str)] = &[
 ];
 
 impl Session {
-    /// Loads the built-in plans. The current package is the same afterwards.
+    /// Loads the built-in plans. The current package stays the same.
     pub(super) fn load_plans(&mut self) -> Result<(), SessionError> {
         for (name, text) in LIBRARY {
             let failed = |report: String| SessionError::Plan {

@@ -12,17 +12,17 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
-/// Actions that are told around a condition.
+/// Maximum number of enclosing actions shown with a condition.
 const MOST_ACTIONS: usize = 8;
-/// Characters of an action that are told.
+/// Maximum length of an action as shown, in characters.
 const LONGEST_ACTION: usize = 100;
 
-/// Is the place in a plan that comes with the program?
+/// Whether the place is in a built-in plan.
 fn is_built_in(place: &Location) -> bool {
     place.name.starts_with("plans/lib/")
 }
 
-/// `#<AN ACTION …>` as `(AN ACTION …)`, line breaks as blanks, cut where it gets long.
+/// `#<AN ACTION …>` as `(AN ACTION …)` on one line, truncated if it is long.
 pub(super) fn on_one_line(shown: &str) -> String {
     let words: Vec<&str> = shown.split_whitespace().collect();
     let line = words.join(" ");
@@ -42,7 +42,7 @@ impl Session {
         self.printed_by(known::PRIN1_TO_STRING, value)
     }
 
-    /// What is told of a condition that nobody handled.
+    /// What is shown for an unhandled condition.
     pub(super) fn describe(&mut self, condition: &Value) -> Abort {
         let calls = self.image.condition_calls(condition);
         let calls: Vec<OpenCall> = calls.unwrap_or_default().to_vec();
@@ -74,7 +74,7 @@ impl Session {
         steps.take(MOST_ACTIONS).collect()
     }
 
-    /// What is told of an error in Rust code.
+    /// What is shown for an error in Rust code.
     pub(super) fn raised(&mut self, raise: Box<Raise>) -> Abort {
         let place = raise.place();
         let mut abort = match condition::make(&self.image, &raise) {
@@ -91,7 +91,7 @@ impl Session {
         abort
     }
 
-    /// A value printed by a function, so that the user's print methods are heard; if they
+    /// A value printed by a Lisp function, so that the user's print methods apply; if they
     /// fail, by the printer alone.
     fn printed_by(&mut self, function: Sym, value: &Value) -> String {
         let args = vec![value.clone()];

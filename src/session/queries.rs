@@ -1,4 +1,4 @@
-//! What an embedding program may ask about the world between two inputs.
+//! Queries about the world for embedding programs, to be used between inputs.
 //!
 //! Lengths are in metres, angles in radians, times in seconds. Poses are given in the map
 //! frame: its origin is on the floor, x points forward, y to the left and z up. Names of
@@ -21,24 +21,24 @@ impl Session {
         objects.map(|object| object.name()).collect()
     }
 
-    /// Where an object is: the pose of its frame in the map frame (m).
+    /// Pose of an object's frame in the map frame (m).
     pub fn object_pose(&self, object: &str) -> Option<Pose> {
         self.simulation().world().object_pose(object).ok()
     }
 
-    /// Where the robot is: the pose of its base, on the floor, in the map frame (m).
+    /// Pose of the robot's base, on the floor, in the map frame (m).
     pub fn robot_pose(&self) -> Pose {
         self.simulation().world().robot_configuration().base
     }
 
-    /// Where a link of the robot is: the pose of its frame in the map frame (m).
+    /// Pose of the frame of a link of the robot in the map frame (m).
     pub fn link_pose(&self, link: &str) -> Option<Pose> {
         let world = self.simulation().world();
         let link = world.models().robot.link_named(link)?;
         Some(world.link_pose(link))
     }
 
-    /// Position of a joint of the robot (rad, or m where it slides).
+    /// Position of a joint of the robot (rad, or m for a prismatic joint).
     pub fn joint_position(&self, joint: &str) -> Option<f64> {
         let world = self.simulation().world();
         let robot = &world.models().robot;
@@ -46,7 +46,7 @@ impl Session {
         Some(robot.position(&world.robot_configuration().joints, joint))
     }
 
-    /// How far a drawer or door of the kitchen is open: position of its joint (m or rad).
+    /// How far a drawer or door of the kitchen is open: the position of its joint (m or rad).
     pub fn kitchen_joint_position(&self, joint: &str) -> Option<f64> {
         self.simulation().world().kitchen_joint(joint).ok()
     }
@@ -56,8 +56,8 @@ impl Session {
         crate::motion::held_objects(self.simulation().world(), side)
     }
 
-    /// A hash of all bits of the world's state. The same inputs after the same seed give
-    /// the same hash.
+    /// A hash of all bits of the world's state. The same inputs with the same seed give the
+    /// same hash.
     pub fn world_hash(&self) -> u64 {
         self.simulation().world().hash()
     }

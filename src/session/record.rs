@@ -1,4 +1,4 @@
-//! What was typed and what came of it, so that a session can be written as a transcript.
+//! The inputs and outputs of a session, so that it can be written as a transcript.
 
 use std::cell::RefCell;
 
@@ -17,12 +17,12 @@ struct Entry {
     prompt: String,
     input: String,
     screen: Screen<Vec<u8>>,
-    /// The evaluation has stopped; a replay goes no further.
+    /// Whether the evaluation has stopped; a replay goes no further.
     is_over: bool,
 }
 
 impl Record {
-    /// An input at the top is about to be evaluated.
+    /// Call when an input at the top level is about to be evaluated.
     pub(crate) fn begin(&self, prompt: String, source_name: &str, input: &str) {
         let mut screen = Screen::new(Vec::new());
         screen.begin_input(source_name, input);
@@ -34,14 +34,14 @@ impl Record {
         });
     }
 
-    /// Something has happened. Where a person decides how a condition goes on, a replay
-    /// aborts: that is what is recorded.
+    /// Records an event. Where a user decides how to continue after a condition, a replay
+    /// aborts, so that is what is recorded.
     pub(crate) fn note(&self, event: &Event) {
         let mut entries = self.0.borrow_mut();
         let Some(entry) = entries.last_mut().filter(|entry| !entry.is_over) else {
             return;
         };
-        // Writing into memory does not fail.
+        // Writing to memory does not fail.
         let _ = match event {
             Event::Stopped(stop) => {
                 entry.is_over = true;
@@ -52,7 +52,7 @@ impl Record {
         };
     }
 
-    /// All entries but the last, which is still being evaluated, as a transcript.
+    /// The transcript of all entries but the last, which is still being evaluated.
     fn transcript(&self) -> String {
         let entries = self.0.borrow();
         let mut text = String::new();

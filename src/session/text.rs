@@ -1,4 +1,4 @@
-//! Evaluating a text: reading a form, evaluating it, and so on to the end.
+//! Evaluating a text: reading and evaluating one form after another.
 
 use super::console::Suspended;
 use super::dialogue::{Abort, Event, Outcome};
@@ -11,8 +11,8 @@ use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 
 impl Session {
-    /// Evaluates all forms of a text. Each is read after those before it have been
-    /// evaluated, so that it sees the package that they chose.
+    /// Evaluates all forms of a text. Each is read after the previous ones have been evaluated,
+    /// so that it is read in the package that they selected.
     pub(super) fn evaluate_text(
         &mut self,
         source_name: &str,
@@ -24,7 +24,7 @@ impl Session {
         self.evaluate_rest(reader, sink)
     }
 
-    /// Evaluates all forms from where the reader stands.
+    /// Evaluates all forms from the reader's position.
     pub(super) fn evaluate_rest(
         &mut self,
         mut rest: Reader,
@@ -59,7 +59,7 @@ impl Session {
         }
     }
 
-    /// Evaluates a form that has been read, and those after it.
+    /// Evaluates a form that has been read, and the forms after it.
     pub(super) fn evaluate_first(
         &mut self,
         first: Suspended,
@@ -79,7 +79,7 @@ impl Session {
         }
     }
 
-    /// Tells the values of a form; the outcome, if the form asked to leave.
+    /// Reports the values of a form; returns the outcome if the form asked to exit.
     pub(super) fn tell_values(
         &mut self,
         values: &[Value],

@@ -1,4 +1,4 @@
-//! What could stand at the cursor.
+//! Completions at the cursor.
 
 use super::context::Context;
 use super::designators::{self, Spot};
@@ -7,7 +7,7 @@ use crate::session::Session;
 use crate::session::dialogue::{Candidate, Completions};
 
 impl Session {
-    /// What could stand at byte `at` of an input.
+    /// The completions at byte `at` of an input.
     pub(in crate::session) fn complete(&self, text: &str, at: usize) -> Completions {
         let context = Context::of(text, at);
         if context.in_comment {

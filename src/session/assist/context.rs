@@ -1,38 +1,38 @@
-//! Where in the structure of a text the cursor stands.
+//! The syntactic context of the cursor.
 
 use crate::lisp::reader::{Lexer, Token, TokenKind};
 
 /// A list that is open at the cursor.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Open<'t> {
-    /// Its first element, if that is an atom and the cursor is behind it.
+    /// Its first element, if that is an atom and the cursor is after it.
     pub(crate) operator: Option<&'t str>,
-    /// Elements before the one at the cursor; the first one counts.
+    /// Number of elements before the one at the cursor, including the first.
     pub(crate) elements: usize,
     /// The atom just before the one at the cursor.
     pub(crate) last: Option<&'t str>,
-    /// Lists among its elements: their first two atoms.
+    /// The first two atoms of each list among its elements.
     pub(crate) lists: Vec<(&'t str, Option<&'t str>)>,
     /// The second element, if that is an atom.
     pub(crate) second: Option<&'t str>,
-    /// Is it quoted?
+    /// Whether it is quoted.
     pub(crate) is_quoted: bool,
 }
 
-/// Where the cursor stands.
+/// The context of a cursor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Context<'t> {
     /// The open lists, innermost last.
     pub(crate) lists: Vec<Open<'t>>,
-    /// The part of the atom at the cursor that is before it.
+    /// The part of the atom at the cursor that precedes it.
     pub(crate) word: &'t str,
-    /// Where that begins.
+    /// Byte at which it begins.
     pub(crate) word_start: usize,
-    /// Is the cursor in a string? Then `word` is what it holds so far.
+    /// Whether the cursor is in a string; `word` is then its contents so far.
     pub(crate) in_string: bool,
-    /// Is it in a comment?
+    /// Whether the cursor is in a comment.
     pub(crate) in_comment: bool,
-    /// Does a `'` or `#'` stand before the word?
+    /// Whether a `'` or `#'` precedes the word.
     pub(crate) is_quoted: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Designators: the keys that a type takes, and the values that a key takes.
+//! Completions in designators: the keys that a type takes, and the values that a key takes.
 
 use super::context::{Context, Open, bare};
 use super::{first_sentence, lower};
@@ -14,7 +14,7 @@ pub(super) struct Described<'c, 't> {
     list: &'c Open<'t>,
 }
 
-/// Where in a designator form the cursor stands.
+/// The position of the cursor in a designator form.
 pub(super) enum Spot<'c, 't> {
     /// At the name of the class.
     Class,
@@ -38,7 +38,7 @@ pub(super) fn spot<'c, 't>(context: &'c Context<'t>) -> Option<Spot<'c, 't>> {
     if last.operator.is_some_and(is_article) && last.elements == 1 {
         return Some(Spot::Class);
     }
-    // `(desig:when ?x (key …))` stands between.
+    // `(desig:when ?x (key …))` may come in between.
     let is_when = |name: &str| lower(bare(name)) == "when";
     let outer = outer
         .iter()
@@ -61,7 +61,7 @@ impl Described<'_, '_> {
             .and_then(|(_, value)| *value)
     }
 
-    /// The rows of its type.
+    /// The table rows of its type.
     pub(super) fn rows(&self) -> Vec<&'static TypeRow> {
         let name = self.value_of("type").map(|name| bare(name).to_uppercase());
         name.map_or_else(Vec::new, |name| schema::rows(self.class, &name).collect())
@@ -84,7 +84,7 @@ impl Described<'_, '_> {
         }
     }
 
-    /// The key of that name.
+    /// The key with that name.
     pub(super) fn key(&self, name: &str) -> Option<&'static Key> {
         let name = bare(name).to_uppercase();
         let keys = self.keys().into_iter();
@@ -112,7 +112,7 @@ pub(super) fn classes() -> Vec<Candidate> {
     ]
 }
 
-/// The keys that could stand there, those that are there already left out.
+/// The keys that could be added, without those already present.
 pub(super) fn keys(described: &Described<'_, '_>) -> Vec<Candidate> {
     let mut keys: Vec<Candidate> = Vec::new();
     if described.value_of("type").is_none() && described.class != Class::Location {
@@ -127,7 +127,7 @@ pub(super) fn keys(described: &Described<'_, '_>) -> Vec<Candidate> {
 }
 
 impl Session {
-    /// The values that are known for a key.
+    /// The known values of a key.
     pub(super) fn values_of_key(
         &self,
         described: &Described<'_, '_>,
@@ -184,7 +184,7 @@ impl Session {
             .collect()
     }
 
-    /// The grasps that are defined for the type of object that the text names, or all.
+    /// The grasps defined for the object type that the text names, or all grasps.
     pub(super) fn grasps(&self, context: &Context<'_>) -> Vec<Candidate> {
         let named = context.lists.iter().flat_map(|list| &list.lists);
         let kind = named
@@ -210,7 +210,7 @@ impl Session {
     }
 }
 
-/// The types of a class, without aliases.
+/// The types of a class, excluding aliases.
 fn types(class: Class) -> Vec<Candidate> {
     let mut found: Vec<Candidate> = Vec::new();
     for row in schema::TYPES.iter().filter(|row| row.class == class) {

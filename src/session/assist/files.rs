@@ -1,14 +1,14 @@
-//! Names of files, in strings.
+//! Completions of file names in strings.
 
 use std::path::Path;
 
 use crate::session::dialogue::{Candidate, Completions};
 
-/// Files that are offered.
+/// Maximum number of files offered.
 const MOST_FILES: usize = 100;
 
-/// The files whose names begin like the text, which stands in a string that begins at byte
-/// `start` of the input.
+/// The files whose names begin with the text, the contents so far of a string that starts
+/// at byte `start` of the input.
 pub(super) fn completions(text: &str, start: usize) -> Completions {
     let (directory, name) = match text.rfind('/') {
         Some(slash) => text.split_at(slash + 1),

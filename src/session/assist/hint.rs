@@ -1,4 +1,4 @@
-//! The shape of the form that is being typed.
+//! The signature of the form being typed.
 
 use super::context::{Context, Open, bare};
 use super::designators::{self, Spot};
@@ -6,11 +6,11 @@ use super::lower;
 use crate::lisp::builtins::help;
 use crate::session::Session;
 
-/// Characters of a hint.
+/// Maximum length of a hint in characters.
 const LONGEST: usize = 100;
 
 impl Session {
-    /// The shape of the form that is being typed at byte `at`, with the current argument
+    /// The signature of the form being typed at byte `at`, with the current argument
     /// between two `*`.
     pub(in crate::session) fn hint_at(&self, text: &str, at: usize) -> Option<String> {
         let context = Context::of(text, at);
@@ -37,7 +37,7 @@ impl Session {
         hint.map(|hint| shortened(&hint))
     }
 
-    /// In a designator form, between its properties: what it takes.
+    /// The keys of a designator form, between its properties.
     fn keys_of_type(&self, context: &Context<'_>) -> Option<String> {
         let list = context.lists.last()?;
         let name = lower(bare(list.operator?));
@@ -108,7 +108,7 @@ fn parameters(lambda_list: &str) -> Vec<&str> {
     words
 }
 
-/// Which element of the lambda list the argument at that position belongs to.
+/// The element of the lambda list to which the argument at that position belongs.
 fn current_parameter(words: &[&str], position: usize, last: Option<&str>) -> Option<usize> {
     let mut left = position;
     let mut in_keys = false;

@@ -1,5 +1,5 @@
-//! What could be typed next: completion, and the shape of the form being typed. Both read
-//! the tables and the image, and change nothing.
+//! Help while typing: completion, and the signature of the form being typed. Both read the
+//! tables and the image without changing anything.
 
 mod completion;
 mod context;
@@ -12,7 +12,7 @@ use super::Session;
 use crate::plan::designator::schema;
 use crate::plan::designator::value::Class;
 
-/// A name for people: as they type it.
+/// A name as users type it.
 fn lower(name: &str) -> String {
     name.to_lowercase()
 }
@@ -27,7 +27,7 @@ fn first_sentence(text: &str) -> String {
 }
 
 impl Session {
-    /// Is the name that of a type of actions, motions or objects?
+    /// Whether the name is that of a type of action, motion or object.
     pub(super) fn is_type_name(&self, name: &str) -> bool {
         let upper = name.to_uppercase();
         let mut described = [Class::Action, Class::Motion].into_iter();

@@ -1,4 +1,4 @@
-//! Names of functions, macros, variables, keywords and packages.
+//! Completions of functions, macros, variables, keywords and packages.
 
 use super::context::Context;
 use super::{first_sentence, lower};
@@ -9,11 +9,11 @@ use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::session::Session;
 use crate::session::dialogue::Candidate;
 
-/// Names that are offered.
+/// Maximum number of names offered.
 const MOST_NAMES: usize = 500;
 
 impl Session {
-    /// The names that begin like the word at the cursor.
+    /// The names that begin with the word at the cursor.
     pub(super) fn names(&self, context: &Context<'_>) -> Vec<Candidate> {
         let word = context.word;
         let is_operator = !context.is_quoted
@@ -107,8 +107,7 @@ impl Session {
             .map(|(name, (sym, _))| (&**name, *sym))
     }
 
-    /// Keywords that mean something: those of the function being called, types, grasps,
-    /// arms.
+    /// Keywords with a meaning: those of the function being called, types, grasps and arms.
     fn keywords(&self, context: &Context<'_>) -> Vec<Candidate> {
         let keyword = |c: Candidate| Candidate {
             text: format!(":{}", c.text),
@@ -163,7 +162,7 @@ impl Session {
         .map(|(sym, _)| sym)
     }
 
-    /// One line on what a symbol means, if it means anything.
+    /// One line on what a symbol means, if it has a meaning.
     fn meaning(&self, sym: Sym, is_operator: bool) -> Option<String> {
         let data = self.image.symbol(sym);
         if !matches!(data.function, FunctionCell::Unbound) {

@@ -1,39 +1,39 @@
-//! Keeping what is seen every now and then, for moving pictures.
+//! Taking shots of the world at regular intervals, for animations.
 
 use super::Audience;
 use crate::picture::animation::Shot;
 use crate::picture::{View, ViewError};
 use crate::session::simulation::Simulation;
 
-/// Shots of a session as time passes.
+/// Shots of a session over time.
 pub(crate) struct Film {
     wanted: Filming,
-    /// When (simulated s) the next shot is due.
+    /// Simulated time (s) at which the next shot is due.
     next: f64,
     shots: Vec<Shot>,
 }
 
-/// What is to be filmed.
+/// How to film.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Filming {
-    /// From where.
+    /// The viewpoint.
     pub(crate) view: View,
-    /// Pixels per row.
+    /// Width of a shot in pixels.
     pub(crate) width: usize,
-    /// Rows.
+    /// Height of a shot in pixels.
     pub(crate) height: usize,
-    /// Simulated time from one shot to the next (s).
+    /// Simulated time (s) from one shot to the next.
     pub(crate) every: f64,
 }
 
 impl Audience {
-    /// Keeps a shot every now and then from here on.
+    /// Starts to film.
     pub(crate) fn start_film(
         &mut self,
         simulation: &Simulation,
         wanted: Filming,
     ) -> Result<(), ViewError> {
-        // A view that there is not is told at once.
+        // Report a view that does not exist at once.
         wanted
             .view
             .camera(&simulation.world, wanted.width, wanted.height)?;
@@ -45,13 +45,13 @@ impl Audience {
         Ok(())
     }
 
-    /// The shots since the film was started, the last of them as everything is now.
+    /// Ends the film and returns its shots; the last one shows the present state.
     pub(crate) fn end_film(&mut self, simulation: &Simulation) -> Vec<Shot> {
         self.shoot(simulation);
         self.film.take().map_or_else(Vec::new, |film| film.shots)
     }
 
-    /// Keeps a shot if one is due.
+    /// Takes a shot if one is due.
     pub(crate) fn film(&mut self, simulation: &Simulation) {
         let now = simulation.now;
         let Some(film) = &mut self.film else { return };
@@ -70,7 +70,7 @@ impl Audience {
             height,
             ..
         } = film.wanted;
-        // The view was there when the film was started, and furniture stays.
+        // The view existed when the film was started, and furniture does not disappear.
         let Ok(camera) = view.camera(&simulation.world, width, height) else {
             return;
         };

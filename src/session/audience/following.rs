@@ -1,4 +1,4 @@
-//! Those who follow the session: they are told of every step, of edits and of what happens.
+//! The session's followers, which are notified of every step, of edits and of other events.
 
 use super::Audience;
 use crate::lisp::image::Image;
@@ -10,19 +10,19 @@ use crate::session::simulation::jobs::Job;
 use crate::watch::{Cause, Follower, Observation, TaskId, TaskNews, TaskState, WatchEvent};
 use crate::world::CollisionHit;
 
-/// Who follows.
+/// The followers of a session.
 #[derive(Default)]
 pub(crate) struct Followers {
     all: Vec<(FollowerId, Box<dyn Follower>)>,
     last: u64,
 }
 
-/// Tells followers apart.
+/// Identifies a follower.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct FollowerId(u64);
 
 impl Audience {
-    /// Has somebody follow the session from here on.
+    /// Adds a follower, which is notified from now on.
     pub(crate) fn add_follower(
         &mut self,
         simulation: &Simulation,
@@ -38,12 +38,12 @@ impl Audience {
         id
     }
 
-    /// Lets somebody follow no longer.
+    /// Removes a follower.
     pub(crate) fn remove_follower(&mut self, id: FollowerId) {
         self.followers.all.retain(|(known, _)| *known != id);
     }
 
-    /// Tells the followers how the world is now.
+    /// Shows the followers the present state of the world.
     pub(crate) fn show(&mut self, simulation: &Simulation, cause: Cause) {
         if self.followers.all.is_empty() {
             return;
@@ -58,14 +58,14 @@ impl Audience {
         self.followers.all = followers;
     }
 
-    /// Tells the followers what happened.
+    /// Notifies the followers of an event.
     pub(crate) fn tell(&mut self, now: f64, event: &WatchEvent) {
         for (_, follower) in &mut self.followers.all {
             follower.hear(now, event);
         }
     }
 
-    /// Tells the followers what became of tasks.
+    /// Notifies the followers of changes in the states of tasks.
     pub(crate) fn tell_tasks(&mut self, image: &Image) {
         if self.followers.all.is_empty() {
             return;
@@ -85,7 +85,7 @@ impl Audience {
         }
     }
 
-    /// Tells the followers what became of a motion.
+    /// Notifies the followers of a change in the state of a motion.
     pub(crate) fn tell_motion(&mut self, now: f64, job: &Job, state: TaskState, failure: &str) {
         if self.followers.all.is_empty() {
             return;
@@ -102,7 +102,7 @@ impl Audience {
         );
     }
 
-    /// Tells the followers what stopped a motion.
+    /// Notifies the followers of the collision that stopped a motion.
     pub(crate) fn tell_collision(&mut self, now: f64, hit: &CollisionHit) {
         for (_, follower) in &mut self.followers.all {
             follower.collide(now, hit);

@@ -1,5 +1,5 @@
-//! Who watches a session: followers of every step, the live view, recordings, films, and
-//! pictures on their way to the prompt.
+//! The outputs that show a session: followers of every step, the live view, recordings,
+//! films, and pictures for the prompt.
 
 mod film;
 mod following;
@@ -19,26 +19,26 @@ use pace::Pace;
 pub(crate) use views::WatchError;
 use views::{LiveView, OpenRecording};
 
-/// Looks at the world after every step of a motion.
+/// Called with the world after every step of a motion.
 pub(crate) type Observer = Box<dyn FnMut(&World)>;
 
-/// Who watches a session.
+/// Everything that shows a session.
 #[derive(Default)]
 pub(crate) struct Audience {
-    /// Keeps simulated time from passing faster than somebody wants to see.
+    /// Limits how fast simulated time passes.
     pub(super) pace: Option<Pace>,
     observer: Option<Observer>,
     film: Option<Film>,
     followers: Followers,
     view: Option<LiveView>,
     recording: Option<OpenRecording>,
-    /// Pictures that were made and not yet told of.
+    /// Pictures that have not been reported as events yet.
     pictures: Vec<Arc<Image>>,
 }
 
 impl Audience {
-    /// Somebody who wants to see simulated time pass at that multiple of the real one, or as
-    /// fast as it can.
+    /// An audience for which simulated time passes at that multiple of real time, or as fast
+    /// as possible.
     pub(super) fn new(realtime: Option<f64>) -> Self {
         let control = realtime.map(|factor| PaceControl::new(Speed::Times(factor)));
         Self {
@@ -47,25 +47,25 @@ impl Audience {
         }
     }
 
-    /// Has a function look at the world after every step that a motion takes.
+    /// Sets a function to be called after every step of a motion.
     #[cfg(test)]
     pub(crate) fn set_observer(&mut self, observer: Observer) {
         self.observer = Some(observer);
     }
 
-    /// Lets the observer look.
+    /// Calls the observer.
     pub(super) fn observe(&mut self, simulation: &Simulation) {
         if let Some(observer) = &mut self.observer {
             observer(&simulation.world);
         }
     }
 
-    /// A picture was made, which is to be shown to whoever can see it.
+    /// Queues a picture to be shown by front ends that can show pictures.
     pub(super) fn add_picture(&mut self, picture: Image) {
         self.pictures.push(Arc::new(picture));
     }
 
-    /// The pictures that were made since this was asked last.
+    /// Takes the pictures made since the last call.
     pub(super) fn take_pictures(&mut self) -> Vec<Arc<Image>> {
         std::mem::take(&mut self.pictures)
     }

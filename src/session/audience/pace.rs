@@ -1,5 +1,5 @@
-//! Letting simulated time pass no faster than a multiple of the real one. It changes when
-//! things happen for the person who watches, never what happens.
+//! Limiting simulated time to a multiple of real time. This affects when things happen for
+//! the user who watches, never what happens.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -7,21 +7,21 @@ use std::time::{Duration, Instant};
 
 use crate::watch::live::{PaceControl, Speed};
 
-/// Longest lag (s) behind the real time that is made up for; after a pause, as at the
-/// prompt, time goes on from then.
+/// Longest lag (s) behind real time that is made up for; after longer pauses, such as at the
+/// prompt, time continues from the present.
 const MOST_LAG: f64 = 0.1;
 
-/// Longest wait before it is looked whether somebody interrupts.
+/// Longest wait between checks for an interrupt.
 const SLICE: Duration = Duration::from_millis(50);
 
-/// Keeps pace with the real time.
+/// Keeps pace with real time.
 pub(crate) struct Pace {
     control: PaceControl,
     next: Instant,
 }
 
 impl Pace {
-    /// At the speed that the control says.
+    /// Keeps the pace that the control sets.
     pub(crate) fn new(control: PaceControl) -> Pace {
         Pace {
             control,
@@ -29,24 +29,23 @@ impl Pace {
         }
     }
 
-    /// Who says how fast.
+    /// The control that sets the speed.
     pub(crate) fn control(&self) -> &PaceControl {
         &self.control
     }
 
-    /// How much simulated time (s) may pass at once when nothing happens; none if as much as
-    /// there is.
+    /// How much simulated time (s) may pass at once when nothing happens; `None` if unlimited.
     pub(crate) fn slice(&self) -> Option<f64> {
         match self.control.get() {
             (Speed::Times(factor), _) => Some(SLICE.as_secs_f64() * factor),
-            // It waits for the end of the pause, then goes on.
+            // Waits for the end of the pause, then continues.
             (Speed::Unlimited, true) => Some(f64::EPSILON),
             (Speed::Unlimited, false) => None,
         }
     }
 
-    /// Waits until so much simulated time (s) may have passed since it was waited last, or
-    /// until somebody interrupts.
+    /// Waits until `seconds` of simulated time may have passed since the last wait, or until
+    /// the interrupt flag is set.
     pub(crate) fn wait(&mut self, mut seconds: f64, interrupt: &AtomicBool) {
         while !interrupt.load(Ordering::Relaxed) {
             let Some(speed) = self.control.wait(SLICE) else {
@@ -63,7 +62,7 @@ impl Pace {
             if now.saturating_duration_since(self.next).as_secs_f64() > MOST_LAG {
                 self.next = now;
             }
-            // A long sleep is taken in slices, between which the speed may change.
+            // A long wait is divided into slices, between which the speed may change.
             let slice = seconds.min(SLICE.as_secs_f64() * factor);
             self.next += Duration::from_secs_f64(slice / factor);
             seconds -= slice;

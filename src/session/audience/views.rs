@@ -1,4 +1,4 @@
-//! The live view, and recordings.
+//! The live view and recordings.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use crate::watch::live::{History, LiveFollower, Origin, PaceControl, Server, Spe
 use crate::watch::recording::{Recorder, RecordingError, RecordingResult};
 use crate::watch::{Cause, FrameBuilder};
 
-/// A recording that is being made.
+/// A recording in progress.
 pub(crate) struct OpenRecording {
     follower: FollowerId,
     path: PathBuf,
@@ -25,22 +25,22 @@ pub(crate) struct OpenRecording {
 pub(crate) struct LiveView {
     server: Server,
     follower: FollowerId,
-    /// Whether time kept pace before.
+    /// Whether there was a pace before the view was opened.
     had_pace: bool,
 }
 
 /// Why the session cannot be watched.
 #[derive(Debug, Error)]
 pub(crate) enum WatchError {
-    /// There is no port.
+    /// The server cannot be started.
     #[error("the live view cannot be opened: {0}")]
     View(io::Error),
-    /// The file cannot be written.
+    /// The recording cannot be written.
     #[error("cannot record into {}: {error}", path.display())]
     Record {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         error: RecordingError,
     },
 }
@@ -86,7 +86,7 @@ impl Audience {
         }
     }
 
-    /// Records from here on into the file; a recording before ends.
+    /// Starts a recording into the file; any earlier recording ends.
     pub(crate) fn begin_recording(
         &mut self,
         simulation: &Simulation,
@@ -108,7 +108,7 @@ impl Audience {
         Ok(())
     }
 
-    /// Ends the recording, if there is one, and tells what went wrong with it.
+    /// Ends the recording, if there is one; fails if it could not be written.
     pub(crate) fn end_recording(&mut self, simulation: &Simulation) -> Result<(), WatchError> {
         let Some(open) = self.recording.take() else {
             return Ok(());

@@ -1,5 +1,5 @@
-//! What is wrong about a note that the compiler took, if anything is: judged when the
-//! whole text has been seen, so that the order of definitions does not matter.
+//! Judges whether a compiler's note is a mistake, once the whole text has been seen, so
+//! that the order of definitions does not matter.
 
 use super::known::KnownNames;
 use crate::closest_name::closest_name;
@@ -12,8 +12,8 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::{Access, PackageTable};
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
-/// A mistake: what is wrong, and the name that it is about, in upper case, unless the
-/// whole form is wrong.
+/// A mistake: what is wrong, and the name concerned in upper case, unless the whole form is
+/// wrong.
 #[derive(Debug, PartialEq)]
 pub(super) struct Mistake {
     pub(crate) text: String,
@@ -93,7 +93,7 @@ fn variable(image: &Image, names: &KnownNames, name: Sym, near: Option<Sym>) -> 
     })
 }
 
-/// Fewest and most arguments; none if that is not fixed.
+/// Minimum and maximum number of arguments; `None` if not fixed.
 fn arity(image: &Image, function: &Function) -> Option<(usize, Option<usize>)> {
     match &function.body {
         Body::Deferred(_) => {
@@ -131,8 +131,8 @@ fn shown(image: &Image, sym: Sym) -> String {
     print::to_string(image, &sym.into(), true)
 }
 
-/// The finding with what was probably meant: the same name in another package, or else a
-/// near one that is visible where this one is.
+/// The finding with a suggestion: the same name in another package, or else a similar name
+/// that is accessible in the current package.
 fn asking(text: String, image: &Image, name: Sym, is_kind: impl Fn(Sym) -> bool) -> String {
     let wanted = image.name(name);
     let namesake = image.symbols.iter().find_map(|(sym, data)| {
@@ -152,7 +152,7 @@ fn asking(text: String, image: &Image, name: Sym, is_kind: impl Fn(Sym) -> bool)
         let is_visible = sym != name && found.is_some_and(|(found, _)| found == sym);
         (is_visible && sym != known::NIL && is_kind(sym)).then_some(&*data.name)
     });
-    // Among one or two letters everything is near.
+    // Names of one or two letters are all similar.
     let is_long = wanted.chars().count() > 2;
     match closest_name(wanted, visible).filter(|_| is_long) {
         Some(near) => format!("{text}; did you mean {near}?"),

@@ -1,5 +1,5 @@
-//! What the texts checked so far define or mention, beside what their definitions, which
-//! are evaluated, put into the image.
+//! What the texts checked so far define or mention, apart from what their definitions,
+//! which are evaluated, add to the image.
 
 use std::collections::BTreeSet;
 
@@ -8,20 +8,20 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 
-/// Names that checks must not call unknown.
+/// Names that must not be reported as unknown.
 #[derive(Default)]
 pub(in crate::session) struct KnownNames {
     /// Names of functions, macros and variables.
     pub(crate) defined: BTreeSet<Sym>,
-    /// Names in rules for designators, in upper case.
+    /// Names in designator rules, in upper case.
     pub(crate) in_rules: BTreeSet<String>,
-    /// Another file is loaded, or a form made at run time evaluated: anything may be
-    /// defined.
+    /// Whether anything may be defined, because another file is loaded or a form made at run
+    /// time is evaluated.
     pub(crate) is_open: bool,
 }
 
 impl KnownNames {
-    /// Notes what the definitions in a form, at any depth, define.
+    /// Notes what the definitions at any depth in a form define.
     pub(crate) fn note_form(&mut self, image: &Image, form: &Value) {
         let mut pending = vec![form.clone()];
         while let Some(form) = pending.pop() {

@@ -1,4 +1,4 @@
-//! Wrong inputs and what is said about them.
+//! Wrong inputs and their diagnostics.
 
 use std::fs;
 use std::path::Path;
@@ -103,7 +103,7 @@ const TABLE: &[(&str, &str)] = &[
         "(defun one () 1) (one 1 2)",
         "1:18: ONE takes no arguments, but is called with 2.",
     ),
-    // What is defined in other ways, or later, is known.
+    // Names defined in other ways, or later, are known.
     (
         "(defclass a () ((x :accessor a-x))) (defun h (o) (a-x o) (helper)) \
          (setf *q* 1) (print *q*) (let ((y 1)) (declare (special y)) y) \

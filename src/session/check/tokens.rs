@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-/// The bytes of the first token with that name (case and package prefix do not count):
-/// one that is an element of the form itself, if there is one, else any inside it.
+/// The byte range of the first token with that name (ignoring case and package prefix):
+/// preferably an element of the form itself, else any token inside it.
 pub(super) fn find(form: &str, name: &str) -> Option<Range<usize>> {
     let matching = || {
         Tokens::new(form).filter(|(range, _)| {
@@ -16,8 +16,7 @@ pub(super) fn find(form: &str, name: &str) -> Option<Range<usize>> {
     found.or_else(|| matching().next()).map(|(range, _)| range)
 }
 
-/// The tokens of a text with their depths in parentheses. Strings and comments are left
-/// out.
+/// The tokens of a text with their nesting depths, without strings and comments.
 struct Tokens<'a> {
     text: &'a str,
     at: usize,
@@ -37,7 +36,7 @@ impl<'a> Tokens<'a> {
         self.text.get(self.at..).unwrap_or_default()
     }
 
-    /// Skips to behind the first of the ends found at or after `from`, or to the end.
+    /// Skips past the first of the ends found at or after `from`, or to the end of the text.
     fn skip_to(&mut self, from: usize, end: &str) {
         let rest = self.rest().get(from..).unwrap_or_default();
         self.at += from + rest.find(end).map_or(rest.len(), |i| i + end.len());

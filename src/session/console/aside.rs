@@ -1,4 +1,4 @@
-//! Evaluating forms in a frame of a suspended evaluation.
+//! Evaluating forms in a stack frame of a stopped evaluation.
 
 use super::{Cause, Session};
 use crate::lisp::compile;
@@ -19,8 +19,7 @@ struct InFrame {
 }
 
 impl Session {
-    /// Evaluates forms in the frame that is looked at, up to the first that does not come
-    /// back.
+    /// Evaluates forms in the selected frame, up to the first that does not return.
     pub(super) fn evaluate_aside(
         &mut self,
         source_name: &str,
@@ -67,7 +66,7 @@ impl Session {
         forms.next().is_none().then_some(first)
     }
 
-    /// Evaluates a form in the frame that is looked at.
+    /// Evaluates a form in the selected frame.
     pub(super) fn evaluate_form_aside(
         &mut self,
         form: &Value,
@@ -117,7 +116,7 @@ impl Session {
             }
             names.push(variable.name.into());
             places.push(match variable.place() {
-                // The other tasks' stacks cannot be written from here.
+                // Variables on other tasks' stacks cannot be assigned from here.
                 VariablePlace::Stack(_) if !is_own => VariablePlace::Closure,
                 place => place,
             });

@@ -1,4 +1,4 @@
-//! The ways in which an evaluation that stands still can go on.
+//! The choices for continuing a stopped evaluation.
 
 use super::{Asking, Outcome, Session};
 use crate::lisp::evaluator::nested;
@@ -14,38 +14,38 @@ use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::step::Step;
 use crate::session::dialogue::Event;
 
-/// A way to go on.
+/// A way to continue.
 #[derive(Clone)]
 pub(super) enum Choice {
     /// A restart of the program.
     Restart {
         restart: Value,
-        /// Does it need a value?
+        /// Whether it needs a value.
         takes_value: bool,
     },
-    /// Leave a frame and call a function in its place.
+    /// Unwind a frame and call a function in its place.
     Call {
-        /// Number of the frame's fiber, and its index there.
+        /// Index of the frame's fiber, and of the frame in it.
         frame: (usize, usize),
         function: Value,
         args: Vec<Value>,
-        /// The world is first taken back to before the motion of this number.
+        /// The motion before which the world is restored first, by number.
         motion: Option<u64>,
     },
     /// Evaluate the form at top level again.
     RetryForm,
-    /// Take the world back to before the form at top level, and evaluate that again.
+    /// Restore the world to before the form at top level, and evaluate that form again.
     RewindForm,
-    /// Evaluate another form instead.
+    /// Evaluate an edited form instead.
     EditForm,
-    /// Back to the level below.
+    /// Return to the previous level.
     AbortLevel,
-    /// Back to the top.
+    /// Return to the top level.
     Abort,
 }
 
 impl Session {
-    /// What can be chosen at the last level, with labels.
+    /// The choices at the last level, with labels.
     pub(super) fn choices(&mut self) -> Vec<(Choice, String)> {
         let mut choices = self.restart_choices();
         choices.extend(self.robot_choices());
@@ -131,7 +131,7 @@ impl Session {
         text.unwrap_or_else(|| print::to_string(&self.image, value, false))
     }
 
-    /// Chooses, or asks for the value that the choice needs.
+    /// Makes the choice, or asks for the value that it needs.
     pub(super) fn choose_or_ask(&mut self, number: usize, sink: &mut dyn FnMut(Event)) -> Outcome {
         match self.choice(number) {
             Some(Choice::Restart {
@@ -149,7 +149,7 @@ impl Session {
         choices.get(number).map(|(choice, _)| choice.clone())
     }
 
-    /// Chooses the first restart of that name.
+    /// Chooses the first restart with that name.
     pub(super) fn choose_by_name(&mut self, name: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
         let begin = format!("[{name}]");
         let choices = self.console.levels.last().map(|level| &level.choices);
@@ -164,7 +164,7 @@ impl Session {
         }
     }
 
-    /// Chooses; the text, unless empty, is a form for the value that the choice needs.
+    /// Makes the choice; the text, unless empty, is a form for the value that it needs.
     pub(super) fn choose(
         &mut self,
         number: usize,
@@ -230,7 +230,7 @@ impl Session {
         self.settle(evaluation, sink)
     }
 
-    /// Returns the value of a form from the frame that is looked at.
+    /// Returns the value of a form from the selected frame.
     pub(super) fn return_from_frame(
         &mut self,
         source_name: &str,
@@ -257,7 +257,7 @@ impl Session {
     }
 }
 
-/// Does a restart need a value that a person gives?
+/// Whether a restart needs a value from the user.
 fn takes_value(image: &Image, restart: &Restart) -> bool {
     if matches!(restart.name, known::USE_VALUE | known::STORE_VALUE) {
         return true;

@@ -1,45 +1,45 @@
-//! What can be typed while an evaluation stands still.
+//! Debugger commands: what can be typed while an evaluation is stopped.
 
-/// An input while an evaluation stands still at a condition.
+/// An input while an evaluation is stopped at a condition.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Command<'a> {
-    /// Back to the top.
+    /// Return to the top level.
     Abort,
-    /// Back to the level below.
+    /// Return to the previous level.
     AbortLevel,
-    /// The restart `continue`.
+    /// Invoke the restart `continue`.
     Continue,
-    /// The choice of that number, with the form of its value, if there is one.
+    /// Make the choice with that number, with the form for its value, if given.
     Choose(usize, &'a str),
-    /// So many frames, or all.
+    /// Show this many frames, or all.
     Backtrace(Option<usize>),
-    /// Look at that frame.
+    /// Select that frame.
     Frame(usize),
-    /// Look at the frame further out.
+    /// Select the next outer frame.
     Up,
-    /// Look at the frame further in.
+    /// Select the next inner frame.
     Down,
-    /// The variables of the frame.
+    /// Show the variables of the frame.
     Locals,
-    /// What can be chosen.
+    /// Show the choices.
     Choices,
-    /// The tasks.
+    /// Show the tasks.
     Tasks,
     /// Evaluate the form again.
     Retry,
-    /// Change the form and evaluate it again.
+    /// Edit the form and evaluate it again.
     Edit,
     /// Return the value of a form from the frame.
     Return(&'a str),
     /// What can be typed.
     Help,
-    /// Forms to be evaluated in the frame.
+    /// Evaluate forms in the frame.
     Evaluate(&'a str),
-    /// A command that is not so.
+    /// A malformed command.
     Wrong(&'static str),
 }
 
-/// What can be typed, for people.
+/// Help text on what can be typed.
 pub(super) const HELP: &str = "\
 N          chooses the restart of that number; N FORM gives it a value
 q          aborts: back to the top          a        aborts this level only

@@ -1,4 +1,4 @@
-//! Going into the parts of a value, and back.
+//! The inspector: descending into the parts of a value, and back.
 
 use super::{Asking, Session};
 use crate::lisp::value::Value;
@@ -7,13 +7,13 @@ use crate::lisp::value::symbol::FunctionCell;
 use crate::session::dialogue::{Event, Outcome};
 use crate::session::host::parts::View;
 
-/// What can be typed, for people.
+/// Help text on what can be typed.
 const REMARK: &str =
     "; A number inspects a part, b goes back, q leaves; * is the value being inspected.";
 
 impl Session {
-    /// Takes an input that is for the inspector; none if it is not, or if nothing is being
-    /// inspected.
+    /// Handles an input for the inspector; `None` if it is not for the inspector, or if nothing
+    /// is being inspected.
     pub(in crate::session) fn inspector_input(
         &mut self,
         text: &str,
@@ -54,7 +54,8 @@ impl Session {
         self.tell(&format!("{text}{REMARK}"), sink)
     }
 
-    /// After a form: begins to inspect what it asked for, where somebody can answer.
+    /// After a form: starts to inspect the value that it requested, if the session is
+    /// interactive.
     pub(in crate::session) fn open_inspector(&mut self, sink: &mut dyn FnMut(Event)) {
         let Some(value) = self.host.person.inspected.take() else {
             return;
@@ -67,8 +68,8 @@ impl Session {
         }
     }
 
-    /// What is typed in short: `?name` asks for documentation, unless it is a variable with
-    /// a value; and what package `PLANWRIGHT` offers can be called from every package.
+    /// Expands shorthand: `?name` asks for documentation, unless it is a variable with a value;
+    /// and the functions of package `PLANWRIGHT` can be called from every package.
     pub(in crate::session) fn question(&self, text: &str) -> Option<String> {
         if !self.console.is_interactive {
             return None;
@@ -77,7 +78,7 @@ impl Session {
             .or_else(|| self.call_of_prompt(text))
     }
 
-    /// `(rewind …)` as `(pw:rewind …)` where that name means nothing.
+    /// `(rewind …)` as `(pw:rewind …)` if that name has no meaning in the current package.
     fn call_of_prompt(&self, text: &str) -> Option<String> {
         let rest = text.trim_start().strip_prefix('(')?;
         let end = rest.find(|c: char| c.is_whitespace() || c == ')')?;

@@ -1,9 +1,8 @@
-//! Evaluations that stand still, and what a person may do with them: a debugger on top of
-//! the suspended task, and the choice after an interrupt.
+//! Stopped evaluations, and what the user may do with them: a debugger on top of the
+//! suspended task, and the choice after an interrupt.
 //!
-//! Everything is said in inputs and told in events, so that a session can be repeated from
-//! its inputs alone. Without a person (`is_interactive` is false) nothing ever stands
-//! still.
+//! All interaction consists of inputs and events, so that a session can be repeated from its
+//! inputs alone. Without a user (`is_interactive` is false) nothing ever stops.
 
 mod aside;
 mod choices;
@@ -24,22 +23,22 @@ use super::Session;
 use choices::Choice;
 use commands::Command;
 
-/// Evaluations that stand still, innermost last, and what is being asked.
+/// The stopped evaluations, innermost last, and what the next input is.
 #[derive(Default)]
 pub(super) struct Console {
     pub(crate) is_interactive: bool,
     levels: Vec<Level>,
-    /// The form at top level that all of it began with.
+    /// The form at top level whose evaluation was stopped first.
     base: Option<Suspended>,
     asking: Asking,
     draft: Option<String>,
-    /// What is being inspected, and through what one came there.
+    /// The value being inspected, last, after those through which it was reached.
     inspected: Vec<Value>,
-    /// Where the next input is to be interrupted.
+    /// The poll at which the next input is to be interrupted.
     pub(crate) interrupt_next: Option<u64>,
 }
 
-/// What the next input is.
+/// How the next input is to be understood.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 enum Asking {
     /// A command, or a form.
@@ -51,21 +50,21 @@ enum Asking {
     Form,
 }
 
-/// A form whose evaluation stands still, and the text that comes after it.
+/// A form whose evaluation is stopped, and the text that follows it.
 pub(super) struct Suspended {
     pub(crate) form: Value,
     pub(crate) place: Place,
     pub(crate) rest: Reader,
 }
 
-/// An evaluation that stands still.
+/// A stopped evaluation.
 struct Level {
     cause: Cause,
     abort: Abort,
     choices: Vec<(Choice, String)>,
-    /// The evaluation under way on top of it.
+    /// The evaluation in progress on top of it.
     aside: Option<Aside>,
-    /// The frame that is looked at, among those that are told.
+    /// Index of the selected frame among those shown.
     frame: usize,
     task: Option<TaskId>,
 }
@@ -84,7 +83,7 @@ impl Console {
         self.draft.take()
     }
 
-    /// What a second Ctrl-C says.
+    /// The input that a second Ctrl-C stands for.
     pub(crate) fn answer_to_interrupt(&self) -> Option<&'static str> {
         match self.levels.last()?.cause {
             Cause::Interrupt => Some("abort"),
@@ -92,7 +91,7 @@ impl Console {
         }
     }
 
-    /// What the prompt shows behind the package's name.
+    /// What the prompt shows after the package's name.
     pub(crate) fn prompt_suffix(&self) -> String {
         let level = match self.levels.last().map(|level| &level.cause) {
             None => String::new(),
@@ -110,7 +109,7 @@ impl Console {
 }
 
 impl Session {
-    /// Takes an input while an evaluation stands still.
+    /// Handles an input while an evaluation is stopped.
     pub(super) fn console_input(
         &mut self,
         source_name: &str,
@@ -153,7 +152,7 @@ impl Session {
         Outcome::Finished
     }
 
-    /// Gives everything up: back to the top.
+    /// Abandons all levels and returns to the top level.
     fn give_up(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
         let condition = self
             .console
@@ -166,7 +165,7 @@ impl Session {
         Outcome::Aborted
     }
 
-    /// Ends what stands still, with its cleanup code; returns what it began with.
+    /// Ends the stopped evaluations, running cleanup code; returns the form at top level.
     fn clear_console(&mut self, sink: &mut dyn FnMut(Event)) -> Option<Suspended> {
         self.console.levels.clear();
         self.console.inspected.clear();
@@ -180,7 +179,7 @@ impl Session {
         base
     }
 
-    /// Gives up the last level: back to the one below.
+    /// Abandons the last level and returns to the one below.
     fn leave_level(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
         let below = self.console.levels.iter().rev().nth(1);
         let task = self.console.levels.last().and_then(|level| level.task);
@@ -195,7 +194,7 @@ impl Session {
         self.settle(evaluation, sink)
     }
 
-    /// The input after an interrupt.
+    /// Handles the input after an interrupt.
     fn after_interrupt(&mut self, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
         match text.trim().trim_start_matches(':').to_lowercase().as_str() {
             "0" | "c" | "continue" => {
@@ -223,7 +222,7 @@ impl Session {
         self.tell(&text, sink)
     }
 
-    /// Evaluates the form again, perhaps in the world that it began in.
+    /// Evaluates the form again, optionally in the world in which it began.
     fn retry_form(&mut self, sink: &mut dyn FnMut(Event), takes_back: bool) -> Outcome {
         match self.clear_console(sink) {
             Some(base) => {
@@ -261,5 +260,5 @@ impl Session {
     }
 }
 
-/// What parks the robot after an interrupt.
+/// The form that parks the robot after an interrupt.
 const PARK: &str = "(pr2-proj:with-simulated-robot (pp-plans::park-arms))";

@@ -1,5 +1,5 @@
-//! Ways to go on that are aimed at the robot: an action again, another grasp or arm, from
-//! another place, or with the world as it was before the action.
+//! Choices that concern the robot: to repeat an action, with another grasp or arm, from
+//! another base pose, or with the world as it was before the action.
 
 use super::choices::Choice;
 use super::stack_frames::Told;
@@ -12,10 +12,10 @@ use crate::plan::designator::value::{Class, as_class};
 use crate::plan::packages;
 use crate::session::{Session, on_one_line};
 
-/// Actions for which it is offered to begin them again.
+/// Maximum number of actions for which a repetition is offered.
 const MOST_ACTIONS: usize = 3;
 
-/// An action that is being carried out.
+/// An action being performed.
 struct Action {
     frame: (usize, usize),
     designator: Value,
@@ -24,7 +24,7 @@ struct Action {
 }
 
 impl Session {
-    /// What can be chosen about the actions that are being carried out, with labels.
+    /// The choices for the actions being performed, with labels.
     pub(super) fn robot_choices(&mut self) -> Vec<(Choice, String)> {
         let actions = self.actions_to_retry();
         let perform: Value = packages::symbol(&mut self.image, "CRAM-EXECUTIVE", "PERFORM").into();
@@ -60,7 +60,7 @@ impl Session {
             }
             choices.extend(self.base_choice(picking));
         }
-        // A motion of another task would go on in a world that is not its own.
+        // A motion of another task would continue in a world that is not its own.
         if !self.scheduler.has_requests() {
             for action in actions.iter().take(MOST_ACTIONS) {
                 let first = action.motions_before + 1;
@@ -130,7 +130,7 @@ impl Session {
         Value::foreign(copy)
     }
 
-    /// Driving to where the object can be grasped, and then the action again.
+    /// Driving to where the object can be grasped, then repeating the action.
     fn base_choice(&mut self, picking: &Action) -> Option<(Choice, String)> {
         let (pose, arm, grasp) = self
             .host
@@ -170,7 +170,7 @@ impl Session {
     }
 }
 
-/// Characters of an action in a label.
+/// Maximum length of an action in a label, in characters.
 const LONGEST_ACTION: usize = 70;
 
 fn shortened(text: &str) -> String {

@@ -1,4 +1,4 @@
-//! What comes of an evaluation that went on.
+//! Handling the result of an evaluation that was continued.
 
 use super::{Asking, Cause, Level, Suspended};
 use crate::lisp::evaluator::aside::AsideState;
@@ -14,7 +14,7 @@ const DEBUGGER_REMARK: &str =
 const INTERRUPT_REMARK: &str = "; Type a number; another Ctrl-C aborts.";
 
 impl Session {
-    /// Lets the scheduler go on.
+    /// Runs the scheduler.
     pub(super) fn go_on_with(
         &mut self,
         sink: &mut dyn FnMut(Event),
@@ -26,7 +26,7 @@ impl Session {
         evaluation
     }
 
-    /// Begins to treat an evaluation that has stopped for the first time.
+    /// Handles an evaluation that has stopped for the first time.
     pub(in crate::session) fn open_level(
         &mut self,
         base: Suspended,
@@ -37,7 +37,7 @@ impl Session {
         self.settle(evaluation, sink)
     }
 
-    /// Treats an evaluation that went on from a level: it has ended, has come back to a
+    /// Handles an evaluation that was continued from a level: it has ended, has returned to a
     /// level, or has stopped again.
     pub(super) fn settle(
         &mut self,
@@ -62,7 +62,7 @@ impl Session {
         }
     }
 
-    /// The form at top level has come to its end; the forms after it go on.
+    /// The form at top level has finished; evaluates the forms after it.
     fn finish(&mut self, values: Vec<Value>, sink: &mut dyn FnMut(Event)) -> Outcome {
         self.console.levels.clear();
         self.console.asking = Asking::Nothing;
@@ -131,13 +131,13 @@ impl Session {
         }
     }
 
-    /// Tells the values of a form that was evaluated on top of a level.
+    /// Reports the values of a form that was evaluated on top of a level.
     fn tell_aside(&mut self, values: &[Value], sink: &mut dyn FnMut(Event)) -> Outcome {
         self.shift_values(values);
         self.tell_values(values, sink).unwrap_or(Outcome::Finished)
     }
 
-    /// Tells where the evaluation stands, and what can be chosen.
+    /// Reports where the evaluation is stopped, and the choices.
     pub(super) fn tell_stop(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
         let level = self.console.levels.len();
         let Some(last) = self.console.levels.last() else {
@@ -168,8 +168,8 @@ impl Session {
         Outcome::Stopped
     }
 
-    /// What is told of a condition, with the actions of all tasks that wait for the one
-    /// that stopped.
+    /// The report of a condition, with the actions of all tasks that wait for the one that
+    /// stopped.
     fn described_in_place(&mut self, condition: &Value) -> Abort {
         let mut abort = self.describe(condition);
         let actions = self.open_actions();

@@ -1,5 +1,5 @@
-//! The frames of what stands still: the stopped task's and those of the tasks that wait for
-//! it, innermost first.
+//! The stack frames of a stopped evaluation: the stopped task's and those of the tasks that
+//! wait for it, innermost first.
 
 use super::Session;
 use crate::lisp::evaluator::backtrace::FrameView;
@@ -9,22 +9,22 @@ use crate::lisp::value::Value;
 use crate::session::dialogue::{ActionStep, Event, Outcome};
 use crate::session::on_one_line;
 
-/// Frames that are told unless more are asked for.
+/// Number of frames shown by default.
 const MOST_FRAMES: usize = 40;
-/// Actions that are told around a condition.
+/// Maximum number of enclosing actions shown with a condition.
 const MOST_ACTIONS: usize = 8;
 
-/// A frame with the number of its fiber.
+/// A frame with the index of its fiber.
 pub(super) struct Told {
     pub(crate) link: usize,
     pub(crate) view: FrameView,
 }
 
-/// Builtins that are steps of the machinery: nobody wrote a call of them.
+/// Internal builtins, which do not appear in users' code.
 const HIDDEN: [&str; 4] = ["SIGNAL", "DEBUGGER", "EVAL", "FUNCALL"];
 
 impl Session {
-    /// All frames that are told, innermost first.
+    /// All frames that are shown, innermost first.
     pub(super) fn frames(&self) -> Vec<Told> {
         let fibers = self.scheduler.stopped_fibers();
         let mut frames = Vec::new();
@@ -39,7 +39,7 @@ impl Session {
         frames
     }
 
-    /// The frame that is looked at: its fiber's number and its index there.
+    /// The selected frame: the index of its fiber, and its index there.
     pub(super) fn selected_frame(&self) -> Option<(usize, usize)> {
         let selected = self.console.levels.last()?.frame;
         let frames = self.frames();
@@ -77,7 +77,7 @@ impl Session {
         shortened(&text)
     }
 
-    /// ` at file:line:column`, for a place that a person can find.
+    /// ` at file:line:column`, for a place that the user can find.
     fn place_text(&self, place: Place) -> String {
         match self.image.sources.locate(place) {
             Some(place) if !place.name.starts_with("prompt[") => format!("  at {place}"),
@@ -86,7 +86,7 @@ impl Session {
         }
     }
 
-    /// The actions that are being carried out, innermost first.
+    /// The actions being performed, innermost first.
     pub(super) fn open_actions(&self) -> Vec<ActionStep> {
         let frames = self.frames();
         let actions = frames.iter().enumerate().filter_map(|(at, told)| {
@@ -191,7 +191,7 @@ fn is_hidden(view: &FrameView) -> bool {
     }
 }
 
-/// Characters of a call that are told.
+/// Maximum length of a call as shown, in characters.
 const LONGEST_CALL: usize = 150;
 
 fn shortened(text: &str) -> String {

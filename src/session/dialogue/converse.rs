@@ -1,54 +1,54 @@
-//! What the prompt asks of an evaluator beyond evaluating: how to go on where it stopped,
-//! what could be typed next, and what is needed to do the same again.
+//! What the prompt needs from an evaluator beyond evaluation: how to continue after a stop,
+//! what could be typed next, and what is needed to repeat a session.
 
 use super::evaluate::Evaluate;
 
-/// An evaluator that a person talks to.
+/// An evaluator for interactive use.
 pub(crate) trait Converse: Evaluate {
-    /// From here on, a condition that nobody handles and an interrupt stop the evaluation
-    /// where it is, and the next input tells how it goes on; or, as by default, they end it.
+    /// Sets whether an unhandled condition or an interrupt stops the evaluation where it is,
+    /// so that the next input says how to continue; by default, both end it.
     fn set_interactive(&mut self, is_interactive: bool);
 
-    /// How many evaluations stand still.
+    /// Number of stopped evaluations.
     fn level(&self) -> usize;
 
-    /// Gives up what an interrupt has stopped: what a second Ctrl-C types; none if nothing
-    /// was stopped by an interrupt.
+    /// The input by which a second Ctrl-C abandons what an interrupt has stopped; `None` if no
+    /// interrupt has stopped anything.
     fn answer_to_interrupt(&self) -> Option<&'static str>;
 
-    /// A text that the next input should begin with, to be changed; told once.
+    /// A text with which the next input should be prefilled, for editing; returned once.
     fn take_draft(&mut self) -> Option<String>;
 
-    /// What could stand at byte `at` of an input.
+    /// The completions at byte `at` of an input.
     fn completions(&self, text: &str, at: usize) -> Completions;
 
-    /// The shape of the form that is being typed at byte `at`, with the current argument
+    /// The signature of the form being typed at byte `at`, with the current argument
     /// between two `*`.
     fn hint(&self, text: &str, at: usize) -> Option<String>;
 
-    /// Is the name known as that of a type of designators?
+    /// Whether the name is that of a designator type.
     fn is_designator_type(&self, name: &str) -> bool;
 
-    /// Where the last input was interrupted, if it was: repeats that in another session.
+    /// Where the last input was interrupted, if it was; used to repeat that in another session.
     fn interrupted_at(&self) -> Option<u64>;
 
-    /// Has the next input interrupted there.
+    /// Makes the next input be interrupted there.
     fn interrupt_next_at(&mut self, at: u64);
 
     /// A hash of the world's state.
     fn world_hash(&self) -> u64;
 }
 
-/// What could stand at a place.
+/// The completions at a place.
 #[derive(Clone, Default, PartialEq, Eq, Debug)]
 pub(crate) struct Completions {
-    /// First byte of the text that a candidate takes the place of, up to the cursor.
+    /// First byte of the text that a candidate replaces, up to the cursor.
     pub(crate) start: usize,
-    /// In the order in which they are shown.
+    /// The candidates in the order in which they are shown.
     pub(crate) candidates: Vec<Candidate>,
 }
 
-/// One of the texts that could stand at a place.
+/// A possible completion.
 #[derive(Clone, Default, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) struct Candidate {
     /// The text.

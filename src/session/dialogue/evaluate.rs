@@ -1,4 +1,4 @@
-//! The evaluator as the front sees it.
+//! The evaluator as the front ends see it.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -6,66 +6,66 @@ use std::sync::atomic::AtomicBool;
 use crate::lisp::source::Location;
 use crate::picture::Image;
 
-/// Something that happened while an input was evaluated.
+/// An event during the evaluation of an input.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Event {
-    /// Text that the program printed, or log lines; not necessarily whole lines.
+    /// Text printed by the program, or log lines; not necessarily whole lines.
     Output(String),
-    /// A form has been evaluated: its values as printed text. Empty for no value.
+    /// A form has been evaluated: its printed values. Empty if there are none.
     Values(Vec<String>),
-    /// A picture was made; for those who can show it beside the text.
+    /// A picture was made, for front ends that can show it.
     Picture(Arc<Image>),
-    /// A condition reached the top and nobody handled it: the input ends here.
+    /// A condition reached the top level unhandled: the input ends here.
     Aborted(Box<Abort>),
-    /// The evaluation stands still, at a condition that nobody handled or an interrupt,
-    /// until somebody chooses how it goes on.
+    /// The evaluation has stopped, at an unhandled condition or an interrupt, until the user
+    /// chooses how to continue.
     Stopped(Box<Stop>),
-    /// An evaluation that had stopped was given up: the condition as it prints.
+    /// A stopped evaluation was abandoned: its condition as printed.
     Left(String),
-    /// A motion goes on: a line that takes the place of the last one.
+    /// Progress of a motion: a line that replaces the previous one.
     Progress(String),
 }
 
-/// An evaluation that stands still.
+/// A stopped evaluation.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Stop {
-    /// How many evaluations stand still, this one on top.
+    /// Number of stopped evaluations, this one on top.
     pub level: usize,
-    /// Why.
+    /// The reason.
     pub abort: Abort,
-    /// The ways to go on; each is chosen by its index.
+    /// The choices for continuing; each is chosen by its index.
     pub choices: Vec<String>,
-    /// What else can be typed, for people.
+    /// A remark on what else can be typed.
     pub remark: &'static str,
 }
 
-/// What is known about a condition that nobody handled.
+/// What is known about an unhandled condition.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Abort {
-    /// The report of the condition, for people; may span lines.
+    /// The report of the condition; may span several lines.
     pub report: String,
-    /// The condition as it prints, `#<TYPE-ERROR …>`.
+    /// The condition as printed, `#<TYPE-ERROR …>`.
     pub condition: String,
     /// The innermost form with a known place.
     pub place: Option<Location>,
-    /// If that is in a plan that comes with the program: the innermost form outside them.
+    /// If that is in a built-in plan: the innermost form outside built-in plans.
     pub user_place: Option<Location>,
-    /// The actions that were being carried out, innermost first.
+    /// The actions that were being performed, innermost first.
     pub actions: Vec<ActionStep>,
 }
 
-/// An action that was being carried out when a condition was signalled.
+/// An action that was being performed when a condition was signalled.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ActionStep {
-    /// The call that carries it out, on one line.
+    /// The call that performs it, on one line.
     pub call: String,
-    /// Where that call stands.
+    /// The place of that call.
     pub place: Option<Location>,
 }
 
 impl Abort {
-    /// What is told beside report and place, as lines: where the user's own text comes in,
-    /// and the actions around.
+    /// Lines shown in addition to report and place: the place in the user's own text, and the
+    /// enclosing actions.
     pub fn context(&self) -> Vec<String> {
         let user = self.user_place.iter();
         let user = user.map(|place| format!("called at {place}:\n{}", place.underlined()));
@@ -77,24 +77,24 @@ impl Abort {
     }
 }
 
-/// A mistake that was found without evaluating.
+/// A mistake found without evaluating.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Finding {
-    /// What is wrong, for people.
+    /// What is wrong.
     pub message: String,
     /// Where it is.
     pub place: Option<Location>,
-    /// How sure it is.
+    /// How certain it is.
     pub severity: Severity,
 }
 
-/// How sure a mistake is that was found without evaluating.
+/// How certain a mistake is that was found without evaluating.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Severity {
     /// The text cannot be read or compiled.
     Error,
-    /// The text will fail if evaluation comes there, unless it defines what is missing in
-    /// a way that only running it shows.
+    /// The text will fail if evaluation gets there, unless it defines what is missing in a way
+    /// that shows only when it runs.
     Warning,
 }
 
@@ -103,31 +103,31 @@ pub enum Severity {
 pub enum Outcome {
     /// Every form was evaluated.
     Finished,
-    /// A condition was not handled; the forms after it were not evaluated.
+    /// A condition was not handled; later forms were not evaluated.
     Aborted,
-    /// The evaluation stands still; the next input tells how it goes on.
+    /// The evaluation has stopped; the next input says how to continue.
     Stopped,
-    /// The program asked to leave, with this exit status.
+    /// The program asked to exit with this status.
     Quit(u8),
 }
 
-/// An evaluator: takes the text of inputs and tells what happens.
+/// An evaluator: takes the texts of inputs and reports events.
 pub trait Evaluate {
-    /// Evaluates all forms of `text` in order, telling each event to `sink` as it happens.
+    /// Evaluates all forms of `text` in order, passing each event to `sink` as it happens.
     ///
-    /// `source_name` is the name that places in the text get.
+    /// `source_name` is the file name used for places in the text.
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome;
 
-    /// Looks for mistakes in a text without running it, in the order of the text.
+    /// Checks a text without running it; returns the mistakes in the order of the text.
     ///
-    /// What the text defines is known afterwards, so that texts that build on one another
+    /// Definitions in the text are known afterwards, so that texts that build on one another
     /// can be checked in order.
     fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding>;
 
-    /// The name that the prompt shows: that of the current package, or a short one.
+    /// The name shown in the prompt: that of the current package, or a nickname.
     fn prompt(&self) -> String;
 
-    /// While this holds true, a running evaluation ends as soon as it can.
+    /// While this is true, a running evaluation ends as soon as it can.
     fn interrupt_handle(&self) -> Arc<AtomicBool>;
 }
 

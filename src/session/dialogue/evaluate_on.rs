@@ -1,14 +1,14 @@
-//! Evaluates an input with its events going to a screen.
+//! Evaluating an input and showing its events on a screen.
 
 use std::io::{self, Write};
 use std::sync::atomic::Ordering;
 
 use super::{Abort, Evaluate, Event, Outcome, Screen};
 
-/// Evaluates an input and shows its events, up to the fresh line behind the last one.
+/// Evaluates an input, shows its events and ends the last line.
 ///
-/// When nothing can be written any more, the evaluation is interrupted and the error is
-/// returned: nobody watches what the robot would do.
+/// If the output cannot be written any more, the evaluation is interrupted and the error is
+/// returned: nobody would see what the robot does.
 pub(crate) fn evaluate_on<W: Write>(
     screen: &mut Screen<W>,
     evaluator: &mut (impl Evaluate + ?Sized),
@@ -18,7 +18,7 @@ pub(crate) fn evaluate_on<W: Write>(
     evaluate_events(screen, evaluator, source_name, text, Screen::show)
 }
 
-/// As [`evaluate_on`], but a condition that nobody handled is returned, not shown.
+/// As [`evaluate_on`], but an unhandled condition is returned, not shown.
 pub(crate) fn evaluate_keeping_abort<W: Write>(
     screen: &mut Screen<W>,
     evaluator: &mut (impl Evaluate + ?Sized),
@@ -67,7 +67,7 @@ mod tests {
     use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
 
-    /// Puts out its input again and again until it is interrupted.
+    /// Outputs its input again and again until it is interrupted.
     #[derive(Default)]
     struct Endless {
         interrupt: Arc<AtomicBool>,
@@ -96,7 +96,7 @@ mod tests {
         }
     }
 
-    /// Takes a few bytes, then nobody listens any more.
+    /// Accepts a few bytes, then fails.
     struct Closing {
         room: usize,
     }

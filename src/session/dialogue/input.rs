@@ -1,8 +1,9 @@
-//! Where an input ends.
+//! Detecting the end of an input.
 
 use crate::lisp::reader::{Completeness, is_complete};
 
-/// Is the text a whole input? One with too many closing parentheses is whole, and wrong.
+/// Whether the text is a complete input. One with too many closing parentheses is complete,
+/// but wrong.
 pub(crate) fn is_whole(text: &str) -> bool {
     !matches!(is_complete(text), Completeness::Incomplete { .. })
 }

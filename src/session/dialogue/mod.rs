@@ -1,9 +1,9 @@
-//! What a person and an evaluator say to each other: inputs go in, events come out, and
-//! a screen shows the events as text.
+//! The dialogue between user and evaluator: inputs go in, events come out, and a screen
+//! shows the events as text.
 //!
-//! The prompt, the runner and the replayer of transcripts all speak through this folder,
-//! so that they show the same bytes for the same events. Nothing in here knows Lisp
-//! beyond its tokens, nor where the text is finally written to.
+//! The prompt, the runner and the replayer of transcripts all use this folder, so that they
+//! show the same bytes for the same events. Nothing in here knows Lisp beyond its tokens, nor
+//! where the text is finally written.
 
 mod converse;
 pub(crate) mod evaluate;

@@ -9,7 +9,7 @@ pub(crate) struct PromptLine<'a> {
     pub(crate) input: &'a str,
 }
 
-/// Takes the prompt off a line, when there is one: an upper-case name, `>`, and a blank
+/// Splits off the prompt of a line, if there is one: an upper-case name, `>`, and a space
 /// or the end of the line.
 pub(crate) fn prompt_line(line: &str) -> Option<PromptLine<'_>> {
     let (name, rest) = line.split_once('>')?;

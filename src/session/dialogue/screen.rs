@@ -1,7 +1,7 @@
-//! Shows events as a person sees them at the prompt.
+//! Shows events as they appear at the prompt.
 //!
-//! Values are on lines of their own: when the program's output left the cursor in the
-//! middle of a line, that line is ended first.
+//! Values are on lines of their own: if the program's output left the cursor in the middle
+//! of a line, that line is ended first.
 
 use std::io::{self, Write};
 
@@ -13,14 +13,14 @@ use crate::session::dialogue::evaluate::{Abort, Event, Stop};
 pub(crate) struct Screen<W> {
     to: W,
     at_line_start: bool,
-    /// Values of forms are shown.
+    /// Whether values of forms are shown.
     echo: bool,
     source_name: String,
     source_has_lines: bool,
     is_detailed: bool,
-    /// Progress is shown, on a line that is taken away afterwards.
+    /// Whether progress is shown, on a line that is erased afterwards.
     is_terminal: bool,
-    /// Such a line is there.
+    /// Whether there is such a line now.
     has_progress: bool,
     pictures: Option<InlinePictures>,
 }
@@ -41,31 +41,31 @@ impl<W: Write> Screen<W> {
         }
     }
 
-    /// From here on, writes to a terminal, or not: shows the progress of motions, and knows
-    /// that an interrupt leaves a `^C` there.
+    /// Sets whether it writes to a terminal: it then shows the progress of motions, and takes
+    /// into account that an interrupt leaves a `^C` there.
     pub(crate) fn set_terminal(&mut self, is_terminal: bool) {
         self.is_terminal = is_terminal;
     }
 
-    /// From here on, tells the actions around a condition, or leaves them out.
+    /// Sets whether the actions around a condition are shown.
     pub(crate) fn set_detailed(&mut self, is_detailed: bool) {
         self.is_detailed = is_detailed;
     }
 
-    /// From here on, shows pictures in this way, or leaves them out.
+    /// Sets how pictures are shown, if at all.
     pub(crate) fn set_pictures(&mut self, pictures: Option<InlinePictures>) {
         self.pictures = pictures;
     }
 
-    /// From here on, shows the values of forms or leaves them out.
+    /// Sets whether the values of forms are shown.
     pub(crate) fn set_echo(&mut self, echo: bool) {
         self.echo = echo;
     }
 
-    /// Tells which input the next events belong to; the cursor is at the start of a line.
+    /// Sets the input that the next events belong to; the cursor is at the start of a line.
     ///
-    /// An aborted evaluation names its place, when that is in another file or the input
-    /// has several lines.
+    /// An aborted evaluation shows its place if that is in another file or if the input has
+    /// several lines.
     pub(crate) fn begin_input(&mut self, source_name: &str, text: &str) {
         source_name.clone_into(&mut self.source_name);
         self.source_has_lines = text.trim_end().contains('\n');
@@ -106,7 +106,7 @@ impl<W: Write> Screen<W> {
         self.to.write_all(b"\r\x1b[2K")
     }
 
-    /// Ends a line that was begun.
+    /// Ends the current line, if it is not empty.
     pub(crate) fn fresh_line(&mut self) -> io::Result<()> {
         self.end_progress()?;
         if self.at_line_start {
@@ -116,17 +116,17 @@ impl<W: Write> Screen<W> {
         }
     }
 
-    /// Hands on what has been written so far.
+    /// Flushes what has been written so far.
     pub(crate) fn flush(&mut self) -> io::Result<()> {
         self.to.flush()
     }
 
-    /// What the screen writes to, as it is now.
+    /// The underlying writer.
     pub(crate) fn written(&self) -> &W {
         &self.to
     }
 
-    /// What the screen writes to.
+    /// Returns the underlying writer.
     pub(crate) fn into_inner(self) -> W {
         self.to
     }
@@ -200,8 +200,8 @@ impl<W: Write> Screen<W> {
         Ok(())
     }
 
-    /// The place worth telling; if it is in a plan that comes with the program, also where
-    /// the person's own text comes in.
+    /// The place to show, if any; if it is in a built-in plan, also the place in the user's own
+    /// text.
     fn place(&self, abort: &Abort) -> Option<String> {
         let place = abort.place.as_ref()?;
         let user = abort.user_place.as_ref();
@@ -212,8 +212,8 @@ impl<W: Write> Screen<W> {
         (!told.is_empty()).then(|| format!("; at {}", told.join(", from ")))
     }
 
-    /// A place in words: inputs have no name that a person knows, and in an input of one line
-    /// there is nothing to find.
+    /// A place in words: inputs have no name that the user knows, and in an input of one line
+    /// a place is of no use.
     fn told(&self, place: &Location) -> Option<String> {
         if *place.name == *self.source_name {
             self.source_has_lines
@@ -224,7 +224,7 @@ impl<W: Write> Screen<W> {
     }
 }
 
-/// An interrupt as it prints.
+/// An interrupt as printed.
 pub(crate) const INTERRUPT: &str = "#<INTERACTIVE-INTERRUPT>";
 
 const INPUT_NAME: &str = "prompt[";

@@ -52,13 +52,13 @@ fn matrix(image: &Image, value: &Value) -> Result<[[f64; 3]; 3]> {
         .map_err(|_| Raise::simple("A rotation matrix is a list of three rows of three numbers."))
 }
 
-/// The offset (m) along the object's axes; none unless it is given.
+/// The offset (m) along the object's axes; zero unless given.
 fn offsets(image: &Image, value: Option<Value>, what: &str) -> Result<[f64; 3]> {
     value.map_or(Ok([0.0; 3]), |value| triple(image, &value, what))
 }
 
-/// A lift from its offset along the object's axes and from its translation and rotation, a
-/// quaternion, in the frame of the robot's base.
+/// A lift from its offset along the object's axes, and from its translation and rotation (a
+/// quaternion) in the frame of the robot's base.
 fn lift_of(
     image: &Image,
     offset: Option<Value>,

@@ -1,4 +1,4 @@
-//! Leaving the shell.
+//! Exiting the shell.
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;

@@ -1,4 +1,4 @@
-//! The builtins on the world, one table per topic.
+//! The builtins that act on the world, one table per topic.
 
 mod explaining;
 mod grasps;

@@ -1,4 +1,4 @@
-//! Objects of the world: spawning, moving, removing.
+//! Builtins for objects: spawning, moving, removing.
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
@@ -18,7 +18,7 @@ use crate::world::WorldError;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Longest time (s) that a spawned object is given to come to rest.
+/// Longest time (s) that a spawned object has to come to rest.
 const SETTLE: f64 = 5.0;
 
 /// Builtins of package `CRAM-BULLET-REASONING-UTILITIES`.
@@ -76,7 +76,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// What is to be spawned.
+/// The arguments for spawning an object.
 pub(super) struct Spawning<'a> {
     pub(crate) name: &'a Value,
     pub(crate) kind: &'a Value,
@@ -86,7 +86,7 @@ pub(super) struct Spawning<'a> {
 }
 
 impl Simulation {
-    /// Puts an object into the world, or moves the one of that name, and lets it settle.
+    /// Adds an object to the world, or moves the one with that name, and lets it settle.
     pub(super) fn spawn(&mut self, image: &mut Image, spawning: &Spawning<'_>) -> Result<()> {
         let Some(name) = name_text(image, spawning.name) else {
             return Err(Raise::type_error(spawning.name, known::SYMBOL));
@@ -125,7 +125,7 @@ fn world_error(error: WorldError) -> Box<Raise> {
     Raise::simple(format!("{error}."))
 }
 
-/// A colour: a list of red, green and blue, and perhaps alpha, in 0..1.
+/// A colour: a list of red, green, blue and optionally alpha, in 0..1.
 fn color(value: &Value) -> Result<[f32; 4]> {
     let parts: Vec<f32> = value
         .iter_list()

@@ -17,22 +17,22 @@ use crate::session::simulation::names::{name_text, suggestion};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Fewest and most pixels along a side.
+/// Minimum and maximum number of pixels along a side.
 const SIZES: std::ops::RangeInclusive<i64> = 16..=4096;
 
-/// What the eye is away (m) from what it looks at where only that is said.
+/// Default distance (m) of the eye from the point it looks at.
 const ASIDE: [f64; 3] = [-1.15, -1.25, 0.95];
 
 /// A picture's arguments: a file and a view, both optional, then keys with their values.
 pub(super) struct PictureRequest {
-    /// The file that is asked for.
+    /// The requested file, if any.
     pub(crate) file: Option<String>,
     view: Option<Value>,
     keys: Vec<(&'static str, Value)>,
 }
 
 impl PictureRequest {
-    /// Takes the arguments apart; `keys` are the keys that may be given.
+    /// Parses the arguments; `keys` are the permitted keys.
     pub(crate) fn of(image: &Image, args: &[Value], keys: &[&'static str]) -> Result<Self> {
         let mut request = Self {
             file: None,
@@ -73,7 +73,7 @@ impl PictureRequest {
         Ok(request)
     }
 
-    /// The value of a key, if it is given.
+    /// The value of a key, if given.
     pub(crate) fn get(&self, key: &str) -> Option<&Value> {
         let found = self.keys.iter().find(|(known, _)| *known == key);
         found.map(|(_, value)| value)
@@ -98,7 +98,7 @@ impl PictureRequest {
         }
     }
 
-    /// From where to look.
+    /// The viewpoint.
     pub(crate) fn view(&self, simulation: &Simulation, image: &Image) -> Result<View> {
         let named = self.view.as_ref().or_else(|| self.get("VIEW"));
         let (from, at) = (self.get("FROM"), self.get("AT"));
@@ -179,7 +179,7 @@ fn is_object(simulation: &Simulation, image: &Image, value: &Value) -> bool {
     name_text(image, value).is_some_and(|name| simulation.world.object(&name).is_ok())
 }
 
-/// A place (m, map frame): a point, a pose, the name of an object or of a frame.
+/// A position (m, map frame) from a point, a pose, or the name of an object or a frame.
 fn place(simulation: &Simulation, image: &Image, value: &Value) -> Result<Point3<f64>> {
     let point = match value {
         Value::Str(frame) => origin(&simulation.frame_in_map(image, &frame.text())?),
@@ -193,7 +193,7 @@ fn place(simulation: &Simulation, image: &Image, value: &Value) -> Result<Point3
             Point3::from(argument::vector(image, value)?.0)
         }
         _ => {
-            // A pose counts in the map; of a list it is checked that it is one.
+            // A pose is taken to be in the map frame; a list is checked to be a pose.
             let pose = match as_placement(value) {
                 Some(_) => simulation.pose_in_map(image, value)?,
                 None => simulation.pose_as_given(image, value)?,

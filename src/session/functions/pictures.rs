@@ -1,5 +1,5 @@
 //! Pictures at the prompt: of the world from anywhere, of what the robot's camera sees, and of
-//! the floor as the base knows it.
+//! the floor as the base planner sees it.
 
 use std::fs;
 
@@ -21,12 +21,12 @@ use crate::session::simulation::properties::property;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Where pictures go for which no file is named. Each replaces the one before it.
+/// Default files of pictures. Each picture replaces the previous one.
 const PICTURE: &str = "planwright-picture.png";
 const CAMERA_PICTURE: &str = "planwright-camera.png";
 const MAP_PICTURE: &str = "planwright-map.png";
 
-/// Pixels of a picture where nothing else is asked for.
+/// Default size of a picture in pixels.
 const WIDTH: usize = 640;
 const HEIGHT: usize = 480;
 
@@ -55,7 +55,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// Writes the picture and has it shown to whoever can see it; the reply is the file's name.
+/// Writes the picture and queues it for display; the reply is the file's name.
 fn publish(
     audience: &mut Audience,
     picture: picture::Image,

@@ -1,4 +1,4 @@
-//! What the plans of picking up and placing ask of the world and of the grasp library.
+//! What the plans for picking up and placing query from the world and the grasp library.
 
 use crate::plan::designator::value::current;
 use crate::session::simulation::properties::property;
@@ -115,20 +115,20 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// Headings (degrees) at which an object that looks the same from all sides may be put
-/// down, those nearest to the wanted one first.
+/// Headings (degrees, relative to the wanted one) at which a rotationally symmetric object
+/// may be put down, the nearest first.
 const HEADINGS: [f64; 24] = [
     0.0, 15.0, -15.0, 30.0, -30.0, 45.0, -45.0, 60.0, -60.0, 75.0, -75.0, 90.0, -90.0, 105.0,
     -105.0, 120.0, -120.0, 135.0, -135.0, 150.0, -150.0, 165.0, -165.0, 180.0,
 ];
 
-/// An object as perception has described it.
+/// An object as described by perception.
 pub(crate) struct Perceived {
-    /// Its name in the world.
+    /// Name in the world.
     pub(crate) name: String,
-    /// Name of its type.
+    /// Name of the type.
     pub(crate) kind: String,
-    /// Its pose in the frame of the robot's base as it stands now.
+    /// Pose in the current frame of the robot's base.
     pub(crate) in_base: Pose,
 }
 
@@ -156,7 +156,7 @@ impl Simulation {
                 .and_then(|pose| as_placement(&pose))
                 .map(|placement| placement.to_pose())
         };
-        // The robot may have moved since: the pose in the map is what counts.
+        // The robot may have moved since, so the pose in the map frame counts.
         let in_base = match (entry("POSE-IN-MAP"), entry("POSE")) {
             (Some(in_map), _) => self.base().inverse() * in_map,
             (None, Some(in_base)) => in_base,
@@ -174,7 +174,7 @@ impl Simulation {
         })
     }
 
-    /// The definition of a grasp, or an error that lists those there are.
+    /// The definition of a grasp, or an error that lists the existing ones.
     pub(crate) fn grasp(
         &self,
         image: &Image,
@@ -209,8 +209,8 @@ impl Simulation {
         )))
     }
 
-    /// Names of the grasps of a type that are defined for an arm, in the order in which
-    /// they are tried.
+    /// Names of the grasps defined for a type and an arm, in the order in which they are
+    /// tried.
     pub(crate) fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
         let kinds = self.models.objects.lineage(kind);
         for kind in kinds {
@@ -232,7 +232,7 @@ impl Simulation {
         self.grasps.grip(kind)
     }
 
-    /// Can the hand be brought to all poses, given in the frame of the base?
+    /// Whether the hand can be brought to all poses, given in the frame of the base.
     pub(crate) fn is_reachable(&self, arm: Side, poses: &[Pose]) -> bool {
         let description = &self.models.description;
         let joints = &self.world.robot_configuration().joints;
@@ -245,8 +245,8 @@ impl Simulation {
 }
 
 impl Simulation {
-    /// Could the hand open around an object at a pose in the frame of the base, and be at
-    /// all poses that belong to the object's, without touching anything else?
+    /// Whether the hand could open around an object at a pose in the frame of the base, and be
+    /// at all the poses that go with it, without touching anything else.
     fn is_free_around(
         &self,
         side: Side,
@@ -441,7 +441,7 @@ fn placing_target(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     done(in_base(&object.in_base))
 }
 
-/// Does the object look the same from all sides?
+/// Whether the object is rotationally symmetric.
 fn is_round(kind: &ObjectType) -> bool {
     kind.shapes.iter().all(|placed| {
         let t = &placed.pose.translation.vector;
@@ -466,7 +466,7 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         .world
         .object_pose(&name)
         .map_err(|error| Raise::simple(format!("{error}.")))?;
-    // The grasps speak of a tool frame of their own, ahead of the wrist.
+    // The grasps use a tool frame of their own, ahead of the wrist.
     let arm = simulation.models.description.arm(side);
     let wrist_in_map = simulation.world.link_pose(arm.wrist);
     let tool_in_object = object_in_map.inverse() * arm.tool_for_wrist(&wrist_in_map);
@@ -500,8 +500,8 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
             tool(pregrasp),
         ]
     };
-    // Best is a heading at which the hand can also open and retract, best of all without
-    // touching anything; what cannot be reached at any heading fails later, and says why.
+    // Prefer a heading at which the hand can also open and retract, ideally without touching
+    // anything; a pose that cannot be reached at any heading fails later, with a reason.
     let reachable = |count: usize| {
         let poses = headings.iter().map(|heading| poses_for(&turned(*heading)));
         poses

@@ -1,5 +1,5 @@
-//! What helps a person at the prompt: help, the list of actions, a first session, tasks,
-//! time, and taking values apart.
+//! Functions for use at the prompt: help, the list of actions, the tour, tasks, time, and
+//! inspecting values.
 
 use std::time::Instant;
 
@@ -70,7 +70,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// What `time` calls, in package `SYSTEM`.
+/// The function behind `time`, in package `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
     "CALL-WITH-TIMING",
     "function",
@@ -136,7 +136,7 @@ fn list_actions(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Re
     nothing()
 }
 
-/// An action or motion with its keys; those that need not be there are in brackets.
+/// An action or motion with its keys, optional ones in brackets.
 fn row_text(row: &schema::TypeRow) -> String {
     let class = match row.class {
         Class::Motion => "a motion",
@@ -169,7 +169,7 @@ fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
     let mut text = String::new();
     if let Value::Symbol(sym) = &args[0] {
         let told = help::of_symbol(image, *sym);
-        // A symbol that means nothing as such is told as what follows, if it is that.
+        // A symbol without a meaning of its own may still name one of the following.
         if told.lines().count() > 1 {
             text.push_str(&told);
         }

@@ -1,4 +1,4 @@
-//! Asking what the robot could do from some place, without moving it.
+//! Queries of what the robot could do from a base pose, without moving it.
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;

@@ -1,4 +1,4 @@
-//! What CRAM takes from ROS: log lines, start-up, loading of systems.
+//! What CRAM uses from ROS: log lines, start-up, loading of systems.
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
@@ -89,7 +89,7 @@ fn log_line(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> R
         Some("ERROR" | "FATAL") => LogLevel::Error,
         _ => LogLevel::Info,
     };
-    // Tags are shown without their packages.
+    // Tags are printed without their packages.
     let names: Vec<String> = args[1]
         .iter_list()
         .map(|tag| match tag.as_symbol() {

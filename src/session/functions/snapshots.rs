@@ -1,4 +1,4 @@
-//! Going back in the world: `rewind`, `snapshot`, `restore`.
+//! Restoring earlier states of the world: `rewind`, `snapshot`, `restore`.
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;

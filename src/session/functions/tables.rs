@@ -1,4 +1,4 @@
-//! Installing what plans can ask of the world.
+//! Installing the builtins that act on the world.
 
 use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::image::Image;
@@ -30,7 +30,7 @@ static OPERATORS: &[(&str, &[Operator])] = &[
     ("PLANWRIGHT", functions::prompt::OPERATORS),
 ];
 
-/// Functions of one package that another package offers under the same name.
+/// Functions of one package that another package exports under the same name.
 static ALIASES: &[(&str, &str, &[&str])] = &[
     (
         "CRAM-OBJECT-INTERFACES",
@@ -72,8 +72,8 @@ pub(crate) fn install(image: &mut Image) {
     }
 }
 
-/// Makes a symbol of one package accessible in another: the same symbol, unless the other
-/// package has one of that name, which then means the same.
+/// Makes a symbol of one package accessible in another. If the other package already has a
+/// symbol with that name, that symbol gets the same meaning.
 fn alias(
     image: &mut Image,
     from: crate::lisp::value::package::PackageId,

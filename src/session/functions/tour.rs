@@ -1,10 +1,10 @@
-//! A first session for somebody who knows nothing: a few steps, each with a form to type.
+//! The tour, a first session for newcomers: a few steps, each with a form to type.
 
-/// A step: what there is to know, and a form to type.
+/// A step: an explanation, and a form to type.
 pub(crate) struct Step {
-    /// For people.
+    /// The explanation.
     pub(crate) text: &'static str,
-    /// To be typed.
+    /// The form to type.
     pub(crate) form: &'static str,
 }
 
@@ -65,7 +65,7 @@ pub(crate) static STEPS: &[Step] = &[
     },
 ];
 
-/// The text of a step, from zero.
+/// The text of a step, counted from zero.
 pub(in crate::session) fn step_text(number: usize) -> String {
     match STEPS.get(number) {
         Some(step) => format!(

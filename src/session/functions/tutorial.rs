@@ -1,4 +1,4 @@
-//! The functions of the tutorial's package that look at the world or change it.
+//! The functions of the tutorial's package that query or change the world.
 
 use super::objects::Spawning;
 use crate::lisp::builtin::{Builtin, control};
@@ -21,7 +21,7 @@ use crate::session::simulation::names::{name_text, suggestion, type_keyword, typ
 use crate::session::simulation::properties::property;
 use crate::session::simulation::{Axes, Simulation};
 
-/// Length of coordinate axes (m) unless told.
+/// Default length (m) of coordinate axes.
 const AXES_SIZE: f64 = 0.3;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;

@@ -1,4 +1,4 @@
-//! Builtins that act on the world: they are requests, which the session carries out.
+//! Builtins that act on the world: they are requests that the session carries out.
 
 use super::SimulationHost;
 use crate::lisp::image::Image;
@@ -9,10 +9,10 @@ use crate::session::audience::Audience;
 use crate::session::person::Person;
 use crate::session::simulation::Simulation;
 
-/// A function on what there is beside Lisp.
+/// A function that acts on the host.
 pub(crate) type HostFn = fn(&mut SimulationHost, &mut Image, &[Value]) -> Result<Reply, Box<Raise>>;
 
-/// The request to call a function on what there is beside Lisp.
+/// The request to call a function on the host.
 pub(crate) struct HostCall {
     /// The function.
     pub(crate) call: HostFn,
@@ -20,9 +20,9 @@ pub(crate) struct HostCall {
     pub(crate) args: Vec<Value>,
 }
 
-/// What a builtin may get at: one of the host's owners, or the host where it needs several.
+/// What a builtin acts on: one of the host's parts, or the whole host if it needs several.
 pub(crate) trait Owner {
-    /// The owner of that kind.
+    /// That part of the host.
     fn of(host: &mut SimulationHost) -> &mut Self;
 }
 
@@ -50,8 +50,8 @@ impl Owner for Audience {
     }
 }
 
-/// The control builtin that requests a call of a function, whose first parameter says which
-/// [`Owner`] it works on.
+/// A control builtin that requests a call of a function, whose first parameter determines the
+/// [`Owner`] that it acts on.
 macro_rules! host {
     ($function:path) => {
         |_, args| {
@@ -68,7 +68,7 @@ macro_rules! host {
 }
 pub(crate) use host;
 
-/// The reply of a call that is done.
+/// The reply of a completed call.
 pub(crate) fn done(value: impl Into<Value>) -> Result<Reply, Box<Raise>> {
     Ok(Reply::Now(Ok(value.into())))
 }

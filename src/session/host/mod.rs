@@ -1,9 +1,9 @@
-//! Where plans meet the world: requests of tasks are carried out here, and the world moves
-//! on while all tasks wait.
+//! The interface between plans and the world: tasks' requests are carried out here, and the
+//! world advances while all tasks wait.
 //!
-//! What there is belongs to three owners: the [`Simulation`] is the world and its motions, the
-//! [`Person`] what was done at the prompt, the [`Audience`] who watches. A builtin asks for
-//! the one that it needs, see [`call`].
+//! The state is divided between three owners: [`Simulation`] has the world and its motions,
+//! [`Person`] the state of the prompt, [`Audience`] the outputs that show the session. A
+//! builtin asks for the one that it needs; see [`call`].
 
 pub(crate) mod call;
 pub(super) mod parts;
@@ -16,15 +16,15 @@ use crate::session::audience::Audience;
 use crate::session::person::Person;
 use crate::session::simulation::Simulation;
 
-/// All that a task can ask for beside Lisp.
+/// Everything outside Lisp that a task can use.
 pub(crate) struct SimulationHost {
     /// The robot in its world.
     pub(crate) simulation: Simulation,
-    /// What the person at the prompt did.
+    /// The state of the prompt.
     pub(crate) person: Person,
-    /// Who watches.
+    /// The outputs that show the session.
     pub(crate) audience: Audience,
-    /// The task whose request is carried out.
+    /// The task whose request is being carried out.
     asking: TaskId,
 }
 
@@ -40,8 +40,8 @@ impl SimulationHost {
     }
 }
 
-/// The number of motions that were begun, for the image: what happens later is told from what
-/// happened before by it.
+/// Tells the image how many motions have begun, by which it distinguishes later events from
+/// earlier ones.
 fn note_motions(simulation: &Simulation, image: &mut Image) {
     image.extend(MotionsBegun(simulation.jobs.begun));
 }

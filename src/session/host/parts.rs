@@ -1,4 +1,4 @@
-//! Taking values apart for a person to look at: every kind of value has named parts.
+//! The parts of values for the inspector: every kind of value has named parts.
 
 use super::SimulationHost;
 use crate::lisp::image::Image;
@@ -15,12 +15,12 @@ use crate::session::simulation::motions::side_keyword;
 use crate::session::simulation::names::{name_text, type_keyword};
 use crate::session::simulation::properties::property;
 
-/// Parts that are told.
+/// Maximum number of parts shown.
 const MOST_PARTS: usize = 60;
-/// Characters of a part.
+/// Maximum length of a part in characters.
 const LONGEST_PART: usize = 100;
 
-/// Elements of a list that is taken apart as a list.
+/// Longest list whose parts are its elements.
 const LONGEST_LIST: usize = 100_000;
 
 /// A value with its parts.
@@ -31,8 +31,8 @@ pub(in crate::session) struct View {
 }
 
 impl View {
-    /// Takes a value apart. A symbol that names an object in the world, and `:robot`, stand
-    /// for these.
+    /// The parts of a value. A symbol that names an object in the world stands for that object,
+    /// and `:robot` for the robot.
     pub(in crate::session) fn of(host: &SimulationHost, image: &mut Image, value: &Value) -> View {
         if let Some(view) = in_world(host, image, value) {
             return view;
@@ -203,7 +203,7 @@ fn parts(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
     }
 }
 
-/// Is it a list that ends, and with `NIL`?
+/// Whether it is a proper list, and not too long.
 fn is_proper(value: &Value) -> bool {
     let mut rest = value.clone();
     for _ in 0..LONGEST_LIST {

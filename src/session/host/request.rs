@@ -1,4 +1,4 @@
-//! Carrying out requests of tasks, and advancing the world while all tasks wait.
+//! Carrying out tasks' requests, and advancing the world while all tasks wait.
 
 use std::any::Any;
 
@@ -30,7 +30,7 @@ impl Host for SimulationHost {
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
         let mut steps = 0u32;
         self.simulation.now = now;
-        // A world at rest need not be stepped.
+        // A world at rest does not need to be stepped.
         while self.simulation.now < until && !self.simulation.world.is_at_rest() {
             if image.is_interrupted() {
                 return self.simulation.now;
@@ -104,7 +104,7 @@ impl SimulationHost {
         }
     }
 
-    /// What the robot is doing, how far that is, and the simulated time, on one line.
+    /// What the robot is doing, its progress, and the simulated time, on one line.
     pub(in crate::session) fn progress(&self) -> String {
         let mut parts: Vec<String> = self.simulation.jobs.progress().collect();
         parts.push(format!("{:.1} s", self.simulation.now));
@@ -124,7 +124,7 @@ impl SimulationHost {
         match request.downcast::<MotionRequest>() {
             Ok(request) => match self.simulation.motion_for(image, &request) {
                 Ok((motion, subject)) => {
-                    // The task is told before what it does.
+                    // Report the task before its actions.
                     self.audience.tell_tasks(image);
                     let name = request.motion_type.to_lowercase();
                     Reply::Later(self.start(motion, subject, name))
@@ -150,8 +150,8 @@ impl SimulationHost {
         job.ticket
     }
 
-    /// Lets the motions set the robot's joints for the next step. When an interrupt comes
-    /// before one of them plans, or while it does, the rest is left for later: false.
+    /// Lets the motions set the robot's joints for the next step. If an interrupt comes before
+    /// or while one of them plans, leaves the rest for later and returns false.
     fn tick(&mut self, image: &mut Image, completions: &mut Vec<Completion>) -> bool {
         let simulation = &mut self.simulation;
         let now = simulation.now;

@@ -1,19 +1,19 @@
-//! What the person at the prompt did, and can go back to.
+//! The state of the prompt, including the snapshots for undo.
 
 mod snapshots;
 
 use crate::lisp::value::Value;
 pub(crate) use snapshots::Snapshots;
 
-/// The person at the prompt.
+/// The state of the prompt.
 #[derive(Default)]
 pub(crate) struct Person {
-    /// The past that can be gone back to.
+    /// Snapshots of earlier states.
     pub(crate) snapshots: Snapshots,
-    /// The step of the tour that comes next, from zero.
+    /// The next step of the tour, counted from zero.
     pub(crate) tour_step: usize,
-    /// A value that is to be taken apart.
+    /// A value that is to be inspected.
     pub(crate) inspected: Option<Value>,
-    /// The exit status, once leaving was asked for.
+    /// The exit status, once an exit has been requested.
     pub(crate) quit: Option<u8>,
 }

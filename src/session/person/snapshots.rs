@@ -1,7 +1,7 @@
-//! Going back in the world: snapshots that are kept of themselves, and those with a name.
+//! Undo: snapshots of the world that are taken automatically, and named ones.
 //!
-//! A snapshot holds the world, the robot in it, what the hands hold and how objects are
-//! called. Lisp variables and simulated time are not part of it.
+//! A snapshot holds the world, the robot in it, what the hands hold and the names of
+//! objects. Lisp variables and simulated time are not part of it.
 
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -14,12 +14,12 @@ use crate::session::simulation::held::Held;
 use crate::session::simulation::{Axes, Simulation};
 use crate::world;
 
-/// Forms at top level that can be taken back.
+/// Maximum number of forms at top level that can be undone.
 const MOST_FORMS: usize = 100;
-/// Motions of the running form before which the world is remembered.
+/// Maximum number of motions of the running form that have snapshots.
 const MOST_MOTIONS: usize = 64;
 
-/// How everything was at one time.
+/// The state at one time.
 #[derive(Clone)]
 pub(crate) struct Snapshot {
     world: Rc<world::Snapshot>,
@@ -28,11 +28,11 @@ pub(crate) struct Snapshot {
     axes: Option<Axes>,
 }
 
-/// How everything was before a form at top level.
+/// The state before a form at top level.
 struct BeforeForm {
     form: Value,
     snapshot: Snapshot,
-    /// The world's hash then.
+    /// The world's hash at that time.
     hash: u64,
 }
 
@@ -42,18 +42,18 @@ pub(crate) struct Snapshots {
     /// Before forms that changed the world, and before the last form; newest last.
     forms: VecDeque<BeforeForm>,
     named: IndexMap<String, Snapshot>,
-    /// Before motions of the form that runs, by the number of the motion.
+    /// Before motions of the running form, by the number of the motion.
     motions: VecDeque<(u64, Snapshot)>,
-    /// Are those of motions kept?
+    /// Whether snapshots before motions are kept.
     keeps_motions: bool,
-    /// Has anything been asked of the world since the last form began?
+    /// Whether anything has been requested from the world since the last form began.
     is_touched: bool,
-    /// Is what is evaluated on top of a form that stands still?
+    /// Whether evaluation is on top of a stopped form.
     is_aside: bool,
 }
 
 impl Snapshot {
-    /// Everything as it is now.
+    /// Takes a snapshot of the present state.
     fn take(simulation: &Simulation) -> Self {
         Self {
             world: Rc::new(simulation.world.snapshot()),
@@ -63,7 +63,7 @@ impl Snapshot {
         }
     }
 
-    /// Makes everything as it was; motions under way end.
+    /// Restores the state; ongoing motions end.
     fn restore(&self, simulation: &mut Simulation) {
         simulation.world.restore(&self.world);
         simulation.names.clone_from(&self.names);
@@ -74,17 +74,17 @@ impl Snapshot {
 }
 
 impl Snapshots {
-    /// From here on, also keeps the snapshots before motions.
+    /// Sets whether snapshots before motions are kept.
     pub(crate) fn keep_snapshots_of_motions(&mut self, keeps: bool) {
         self.keeps_motions = keeps;
     }
 
-    /// From here on, what is evaluated is on top of a form that stands still, or not.
+    /// Sets whether evaluation is on top of a stopped form.
     pub(crate) fn set_aside(&mut self, is_aside: bool) {
         self.is_aside = is_aside;
     }
 
-    /// A form at top level is about to be evaluated.
+    /// Call when a form at top level is about to be evaluated.
     pub(crate) fn begin_form(&mut self, simulation: &Simulation, form: &Value) {
         self.motions.clear();
         if !self.is_touched
@@ -109,13 +109,13 @@ impl Snapshots {
         self.forms.push_back(before);
     }
 
-    /// Is the world another one than before the last form at top level?
+    /// Whether the world differs from before the last form at top level.
     pub(crate) fn has_changed_since_form(&self, simulation: &Simulation) -> bool {
         let last = self.forms.back();
         last.is_some_and(|before| before.hash != simulation.world.hash())
     }
 
-    /// Takes the world back to before the last form at top level.
+    /// Restores the world to before the last form at top level.
     pub(crate) fn go_back_to_form(&mut self, simulation: &mut Simulation) {
         let last = self.forms.back();
         if let Some(snapshot) = last.map(|before| before.snapshot.clone()) {
@@ -123,12 +123,12 @@ impl Snapshots {
         }
     }
 
-    /// Something is asked of the world.
+    /// Call when something is requested from the world.
     pub(crate) fn touch(&mut self) {
         self.is_touched = true;
     }
 
-    /// The next motion is about to be begun.
+    /// Call when the next motion is about to begin.
     pub(crate) fn begin_motion(&mut self, simulation: &Simulation) {
         if !self.keeps_motions {
             return;
@@ -140,12 +140,12 @@ impl Snapshots {
         self.motions.push_back(snapshot);
     }
 
-    /// Can the world be taken back to before the motion of that number?
+    /// Whether the world can be restored to before the motion with that number.
     pub(crate) fn has_motion_snapshot(&self, motion: u64) -> bool {
         self.motions.iter().any(|(n, _)| *n == motion)
     }
 
-    /// Takes the world back to before the motion of that number, if that is known.
+    /// Restores the world to before the motion with that number, if there is a snapshot.
     pub(crate) fn go_back_to(&mut self, simulation: &mut Simulation, motion: u64) {
         let found = self.motions.iter().find(|(n, _)| *n == motion);
         if let Some((_, snapshot)) = found.cloned() {
@@ -153,16 +153,16 @@ impl Snapshots {
         }
     }
 
-    /// Takes the world back to before the last `count` forms that changed it; returns the
-    /// first of them.
+    /// Restores the world to before the last `count` forms that changed it; returns the first
+    /// of them.
     pub(crate) fn rewind(
         &mut self,
         simulation: &mut Simulation,
         count: usize,
     ) -> Result<Value, Box<Raise>> {
         check_idle(simulation)?;
-        // The last snapshot is the one before the form that rewinds, unless that is typed
-        // while another form stands still.
+        // The last snapshot is the one before the form that rewinds, unless that form was typed
+        // while another one is stopped.
         let current = if self.is_aside {
             None
         } else {
@@ -198,13 +198,13 @@ impl Snapshots {
         Ok(target.form)
     }
 
-    /// Keeps the world as it is under a name.
+    /// Takes a named snapshot of the world.
     pub(crate) fn keep(&mut self, simulation: &Simulation, name: &str) {
         let snapshot = Snapshot::take(simulation);
         self.named.insert(name.to_owned(), snapshot);
     }
 
-    /// Takes the world back to how it was kept under a name.
+    /// Restores a named snapshot of the world.
     pub(crate) fn restore_kept(
         &mut self,
         simulation: &mut Simulation,
@@ -231,7 +231,7 @@ impl Snapshots {
         }
     }
 
-    /// The names under which the world was kept.
+    /// The names of the named snapshots.
     pub(crate) fn kept_names(&self) -> impl Iterator<Item = &str> {
         self.named.keys().map(String::as_str)
     }

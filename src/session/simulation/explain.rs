@@ -1,7 +1,7 @@
 //! The long form of a failure: what is known about it, and what would work.
 //!
-//! The world as it was when the failure came up is kept, so that the answer does not depend
-//! on what has happened since.
+//! A copy of the world at the time of the failure is kept, so that the answer does not
+//! depend on what has happened since.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -20,14 +20,14 @@ use crate::perception::{Sight, Visibility};
 use crate::spatial::{Pose, pose};
 use crate::world::World;
 
-/// A hand that is to be nearer to an object than this (m) is taken to be meant for it.
+/// A hand goal closer to an object than this (m) is taken to be meant for that object.
 const AT_THE_OBJECT: f64 = 0.4;
-/// Headings that are tried where the robot cannot stand.
+/// Number of headings tried where the robot cannot stand.
 const HEADINGS: u32 = 8;
-/// Pairs of bodies that are told.
+/// Maximum number of pairs of bodies listed.
 const MOST_PAIRS: usize = 6;
 
-/// A failure with the world in which it came up.
+/// A failure with the world in which it occurred.
 pub(in crate::session) struct Remembered {
     pub(crate) failure: MotionFailure,
     /// Simulated time (s).
@@ -88,7 +88,7 @@ impl Simulation {
         facts
     }
 
-    /// The pairs that would touch with the base at a place, the deepest of each.
+    /// The pairs that would touch with the base at a pose, each with its deepest contact.
     fn touching(&self, place: &BasePlace) -> Vec<String> {
         let mut deepest: BTreeMap<String, f64> = BTreeMap::new();
         for hit in touching_at(&self.world, place) {
@@ -185,7 +185,7 @@ impl Simulation {
         lines
     }
 
-    /// What the camera would see with the head turned to the object.
+    /// Whether the camera would see the object with the head turned to it.
     fn where_to_look(&self, seen: &Visibility) -> String {
         let name = &seen.object;
         let Ok(at) = self.world.object_pose(name) else {
@@ -276,7 +276,7 @@ fn point(p: &Vector3<f64>) -> String {
     format!("({:.3} {:.3} {:.3})", p.x, p.y, p.z)
 }
 
-/// A place of the base as a pose that can be typed.
+/// A pose of the base as a form that can be typed.
 fn place_form(&[x, y, yaw]: &BasePlace) -> String {
     let q = pose::from_xy_yaw(x, y, yaw).rotation;
     format!(

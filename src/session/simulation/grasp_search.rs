@@ -1,4 +1,4 @@
-//! Which grasps of an object the robot could reach, from where it stands and from elsewhere.
+//! Search for grasps of an object that the robot could reach, from its base pose or another.
 
 use std::f64::consts::TAU;
 
@@ -21,14 +21,14 @@ use crate::world::grasp_library::GraspDefinition;
 
 /// Distances (m) of the base's axis from the object, the most comfortable ones first.
 const DISTANCES: [f64; 5] = [0.65, 0.7, 0.6, 0.75, 0.55];
-/// Directions from the object that are looked at.
+/// Number of directions from the object that are tried.
 const DIRECTIONS: u32 = 24;
-/// Places to which a way is looked for.
+/// Maximum number of base poses for which a path is searched.
 const MOST_WAYS: usize = 2;
-/// Grasps that are told.
+/// Maximum number of grasps listed.
 const MOST_GRASPS: usize = 4;
 
-/// An object that is to be grasped, and the arm and grasp that are asked for.
+/// An object to be grasped, with the requested arm and grasp.
 pub(in crate::session) struct Wanted {
     /// Name of the object.
     pub(crate) name: String,
@@ -36,9 +36,9 @@ pub(in crate::session) struct Wanted {
     pub(crate) kind: String,
     /// Pose of the object in the map frame.
     pub(crate) in_map: Pose,
-    /// The arm, if one is asked for.
+    /// The requested arm, if any.
     pub(crate) arm: Option<Side>,
-    /// The grasp, if one is asked for.
+    /// The requested grasp, if any.
     pub(crate) grasp: Option<String>,
 }
 
@@ -62,7 +62,7 @@ impl Simulation {
         })
     }
 
-    /// Can the object be grasped so, with the base at that pose?
+    /// Whether the object can be grasped like that with the base at that pose.
     fn can_grasp_from(
         &self,
         image: &mut Image,
@@ -79,7 +79,7 @@ impl Simulation {
         let Ok(poses) = definition.tool_poses(&in_base, axes) else {
             return false;
         };
-        // What the arm is too short for is ruled out without a look at the surroundings.
+        // Poses out of the arm's reach are ruled out without checking the surroundings.
         if !self.is_reachable(arm, &[poses.pregrasp, poses.second_pregrasp, poses.grasp]) {
             return false;
         }
@@ -93,8 +93,8 @@ impl Simulation {
         self.lets_grasp(&imagined, &definition).unwrap_or(false)
     }
 
-    /// With the world as imagined: can the hand come to a grasp of the object, and leave it,
-    /// without touching anything else?
+    /// Whether the hand can approach a grasp of the object in the imagined world, and retreat,
+    /// without touching anything else.
     pub(in crate::session) fn lets_grasp(
         &self,
         imagined: &Imagined<'_>,
@@ -111,8 +111,8 @@ impl Simulation {
         let poses = grasp
             .tool_poses(&object, axes)
             .map_err(|error| Raise::simple(format!("{error}.")))?;
-        // As the plans of picking up and placing: the hand comes free of everything, and may
-        // touch the object from then on.
+        // As in the plans for picking up and placing: the hand approaches without contact, and
+        // may touch the object from then on.
         let way = [
             (poses.second_pregrasp, CollisionMode::AvoidAll),
             (poses.grasp, CollisionMode::AllowHand),
@@ -124,8 +124,8 @@ impl Simulation {
             .all(|(tool, mode)| can_reach(&world, side, tool, *mode)))
     }
 
-    /// Arms and grasps by which the object of an action of picking up can be reached from
-    /// here, the action's own ones left out.
+    /// Arms and grasps by which the object of a picking-up action can be reached from the
+    /// current base pose, without the action's own.
     pub(in crate::session) fn reachable_grasps(
         &self,
         image: &mut Image,
@@ -144,8 +144,8 @@ impl Simulation {
             .collect()
     }
 
-    /// Arms and grasps by which an object can be reached from here, those of the wanted arm
-    /// first; `tried` is one of that arm's grasps that is left out.
+    /// Arms and grasps by which an object can be reached from the current base pose, those of
+    /// the wanted arm first; `tried` is one of that arm's grasps, which is left out.
     pub(in crate::session) fn grasps_from_here(
         &self,
         image: &mut Image,
@@ -172,8 +172,8 @@ impl Simulation {
         found
     }
 
-    /// A pose of the base, arm and grasp for picking up the object of an action: near, free,
-    /// and with a way to it. The action's own arm and grasp are preferred.
+    /// A base pose, arm and grasp for picking up the object of an action: the pose is near,
+    /// free and reachable by a path. The action's own arm and grasp are preferred.
     pub(in crate::session) fn place_to_grasp_from(
         &self,
         image: &mut Image,
@@ -185,8 +185,8 @@ impl Simulation {
         Some((place, side_keyword(image, arm), type_keyword(image, &grasp)))
     }
 
-    /// A pose of the base in the map frame, arm and grasp for an object: near, free, and with
-    /// a way to it. The arm and grasp that are asked for are preferred.
+    /// A base pose in the map frame, arm and grasp for an object: the pose is near, free and
+    /// reachable by a path. The requested arm and grasp are preferred.
     pub(in crate::session) fn place_to_grasp(
         &self,
         image: &mut Image,
@@ -210,7 +210,7 @@ impl Simulation {
                         (end[0] - goal[0]).abs() < 1e-6 && (end[1] - goal[1]).abs() < 1e-6
                     })
                 };
-                // Ctrl-C ends a search that takes long: then nothing is offered.
+                // Ctrl-C ends a long search; nothing is offered then.
                 let way = interruptible(&image.interrupt, || plan_drive(&self.world, goal))?;
                 if way.is_ok_and(ends_there) {
                     return Some((base, arm, grasp.clone()));
@@ -223,8 +223,8 @@ impl Simulation {
         None
     }
 
-    /// Places of the base around a thing, facing it, where the robot would touch nothing,
-    /// the nearest to where it stands first.
+    /// Collision-free base poses around a thing and facing it, those nearest to the current
+    /// base pose first.
     fn places_around(&self, thing: &Pose) -> Vec<Pose> {
         let here = self.base();
         let centre = thing.translation.vector;

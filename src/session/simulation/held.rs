@@ -8,7 +8,7 @@ use crate::robot::Side;
 pub(in crate::session) struct Held {
     /// The hand.
     pub(crate) side: Side,
-    /// The grasp by which it was picked up, if that is known.
+    /// The grasp by which it was picked up, if known.
     pub(crate) grasp: Option<String>,
 }
 

@@ -1,30 +1,30 @@
-//! The world as it would be with an object and the robot elsewhere, to ask what could be
-//! done there. The world itself stays as it is.
+//! A copy of the world with an object and the robot elsewhere, to find out what could be
+//! done there. The world itself is not changed.
 
 use crate::robot::Side;
 use crate::spatial::{Pose, pose};
 use crate::world::{World, WorldError};
 
-/// How far (m) a surface may be above the height that was asked for: people give heights
-/// roughly, and things come to stand on what is there.
+/// How far (m) a surface may be above the requested height: users give heights roughly, and
+/// things end up standing on what is there.
 const HIGHEST_LIFT: f64 = 0.1;
 
-/// How a world would differ from that of now.
+/// How the imagined world differs from the present one.
 pub(in crate::session) struct Imagined<'a> {
-    /// Name of the object, which no hand would hold.
+    /// Name of the object, which no hand holds.
     pub(crate) object: &'a str,
-    /// Where it would be, in the map frame; it would stand on what is closely below.
+    /// Its pose in the map frame; it stands on what is just below.
     pub(crate) object_pose: Option<Pose>,
-    /// Where the base would be, in the map frame.
+    /// The pose of the base in the map frame.
     pub(crate) base_pose: Option<Pose>,
-    /// The hand that would be open.
+    /// The open hand.
     pub(crate) side: Side,
-    /// How wide it would be open (m).
+    /// Its opening (m).
     pub(crate) opening: f64,
 }
 
 impl Imagined<'_> {
-    /// A copy of the world with these differences; none if something else is where the object
+    /// A copy of the world with these differences; `None` if something else is where the object
     /// would be.
     pub(crate) fn world(&self, now: &World) -> Result<Option<World>, WorldError> {
         let mut world = now.clone();

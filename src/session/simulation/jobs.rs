@@ -1,4 +1,4 @@
-//! Motions under way, and those that wait for the part of the robot that they need.
+//! Active motions, and those that wait for the part of the robot that they need.
 
 use std::collections::VecDeque;
 
@@ -15,11 +15,11 @@ pub(crate) struct Job {
     pub(crate) ticket: Ticket,
     module: ProcessModule,
     motion: Box<dyn Motion>,
-    /// The designator that failures name.
+    /// The designator named in failures.
     pub(crate) subject: Value,
     /// The task that waits.
     pub(crate) task: TaskId,
-    /// What kind of motion it is, for people.
+    /// The kind of motion, for display.
     pub(crate) name: String,
     pub(crate) is_paused: bool,
 }
@@ -27,22 +27,22 @@ pub(crate) struct Job {
 /// All motions.
 #[derive(Default)]
 pub(crate) struct Jobs {
-    /// Those under way, in order of their start.
+    /// Active motions, in the order in which they started.
     pub(crate) active: Vec<Job>,
-    /// Those that wait for a process module, in order.
+    /// Motions that wait for a process module, in order.
     waiting: VecDeque<Job>,
-    /// What has been done for the step to come, when an interrupt came between.
+    /// What has been done for the next step, if an interrupt came in between.
     pub(crate) partial_step: Option<PartialStep>,
-    /// How many have been begun.
+    /// Number of motions begun so far.
     pub(crate) begun: u64,
 }
 
-/// A step of the world to come: what motions have done for it so far.
+/// An incomplete step of the world: what motions have done for it so far.
 #[derive(Default)]
 pub(crate) struct PartialStep {
     /// Motions that have set their joints.
     pub(crate) ticked: Vec<Ticket>,
-    /// What has ended by that.
+    /// Motions that have ended in this step.
     pub(crate) completions: Vec<Completion>,
 }
 
@@ -50,8 +50,8 @@ pub(crate) struct PartialStep {
 pub(crate) type Completion = (Ticket, Result<Value, Box<Raise>>);
 
 impl Job {
-    /// Lets the motion set joints; none if an interrupt came before or while it planned. It
-    /// is then as it was.
+    /// Lets the motion set joints; `None` if an interrupt came before or while it planned, in
+    /// which case it is unchanged.
     pub(crate) fn tick(&mut self, image: &Image, world: &mut World) -> Option<MotionStatus> {
         let Some(before) = self.motion.before_planning() else {
             return Some(self.motion.tick(world));
@@ -69,7 +69,7 @@ impl Job {
 }
 
 impl Jobs {
-    /// A motion that begins as soon as its process module is free.
+    /// Adds a motion, which begins as soon as its process module is free.
     pub(crate) fn add(
         &mut self,
         motion: Box<dyn Motion>,
@@ -87,11 +87,11 @@ impl Jobs {
             name,
             is_paused: false,
         });
-        // It has just been added.
+        // The motion has just been added.
         &self.waiting[self.waiting.len() - 1]
     }
 
-    /// Begins the motions whose process modules are free.
+    /// Starts the motions whose process modules are free.
     pub(crate) fn admit_waiting(&mut self) {
         if self.partial_step.is_some() {
             return;
@@ -108,7 +108,7 @@ impl Jobs {
         self.waiting = still_waiting;
     }
 
-    /// Ends a motion and takes it out.
+    /// Ends a motion and removes it.
     pub(crate) fn cancel(&mut self, ticket: Ticket) -> Option<Job> {
         let is_it = |job: &Job| job.ticket == ticket;
         let mut cancelled = match self.active.iter().position(is_it) {
@@ -127,7 +127,7 @@ impl Jobs {
         cancelled
     }
 
-    /// Holds a motion, or lets it go on.
+    /// Pauses a motion or lets it continue.
     pub(crate) fn set_paused(&mut self, ticket: Ticket, paused: bool) {
         for job in self.active.iter_mut().chain(&mut self.waiting) {
             if job.ticket == ticket {
@@ -136,7 +136,7 @@ impl Jobs {
         }
     }
 
-    /// Whether no motion is under way, nor waits.
+    /// Whether no motion is active or waiting.
     pub(crate) fn is_idle(&self) -> bool {
         self.active.is_empty() && self.waiting.is_empty()
     }
@@ -155,7 +155,7 @@ impl Jobs {
             .collect()
     }
 
-    /// What the motions are doing and how far they are, one text for each.
+    /// What each motion is doing, and its progress.
     pub(crate) fn progress(&self) -> impl Iterator<Item = String> {
         let jobs = self.active.iter().filter(|job| !job.is_paused);
         jobs.map(|job| {

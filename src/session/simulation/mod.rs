@@ -1,5 +1,5 @@
-//! The simulated robot in its world, as plans reach it: motions under way, what the hands
-//! hold and how it was grasped, and the names under which people know the objects.
+//! The simulated robot in its world, as plans use it: active motions, what the hands hold
+//! and how it was grasped, and the names by which users know the objects.
 
 mod explain;
 pub(super) mod grasp_search;
@@ -31,10 +31,10 @@ use crate::world::{Models, RobotConfiguration, World};
 
 use jobs::Jobs;
 
-/// Coordinate axes that a person asked to see.
+/// Coordinate axes that the user asked to see.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Axes {
-    /// Where, in the map frame.
+    /// Their pose in the map frame.
     pub(crate) pose: Pose,
     /// Length of the bars (m).
     pub(crate) size: f64,
@@ -48,16 +48,16 @@ pub(crate) struct Simulation {
     /// The symbol under which each object was spawned, by its name in the world.
     pub(super) names: IndexMap<String, Value>,
     pub(super) held: IndexMap<String, held::Held>,
-    /// Motions under way.
+    /// Active and waiting motions.
     pub(super) jobs: Jobs,
     pub(super) axes: Option<Axes>,
     pub(super) log_level: LogLevel,
     /// The last failure of a motion, to be explained on demand.
     last_failure: Option<Box<explain::Remembered>>,
-    /// What was looked for last.
+    /// The objects that the robot looked for last.
     sought: Option<DetectQuery>,
     looks: OnceCell<Looks>,
-    /// Simulated time (s) as the scheduler told it last.
+    /// Simulated time (s) last reported by the scheduler.
     pub(super) now: f64,
 }
 
@@ -81,8 +81,7 @@ impl Simulation {
         })
     }
 
-    /// Takes the world back to the start: no objects, the robot at the origin. Simulated
-    /// time goes on.
+    /// Resets the world: no objects, the robot at the origin. Simulated time continues.
     pub(super) fn restart(&mut self) {
         self.world = starting_world(&self.models);
         self.names.clear();
@@ -101,7 +100,7 @@ impl Simulation {
         &self.world
     }
 
-    /// How everything looks.
+    /// The appearance of everything.
     pub(super) fn looks(&self) -> &Looks {
         self.looks.get_or_init(|| Looks::of(&self.models))
     }
@@ -116,7 +115,7 @@ impl Simulation {
         &self.grasps
     }
 
-    /// The coordinate axes to be shown, if any.
+    /// The coordinate axes to show, if any.
     pub(crate) fn axes(&self) -> Option<&Axes> {
         self.axes.as_ref()
     }

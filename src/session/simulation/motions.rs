@@ -1,4 +1,4 @@
-//! Motion designators as motions.
+//! Converting motion designators to motions.
 
 use super::Simulation;
 use super::names::{name_text, type_text};
@@ -67,8 +67,7 @@ fn real(value: &Value) -> Result<f64> {
 }
 
 impl Simulation {
-    /// The motion that a designator describes, and the designator that its failures are
-    /// about.
+    /// The motion that a designator describes, and the designator named in its failures.
     pub(in crate::session) fn motion_for(
         &mut self,
         image: &mut Image,
@@ -273,8 +272,7 @@ impl Simulation {
         }
     }
 
-    /// Designators of detected objects: the first one, or the list of all if all were
-    /// asked for.
+    /// Designators of detected objects: the first one, or a list of all if all were requested.
     pub(in crate::session) fn detected(
         &mut self,
         image: &mut Image,

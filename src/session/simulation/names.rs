@@ -1,4 +1,4 @@
-//! Names of objects and types: symbols for people, texts in the world.
+//! Names of objects and types: symbols for users, strings in the world.
 
 use super::Simulation;
 use crate::closest_name::closest_name;
@@ -8,7 +8,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
-/// The text of a name: that of a symbol or string, in upper case, `_` read as `-`.
+/// The text of a name given as symbol or string, in upper case, with `_` read as `-`.
 pub(in crate::session) fn name_text(image: &Image, name: &Value) -> Option<String> {
     let text = match name {
         Value::Symbol(sym) if name.is_true() => image.name(*sym).to_owned(),
@@ -18,7 +18,7 @@ pub(in crate::session) fn name_text(image: &Image, name: &Value) -> Option<Strin
     Some(text.to_uppercase().replace('_', "-"))
 }
 
-/// The name of a type in the object library: lower case, `_` read as `-`.
+/// The name of a type in the object library: lower case, with `_` read as `-`.
 pub(in crate::session) fn type_text(image: &Image, name: &Value) -> Option<String> {
     name_text(image, name).map(|text| text.to_lowercase())
 }
@@ -28,7 +28,7 @@ pub(in crate::session) fn type_keyword(image: &mut Image, name: &str) -> Value {
     image.keyword(&name.to_uppercase()).into()
 }
 
-/// "; did you mean X?" if a name is near.
+/// "; did you mean X?" if a name is similar.
 pub(in crate::session) fn suggestion<'a>(
     wanted: &str,
     names: impl IntoIterator<Item = &'a str>,
@@ -66,7 +66,7 @@ impl Simulation {
         )))
     }
 
-    /// The symbol by which people know an object.
+    /// The symbol by which users know an object.
     pub(in crate::session) fn symbol_of(&self, name: &str) -> Value {
         self.names.get(name).cloned().unwrap_or(Value::NIL)
     }

@@ -1,4 +1,4 @@
-//! What motions bring about, as values and conditions.
+//! Results of motions as Lisp values and conditions.
 
 use super::Simulation;
 use crate::lisp::image::Image;
@@ -8,7 +8,7 @@ use crate::lisp::value::raise::Raise;
 use crate::motion::{MotionFailure, MotionOutcome};
 
 impl Simulation {
-    /// What a motion has brought about, as a value.
+    /// The result of a motion as a value.
     pub(in crate::session) fn outcome(
         &mut self,
         image: &mut Image,

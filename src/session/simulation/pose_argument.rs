@@ -10,8 +10,8 @@ use crate::session::simulation::properties::property;
 use crate::spatial::Pose;
 
 impl Simulation {
-    /// The pose, in the map frame, of a pose argument. The frame of a stamped pose counts;
-    /// a list or a plain pose is in the map frame.
+    /// The pose of a pose argument in the map frame. A stamped pose is transformed from its
+    /// frame; a list or a plain pose is in the map frame.
     pub(in crate::session) fn pose_in_map(
         &self,
         image: &Image,
@@ -28,7 +28,7 @@ impl Simulation {
         }
     }
 
-    /// Position and orientation of a pose argument as they stand, whatever the frame.
+    /// Position and orientation of a pose argument as given, whatever the frame.
     pub(in crate::session) fn pose_as_given(
         &self,
         image: &Image,

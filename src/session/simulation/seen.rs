@@ -1,10 +1,10 @@
-//! What there is to be seen, and what the robot looked for.
+//! The scene, and the objects that the robot looked for.
 
 use super::Simulation;
 use crate::picture::{self, View, render};
 
 impl Simulation {
-    /// Everything there is to be seen now.
+    /// The present scene.
     pub(crate) fn scene(&self) -> picture::Scene {
         let mut scene = self.looks().scene(&self.world);
         if let Some(axes) = self.axes() {
@@ -13,7 +13,7 @@ impl Simulation {
         scene
     }
 
-    /// The picture that a view has now.
+    /// The present picture of a view.
     pub(crate) fn picture(
         &self,
         view: View,
@@ -24,7 +24,7 @@ impl Simulation {
         Ok(render(&self.scene(), &camera))
     }
 
-    /// The objects that the robot looked for last; all of them, if it has not looked for any.
+    /// The objects that the robot looked for last, or all objects if it has not looked for any.
     pub(in crate::session) fn sought(&self) -> Vec<String> {
         let library = &self.models.objects;
         let is_sought = |object: &&crate::world::Object| match &self.sought {

@@ -6,7 +6,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::raise::Raise;
 use crate::spatial::Pose;
 
-/// The frame that everything refers to.
+/// The frame to which everything refers.
 pub(in crate::session) const MAP: &str = "map";
 /// The frame of the robot's base on the floor.
 pub(in crate::session) const BASE: &str = "base_footprint";
@@ -28,7 +28,7 @@ impl Simulation {
         if let Some(link) = self.models.kitchen.link_named(name) {
             return Ok(self.world.furniture_pose(link));
         }
-        // What a robot calls the root of its links does not matter.
+        // The name that a robot gives its root link does not matter.
         if name == BASE {
             return Ok(self.base());
         }
