@@ -74,7 +74,7 @@ impl Record {
 pub(super) static TABLE: &[Builtin] = &[pure(
     "SAVE-TRANSCRIPT",
     "file",
-    "Writes what was typed at the prompt and what came of it as a transcript, which planwright replay compares. Returns the number of inputs.",
+    "Writes the inputs at the prompt and their output as a transcript, which planwright replay can compare. Returns the number of inputs.",
     &[],
     save_transcript,
 )];

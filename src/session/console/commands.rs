@@ -43,13 +43,13 @@ pub(super) enum Command<'a> {
 pub(super) const HELP: &str = "\
 N          chooses the restart of that number; N FORM gives it a value
 q          aborts: back to the top          a        aborts this level only
-:bt [N]    the frames, innermost first      :frame N looks at a frame
+:bt [N]    the frames, innermost first      :frame N selects a frame
 :up :down  the frame further out, in        :locals  the variables of the frame
 :tasks     the tasks
 :r         the restarts again               c        continues, where that is possible
 :retry     evaluates the form again         :edit    the same, but lets you change it
 :return F  returns the value of form F from the frame
-Anything else is evaluated in the frame that is looked at.
+Anything else is evaluated in the selected frame.
 ";
 
 impl<'a> Command<'a> {

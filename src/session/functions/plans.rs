@@ -109,7 +109,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     control(
         "RAISE-POSE",
         "pose height",
-        "A pose so much higher (m).",
+        "The pose raised by an offset (m).",
         &[],
         host!(raise_pose),
     ),

@@ -29,7 +29,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     control(
         "HELP",
         "",
-        "Tells what there is and how to find out more.",
+        "Gives an overview of the functions and of how to find out more.",
         &[],
         host!(tell_help),
     ),
@@ -50,21 +50,21 @@ pub(crate) static TABLE: &[Builtin] = &[
     control(
         "TOUR",
         "&optional step",
-        "The next step of a first session, or the step of that number, for somebody who knows nothing yet.",
+        "Shows the next step of the tour, a first session for newcomers, or the step with that number.",
         &[],
         host!(tour_step),
     ),
     control(
         "TASKS",
         "",
-        "Tells the tasks that are alive, and those of the last plan that have ended, as a tree with their status.",
+        "Shows the tasks that are alive, and those of the last plan that have ended, as a tree with their status.",
         &[],
         |machine, _| tell_overview(machine),
     ),
     control(
         "INSPECT",
         "object",
-        "Takes a value apart: tells its parts, numbered. In a terminal a number then goes into a part, b goes back, q ends. 'NAME is an object in the world, :ROBOT the robot.",
+        "Shows the parts of a value, numbered. In a terminal a number then goes into a part, b goes back, q ends. 'NAME is an object in the world, :ROBOT the robot.",
         &[],
         host!(inspect),
     ),
@@ -74,7 +74,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
     "CALL-WITH-TIMING",
     "function",
-    "Calls a function and tells how long that took, in real and in simulated time.",
+    "Calls a function and reports how long it took, in real and in simulated time.",
     &[],
     |machine, args| {
         let plan = Plan::of(machine.image);

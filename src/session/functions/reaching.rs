@@ -23,7 +23,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     control(
         "BASE-POSE-FREE-P",
         "base-pose",
-        "Could the robot, with its arms as they are, stand at a pose of its base without touching anything? Whether there is a way is not looked at.",
+        "Could the robot, with its arms as they are, stand at a pose of its base without touching anything? Does not check whether a path leads there.",
         &[
             "(progn (pp-tut:init-projection) (pp-tut:base-pose-free-p '((0 1 0) (0 0 0 1)))) => T",
             "(pp-tut:base-pose-free-p '((-1 1.5 0) (0 0 0 1))) => NIL",

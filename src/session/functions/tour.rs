@@ -57,8 +57,8 @@ pub(crate) static STEPS: &[Step] = &[
         form: "(rewind)",
     },
     Step {
-        text: "Make a mistake: when nobody handles a failure, the plan stands still, and you\n\
-               choose how it goes on: a number, or q to give up.",
+        text: "Make a mistake: if nothing handles a failure, the plan stops, and you choose how\n\
+               to continue: type a number, or q to give up.",
         form: "(with-simulated-robot\n  \
                  (let ((?place (make-pose \"map\" '((-1 1.5 0) (0 0 0 1)))))\n    \
                    (perform (an action (type going) (target (a location (pose ?place)))))))",

@@ -38,7 +38,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     control(
         "SPAWN-OBJECT",
         "pose &optional type name color",
-        "Puts an object (a red bottle named BOTTLE-1 unless told) into the world and lets it come to rest. An object of that name is moved.",
+        "Puts an object (by default a red bottle named BOTTLE-1) into the world and lets it come to rest. An existing object with that name is moved.",
         &[
             "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (btr-utils:object-exists 'bottle-1)) => T",
         ],

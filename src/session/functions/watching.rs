@@ -17,14 +17,14 @@ pub(crate) static TABLE: &[Builtin] = &[
     control(
         "VIEW",
         "&optional (on t)",
-        "Opens the live view in the browser and returns its address; closes it if told NIL. Simulated time passes as fast as the real one while it is open.",
+        "Opens the live view in the browser and returns its address; with NIL, closes it. While it is open, simulated time passes as fast as real time.",
         &["(pw:view nil) => NIL"],
         host!(view),
     ),
     control(
         "RECORD",
         "file",
-        "Records from here on what happens into an MCAP file, which Foxglove and `planwright view` show; ends the recording if told NIL.",
+        "Starts to record the session into an MCAP file, which Foxglove and `planwright view` show; with NIL, ends the recording.",
         &["(pw:record nil) => NIL"],
         host!(record),
     ),
