@@ -21,7 +21,7 @@ pub(crate) enum MotionFailure {
     /// The goal of the base is occupied.
     #[error("the robot cannot stand at {}: {}{}", place(.goal), touch(.hit), nearest(.nearest_free))]
     GoalOccupied {
-        /// Where the base shall stand, in the map frame.
+        /// Goal of the base, in the map frame.
         goal: BasePlace,
         /// What would touch.
         hit: Box<CollisionHit>,
@@ -34,7 +34,7 @@ pub(crate) enum MotionFailure {
         place(.goal), list(", in the way: ", .blockers)
     )]
     Enclosed {
-        /// Where the base shall stand, in the map frame.
+        /// Goal of the base, in the map frame.
         goal: BasePlace,
         /// The obstacles on the path with the fewest collisions.
         blockers: Vec<BodyName>,
@@ -48,7 +48,7 @@ pub(crate) enum MotionFailure {
     /// The path was free and has become blocked.
     #[error("on the way to {} the robot was stopped: {}", place(.goal), touch(.hit))]
     DriveBlocked {
-        /// Where the base shall stand, in the map frame.
+        /// Goal of the base, in the map frame.
         goal: BasePlace,
         /// What would touch.
         hit: Box<CollisionHit>,

@@ -200,12 +200,12 @@ impl KinematicTree {
         &self.joints[id.0]
     }
 
-    /// The link of that name.
+    /// The link with that name.
     pub(crate) fn link_named(&self, name: &str) -> Option<LinkId> {
         self.links.iter().position(|l| l.name == name).map(LinkId)
     }
 
-    /// The joint of that name.
+    /// The joint with that name.
     pub(crate) fn joint_named(&self, name: &str) -> Option<JointId> {
         self.joints.iter().position(|j| j.name == name).map(JointId)
     }
