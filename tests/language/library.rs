@@ -51,6 +51,12 @@ fn every_definition_can_be_compiled() {
 }
 
 #[test]
+fn no_form_of_the_library_fails() {
+    let mut session = session();
+    assert_eq!(session.image_mut().output.take(), "");
+}
+
+#[test]
 fn every_definition_says_what_it_does() {
     let mut session = session();
     let image = session.image_mut();

@@ -210,11 +210,6 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
     })))
 }
 
-/// A vector of the kind that fits an element type, for callers in Rust.
-pub(crate) fn vector_of(image: &Image, element_type: &Value, items: Vec<Value>) -> Outcome {
-    vector_kind(image, element_type).make(items)
-}
-
 /// Making arrays.
 pub(crate) static TABLE: &[Builtin] = &[pure(
     "MAKE-ARRAY",

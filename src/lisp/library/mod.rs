@@ -42,10 +42,13 @@ use definition::{Definition, File, Kind};
 pub(crate) use super::image::definition;
 
 use super::builtin::Entry;
+use super::condition;
 use super::image::Image;
+use super::print;
 use super::value::Value;
 use super::value::function::{Deferred, Function};
 use super::value::package::PackageTable;
+use super::value::raise::Raise;
 use super::value::symbol::{FunctionCell, Sym};
 
 /// The definitions of one layer, found once per process.
@@ -109,15 +112,26 @@ pub(crate) fn install(image: &mut Image, library: &'static Library) {
         install_definition(image, definition);
     }
     for form in &library.forms {
-        let evaluated = deferred::evaluate(image, form);
-        debug_assert!(evaluated.is_ok(), "{} fails", form.location());
+        if let Err(raise) = deferred::evaluate(image, form) {
+            tell_failure(image, form, &raise);
+        }
     }
+}
+
+/// Writes that a form of the library fails, where the user sees it before anything else.
+fn tell_failure(image: &mut Image, form: &Definition, raise: &Raise) {
+    let report = match condition::make(image, raise) {
+        Ok(condition) => print::to_string(image, &condition, false),
+        Err(_) => "an error that cannot be described".to_owned(),
+    };
+    let text = format!("{} fails: {report}\n", form.location());
+    image.output.write(&text);
 }
 
 fn install_definition(image: &mut Image, definition: &'static Definition) {
     let Some(name) = symbol(image, definition) else {
-        debug_assert!(false, "{} has no package", definition.location());
-        return;
+        let raise = Raise::program("There is no such package.");
+        return tell_failure(image, definition, &raise);
     };
     let number = image.library.definitions.len();
     image.library.definitions.push(definition);

@@ -319,18 +319,6 @@ fn accepts_keys(
     }
 }
 
-/// Does a program have a method of its own, on the named function, for the value?
-pub(crate) fn user_method_applies(image: &Image, function: Sym, args: &[Value]) -> bool {
-    image
-        .function(function)
-        .and_then(|f| f.as_generic())
-        .is_some_and(|generic| {
-            effective::applicable_methods(image, generic, args)
-                .iter()
-                .any(|m| !m.is_builtin)
-        })
-}
-
 /// The generic version of a standard function, if a program has added methods to it.
 pub(crate) fn extended_function(image: &Image, name: Sym) -> Option<Value> {
     let function = image.function(name)?;

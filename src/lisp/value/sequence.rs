@@ -50,15 +50,6 @@ impl Sequence {
         }
     }
 
-    /// Is there no element?
-    pub(crate) fn is_empty(&self) -> bool {
-        match self {
-            Sequence::List(list) => list.is_nil(),
-            Sequence::Vector(vector) => vector.is_empty(),
-            Sequence::Str(string) => string.is_empty(),
-        }
-    }
-
     /// Walks the elements from `start` to `end` (`None`: to the end).
     pub(crate) fn walk(&self, bounds: Bounds) -> Walk {
         let state = match self {
@@ -415,13 +406,6 @@ impl Walk {
         Ok(item)
     }
 
-    /// What is left of a list.
-    pub(crate) fn rest(&self) -> Value {
-        match &self.state {
-            State::List(walk) => walk.rest.clone(),
-            _ => Value::NIL,
-        }
-    }
 }
 
 /// Walks a list that must be proper: a dotted or circular one is an error when its end, or
