@@ -8,7 +8,7 @@ use super::lists::{MAX_LENGTH, size};
 use super::sequence_access::default_element;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::types::sequence_types::{upgraded, vector_kind};
+use crate::lisp::types::sequence_types::upgraded;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::known;

@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 use std::rc::{Rc, Weak};
 
-use super::effective;
 use crate::lisp::image::Image;
 use crate::lisp::print::qualified;
 use crate::lisp::value::Value;
