@@ -405,7 +405,6 @@ impl Walk {
         self.index += 1;
         Ok(item)
     }
-
 }
 
 /// Walks a list that must be proper: a dotted or circular one is an error when its end, or
