@@ -8,7 +8,7 @@ use super::lists::{MAX_LENGTH, size};
 use super::sequence_access::default_element;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
-use crate::lisp::types::sequence_types::{upgraded, vector_kind};
+use crate::lisp::types::sequence_types::upgraded;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::known;
@@ -208,11 +208,6 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
         items: RefCell::new(items),
         element_type: of_type,
     })))
-}
-
-/// A vector of the kind that fits an element type, for callers in Rust.
-pub(crate) fn vector_of(image: &Image, element_type: &Value, items: Vec<Value>) -> Outcome {
-    vector_kind(image, element_type).make(items)
 }
 
 /// Making arrays.

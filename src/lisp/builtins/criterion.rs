@@ -24,11 +24,6 @@ impl Key {
         Ok(Key((!identity).then_some(function)))
     }
 
-    /// Is this the identity?
-    pub(crate) fn is_identity(&self) -> bool {
-        self.0.is_none()
-    }
-
     /// What is looked at for an element.
     pub(crate) async fn of(&self, calls: &Calls, element: Value) -> Value {
         match &self.0 {
@@ -76,17 +71,6 @@ impl Test {
                     _ => Test::Function(function),
                 })
             }
-        }
-    }
-
-    /// The comparison, where it needs no call.
-    pub(crate) fn direct(&self) -> Option<fn(&Value, &Value) -> bool> {
-        match self {
-            Test::Eq => Some(Value::is_eq),
-            Test::Eql => Some(Value::is_eql),
-            Test::Equal => Some(equality::equal),
-            Test::Equalp => Some(equality::equalp),
-            Test::Function(_) | Test::NotFunction(_) => None,
         }
     }
 
