@@ -5,11 +5,11 @@ use std::rc::Rc;
 use super::keywords;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
+use crate::lisp::value::Value;
 use crate::lisp::value::cons::Cons;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{self, ListBuilder, ListWalk, last_pair};
-use crate::lisp::value::{Rounds, Value};
 
 type Outcome = Result<Value, Box<Raise>>;
 

@@ -15,7 +15,6 @@ pub(crate) mod evaluation;
 pub(crate) mod files;
 pub(crate) mod fill_pointers;
 pub(crate) mod format;
-pub(crate) mod forms;
 pub(crate) mod generic_functions;
 pub(crate) mod hash_tables;
 pub(crate) mod help;

@@ -9,7 +9,6 @@ use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::compile;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::form::form;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::state::Plan;

@@ -2,7 +2,6 @@
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
-use crate::lisp::native::PureFn;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
