@@ -11,9 +11,7 @@ use crate::lisp::value::class::ClassKind;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
-use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use std::rc::Rc;
 
 /// Makes the packages of the plan language in an image that has the standard ones, and
 /// everything in them.

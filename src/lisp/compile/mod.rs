@@ -30,7 +30,6 @@ use super::value::raise::Raise;
 
 pub(crate) use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};
 pub(crate) use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
-pub(crate) use quasiquote::expand_quasiquote;
 
 /// Compiles a form at top level into the code of a function without parameters.
 pub(crate) fn compile_form(image: &mut Image, form: &Value) -> Result<Rc<Code>, Box<Raise>> {
