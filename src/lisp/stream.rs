@@ -4,8 +4,7 @@
 //! the end gives `None`; who reads decides whether that is an error.
 
 use std::cell::RefCell;
-use std::fs::File;
-use std::io::{BufWriter, Write as _};
+use std::io::Write as _;
 use std::rc::Rc;
 
 use super::image::Image;
@@ -13,7 +12,6 @@ use super::value::Value;
 use super::value::known;
 use super::value::raise::Raise;
 pub(crate) use super::value::stream::{MAX_NESTING, Stream, StreamKind};
-use super::value::string::LispString;
 use super::value::symbol::Sym;
 
 /// Defines the standard stream variables.

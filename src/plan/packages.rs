@@ -295,12 +295,11 @@ pub(crate) fn symbol(image: &mut Image, package: &str, name: &str) -> Sym {
     image.export_symbol(id, name)
 }
 
-/// Gives a known symbol of `SYSTEM` its place in another package, exported.
-pub(crate) fn rehome(image: &mut Image, package: PackageId, sym: Sym) {
-    let name = image.symbol(sym).name.clone();
-    let system = image.packages.get_mut(PackageTable::SYSTEM);
-    system.symbols.remove(&name);
-    image.symbols.get_mut(sym).package = Some(package);
+/// Gives a symbol that has none a name and its place in a package, exported.
+pub(crate) fn name_symbol(image: &mut Image, sym: Sym, package: PackageId, name: &str) {
+    let data = image.symbols.get_mut(sym);
+    data.name = name.into();
+    data.package = Some(package);
     image.packages.export(&mut image.symbols, package, sym);
 }
 

@@ -12,8 +12,6 @@ use super::fluent::FluentRef;
 use super::names::Names;
 use super::state::Plan;
 use super::tree::TreeNode;
-use crate::lisp::image::Image;
-use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use crate::lisp::value::symbol::Sym;

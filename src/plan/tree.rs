@@ -7,8 +7,6 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
-use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use crate::lisp::value::hash_table::{HashTable, HashTest};
@@ -170,6 +168,8 @@ impl Foreign for NodeObject {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lisp::image::Image;
+    use crate::lisp::print;
     use crate::lisp::value::known;
 
     #[test]

@@ -5,7 +5,6 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::function::Function;

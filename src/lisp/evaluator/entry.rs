@@ -1,12 +1,11 @@
 //! Starting a fiber, resuming it where it stopped, and stopping it again.
 
-use crate::lisp::image::Image;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::calls::Suspended;
-use crate::lisp::vm::fiber::{Fiber, Frame, FrameKind};
+use crate::lisp::vm::fiber::{Frame, FrameKind};
 use crate::lisp::vm::machine::{Event, Machine};
 use crate::lisp::vm::step::Step;
 

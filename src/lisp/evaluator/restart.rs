@@ -1,6 +1,5 @@
 //! Restarts: named ways to go on that a condition's handler, or a person, may choose.
 
-use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::function::Function;

@@ -17,7 +17,7 @@ use crate::lisp::value::dispatch::{
     Position, Shape, SlotPlace,
 };
 use crate::lisp::value::function::Function;
-use crate::lisp::value::generic::{GenericFunction, Method, Specializer};
+use crate::lisp::value::generic::GenericFunction;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;

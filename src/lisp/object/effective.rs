@@ -8,10 +8,9 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Class;
 use crate::lisp::value::dispatch::{Effective, Shape, SlotPlace};
-use crate::lisp::value::generic::{Accessor, Combination, GenericFunction, Method, Specializer};
+use crate::lisp::value::generic::{Accessor, GenericFunction, Method, Specializer};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::Sym;
 
 impl Effective {

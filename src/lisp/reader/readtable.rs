@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;

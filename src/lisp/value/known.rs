@@ -176,9 +176,17 @@ known! {
         DEFINE_FUNCTION = "DEFINE-FUNCTION", DEFINE_MACRO = "DEFINE-MACRO",
         DEFINE_PARAMETER = "DEFINE-PARAMETER", DEFINE_VARIABLE = "DEFINE-VARIABLE",
         SET_SETF_EXPANDER = "SET-SETF-EXPANDER",
-        VECTOR_3D = "3D-VECTOR", QUATERNION = "QUATERNION", POSE = "POSE", TRANSFORM = "TRANSFORM", POSE_STAMPED = "POSE-STAMPED", TRANSFORM_STAMPED = "TRANSFORM-STAMPED",
-
     }
+}
+
+/// Symbols at fixed places that a layer above the language may name.
+const SPARE: u32 = 8;
+
+/// A symbol for which a layer above the language has a constant. It has no name until that
+/// layer gives it one.
+pub(crate) const fn spare(number: u32) -> Sym {
+    assert!(number < SPARE);
+    Sym(TABLE.len() as u32 + number)
 }
 
 /// Makes the known symbols in an empty table. `COMMON-LISP`'s are exported.
@@ -186,6 +194,9 @@ pub(crate) fn intern_all(symbols: &mut SymbolTable, packages: &mut PackageTable)
     for (package, name) in TABLE {
         let sym = packages.intern(symbols, *package, name);
         packages.export(symbols, *package, sym);
+    }
+    for _ in 0..SPARE {
+        symbols.make("".into());
     }
 }
 
@@ -205,6 +216,6 @@ mod tests {
         for ((package, name), (_, data)) in TABLE.iter().zip(symbols.iter()) {
             assert_eq!((data.package, data.name.as_ref()), (Some(*package), *name));
         }
-        assert_eq!(symbols.len(), TABLE.len());
+        assert_eq!(symbols.len(), TABLE.len() + SPARE as usize);
     }
 }

@@ -391,7 +391,6 @@ impl Walk {
     }
 
     /// The next element.
-    #[expect(clippy::should_implement_trait)]
     pub(crate) fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
         if self.end.is_some_and(|end| self.index >= end) {
             return Ok(None);
@@ -439,7 +438,6 @@ impl ListWalk {
     }
 
     /// The next element.
-    #[expect(clippy::should_implement_trait)]
     pub(crate) fn next(&mut self) -> Result<Option<Value>, Box<Raise>> {
         Ok(self.next_cons()?.map(|cons| cons.car()))
     }

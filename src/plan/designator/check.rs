@@ -11,6 +11,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::plan::packages;
+use crate::plan::pose::names;
 use crate::plan::pose::value::{as_placement, as_pose_stamped};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -60,7 +61,7 @@ fn type_specifier(image: &mut Image, kind: Kind, name: &str) -> Value {
     };
     let either = |a: Value, b: Value| Value::list([known::OR.into(), a, b]);
     match kind {
-        Kind::Place if name.ends_with("POSE") => known::POSE_STAMPED.into(),
+        Kind::Place if name.ends_with("POSE") => names::POSE_STAMPED.into(),
         Kind::Location | Kind::Place => designator(Class::Location),
         Kind::Object | Kind::Objects => designator(Class::Object),
         Kind::Action => designator(Class::Action),
@@ -74,7 +75,7 @@ fn type_specifier(image: &mut Image, kind: Kind, name: &str) -> Value {
         Kind::Symbol => known::SYMBOL.into(),
         Kind::Text => known::STRING.into(),
         Kind::List | Kind::Poses => known::LIST.into(),
-        Kind::PoseStamped => known::POSE_STAMPED.into(),
+        Kind::PoseStamped => names::POSE_STAMPED.into(),
         Kind::Anything => known::T.into(),
     }
 }

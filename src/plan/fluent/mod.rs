@@ -15,9 +15,7 @@ mod reference;
 use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
 
-use crate::lisp::image::Image;
 use crate::lisp::native::PureFn;
-use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use crate::lisp::value::slot::Slot;

@@ -1,5 +1,6 @@
 //! Arguments of the functions on poses: numbers of any type, lists in place of vectors.
 
+use super::names;
 use super::value;
 use super::value::{Placement, Quaternion, Vector3};
 use crate::lisp::image::Image;
@@ -56,10 +57,10 @@ fn numbers<const N: usize>(
 pub(crate) fn vector(image: &Image, argument: &Value) -> Result<Vector3> {
     match argument {
         Value::Cons(_) => numbers(image, argument, "a position", "x y z").map(Vector3),
-        Value::Symbol(known::NIL) => Err(Raise::type_error(argument, known::VECTOR_3D)),
+        Value::Symbol(known::NIL) => Err(Raise::type_error(argument, names::VECTOR_3D)),
         other => value::as_vector(other)
             .map(Vector3)
-            .ok_or_else(|| Raise::type_error(other, known::VECTOR_3D)),
+            .ok_or_else(|| Raise::type_error(other, names::VECTOR_3D)),
     }
 }
 
@@ -69,7 +70,7 @@ pub(crate) fn quaternion(image: &Image, argument: &Value) -> Result<Quaternion> 
         Value::Cons(_) => numbers(image, argument, "a quaternion", "x y z w").map(Quaternion),
         other => value::as_quaternion(other)
             .map(Quaternion)
-            .ok_or_else(|| Raise::type_error(other, known::QUATERNION)),
+            .ok_or_else(|| Raise::type_error(other, names::QUATERNION)),
     }
 }
 
@@ -106,7 +107,7 @@ fn quaternion_part(image: &Image, part: &Value) -> Result<Quaternion> {
 pub(crate) fn placement(image: &Image, argument: &Value) -> Result<Placement> {
     match argument {
         Value::Cons(_) => placement_list(image, argument),
-        other => as_kind(other, known::POSE),
+        other => as_kind(other, names::POSE),
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::argument;
 use super::argument::Result;
+use super::names;
 use super::value;
 use super::value::{Placement, Quaternion, Vector3};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::builtins::keywords;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
@@ -128,7 +128,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[
             "(cl-transforms:origin (cl-transforms:make-identity-pose)) => #<3D-VECTOR (0.0d0 0.0d0 0.0d0)>",
         ],
-        |_, args| position(&args[0], known::POSE),
+        |_, args| position(&args[0], names::POSE),
     ),
     pure(
         "ORIENTATION",
@@ -137,7 +137,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[
             "(cl-transforms:orientation (cl-transforms:make-identity-pose)) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>",
         ],
-        |_, args| orientation(&args[0], known::POSE),
+        |_, args| orientation(&args[0], names::POSE),
     ),
     pure(
         "TRANSLATION",
@@ -146,7 +146,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[
             "(cl-transforms:translation (cl-transforms:make-identity-transform)) => #<3D-VECTOR (0.0d0 0.0d0 0.0d0)>",
         ],
-        |_, args| position(&args[0], known::TRANSFORM),
+        |_, args| position(&args[0], names::TRANSFORM),
     ),
     pure(
         "ROTATION",
@@ -155,7 +155,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[
             "(cl-transforms:rotation (cl-transforms:make-identity-transform)) => #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>",
         ],
-        |_, args| orientation(&args[0], known::TRANSFORM),
+        |_, args| orientation(&args[0], names::TRANSFORM),
     ),
     pure(
         "COPY-3D-VECTOR",
@@ -196,7 +196,7 @@ pub(crate) static TABLE: &[Builtin] = &[
             "(cl-tf:copy-transform (cl-tf:make-identity-transform) :translation (cl-tf:make-3d-vector 1 2 3)) => #<TRANSFORM #<3D-VECTOR (1.0d0 2.0d0 3.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
         ],
         |image, args| {
-            let old = argument::as_kind(&args[0], known::TRANSFORM)?;
+            let old = argument::as_kind(&args[0], names::TRANSFORM)?;
             let names = [image.keyword("TRANSLATION"), image.keyword("ROTATION")];
             Ok(value::transform(changed(image, old, &args[1..], names)?))
         },
@@ -240,8 +240,8 @@ fn component(image: &Image, argument: &Value, index: usize) -> Result<Value> {
             "{} is a pose: take its ORIGIN or ORIENTATION first.",
             crate::lisp::print::to_string(image, argument, true)
         ))),
-        None if index == 3 => Err(Raise::type_error(argument, known::QUATERNION)),
-        None => Err(Raise::type_error(argument, known::VECTOR_3D)),
+        None if index == 3 => Err(Raise::type_error(argument, names::QUATERNION)),
+        None => Err(Raise::type_error(argument, names::VECTOR_3D)),
     }
 }
 

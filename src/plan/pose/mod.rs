@@ -7,13 +7,14 @@
 pub(crate) mod algebra;
 pub(crate) mod argument;
 pub(crate) mod construct;
+pub(crate) mod names;
 pub(crate) mod pose_functions;
 pub(crate) mod rotation;
 pub(crate) mod stamped;
 pub(crate) mod tutorial;
 pub(crate) mod value;
 
-use super::packages::{ensure, rehome};
+use super::packages::{ensure, name_symbol};
 use crate::lisp::image::Image;
 use crate::lisp::object::define::ClassDefinition;
 use crate::lisp::value::Value;
@@ -22,14 +23,19 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::Access;
 use crate::lisp::value::symbol::Sym;
 
-/// Classes: name, superclass, and whether it belongs to the stamped ones.
-const CLASSES: &[(Sym, Sym, bool)] = &[
-    (known::VECTOR_3D, known::T, false),
-    (known::QUATERNION, known::T, false),
-    (known::POSE, known::T, false),
-    (known::TRANSFORM, known::T, false),
-    (known::POSE_STAMPED, known::POSE, true),
-    (known::TRANSFORM_STAMPED, known::TRANSFORM, true),
+/// Classes: symbol, its name, superclass, and whether it belongs to the stamped ones.
+const CLASSES: &[(Sym, &str, Sym, bool)] = &[
+    (names::VECTOR_3D, "3D-VECTOR", known::T, false),
+    (names::QUATERNION, "QUATERNION", known::T, false),
+    (names::POSE, "POSE", known::T, false),
+    (names::TRANSFORM, "TRANSFORM", known::T, false),
+    (names::POSE_STAMPED, "POSE-STAMPED", names::POSE, true),
+    (
+        names::TRANSFORM_STAMPED,
+        "TRANSFORM-STAMPED",
+        names::TRANSFORM,
+        true,
+    ),
 ];
 
 /// Frames that plans name by variables.
@@ -48,11 +54,12 @@ pub(crate) fn install(image: &mut Image) {
     let stamped = ensure(image, "CL-TRANSFORMS-STAMPED", &["CL-TF", "CL-TF2"]);
     let cram = ensure(image, "CRAM-TF", &[]);
     let tutorial = ensure(image, "CRAM-PICK-PLACE-TUTORIAL", &["PP-TUT"]);
-    for (name, superclass, is_stamped) in CLASSES {
-        rehome(image, if *is_stamped { stamped } else { plain }, *name);
+    for (symbol, name, superclass, is_stamped) in CLASSES {
+        let home = if *is_stamped { stamped } else { plain };
+        name_symbol(image, *symbol, home, name);
         // The table is consistent: superclasses stand before their subclasses.
         let _ = image.define_unchecked(ClassDefinition {
-            name: *name,
+            name: *symbol,
             kind: ClassKind::Builtin,
             superclasses: vec![*superclass],
             slots: Vec::new(),

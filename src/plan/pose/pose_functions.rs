@@ -1,5 +1,6 @@
 //! Composing, inverting and converting poses and transforms without frames.
 
+use super::names;
 use nalgebra::Point3;
 
 use super::argument;
@@ -9,7 +10,6 @@ use super::value::Placement;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::known;
 
 /// Functions of package `CL-TRANSFORMS`.
 pub(crate) static TABLE: &[Builtin] = &[
@@ -117,7 +117,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 
 /// The inverse: a stamped transform leads from child to frame then.
 pub(crate) fn invert(transform: &Value) -> Result<Value> {
-    let placement = argument::as_kind(transform, known::TRANSFORM)?;
+    let placement = argument::as_kind(transform, names::TRANSFORM)?;
     let inverse = Placement::of(&placement.to_pose().inverse());
     Ok(match value::as_transform_stamped(transform) {
         Some(t) => value::transform_stamped_at(&t.child, &t.frame, t.stamp, inverse),

@@ -3,6 +3,7 @@
 use super::argument;
 use super::argument::Result;
 use super::construct::changed;
+use super::names;
 use super::pose_functions;
 use super::value;
 use super::value::{Placement, PoseStamped, TransformStamped};
@@ -10,7 +11,6 @@ use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::builtins::keywords;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::spatial;
 
@@ -60,7 +60,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         ],
         |_, args| match value::frame_of(&args[0]) {
             Some(frame) => Ok(Value::string(frame.as_ref())),
-            None => Err(Raise::type_error(&args[0], known::POSE_STAMPED)),
+            None => Err(Raise::type_error(&args[0], names::POSE_STAMPED)),
         },
     ),
     pure(
@@ -325,12 +325,12 @@ fn time(argument: &Value) -> Result<f64> {
 }
 
 fn stamped_pose(argument: &Value) -> Result<PoseStamped> {
-    value::as_pose_stamped(argument).ok_or_else(|| Raise::type_error(argument, known::POSE_STAMPED))
+    value::as_pose_stamped(argument).ok_or_else(|| Raise::type_error(argument, names::POSE_STAMPED))
 }
 
 fn stamped_transform(argument: &Value) -> Result<TransformStamped> {
     value::as_transform_stamped(argument)
-        .ok_or_else(|| Raise::type_error(argument, known::TRANSFORM_STAMPED))
+        .ok_or_else(|| Raise::type_error(argument, names::TRANSFORM_STAMPED))
 }
 
 fn copy_pose_stamped(image: &mut Image, args: &[Value]) -> Result<Value> {

@@ -2,6 +2,7 @@
 
 use super::argument;
 use super::argument::Result;
+use super::names;
 use super::value;
 use super::value::Placement;
 use crate::lisp::builtin::{Builtin, pure};
@@ -30,7 +31,7 @@ pub(crate) static TABLE: &[Builtin] = &[
             "(pp-tut:inverse-transformation (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation))) => #<TRANSFORM #<3D-VECTOR (-1.0d0 0.0d0 0.0d0)> #<QUATERNION (-0.0d0 -0.0d0 -0.0d0 1.0d0)>>",
         ],
         |_, args| {
-            let transform = argument::as_kind(&args[0], known::TRANSFORM)?;
+            let transform = argument::as_kind(&args[0], names::TRANSFORM)?;
             let inverse = transform.to_pose().inverse();
             Ok(value::transform(Placement::of(&inverse)))
         },
@@ -43,7 +44,7 @@ pub(crate) static TABLE: &[Builtin] = &[
             "(pp-tut:apply-transformation (cl-tf:make-transform-stamped \"map\" \"base\" 0.0 (cl-tf:make-3d-vector 1 0 0) (cl-tf:make-identity-rotation)) (cl-tf:make-pose-stamped \"map\" 0.0 (cl-tf:make-3d-vector 1 2 0) (cl-tf:make-identity-rotation))) => #<POSE #<3D-VECTOR (2.0d0 2.0d0 0.0d0)> #<QUATERNION (0.0d0 0.0d0 0.0d0 1.0d0)>>",
         ],
         |image, args| {
-            let transform = argument::as_kind(&args[0], known::TRANSFORM)?;
+            let transform = argument::as_kind(&args[0], names::TRANSFORM)?;
             let pose = argument::placement(image, &args[1])?;
             let moved = transform.to_pose() * pose.to_pose();
             Ok(value::pose(Placement::of(&moved)))

@@ -1,14 +1,12 @@
 //! The values: vectors, quaternions, poses and transforms, with or without frames.
 
+use super::names;
 use std::rc::Rc;
 
 use nalgebra::{Quaternion as Hamilton, Translation3, UnitQuaternion};
 
-use crate::lisp::image::Image;
-use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
-use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 use crate::spatial;
 
@@ -249,7 +247,7 @@ fn numbers(context: &dyn PrintContext, numbers: &[f64]) -> String {
 
 impl Foreign for Vector3 {
     fn type_symbol(&self) -> Sym {
-        known::VECTOR_3D
+        names::VECTOR_3D
     }
 
     fn print(&self, context: &dyn PrintContext, _: bool) -> String {
@@ -263,7 +261,7 @@ impl Foreign for Vector3 {
 
 impl Foreign for Quaternion {
     fn type_symbol(&self) -> Sym {
-        known::QUATERNION
+        names::QUATERNION
     }
 
     fn print(&self, context: &dyn PrintContext, _: bool) -> String {
@@ -278,9 +276,9 @@ impl Foreign for Quaternion {
 impl Foreign for Unstamped {
     fn type_symbol(&self) -> Sym {
         if self.is_transform {
-            known::TRANSFORM
+            names::TRANSFORM
         } else {
-            known::POSE
+            names::POSE
         }
     }
 
@@ -302,7 +300,7 @@ impl Foreign for Unstamped {
 
 impl Foreign for PoseStamped {
     fn type_symbol(&self) -> Sym {
-        known::POSE_STAMPED
+        names::POSE_STAMPED
     }
 
     fn print(&self, _: &dyn PrintContext, _: bool) -> String {
@@ -316,7 +314,7 @@ impl Foreign for PoseStamped {
 
 impl Foreign for TransformStamped {
     fn type_symbol(&self) -> Sym {
-        known::TRANSFORM_STAMPED
+        names::TRANSFORM_STAMPED
     }
 
     fn print(&self, _: &dyn PrintContext, _: bool) -> String {

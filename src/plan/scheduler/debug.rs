@@ -5,7 +5,6 @@ use super::Scheduler;
 use super::group::{unwrapped, wrapped};
 use super::live::{Answer, Slot, Wait};
 use super::root::Evaluation;
-use crate::lisp::condition;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::vm::fiber::{Dynamic, Fiber};

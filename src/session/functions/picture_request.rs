@@ -1,5 +1,6 @@
 //! The arguments of the functions that make pictures.
 
+use crate::plan::pose::names;
 use nalgebra::Point3;
 
 use crate::lisp::image::Image;
@@ -183,7 +184,7 @@ fn is_object(simulation: &Simulation, image: &Image, value: &Value) -> bool {
 fn place(simulation: &Simulation, image: &Image, value: &Value) -> Result<Point3<f64>> {
     let point = match value {
         Value::Str(frame) => origin(&simulation.frame_in_map(image, &frame.text())?),
-        Value::Symbol(known::NIL) => return Err(Raise::type_error(value, known::VECTOR_3D)),
+        Value::Symbol(known::NIL) => return Err(Raise::type_error(value, names::VECTOR_3D)),
         Value::Symbol(_) => {
             let name = simulation.object_named(image, value)?;
             let pose = simulation.world.object_pose(&name);
