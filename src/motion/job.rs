@@ -24,6 +24,15 @@ pub(crate) enum ProcessModule {
     Grippers,
     /// Both arms, and the torso when a hand's goal needs another height.
     Arms,
+    /// Nothing of the robot: any number of jobs may only let time pass.
+    Clock,
+}
+
+impl ProcessModule {
+    /// Must a job of this module wait for one of the other?
+    pub(crate) fn excludes(self, other: ProcessModule) -> bool {
+        self == other && self != Self::Clock
+    }
 }
 
 impl fmt::Display for ProcessModule {
@@ -35,6 +44,7 @@ impl fmt::Display for ProcessModule {
             Self::Perception => "perception",
             Self::Grippers => "grippers",
             Self::Arms => "arms",
+            Self::Clock => "clock",
         })
     }
 }

@@ -4,6 +4,7 @@ mod designators;
 mod exercises;
 mod language;
 pub(crate) mod overlaps;
+mod packages;
 pub(crate) mod prompt;
 mod properties;
 mod tasks;
