@@ -8,4 +8,5 @@ mod packages;
 pub(crate) mod prompt;
 mod properties;
 mod tasks;
+mod types;
 mod whole_plan;
