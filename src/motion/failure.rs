@@ -291,6 +291,7 @@ impl MotionFailure {
                 ProcessModule::Perception => "PERCEPTION-LOW-LEVEL-FAILURE",
                 ProcessModule::Grippers => "GRIPPER-GOAL-NOT-REACHED",
                 ProcessModule::Arms => "MANIPULATION-POSE-UNREACHABLE",
+                ProcessModule::Clock => "LOW-LEVEL-FAILURE",
             },
             Self::UnknownName(_) => "LOW-LEVEL-FAILURE",
         }

@@ -4,6 +4,7 @@
 
 pub(crate) mod base_path;
 pub(crate) mod cartesian_path;
+pub(crate) mod command;
 mod configuration_checker;
 pub(crate) mod detect;
 pub(crate) mod drive;

@@ -18,6 +18,15 @@ pub(crate) enum ProcessModule {
     Grippers,
     /// Both arms, and the torso if a hand's goal needs another height.
     Arms,
+    /// Nothing of the robot: any number of jobs may let time pass at once.
+    Clock,
+}
+
+impl ProcessModule {
+    /// Whether a job of this module must wait for one of the other.
+    pub(crate) fn excludes(self, other: ProcessModule) -> bool {
+        self == other && self != Self::Clock
+    }
 }
 
 impl fmt::Display for ProcessModule {
@@ -29,6 +38,7 @@ impl fmt::Display for ProcessModule {
             Self::Perception => "perception",
             Self::Grippers => "grippers",
             Self::Arms => "arms",
+            Self::Clock => "clock",
         })
     }
 }

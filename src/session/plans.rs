@@ -6,25 +6,23 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 
-/// Name and text of each file, in the order in which they are loaded.
-const LIBRARY: &[(&str, &str)] = &[
-    ("log.plan", include_str!("../../plans/lib/log.plan")),
-    ("going.plan", include_str!("../../plans/lib/going.plan")),
-    (
-        "perceiving.plan",
-        include_str!("../../plans/lib/perceiving.plan"),
-    ),
-    ("gripper.plan", include_str!("../../plans/lib/gripper.plan")),
-    ("arms.plan", include_str!("../../plans/lib/arms.plan")),
-    (
-        "picking-up.plan",
-        include_str!("../../plans/lib/picking-up.plan"),
-    ),
-    ("placing.plan", include_str!("../../plans/lib/placing.plan")),
-    (
-        "tutorial-package.plan",
-        include_str!("../../plans/lib/tutorial-package.plan"),
-    ),
+/// Name and text of files of `plans/lib`.
+macro_rules! library {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../../plans/lib/", $name)))),*]
+    };
+}
+
+/// The files, in the order in which they are loaded.
+const LIBRARY: &[(&str, &str)] = library![
+    "log.plan",
+    "going.plan",
+    "perceiving.plan",
+    "gripper.plan",
+    "arms.plan",
+    "picking-up.plan",
+    "placing.plan",
+    "tutorial-package.plan",
 ];
 
 impl Session {

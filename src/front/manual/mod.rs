@@ -7,6 +7,7 @@
 mod designators;
 mod entries;
 mod failures;
+mod functors;
 mod objects;
 
 use std::fmt::Write;
@@ -35,14 +36,15 @@ pub(crate) fn markdown(session: &Session) -> String {
         );
     }
     to.push_str(
-        "- [Actions](#actions)\n- [Motions](#motions)\n- [Failures](#failures)\n\
+        "- [Actions](#actions)\n- [Motions](#motions)\n- [Prolog goals](#prolog-goals)\n- [Failures](#failures)\n\
          - [Objects and grasps](#objects-and-grasps)\n\n",
     );
     to.push_str(DIFFERENCES);
     for package in &packages {
         package.write(&mut to);
     }
-    designators::write(&mut to);
+    designators::write(&mut to, image);
+    functors::write(&mut to, image);
     failures::write(&mut to, image);
     objects::write(
         &mut to,

@@ -121,9 +121,26 @@ fn no_symbol(image: &Image, package: PackageId, name: &str) -> ReadErrorKind {
         .iter()
         .filter(|(_, (_, is_external))| *is_external)
         .map(|(name, _)| name.as_ref());
+    let near = nearest(name, external).map(|near| format!("{}:{near}", package.name));
     ReadErrorKind::NoSymbol {
         name: name.to_owned(),
         package: package.name.to_string(),
-        nearest: nearest(name, external).map(|near| format!("{}:{near}", package.name)),
+        nearest: near.or_else(|| namesake(image, name)),
     }
+}
+
+/// A symbol of that name that another package exports, with that package's name.
+fn namesake(image: &Image, name: &str) -> Option<String> {
+    let is_home = |id: &PackageId| {
+        let found = image.packages.get(*id).symbols.get(name);
+        matches!(found, Some((sym, true)) if image.symbol(*sym).package == Some(*id))
+    };
+    let homes = image.packages.ids().filter(is_home);
+    let mut names: Vec<&str> = homes
+        .filter(|id| *id != PackageTable::SYSTEM)
+        .map(|id| &*image.packages.get(id).name)
+        .collect();
+    names.sort_unstable();
+    let home = names.first()?;
+    Some(format!("{home}:{name}"))
 }

@@ -21,7 +21,7 @@ const MOST_NESTED: usize = 16;
 
 /// Is the value of the kind? `name` is the key as it was written: `pose` takes poses where
 /// `target` takes locations.
-fn is_of_kind(image: &Image, value: &Value, kind: Kind, name: &str) -> bool {
+fn is_of_kind(image: &Image, value: &Value, kind: &Kind, name: &str) -> bool {
     let is_class = |class| value::as_class(value, class).is_some();
     let is_symbol = matches!(value, Value::Symbol(_));
     match kind {
@@ -30,7 +30,10 @@ fn is_of_kind(image: &Image, value: &Value, kind: Kind, name: &str) -> bool {
             is_class(Class::Location)
                 || (name.ends_with("POSE") && as_pose_stamped(value).is_some())
         }
-        Kind::Object => is_class(Class::Object),
+        Kind::Object | Kind::DetectedObject => is_class(Class::Object),
+        Kind::Member(members) => value
+            .as_symbol()
+            .is_some_and(|s| members.iter().any(|m| m == image.name(s))),
         Kind::Objects => {
             let is_object = |v: &Value| value::as_class(v, Class::Object).is_some();
             is_object(value)
@@ -51,7 +54,14 @@ fn is_of_kind(image: &Image, value: &Value, kind: Kind, name: &str) -> bool {
 }
 
 /// The type specifier that errors name.
-fn type_specifier(image: &mut Image, kind: Kind, name: &str) -> Value {
+fn type_specifier(image: &mut Image, kind: &Kind, name: &str) -> Value {
+    if let Kind::Member(members) = kind {
+        let members = members.iter().map(|m| Value::from(image.keyword(m)));
+        return Value::list_with_tail(
+            [known::MEMBER.into()],
+            Value::list(members.collect::<Vec<_>>()),
+        );
+    }
     let mut designator = |class: Class| {
         Value::from(packages::symbol(
             image,
@@ -63,7 +73,7 @@ fn type_specifier(image: &mut Image, kind: Kind, name: &str) -> Value {
     match kind {
         Kind::Place if name.ends_with("POSE") => names::POSE_STAMPED.into(),
         Kind::Location | Kind::Place => designator(Class::Location),
-        Kind::Object | Kind::Objects => designator(Class::Object),
+        Kind::Object | Kind::DetectedObject | Kind::Objects => designator(Class::Object),
         Kind::Action => designator(Class::Action),
         Kind::KeywordOrObject => {
             let object = designator(Class::Object);
@@ -76,12 +86,12 @@ fn type_specifier(image: &mut Image, kind: Kind, name: &str) -> Value {
         Kind::Text => known::STRING.into(),
         Kind::List | Kind::Poses => known::LIST.into(),
         Kind::PoseStamped => names::POSE_STAMPED.into(),
-        Kind::Anything => known::T.into(),
+        Kind::Anything | Kind::Member(_) => known::T.into(),
     }
 }
 
 /// What to write instead, where that can be guessed.
-fn hint(image: &Image, value: &Value, kind: Kind, name: &str) -> Option<String> {
+fn hint(image: &Image, value: &Value, kind: &Kind, name: &str) -> Option<String> {
     let key = name.to_lowercase();
     let quoted = value
         .car_or_nil()
@@ -99,7 +109,7 @@ fn hint(image: &Image, value: &Value, kind: Kind, name: &str) -> Option<String> 
         Kind::PoseStamped if value.as_cons().is_some() => Some(
             "A pose in a frame is made by (make-pose \"map\" '((x y z) (x y z w))).".to_owned(),
         ),
-        Kind::Object | Kind::Objects if value.is_nil() => {
+        Kind::Object | Kind::DetectedObject | Kind::Objects if value.is_nil() => {
             Some(format!("The {key} is NIL: was the object detected first?"))
         }
         _ if value
@@ -109,9 +119,11 @@ fn hint(image: &Image, value: &Value, kind: Kind, name: &str) -> Option<String> 
             let name = print::to_string(image, value, false);
             Some(format!("The variable {name} is not defined."))
         }
-        Kind::Object | Kind::Objects if value.as_symbol().is_some() => Some(format!(
-            "Write ({key} (an object (type …))), or ({key} ?variable) with what was detected."
-        )),
+        Kind::Object | Kind::DetectedObject | Kind::Objects if value.as_symbol().is_some() => {
+            Some(format!(
+                "Write ({key} (an object (type …))), or ({key} ?variable) with what was detected."
+            ))
+        }
         _ => None,
     }
 }
@@ -129,17 +141,17 @@ pub(crate) fn check_value(
     name: &str,
     value: &Value,
 ) -> Result<()> {
-    if is_of_kind(image, value, key.kind, name) {
+    if is_of_kind(image, value, &key.kind, name) {
         return Ok(());
     }
-    let expected = type_specifier(image, key.kind, name);
+    let expected = type_specifier(image, &key.kind, name);
     let mut text = format!(
         "[{} SPEC:PROPERTY]: {} had to be of type {}",
         class.name(),
         print::to_string(image, value, true),
         print::to_string(image, &expected, false),
     );
-    if let Some(hint) = hint(image, value, key.kind, name) {
+    if let Some(hint) = hint(image, value, &key.kind, name) {
         text.push('\n');
         text.push_str(&hint);
     }
@@ -203,11 +215,11 @@ pub(crate) fn check_property(
         Class::Action | Class::Motion => {
             let kind = general_kind(designator.class, name);
             let key = Key {
-                name: "",
-                aliases: &[],
+                name: schema::Text::Borrowed(""),
+                aliases: Vec::new(),
                 kind,
                 is_required: false,
-                doc: "",
+                doc: schema::Text::Borrowed(""),
             };
             return check_value(image, designator.class, &key, name, value);
         }

@@ -1,5 +1,7 @@
 //! From an action or motion designator to the plan or motion of the schema.
 
+use std::rc::Rc;
+
 use super::check;
 use super::failure::Unresolved;
 use super::schema;
@@ -8,6 +10,7 @@ use super::value;
 use super::value::{Class, Designator};
 use crate::closest_name::closest_name;
 use crate::lisp::image::Image;
+use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::plan::pose::value::as_pose_stamped;
@@ -35,7 +38,7 @@ impl Refusal {
 /// An action or motion whose type is known and whose keys fit.
 pub(crate) struct Grounding {
     /// The row of the schema.
-    pub(crate) row: &'static TypeRow,
+    pub(crate) row: Rc<TypeRow>,
     /// Keys in upper case, aliases resolved, with their values; the type is not among them.
     pub(crate) properties: Vec<(String, Value)>,
 }
@@ -49,42 +52,43 @@ pub(crate) fn ground(image: &mut Image, designator: &Designator) -> Result<Groun
             "The {kind} has no type: write (type …), as in (type going)."
         ))));
     };
-    let rows: Vec<&'static TypeRow> = schema::rows(class, &type_name).collect();
+    let rows = schema::rows(image, class, &type_name);
     let Some(first) = rows.first() else {
-        return Err(Refusal::UnknownType(unknown_type(class, &type_name)));
+        return Err(Refusal::UnknownType(unknown_type(image, class, &type_name)));
     };
-    let row = rows
+    let fitting = rows
         .iter()
-        .find(|row| missing(image, designator, row).is_none())
-        .unwrap_or(first);
-    check::check_row(image, designator, row).map_err(Refusal::Error)?;
-    if let Some(why) = missing(image, designator, row) {
+        .find(|row| missing(image, designator, row).is_none());
+    let row = fitting.unwrap_or(first).clone();
+    check::check_row(image, designator, &row).map_err(Refusal::Error)?;
+    if let Some(why) = missing(image, designator, &row) {
+        return Err(match row.is_known_by_keys {
+            true => Refusal::UnknownType(why),
+            false => Refusal::Incomplete(why),
+        });
+    }
+    let why = mistyped_key(image, designator, &row)
+        .or_else(|| needless_object(image, designator, &row))
+        .or_else(|| not_detected(image, designator, &row));
+    if let Some(why) = why {
         return Err(Refusal::Incomplete(why));
     }
-    if let Some(why) = mistyped_key(image, designator, row) {
-        return Err(Refusal::Incomplete(why));
-    }
-    if row.plan == "PICK-UP"
-        && let Some(why) = not_detected(image, designator)
-    {
-        return Err(Refusal::Incomplete(why));
-    }
-    let properties = properties(image, designator, row);
+    let properties = properties(image, designator, &row);
     Ok(Grounding { row, properties })
 }
 
-fn unknown_type(class: Class, name: &str) -> Unresolved {
+fn unknown_type(image: &Image, class: Class, name: &str) -> Unresolved {
     let kind = class.name().to_lowercase();
-    let suggestion = schema::nearest_type(class, name);
+    let suggestion = schema::nearest_type(image, class, name);
     let mut reason = format!("There is no {kind} of type {name}");
-    match suggestion {
+    match &suggestion {
         Some(near) => reason.push_str(&format!("; did you mean {near}?")),
         None => {
             let other = match class {
                 Class::Action => Class::Motion,
                 _ => Class::Action,
             };
-            if schema::rows(other, name).next().is_some() {
+            if schema::is_type(image, other, name) {
                 let article = if other == Class::Action { "an" } else { "a" };
                 let kind = other.name().to_lowercase();
                 reason.push_str(&format!("; there is {article} {kind} of that type."));
@@ -93,78 +97,36 @@ fn unknown_type(class: Class, name: &str) -> Unresolved {
             }
         }
     }
-    Unresolved {
-        reason,
-        suggestion: suggestion.map(str::to_owned),
-    }
+    Unresolved { reason, suggestion }
 }
 
-fn has_key(image: &Image, designator: &Designator, row: &'static TypeRow, name: &str) -> bool {
-    let Some(key) = row.key(name) else {
-        return false;
-    };
-    std::iter::once(key.name)
-        .chain(key.aliases.iter().copied())
-        .any(|n| designator.property_named(image, n).is_some())
-}
-
-/// The first required key that is not there.
-fn missing(image: &Image, designator: &Designator, row: &'static TypeRow) -> Option<Unresolved> {
+/// What is needed and not there.
+fn missing(image: &Image, designator: &Designator, row: &TypeRow) -> Option<Unresolved> {
     let kind = row.class.name().to_lowercase();
-    let lacking = row
-        .keys
-        .iter()
-        .find(|key| key.is_required && !has_key(image, designator, row, key.name));
-    let reason = match lacking {
-        Some(key) => format!(
-            "The {kind} {} needs ({} …): {}",
-            row.name,
-            key.name.to_lowercase(),
-            key.doc
-        ),
-        None if row.one_of.is_empty() => return None,
-        None if row
-            .one_of
-            .iter()
-            .any(|name| has_key(image, designator, row, name)) =>
-        {
-            return None;
-        }
-        None => {
-            let names: Vec<String> = row.one_of.iter().map(|n| n.to_lowercase()).collect();
-            format!("The {kind} {} needs one of {}", row.name, names.join(", "))
-        }
-    };
+    let lacking = row.lacking(|name| designator.property_named(image, name).is_some())?;
+    let reason = format!("The {kind} {} needs {lacking}", row.name);
     match unknown_key(image, designator, row) {
         Some((written, near)) => Some(Unresolved {
             reason: format!("{reason}; did you mean {near} by {written}?"),
-            suggestion: Some(near.to_owned()),
+            suggestion: Some(near),
         }),
         None => Some(Unresolved::new(format!("{reason}."))),
     }
 }
 
 /// A key that the row does not know but that is near to one it knows.
-fn unknown_key(
-    image: &Image,
-    designator: &Designator,
-    row: &'static TypeRow,
-) -> Option<(String, &'static str)> {
+fn unknown_key(image: &Image, designator: &Designator, row: &TypeRow) -> Option<(String, String)> {
     designator.properties().iter().find_map(|(key, _)| {
         let name = image.name(key.as_symbol()?);
         if row.key(name).is_some() || schema::COMMON_KEYS.contains(&name) {
             return None;
         }
-        let near = closest_name(name, schema::key_names(row))?;
-        Some((name.to_owned(), near))
+        let near = closest_name(name, row.key_names())?;
+        Some((name.to_owned(), near.to_owned()))
     })
 }
 
-fn mistyped_key(
-    image: &Image,
-    designator: &Designator,
-    row: &'static TypeRow,
-) -> Option<Unresolved> {
+fn mistyped_key(image: &Image, designator: &Designator, row: &TypeRow) -> Option<Unresolved> {
     let (written, near) = unknown_key(image, designator, row)?;
     Some(Unresolved {
         reason: format!(
@@ -172,14 +134,38 @@ fn mistyped_key(
             row.class.name().to_lowercase(),
             row.name
         ),
-        suggestion: Some(near.to_owned()),
+        suggestion: Some(near),
     })
 }
 
-/// An object to grasp must have been detected.
-fn not_detected(image: &Image, designator: &Designator) -> Option<Unresolved> {
+/// An object that is given to what acts on none must not be passed over.
+fn needless_object(image: &Image, designator: &Designator, row: &TypeRow) -> Option<Unresolved> {
+    if row.key("OBJECT").is_some() {
+        return None;
+    }
     let object = designator.property_named(image, "OBJECT")?;
-    let current = value::current(&object);
+    value::as_class(&object, Class::Object)?;
+    Some(Unresolved::new(format!(
+        "The {} {} cannot act on an object: it was given {}.",
+        row.class.name().to_lowercase(),
+        row.name,
+        print::to_string(image, &object, false)
+    )))
+}
+
+/// Some keys take only an object that was detected.
+fn not_detected(image: &Image, designator: &Designator, row: &TypeRow) -> Option<Unresolved> {
+    let mut keys = row.keys.iter().filter(|k| k.kind == Kind::DetectedObject);
+    keys.find_map(|key| {
+        let mut given = key
+            .names()
+            .filter_map(|n| designator.property_named(image, n));
+        lacks_detection(image, &given.next()?)
+    })
+}
+
+fn lacks_detection(image: &Image, object: &Value) -> Option<Unresolved> {
+    let current = value::current(object);
     let object = value::as_designator(&current)?;
     let lacks = ["TYPE", "NAME", "POSE"]
         .into_iter()
@@ -190,11 +176,7 @@ fn not_detected(image: &Image, designator: &Designator) -> Option<Unresolved> {
     )))
 }
 
-fn properties(
-    image: &mut Image,
-    designator: &Designator,
-    row: &'static TypeRow,
-) -> Vec<(String, Value)> {
+fn properties(image: &mut Image, designator: &Designator, row: &TypeRow) -> Vec<(String, Value)> {
     let mut properties: Vec<(String, Value)> = Vec::new();
     for (key, values) in designator.properties() {
         let Some(written) = key.as_symbol().map(|s| image.name(s).to_owned()) else {
@@ -208,7 +190,7 @@ fn properties(
         if known.is_some_and(|k| k.kind == Kind::Place) && as_pose_stamped(&value).is_some() {
             value = value::make(image, Class::Location, &[("POSE", value)]);
         }
-        let name = known.map_or(written, |k| k.name.to_owned());
+        let name = known.map_or(written, |k| k.name.to_string());
         if !properties.iter().any(|(n, _)| *n == name) {
             properties.push((name, value));
         }
@@ -216,15 +198,12 @@ fn properties(
     properties
 }
 
-/// The call of the plan: its name in `PP-PLANS` and keyword arguments.
+/// The call of an action's plan: the function and keyword arguments.
 pub(crate) fn plan_call(image: &mut Image, grounding: &Grounding) -> (Value, Vec<Value>) {
-    let package =
-        crate::plan::packages::ensure(image, "CRAM-MOBILE-PICK-PLACE-PLANS", &["PP-PLANS"]);
-    let plan = image.intern(package, grounding.row.plan);
     let mut args = Vec::new();
     for (name, value) in &grounding.properties {
         args.push(image.keyword(name).into());
         args.push(value.clone());
     }
-    (plan.into(), args)
+    (grounding.row.plan.into(), args)
 }

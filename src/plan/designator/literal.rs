@@ -11,7 +11,7 @@ use crate::lisp::image::notes::NoteKind;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
-use crate::lisp::value::symbol::{Sym, VariableKind};
+use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// Notes the mistakes in the properties of a designator of a class.
 pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value], place: Place) {
@@ -19,10 +19,16 @@ pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value
         .iter()
         .filter_map(|property| named(image, property))
         .collect();
-    let mistakes = match class {
-        Class::Action | Class::Motion => of_type(image, class, &written),
-        Class::Object | Class::Location | Class::Human => Vec::new(),
+    // What a template splices in is not known.
+    let is_whole = written.len() == properties.len();
+    let mut mistakes = match class {
+        Class::Action | Class::Motion if is_whole => of_type(image, class, &written),
+        _ => Vec::new(),
     };
+    mistakes.extend(written.iter().filter_map(|(key, value)| {
+        let text = not_evaluated(image, key, value)?;
+        Some((key.clone(), text))
+    }));
     for (name, text) in mistakes {
         image.note(place, || NoteKind::Mistake { name, text });
     }
@@ -50,24 +56,36 @@ fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(Str
     let Some(given) = given.and_then(|(_, value)| literal_name(image, value)) else {
         return Vec::new();
     };
-    let rows: Vec<&'static TypeRow> = schema::rows(class, &given).collect();
+    let rows = schema::rows(image, class, &given);
     if rows.is_empty() {
-        let near = schema::nearest_type(class, &given);
-        let text = asking(format!("There is no {kind} of type {given}"), near);
+        let near = schema::nearest_type(image, class, &given);
+        let text = asking(
+            format!("There is no {kind} of type {given}"),
+            near.as_deref(),
+        );
         return vec![(given, text)];
     }
     let is_known = |key: &str| {
         schema::COMMON_KEYS.contains(&key) || rows.iter().any(|row| row.key(key).is_some())
     };
-    written
+    let mut mistakes: Vec<(String, String)> = written
         .iter()
         .filter(|(key, _)| !is_known(key))
         .map(|(key, _)| {
-            let near = closest_name(key, rows.iter().flat_map(|row| schema::key_names(row)));
+            let near = closest_name(key, rows.iter().flat_map(|row| row.key_names()));
             let text = format!("The {kind} {given} has no key {key}");
             (key.clone(), asking(text, near))
         })
-        .collect()
+        .collect();
+    let lacking = |row: &TypeRow| row.lacking(|name| written.iter().any(|(key, _)| key == name));
+    if mistakes.is_empty()
+        && rows.iter().all(|row| lacking(row).is_some())
+        && let Some(needed) = rows.first().and_then(|row| lacking(row))
+    {
+        let text = format!("The {kind} {given} needs {needed}.");
+        mistakes.push((class.name().to_owned(), text));
+    }
+    mistakes
 }
 
 /// The name that a value stands for if it is a plain symbol: no `?variable`, no global.
@@ -79,6 +97,22 @@ fn literal_name(image: &Image, value: &Value) -> Option<String> {
     let data = image.symbol(sym);
     let is_global = !data.value.is_unbound() || data.kind != VariableKind::Lexical;
     (!is_global && !data.name.starts_with('?')).then(|| name(image, sym))
+}
+
+/// Why a value is not what it seems: it is quoted, or looks like a call.
+fn not_evaluated(image: &Image, key: &str, value: &Value) -> Option<String> {
+    let head = value.as_cons()?.car().as_symbol()?;
+    let key = key.to_lowercase();
+    let remedy = format!("bind a variable such as ?{key} and write ({key} ?{key}).");
+    if matches!(head, known::QUOTE | known::FUNCTION) {
+        return Some(format!("Nothing is quoted inside a designator: {remedy}"));
+    }
+    let is_function = matches!(image.symbol(head).function, FunctionCell::Function(_));
+    let is_nested = matches!(image.name(head), "A" | "AN" | "ALL" | "SOME" | "THE");
+    (is_function && !is_nested).then(|| {
+        let name = image.name(head).to_lowercase();
+        format!("({name} …) is not called inside a designator: {remedy}")
+    })
 }
 
 /// A finding, with the name that was probably meant.

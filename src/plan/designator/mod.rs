@@ -5,9 +5,10 @@
 
 pub(crate) mod access;
 pub(crate) mod check;
+pub(crate) mod def_action;
 pub(crate) mod failure;
+mod functors;
 pub(crate) mod ground;
-pub(crate) mod lint;
 pub(crate) mod literal;
 pub(crate) mod location;
 pub(crate) mod names;
@@ -34,6 +35,8 @@ use crate::lisp::value::symbol::Sym;
 /// Makes the packages, classes, variables, functions and macros; after the plan language.
 pub(crate) fn install(image: &mut Image) {
     packages::install(image);
+    schema::install(image);
+    prolog_rules::facts::install(image);
     let desig = packages::ensure(image, "CRAM-DESIGNATORS", &["DESIG"]);
     let root = image.export_symbol(desig, "DESIGNATOR");
     define_class(image, root, known::T);
@@ -45,6 +48,8 @@ pub(crate) fn install(image: &mut Image) {
     image.define_special(pprint, Value::T);
     image.install_operators(desig, syntax::OPERATORS);
     image.install_operators(desig, access::OPERATORS);
+    image.install_operators(desig, def_action::OPERATORS);
+    image.install(desig, def_action::TABLE);
     image.install(desig, access::TABLE);
     image.install(desig, object::TABLE);
     let data = image.export_symbol(desig, "OBJECT-DESIGNATOR-DATA");
@@ -61,6 +66,8 @@ pub(crate) fn install(image: &mut Image) {
     image.install(prolog, prolog_rules::builtins::TABLE);
     image.install(prolog, prolog_rules::facts::TABLE);
     image.install_operators(prolog, prolog_rules::facts::OPERATORS);
+    prolog_rules::facts::install_functors(image, prolog_rules::functors::TABLE);
+    prolog_rules::facts::install_functors(image, functors::TABLE);
     let names = packages::ensure(image, "ROSLISP-UTILITIES", &[]);
     image.install(names, names::TABLE);
     if image.packages.find("CRAM-LANGUAGE").is_some() {

@@ -23,13 +23,22 @@ use crate::lisp::vm::step::Step;
 use crate::plan::{Result, packages};
 
 /// Functions of package `CRAM-EXECUTIVE`.
-pub(crate) static TABLE: &[Builtin] = &[control(
-    "PERFORM",
-    "designator",
-    "Carries out an action or motion; only inside a plan, as in (with-simulated-robot (perform (an action (type going) (target ?location)))).",
-    &[],
-    |machine, args| perform(machine, &args[0]),
-)];
+pub(crate) static TABLE: &[Builtin] = &[
+    control(
+        "PERFORM",
+        "designator",
+        "Carries out an action or motion; only inside a plan, as in (with-simulated-robot (perform (an action (type going) (target ?location)))).",
+        &[],
+        |machine, args| perform(machine, &args[0]),
+    ),
+    control(
+        "GENERIC-PERFORM",
+        "designator",
+        "The same as PERFORM.",
+        &[],
+        |machine, args| perform(machine, &args[0]),
+    ),
+];
 
 /// Is a plan running: is this fiber a task?
 fn is_in_plan(image: &mut Image) -> bool {
@@ -281,13 +290,6 @@ fn motion_request(image: &mut Image, designator: &Value) -> Result<MotionRequest
         Err(Refusal::Error(raise)) => return Err(raise),
         Err(Refusal::UnknownType(why)) => return Err(no_module(image, designator, &why)),
         Err(Refusal::Incomplete(why)) => {
-            // Modules of the grippers accept only motions that name a gripper.
-            if matches!(
-                motion.type_name(image).as_deref(),
-                Some("OPENING" | "CLOSING")
-            ) {
-                return Err(no_module(image, designator, &why));
-            }
             let why = Unresolved {
                 reason: format!("Cannot perform motion.\n{}", why.reason),
                 ..why
@@ -297,7 +299,7 @@ fn motion_request(image: &mut Image, designator: &Value) -> Result<MotionRequest
     };
     Ok(MotionRequest {
         designator: designator.clone(),
-        motion_type: grounding.row.name.to_owned(),
+        motion_type: grounding.row.name.to_string(),
         properties: grounding.properties,
     })
 }

@@ -179,7 +179,7 @@ fn resolved(image: &mut Image, designator: &Value, found: &Value) -> Result<Valu
             Ok(Value::list_with_tail([plan], Value::list(args)))
         }
         Ok(grounding) => {
-            let command = image.keyword(grounding.row.name);
+            let command = image.keyword(&grounding.row.name);
             let values: Vec<Value> = grounding.properties.into_iter().map(|(_, v)| v).collect();
             Ok(Value::list_with_tail([command.into()], Value::list(values)))
         }

@@ -1,7 +1,11 @@
 //! Designators at work: each test evaluates text and compares what is printed.
 
 use super::MotionRequest;
+use super::schema::{self, Key, Kind, Text, TypeRow};
+use super::value::Class;
+use crate::lisp::compile;
 use crate::lisp::image::Image;
+use crate::lisp::image::notes::NoteKind;
 use crate::lisp::print;
 use crate::lisp::reader::{Outcome, Reader};
 use crate::lisp::value::Value;
@@ -20,7 +24,60 @@ pub(crate) fn image() -> Image {
         crate::plan::packages::symbol(&mut image, "CRAM-LANGUAGE-IMPLEMENTATION", "*CURRENT-TASK*");
     image.define_special(task, Value::T);
     evaluate_in(&mut image, prelude);
+    evaluate_in(&mut image, ACTIONS);
+    for (name, keys) in MOTIONS {
+        schema::define(&image, motion(name, keys));
+    }
     image
+}
+
+/// Some types of actions; their plans are not defined.
+const ACTIONS: &str = "
+    (def-action going ((target place \"where to\" :aliases (location pose))) (:plan go))
+    (def-action moving-torso ((joint-angle number)) (:plan move-torso))
+    (def-action looking (&optional (target place) (direction keywords))
+      (:one-of target direction) (:plan look))
+    (def-action gripping ((gripper keywords \"\" :aliases (arm)) &optional (effort number))
+      (:plan grip))
+    (def-action picking-up ((object detected-object)) (:plan pick-up))";
+
+/// Some types of motions, each with a key that it needs.
+const MOTIONS: &[(&str, Key)] = &[
+    ("GOING", key("TARGET", Kind::Place, "where to")),
+    (
+        "MOVING-TORSO",
+        key("JOINT-ANGLE", Kind::Number, "the height"),
+    ),
+    ("OPENING", key("GRIPPER", Kind::Keywords, "which hand")),
+];
+
+const fn key(name: &'static str, kind: Kind, doc: &'static str) -> Key {
+    Key {
+        name: Text::Borrowed(name),
+        aliases: Vec::new(),
+        kind,
+        is_required: true,
+        doc: Text::Borrowed(doc),
+    }
+}
+
+fn motion(name: &'static str, key: &Key) -> TypeRow {
+    let mut key = key.clone();
+    if name == "GOING" {
+        key.aliases = vec![Text::Borrowed("POSE")];
+    }
+    TypeRow {
+        class: Class::Motion,
+        name: Text::Borrowed(name),
+        variant: None,
+        aliases: Vec::new(),
+        plan: known::NIL,
+        keys: vec![key],
+        one_of: Vec::new(),
+        is_known_by_keys: false,
+        doc: Text::Borrowed(""),
+        example: None,
+    }
 }
 
 /// The printed values of the last form; `!!` and the report of a condition; `??` and the
@@ -266,7 +323,7 @@ fn motions_become_requests() {
 fn actions_call_plans() {
     check(&[
         (
-            "(defun cram-mobile-pick-place-plans::grip (&rest args) args)
+            "(defun grip (&rest args) args)
              (perform (an action (type gripping) (arm left) (effort 5)))",
             "(:GRIPPER :LEFT :EFFORT 5)",
         ),
@@ -450,17 +507,22 @@ fn with_designators_binds_them_in_order() {
     )]);
 }
 
-/// The mistakes that are found in a text without running it.
+/// The mistakes that compiling a text notes.
 fn mistakes(text: &str) -> Vec<String> {
     let mut image = image();
-    let mut lint = crate::plan::designator::lint::Lint::new(&mut image);
     let source = image.sources.add("test", text);
     let mut reader = Reader::new(&image, source);
-    let mut found = Vec::new();
+    image.notes = Some(Vec::new());
     while let Ok(Some((form, _))) = reader.next_form(&mut image) {
-        found.extend(lint.form(&image, &form).into_iter().map(|m| m.message));
+        assert!(compile::compile_form(&mut image, &form).is_ok(), "{text}");
     }
-    found
+    let notes = image.notes.take().unwrap_or_default().into_iter();
+    notes
+        .filter_map(|note| match note.kind {
+            NoteKind::Mistake { text, .. } => Some(text),
+            _ => None,
+        })
+        .collect()
 }
 
 #[test]
@@ -475,34 +537,131 @@ fn mistakes_in_forms_are_found_without_running_them() {
             "There is no action of type GOIGN; did you mean GOING?",
         ),
         (
-            "(a motoin (type x))",
-            "There is no designator of kind MOTOIN; did you mean MOTION?",
-        ),
-        (
             "(an action (type going) (targt 1))",
             "The action GOING has no key TARGT; did you mean TARGET?",
         ),
         (
             "(a motion (type going))",
-            "The motion GOING needs (target …): where to",
+            "The motion GOING needs (target …): where to.",
+        ),
+        (
+            "(an action (type looking))",
+            "The action LOOKING needs one of target, direction.",
         ),
         (
             "(a location (pose '(1 2)))",
-            "Nothing is quoted inside a designator: bind a variable such as ?pose and write (pose ?pose)",
+            "Nothing is quoted inside a designator: bind a variable such as ?pose and write (pose ?pose).",
         ),
         (
             "(a location (pose (pp-tut:make-pose \"map\" x)))",
-            "(make-pose …) is not called inside a designator: bind a variable such as ?pose and write (pose ?pose)",
+            "(make-pose …) is not called inside a designator: bind a variable such as ?pose and write (pose ?pose).",
         ),
         ("'(an action (type goign))", ""),
         ("(let ((?type :x)) (an action (type ?type)))", ""),
-        (
-            "(def-fact-group g () (<- (desig:action-grounding ?d (p)) (desig:desig-prop ?d (:type :goign)))) (an action (type goign))",
-            "",
-        ),
         ("(an action (type looking) (when ?d (direction ?d)))", ""),
         ("`(an action (type going) ,@more)", ""),
     ] {
         assert_eq!(mistakes(text).join("\n"), expected, "{text}");
     }
+}
+
+#[test]
+fn an_action_is_defined_with_its_keys() {
+    check(&[
+        (
+            "(def-action waving ((arm (member left right)) &optional (times number)) (:plan wave))
+             (defun wave (&rest args) args)
+             (list (perform (an action (type waving) (arm left) (times 2)))
+                   (reference (an action (type waving) (arm right))))",
+            "((:ARM :LEFT :TIMES 2) (WAVE :ARM :RIGHT))",
+        ),
+        (
+            "(def-action waving ((arm (member left right))) (:plan wave))
+             (perform (an action (type waving) (arm middle)))",
+            "!! [ACTION SPEC:PROPERTY]: :MIDDLE had to be of type (MEMBER LEFT RIGHT)",
+        ),
+        (
+            "(def-action waving (arm) (:plan wave))
+             (perform (an action (type waving)))",
+            "!! Designator #<A ACTION\n    (TYPE WAVING)> could not be resolved.\nThe action WAVING needs (arm …).",
+        ),
+        (
+            "(def-action waving ((object object)) (:variant thing) (:plan wave-thing))
+             (def-action waving (arm) (:plan wave))
+             (list (reference (an action (type waving) (arm right)))
+                   (first (reference (an action (type waving) (object (an object))))))",
+            "((WAVE :ARM :RIGHT) WAVE-THING)",
+        ),
+        (
+            "(def-action waving (arm) (:plan wave))
+             (perform (an action (type waving) (arm left) (object (an object (type flag)))))",
+            "!! Designator #<A ACTION\n    (TYPE WAVING)\n    (ARM LEFT)\n    (OBJECT #<A OBJECT\n    (TYPE FLAG)>)> could not be resolved.\nThe action WAVING cannot act on an object: it was given #<A OBJECT\n    (TYPE FLAG)>.",
+        ),
+    ]);
+}
+
+#[test]
+fn a_malformed_definition_of_an_action_says_what_is_wrong() {
+    check(&[
+        (
+            "(def-action)",
+            "!! NIL is not the name of a type of actions: (def-action type ((key kind \"what it means\")…) \"what it does\" (:option …)… body…) was expected.",
+        ),
+        (
+            "(def-action waving arm (wave))",
+            "!! DEF-ACTION WAVING has no list of keys, but ARM: (def-action type ((key kind \"what it means\")…) \"what it does\" (:option …)… body…) was expected.",
+        ),
+        (
+            "(def-action waving (arm))",
+            "!! DEF-ACTION WAVING has no body: write what the action does, or (:plan function) with the name of a function that does it.",
+        ),
+        (
+            "(def-action waving ((arm armm)) 1)",
+            "!! In the key (ARM ARMM): ARMM is not a kind; there are LOCATION, PLACE, OBJECT, DETECTED-OBJECT, OBJECTS, NUMBER, KEYWORDS, KEYWORD, SYMBOL, STRING, LIST, POSES, POSE, KEYWORD-OR-OBJECT, ACTION, T, and (MEMBER …).",
+        ),
+        (
+            "(def-action waving ((times numbr)) 1)",
+            "!! In the key (TIMES NUMBR): NUMBR is not a kind; did you mean NUMBER?",
+        ),
+        (
+            "(def-action waving ((arm (or left right))) 1)",
+            "!! In the key (ARM (OR LEFT RIGHT)): (OR LEFT RIGHT) is not a kind: (member name…) was expected.",
+        ),
+        (
+            "(def-action waving ((arm number \"which\" :default 1)) 1)",
+            "!! In the key (ARM NUMBER \"which\" :DEFAULT 1): a key that must be given has no default; those that need not be given come after &OPTIONAL.",
+        ),
+        (
+            "(def-action waving ((arm number :alias (side))) 1)",
+            "!! In the key (ARM NUMBER :ALIAS (SIDE)): :ALIAS is neither a kind, a documentation string, :aliases nor :default.",
+        ),
+        (
+            "(def-action waving (arm (side number \"\" :aliases (arm))) 1)",
+            "!! ARM is the name of two keys of the action.",
+        ),
+        (
+            "(def-action waving (arm &key side) 1)",
+            "!! &KEY does not belong into the keys of an action: keys after &OPTIONAL need not be given.",
+        ),
+        (
+            "(def-action waving (arm) (:alias greeting) 1)",
+            "!! DEF-ACTION has no option :ALIAS; did you mean ALIASES? There are :aliases, :one-of, :plan, :variant, :example.",
+        ),
+        (
+            "(def-action waving (arm side) (:one-of arm sid) 1)",
+            "!! SID of (:ONE-OF ARM SID) is not one of the keys; did you mean SIDE?",
+        ),
+        (
+            "(def-action waving (arm) (:plan) 1)",
+            "!! The option (:PLAN) takes one name, as in (:plan name).",
+        ),
+        (
+            "(def-action waving (arm) (:example (an action (type wavng))) 1)",
+            "!! (:EXAMPLE (AN ACTION (TYPE WAVNG))) is not an example: (:example (an action (type waving) …)) was expected.",
+        ),
+        (
+            "(def-action search (arm) 1)",
+            "!! The plan of DEF-ACTION SEARCH would redefine the function SEARCH of Common Lisp: give it another name with (:plan name).",
+        ),
+    ]);
 }

@@ -4,7 +4,8 @@ use std::rc::Rc;
 
 use super::facts;
 use super::facts::{Clause, Facts};
-use super::functors;
+use super::functor::Call;
+use super::goal::{Action, Collection, Goal};
 use super::term::{Bindings, Mark, Naming, Variable};
 use crate::lisp::image::Image;
 use crate::lisp::print;
@@ -13,27 +14,12 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
-pub(crate) type Result<T> = std::result::Result<T, Box<Raise>>;
+type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Steps between two looks at the interrupt flag.
 const INTERRUPT_INTERVAL: u32 = 1024;
 /// Choices that may be open at once.
 const MOST_CHOICES: usize = 200_000;
-
-/// One thing to do.
-#[derive(Clone)]
-pub(crate) enum Goal {
-    /// Prove a term.
-    Prove(Value),
-    /// Forget all choices made since there were so many.
-    Cut(usize),
-    /// Forget the one choice of this number, keeping later ones.
-    Forget(u64),
-    /// Keep a term in a collection, then fail.
-    Collect(usize, Value),
-    /// Fail.
-    Fail,
-}
 
 /// Goals to prove, in order.
 pub(crate) type Goals = Option<Rc<GoalNode>>;
@@ -105,64 +91,10 @@ pub(crate) enum Progress {
     },
 }
 
-/// What a functor of the language asks for.
-pub(crate) enum Action {
-    /// The goal holds.
-    Succeed,
-    /// It does not.
-    Fail,
-    /// Go on with these goals.
-    Then(Vec<Goal>),
-    /// A choice between goals and others; both go on with what follows.
-    Either(Vec<Goal>, Vec<Goal>),
-    /// Unify a term with each item in turn.
-    Items(Value, Vec<Value>),
-    /// Collect the solutions of a goal, then unify the list with a term.
-    Collect {
-        template: Value,
-        goal: Value,
-        result: Value,
-        kind: Collection,
-    },
-    /// Call a function and unify its value with a term.
-    CallFor {
-        function: Value,
-        args: Vec<Value>,
-        result: Value,
-    },
-    /// Call a function and hold if its value is not `NIL`.
-    CallTest { function: Value, args: Vec<Value> },
-    /// Call a function, and unify a term with each item of its value in turn.
-    CallItems {
-        function: Value,
-        args: Vec<Value>,
-        term: Value,
-    },
-    /// Call a function that returns lists of bindings for these variables.
-    CallBindings {
-        function: Value,
-        args: Vec<Value>,
-        variables: Vec<Value>,
-    },
-    /// Call a function and go on.
-    CallOnly { function: Value, args: Vec<Value> },
-}
-
-/// What becomes of collected solutions.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Collection {
-    /// All of them, even if there is none.
-    All,
-    /// All of them; the goal fails if there is none.
-    Some,
-    /// Each once; the goal fails if there is none.
-    Distinct,
-}
-
 /// A prover at work on one query.
 pub(crate) struct Engine {
     /// The bindings so far.
-    pub(crate) bindings: Bindings,
+    bindings: Bindings,
     goals: Goals,
     choices: Vec<Choice>,
     collections: Vec<Vec<Value>>,
@@ -197,45 +129,16 @@ impl Engine {
         })
     }
 
-    /// What a variable of the query is bound to.
-    pub(crate) fn value(&self, variable: Sym) -> Result<Option<Value>> {
-        let found = self.query.variables.iter().find(|(s, _)| *s == variable);
-        match found {
-            Some((_, variable)) => self.shown(variable).map(Some),
-            None => Ok(None),
-        }
-    }
-
     /// The bindings of the query's variables: a list of pairs, the last variable first.
     pub(crate) fn solution(&self) -> Result<Value> {
         let mut pairs = Vec::new();
         for (name, variable) in self.query.variables.iter().rev() {
             let value = self.bindings.resolve(variable)?;
             if value.as_foreign::<Variable>().is_none() {
-                pairs.push(Value::cons((*name).into(), self.shown(variable)?));
+                pairs.push(Value::cons((*name).into(), self.bindings.shown(variable)?));
             }
         }
         Ok(Value::list(pairs))
-    }
-
-    /// A term with unbound variables as the symbols that they were written as.
-    pub(crate) fn shown(&self, term: &Value) -> Result<Value> {
-        fn named(term: &Value) -> Value {
-            match term {
-                Value::Foreign(_) => match term.as_foreign::<Variable>() {
-                    Some(variable) => variable.name.into(),
-                    None => term.clone(),
-                },
-                // `resolve` limits how deep this goes.
-                Value::Cons(_) => {
-                    let mut rest = term.iter_list();
-                    let items: Vec<Value> = rest.by_ref().map(|t| named(&t)).collect();
-                    Value::list_with_tail(items, named(&rest.rest))
-                }
-                other => other.clone(),
-            }
-        }
-        Ok(named(&self.bindings.resolve(term)?))
     }
 
     /// Searches for the next proof.
@@ -344,23 +247,61 @@ impl Engine {
         let Some(functor) = functor.as_symbol().filter(|_| functor.is_true()) else {
             return Err(Raise::simple(format!(
                 "{} is not a Prolog goal: (functor argument…) was expected.",
-                print::to_string(image, &self.shown(term)?, true)
+                print::to_string(image, &self.bindings.shown(term)?, true)
             )));
         };
         if self.facts.knows(functor) {
             let clauses: Rc<[Clause]> = self.facts.clauses(functor).into();
             return Ok(Ok(self.try_clauses(image, term.clone(), clauses, 0)?));
         }
-        let Some(action) = functors::apply(self, image, functor, &args, clause)? else {
-            let shown = print::to_string(image, &self.shown(term)?, true);
-            image.output.fresh_line();
-            image.output.write(&format!(
-                "WARNING: Trying to prove goal {shown} with undefined functor {}.\n",
-                image.name(functor).to_owned()
-            ));
-            return Ok(Ok(false));
+        let args: Vec<Value> = args.iter_list().collect();
+        let known = self.facts.functor(image.name(functor));
+        let action = match known.filter(|known| known.takes(args.len())) {
+            Some(known) => {
+                let call = Call {
+                    image,
+                    bindings: &mut self.bindings,
+                    functor,
+                    args: &args,
+                    clause,
+                    barrier: self.choices.len(),
+                    next_choice: self.numbers,
+                };
+                (known.apply)(call)?
+            }
+            None => match (self.facts.handler(functor), known) {
+                (Some(function), _) => self.handled(function, &args)?,
+                (None, Some(_)) => return Err(wrong_count(image, functor, args.len())),
+                (None, None) => {
+                    let shown = print::to_string(image, &self.bindings.shown(term)?, true);
+                    image.output.fresh_line();
+                    image.output.write(&format!(
+                        "WARNING: Trying to prove goal {shown} with undefined functor {}.\n",
+                        image.name(functor).to_owned()
+                    ));
+                    return Ok(Ok(false));
+                }
+            },
         };
         Ok(self.take(action, clause))
+    }
+
+    /// The call of a functor of `def-prolog-handler`.
+    fn handled(&self, function: Value, terms: &[Value]) -> Result<Action> {
+        let mut args = vec![self.solution()?];
+        let mut variables = Vec::new();
+        for term in terms {
+            let term = self.bindings.resolve(term)?;
+            if term.as_foreign::<Variable>().is_some() {
+                variables.push(term.clone());
+            }
+            args.push(self.bindings.shown(&term)?);
+        }
+        Ok(Action::CallBindings {
+            function,
+            args,
+            variables,
+        })
     }
 
     fn take(&mut self, action: Action, clause: usize) -> std::result::Result<bool, Progress> {
@@ -425,21 +366,11 @@ impl Engine {
         Err(Progress::Call { function, args })
     }
 
-    /// How many choices are open.
-    pub(crate) fn choice_count(&self) -> usize {
-        self.choices.len()
-    }
-
     fn push_goals(&mut self, goals: Vec<Goal>, clause: usize) {
         for goal in goals.into_iter().rev() {
             let next = self.goals.take();
             self.goals = Some(Rc::new(GoalNode { goal, clause, next }));
         }
-    }
-
-    /// The number that the next choice will have.
-    pub(crate) fn next_number(&self) -> u64 {
-        self.numbers
     }
 
     fn push_choice(&mut self, goals: Goals, alternative: Alternative) {
@@ -550,6 +481,14 @@ impl Engine {
         }
         Ok(false)
     }
+}
+
+fn wrong_count(image: &Image, functor: Sym, count: usize) -> Box<Raise> {
+    Raise::simple(format!(
+        "The Prolog goal {} does not take {count} argument{}.",
+        print::to_string(image, &functor.into(), true),
+        if count == 1 { "" } else { "s" }
+    ))
 }
 
 /// The items without those that are equal to an earlier one.

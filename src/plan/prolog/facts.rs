@@ -5,11 +5,11 @@ use std::rc::Rc;
 
 use indexmap::IndexMap;
 
+use super::functor::Functor;
 use crate::lisp::builtin::{Builtin, Operator, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -26,11 +26,12 @@ pub(crate) struct Clause {
     pub(crate) body: Value,
 }
 
-/// All fact groups of an image; the value of `prolog::*facts*`.
+/// All fact groups of an image, and the functors that need none.
 #[derive(Default)]
 pub(crate) struct Facts {
     groups: RefCell<IndexMap<Sym, Vec<(Sym, Clause)>>>,
     handlers: RefCell<IndexMap<Sym, Value>>,
+    functors: RefCell<IndexMap<&'static str, &'static Functor>>,
 }
 
 impl Facts {
@@ -50,6 +51,16 @@ impl Facts {
         self.handlers.borrow().get(&functor).cloned()
     }
 
+    /// The functor of that name that Rust carries out.
+    pub(crate) fn functor(&self, name: &str) -> Option<&'static Functor> {
+        self.functors.borrow().get(name).copied()
+    }
+
+    /// All functors that Rust carries out.
+    pub(crate) fn functors(&self) -> Vec<&'static Functor> {
+        self.functors.borrow().values().copied().collect()
+    }
+
     /// Does any group say something about the functor?
     pub(crate) fn knows(&self, functor: Sym) -> bool {
         let groups = self.groups.borrow();
@@ -57,29 +68,21 @@ impl Facts {
     }
 }
 
-/// The variable that holds the facts keeps them alive; this is how it refers to them.
-struct FactsObject(Rc<Facts>);
-
-impl Foreign for FactsObject {
-    fn type_symbol(&self) -> Sym {
-        known::T
-    }
-
-    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
-        format!("#<{} FACT-GROUPS>", self.0.groups.borrow().len())
-    }
+/// Makes an image without facts.
+pub(crate) fn install(image: &mut Image) {
+    image.extend(Facts::default());
 }
 
-/// The facts of an image.
-pub(crate) fn of(image: &mut Image) -> Rc<Facts> {
-    let package = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
-    let variable = image.intern(package, "*FACTS*");
-    if let Some(object) = image.special(variable).as_foreign::<FactsObject>() {
-        return object.0.clone();
-    }
-    let facts = Rc::new(Facts::default());
-    image.define_special(variable, Value::foreign(FactsObject(facts.clone())));
-    facts
+/// The facts of an image; of one without Prolog, none.
+pub(crate) fn of(image: &Image) -> Rc<Facts> {
+    image.extension().unwrap_or_default()
+}
+
+/// Makes functors known.
+pub(crate) fn install_functors(image: &Image, table: &'static [Functor]) {
+    let facts = of(image);
+    let mut functors = facts.functors.borrow_mut();
+    functors.extend(table.iter().map(|functor| (functor.name, functor)));
 }
 
 /// Functions of package `CRAM-PROLOG` that its macros expand into.

@@ -1,215 +1,327 @@
 //! The functors that the language itself knows.
 
-use super::engine::{Action, Collection, Engine, Goal, Result};
+use super::functor::{Call, Functor, functor, holds};
+use super::goal::{Action, Collection, Goal};
 use super::term::Variable;
-use crate::lisp::image::Image;
-use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::equality;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::plan::designator::check;
-use crate::plan::designator::value;
 
-/// What a goal with this functor asks for; `None` if the functor is not known.
-/// `clause` is where `!` cuts to.
-pub(crate) fn apply(
-    engine: &mut Engine,
-    image: &mut Image,
-    functor: Sym,
-    args: &Value,
-    clause: usize,
-) -> Result<Option<Action>> {
-    let goals: Vec<Value> = args.iter_list().collect();
-    let barrier = engine.choice_count();
-    let prove = |goal: &Value| Goal::Prove(goal.clone());
-    let name = image.name(functor).to_owned();
-    let action = match (name.as_str(), goals.as_slice()) {
-        ("AND", goals) => Action::Then(goals.iter().map(prove).collect()),
-        ("OR", []) => Action::Fail,
-        ("OR", [first, rest @ ..]) => {
-            if rest.is_empty() {
-                return Ok(Some(Action::Then(vec![prove(first)])));
-            }
-            let others = Value::list_with_tail([functor.into()], Value::list(rest.to_vec()));
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// The functors.
+pub(crate) static TABLE: &[Functor] = &[
+    functor("AND", "goal…", "All goals hold.", |call| {
+        Ok(Action::Then(call.args.iter().map(prove).collect()))
+    }),
+    functor("OR", "goal…", "One of the goals holds; each is tried.", or),
+    functor("NOT", "goal", "The goal cannot be proved.", |call| {
+        let steps = vec![prove(&call.arg(0)), Goal::Cut(call.barrier), Goal::Fail];
+        Ok(Action::Either(steps, Vec::new()))
+    }),
+    functor(
+        "->",
+        "condition then &optional else",
+        "THEN holds for the first proof of the condition; ELSE holds if there is none.",
+        |call| {
+            let then = vec![
+                prove(&call.arg(0)),
+                Goal::Cut(call.barrier),
+                prove(&call.arg(1)),
+            ];
+            Ok(Action::Either(then, otherwise(&call)))
+        },
+    ),
+    functor(
+        "*->",
+        "condition then &optional else",
+        "Like ->, for every proof of the condition.",
+        |call| {
+            let then = vec![
+                prove(&call.arg(0)),
+                Goal::Forget(call.next_choice),
+                prove(&call.arg(1)),
+            ];
+            Ok(Action::Either(then, otherwise(&call)))
+        },
+    ),
+    functor("!", "", "Holds; no other clauses are tried.", |call| {
+        Ok(Action::Then(vec![Goal::Cut(call.clause)]))
+    }),
+    functor("TRUE", "", "Holds.", |_| Ok(Action::Succeed)),
+    functor("FAIL", "", "Does not hold.", |_| Ok(Action::Fail)),
+    // What runs is the simulation itself.
+    functor(
+        "PROJECTION-RUNNING",
+        "environment",
+        "Does not hold: nothing is projected.",
+        |_| Ok(Action::Fail),
+    ),
+    functor(
+        "CALL",
+        "goal argument…",
+        "The goal holds, or that of a functor and arguments.",
+        |call| {
+            let goal = match call.rest(1) {
+                [] => call.arg(0),
+                more => Value::list_with_tail([call.arg(0)], Value::list(more.to_vec())),
+            };
+            Ok(Action::Then(vec![Goal::Prove(goal)]))
+        },
+    ),
+    functor(
+        "ONCE",
+        "goal…",
+        "All goals hold; only their first proof counts.",
+        |call| {
+            let mut steps: Vec<Goal> = call.args.iter().map(prove).collect();
+            steps.push(Goal::Cut(call.barrier));
+            Ok(Action::Then(steps))
+        },
+    ),
+    functor(
+        "FORALL",
+        "condition action",
+        "The action holds for every proof of the condition.",
+        |call| {
+            let not_action = Value::list([known::NOT.into(), call.arg(1)]);
+            let both = Value::list([known::AND.into(), call.arg(0), not_action]);
+            let steps = vec![Goal::Prove(both), Goal::Cut(call.barrier), Goal::Fail];
+            Ok(Action::Either(steps, Vec::new()))
+        },
+    ),
+    functor(
+        "FINDALL",
+        "template goal list",
+        "The list has the template for every proof of the goal.",
+        |call| Ok(collect(&call, Collection::All)),
+    ),
+    functor(
+        "BAGOF",
+        "template goal list",
+        "Like FINDALL; the goal has a proof.",
+        |call| Ok(collect(&call, Collection::Some)),
+    ),
+    functor(
+        "SETOF",
+        "template goal list",
+        "Like BAGOF; equal elements are kept once.",
+        |call| Ok(collect(&call, Collection::Distinct)),
+    ),
+    functor("==", "a b", "Both terms are made equal.", unify),
+    functor("EQUAL", "a b", "Both terms are made equal.", unify),
+    functor(
+        "BOUND",
+        "term",
+        "The term is no unbound variable.",
+        |call| {
+            let term = call.bindings.walk(&call.arg(0));
+            Ok(holds(term.as_foreign::<Variable>().is_none()))
+        },
+    ),
+    functor(
+        "GROUND",
+        "term",
+        "No unbound variable is in the term.",
+        |call| Ok(holds(call.bindings.is_ground(&call.arg(0))?)),
+    ),
+    functor(
+        "MEMBER",
+        "item list",
+        "The item is each element in turn.",
+        |call| {
+            let list = call.bindings.resolve(&call.arg(1))?;
+            Ok(Action::Items(call.arg(0), list.iter_list().collect()))
+        },
+    ),
+    functor(
+        "LENGTH",
+        "list length",
+        "The list has so many elements.",
+        |call| {
+            let count = call.bindings.resolve(&call.arg(0))?.iter_list().count();
+            let length = call.arg(1);
+            Ok(call.unify(&length, &Value::from(count)))
+        },
+    ),
+    functor(
+        "APPEND",
+        "first second both",
+        "The third list is the first two joined, or split in all ways.",
+        append,
+    ),
+    functor(
+        "MAX",
+        "list number",
+        "The greatest number of the list.",
+        |call| {
+            let list = call.bindings.resolve(&call.arg(0))?;
+            let result = call.arg(1);
+            Ok(match greatest(list.iter_list())? {
+                Some(greatest) => call.unify(&result, &greatest),
+                None => Action::Fail,
+            })
+        },
+    ),
+    functor(
+        "SORT",
+        "list predicate sorted",
+        "The list in order.",
+        |mut call| {
+            let list = call.bindings.resolve(&call.arg(0))?;
+            let items: Vec<Value> = list.iter_list().collect();
+            let predicate = function(&call, &call.arg(1))?;
+            Ok(call_for(
+                &mut call,
+                "SORT",
+                vec![Value::list(items), predicate],
+            ))
+        },
+    ),
+    functor(
+        "REDUCE",
+        "function list result",
+        "What the function makes of the list.",
+        |mut call| {
+            let reducer = function(&call, &call.arg(0))?;
+            let list = call.bindings.shown(&call.arg(1))?;
+            Ok(call_for(&mut call, "REDUCE", vec![reducer, list]))
+        },
+    ),
+    functor(
+        "LISP-FUN",
+        "function argument… result",
+        "The value of a Lisp function.",
+        |call| {
+            let (result, args) = match call.rest(1).split_last() {
+                Some((result, args)) => (result.clone(), args),
+                None => return Ok(Action::Fail),
+            };
+            Ok(Action::CallFor {
+                function: function(&call, &call.arg(0))?,
+                args: call.shown(args)?,
+                result,
+            })
+        },
+    ),
+    functor(
+        "LISP-PRED",
+        "function argument…",
+        "A Lisp function returns something else than NIL.",
+        |call| {
+            Ok(Action::CallTest {
+                function: function(&call, &call.arg(0))?,
+                args: call.shown(call.rest(1))?,
+            })
+        },
+    ),
+    functor(
+        "LISP-TYPE",
+        "object type",
+        "The object is of the type.",
+        |call| is_of_type(&call, 0, 1),
+    ),
+    functor(
+        "ASSERT-TYPE",
+        "object type argument…",
+        "The object is of the type.",
+        |call| is_of_type(&call, 0, 1),
+    ),
+    functor(
+        "INSTANCE-OF",
+        "type object",
+        "The object is of the type.",
+        |call| is_of_type(&call, 1, 0),
+    ),
+    functor(
+        "SYMBOL-VALUE",
+        "symbol value",
+        "The value of a variable.",
+        |call| call_known(&call, known::SYMBOL_VALUE, 1),
+    ),
+    functor(
+        "SLOT-VALUE",
+        "object slot value",
+        "The value of a slot.",
+        |call| call_known(&call, known::SLOT_VALUE, 2),
+    ),
+    functor(
+        "GENERATE-VALUES",
+        "value function argument…",
+        "The value is each element in turn of the list that a function returns.",
+        |call| {
+            Ok(Action::CallItems {
+                function: function(&call, &call.arg(1))?,
+                args: call.shown(call.rest(2))?,
+                term: call.arg(0),
+            })
+        },
+    ),
+    functor(
+        "FORMAT",
+        "control argument…",
+        "Holds; writes a formatted text.",
+        |call| {
+            let mut args = vec![Value::T];
+            args.extend(call.shown(call.args)?);
+            let function = known::FORMAT.into();
+            Ok(Action::CallOnly { function, args })
+        },
+    ),
+    functor("WARN", "control argument…", "Holds; warns.", |call| {
+        let args = call.shown(call.args)?;
+        let function = known::WARN.into();
+        Ok(Action::CallOnly { function, args })
+    }),
+    functor("ERROR", "control argument…", "Signals an error.", |call| {
+        let args = call.shown(call.args)?;
+        let function = known::ERROR.into();
+        Ok(Action::CallOnly { function, args })
+    }),
+];
+
+fn prove(goal: &Value) -> Goal {
+    Goal::Prove(goal.clone())
+}
+
+fn otherwise(call: &Call<'_>) -> Vec<Goal> {
+    match call.rest(2).first() {
+        Some(otherwise) => vec![prove(otherwise)],
+        None => vec![Goal::Fail],
+    }
+}
+
+fn or(call: Call<'_>) -> Result<Action> {
+    Ok(match call.args {
+        [] => Action::Fail,
+        [only] => Action::Then(vec![prove(only)]),
+        [first, rest @ ..] => {
+            let others = Value::list_with_tail([call.functor.into()], Value::list(rest.to_vec()));
             Action::Either(vec![prove(first)], vec![Goal::Prove(others)])
         }
-        ("NOT", [goal]) => Action::Either(
-            vec![prove(goal), Goal::Cut(barrier), Goal::Fail],
-            Vec::new(),
-        ),
-        ("->", [condition, then, otherwise @ ..]) => Action::Either(
-            vec![prove(condition), Goal::Cut(barrier), prove(then)],
-            otherwise
-                .first()
-                .map_or(vec![Goal::Fail], |e| vec![prove(e)]),
-        ),
-        ("*->", [condition, then, otherwise @ ..]) => {
-            let number = engine.next_number();
-            Action::Either(
-                vec![prove(condition), Goal::Forget(number), prove(then)],
-                otherwise
-                    .first()
-                    .map_or(vec![Goal::Fail], |e| vec![prove(e)]),
-            )
-        }
-        ("!", []) => Action::Then(vec![Goal::Cut(clause)]),
-        ("TRUE", []) => Action::Succeed,
-        // Nothing is projected: what runs is the simulation itself.
-        ("FAIL", []) | ("PROJECTION-RUNNING", [_]) => Action::Fail,
-        ("CALL", [goal]) => Action::Then(vec![prove(goal)]),
-        ("CALL", [functor, more @ ..]) => {
-            let goal = Value::list_with_tail([functor.clone()], Value::list(more.to_vec()));
-            Action::Then(vec![Goal::Prove(goal)])
-        }
-        ("ONCE", goals) => {
-            let mut steps: Vec<Goal> = goals.iter().map(prove).collect();
-            steps.push(Goal::Cut(barrier));
-            Action::Then(steps)
-        }
-        ("FORALL", [condition, action]) => {
-            let not_action = Value::list([known::NOT.into(), action.clone()]);
-            let both = Value::list([known::AND.into(), condition.clone(), not_action]);
-            Action::Either(
-                vec![Goal::Prove(both), Goal::Cut(barrier), Goal::Fail],
-                Vec::new(),
-            )
-        }
-        ("FINDALL", [template, goal, result]) => collect(template, goal, result, Collection::All),
-        ("BAGOF", [template, goal, result]) => collect(template, goal, result, Collection::Some),
-        ("SETOF", [template, goal, result]) => {
-            collect(template, goal, result, Collection::Distinct)
-        }
-        ("==" | "EQUAL", [a, b]) => holds(engine.bindings.unify(a, b)),
-        ("BOUND", [term]) => holds(
-            engine
-                .bindings
-                .walk(term)
-                .as_foreign::<Variable>()
-                .is_none(),
-        ),
-        ("GROUND", [term]) => holds(engine.bindings.is_ground(term)?),
-        ("MEMBER", [item, list]) => {
-            let list = engine.bindings.resolve(list)?;
-            Action::Items(item.clone(), list.iter_list().collect())
-        }
-        ("LENGTH", [list, length]) => {
-            let count = engine.bindings.resolve(list)?.iter_list().count();
-            holds(engine.bindings.unify(length, &Value::from(count)))
-        }
-        ("APPEND", [first, second, both]) => append(engine, first, second, both)?,
-        ("MAX", [list, result]) => {
-            let list = engine.bindings.resolve(list)?;
-            let greatest = greatest(list.iter_list())?;
-            holds(greatest.is_some_and(|g| engine.bindings.unify(result, &g)))
-        }
-        ("SORT", [list, predicate, result]) => Action::CallFor {
-            function: image.intern(PackageTable::CL, "SORT").into(),
-            args: vec![
-                Value::list(
-                    engine
-                        .bindings
-                        .resolve(list)?
-                        .iter_list()
-                        .collect::<Vec<_>>(),
-                ),
-                function(engine, predicate)?,
-            ],
-            result: result.clone(),
-        },
-        ("REDUCE", [reducer, list, result]) => Action::CallFor {
-            function: image.intern(PackageTable::CL, "REDUCE").into(),
-            args: vec![function(engine, reducer)?, engine.shown(list)?],
-            result: result.clone(),
-        },
-        ("LISP-FUN", [callee, args @ .., result]) => Action::CallFor {
-            function: function(engine, callee)?,
-            args: shown(engine, args)?,
-            result: result.clone(),
-        },
-        ("LISP-PRED", [callee, args @ ..]) => Action::CallTest {
-            function: function(engine, callee)?,
-            args: shown(engine, args)?,
-        },
-        ("LISP-TYPE" | "INSTANCE-OF" | "ASSERT-TYPE", [a, b, ..]) => {
-            let (object, kind) = if name == "INSTANCE-OF" {
-                (b, a)
-            } else {
-                (a, b)
-            };
-            Action::CallTest {
-                function: known::TYPEP.into(),
-                args: vec![engine.shown(object)?, engine.shown(kind)?],
-            }
-        }
-        ("SYMBOL-VALUE", [symbol, result]) => Action::CallFor {
-            function: known::SYMBOL_VALUE.into(),
-            args: vec![engine.shown(symbol)?],
-            result: result.clone(),
-        },
-        ("SLOT-VALUE", [object, slot, result]) => Action::CallFor {
-            function: known::SLOT_VALUE.into(),
-            args: vec![engine.shown(object)?, engine.shown(slot)?],
-            result: result.clone(),
-        },
-        ("GENERATE-VALUES", [result, callee, args @ ..]) => Action::CallItems {
-            function: function(engine, callee)?,
-            args: shown(engine, args)?,
-            term: result.clone(),
-        },
-        ("FORMAT", args) => {
-            let mut all = vec![Value::T];
-            all.extend(shown(engine, args)?);
-            Action::CallOnly {
-                function: known::FORMAT.into(),
-                args: all,
-            }
-        }
-        ("WARN" | "ERROR", args) => Action::CallOnly {
-            function: if name == "WARN" {
-                known::WARN
-            } else {
-                known::ERROR
-            }
-            .into(),
-            args: shown(engine, args)?,
-        },
-        ("PROPERTY" | "PROPERTY-MEMBER" | "DESIG-PROP", [designator, property]) => {
-            let is_checked = name != "DESIG-PROP";
-            designator_property(engine, image, designator, property, is_checked)?
-        }
-        ("CURRENT-DESIGNATOR", [designator, current]) => {
-            let newest = value::current(&engine.bindings.walk(designator));
-            holds(engine.bindings.unify(current, &newest))
-        }
-        _ => return handler(engine, image, functor, &goals),
-    };
-    Ok(Some(action))
+    })
 }
 
-fn holds(is_so: bool) -> Action {
-    if is_so { Action::Succeed } else { Action::Fail }
+fn unify(call: Call<'_>) -> Result<Action> {
+    let (a, b) = (call.arg(0), call.arg(1));
+    Ok(call.unify(&a, &b))
 }
 
-fn collect(template: &Value, goal: &Value, result: &Value, kind: Collection) -> Action {
+fn collect(call: &Call<'_>, kind: Collection) -> Action {
     Action::Collect {
-        template: template.clone(),
-        goal: goal.clone(),
-        result: result.clone(),
+        template: call.arg(0),
+        goal: call.arg(1),
+        result: call.arg(2),
         kind,
     }
 }
 
-fn shown(engine: &Engine, terms: &[Value]) -> Result<Vec<Value>> {
-    terms.iter().map(|t| engine.shown(t)).collect()
-}
-
 /// A function as goals write it: a symbol, `#'symbol`, or a function.
-fn function(engine: &Engine, term: &Value) -> Result<Value> {
-    let term = engine.shown(term)?;
+fn function(call: &Call<'_>, term: &Value) -> Result<Value> {
+    let term = call.bindings.shown(term)?;
     let is_quoted = matches!(
         term.car_or_nil().as_symbol(),
         Some(known::FUNCTION | known::QUOTE)
@@ -218,6 +330,31 @@ fn function(engine: &Engine, term: &Value) -> Result<Value> {
         term.cdr_or_nil().car_or_nil()
     } else {
         term
+    })
+}
+
+/// The call of a function of Common Lisp whose value is the third argument.
+fn call_for(call: &mut Call<'_>, name: &str, args: Vec<Value>) -> Action {
+    Action::CallFor {
+        function: call.image.intern(PackageTable::CL, name).into(),
+        args,
+        result: call.arg(2),
+    }
+}
+
+/// The call of a function with so many arguments, whose value is the next one.
+fn call_known(call: &Call<'_>, function: Sym, count: usize) -> Result<Action> {
+    Ok(Action::CallFor {
+        function: function.into(),
+        args: call.shown(call.args.get(..count).unwrap_or_default())?,
+        result: call.arg(count),
+    })
+}
+
+fn is_of_type(call: &Call<'_>, object: usize, kind: usize) -> Result<Action> {
+    Ok(Action::CallTest {
+        function: known::TYPEP.into(),
+        args: call.shown(&[call.arg(object), call.arg(kind)])?,
     })
 }
 
@@ -233,12 +370,13 @@ fn greatest(items: impl Iterator<Item = Value>) -> Result<Option<Value>> {
 }
 
 /// Joins two lists, or splits one in all ways.
-fn append(engine: &mut Engine, first: &Value, second: &Value, both: &Value) -> Result<Action> {
-    if let Some(items) = engine.bindings.resolve(first)?.list_to_vec() {
-        let joined = Value::list_with_tail(items, second.clone());
-        return Ok(holds(engine.bindings.unify(both, &joined)));
+fn append(call: Call<'_>) -> Result<Action> {
+    let (first, second, both) = (call.arg(0), call.arg(1), call.arg(2));
+    if let Some(items) = call.bindings.resolve(&first)?.list_to_vec() {
+        let joined = Value::list_with_tail(items, second);
+        return Ok(call.unify(&both, &joined));
     }
-    let Some(items) = engine.bindings.resolve(both)?.list_to_vec() else {
+    let Some(items) = call.bindings.resolve(&both)?.list_to_vec() else {
         return Ok(Action::Fail);
     };
     let splits = (0..=items.len())
@@ -247,102 +385,22 @@ fn append(engine: &mut Engine, first: &Value, second: &Value, both: &Value) -> R
             Value::list([Value::list(head.to_vec()), Value::list(tail.to_vec())])
         })
         .collect();
-    let pattern = Value::list([first.clone(), second.clone()]);
-    Ok(Action::Items(pattern, splits))
+    Ok(Action::Items(Value::list([first, second]), splits))
 }
 
-/// `(property ?designator (:key ?value))`.
-fn designator_property(
-    engine: &Engine,
-    image: &mut Image,
-    designator: &Value,
-    property: &Value,
-    is_checked: bool,
-) -> Result<Action> {
-    let designator = engine.bindings.walk(designator);
-    let Some(designator) = value::as_designator(&designator) else {
-        return Ok(Action::Fail);
-    };
-    let property = engine.bindings.walk(property);
-    let wanted = engine.bindings.walk(&property.car_or_nil());
-    let is_open = wanted.as_foreign::<Variable>().is_some();
-    let mut items = Vec::new();
-    for (key, values) in designator.properties() {
-        let is_wanted = is_open || key.is_eql(&wanted) || equality::equal(&key, &wanted);
-        if !is_wanted {
-            continue;
-        }
-        if is_checked && let Some(name) = key.as_symbol().map(|s| image.name(s).to_owned()) {
-            check::check_property(image, designator, &name, &values.car_or_nil())?;
-        }
-        items.push(Value::cons(key, values));
-    }
-    Ok(Action::Items(property, items))
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-/// A functor of `def-prolog-handler`.
-fn handler(
-    engine: &mut Engine,
-    image: &mut Image,
-    functor: Sym,
-    goals: &[Value],
-) -> Result<Option<Action>> {
-    let Some(function) = crate::plan::prolog::facts::of(image).handler(functor) else {
-        let known = [
-            "NOT",
-            "->",
-            "*->",
-            "!",
-            "TRUE",
-            "FAIL",
-            "CALL",
-            "FORALL",
-            "FINDALL",
-            "BAGOF",
-            "SETOF",
-            "==",
-            "EQUAL",
-            "BOUND",
-            "GROUND",
-            "MEMBER",
-            "LENGTH",
-            "APPEND",
-            "MAX",
-            "SORT",
-            "REDUCE",
-            "LISP-FUN",
-            "LISP-TYPE",
-            "INSTANCE-OF",
-            "ASSERT-TYPE",
-            "SYMBOL-VALUE",
-            "SLOT-VALUE",
-            "PROPERTY",
-            "DESIG-PROP",
-            "CURRENT-DESIGNATOR",
-        ];
-        let name = image.name(functor);
-        if known.contains(&name) {
-            return Err(Raise::simple(format!(
-                "The Prolog goal {} does not take {} argument{}.",
-                print::to_string(image, &functor.into(), true),
-                goals.len(),
-                if goals.len() == 1 { "" } else { "s" }
-            )));
+    #[test]
+    fn no_functor_is_there_twice() {
+        for (index, functor) in TABLE.iter().enumerate() {
+            let mut others = TABLE.iter().skip(index + 1);
+            assert!(
+                others.all(|other| other.name != functor.name),
+                "{}",
+                functor.name
+            );
         }
-        return Ok(None);
-    };
-    let mut args = vec![engine.solution()?];
-    let mut variables = Vec::new();
-    for goal in goals {
-        let term = engine.bindings.resolve(goal)?;
-        if term.as_foreign::<Variable>().is_some() {
-            variables.push(term.clone());
-        }
-        args.push(engine.shown(&term)?);
     }
-    Ok(Some(Action::CallBindings {
-        function,
-        args,
-        variables,
-    }))
 }

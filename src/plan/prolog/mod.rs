@@ -1,4 +1,5 @@
 //! A small Prolog over Lisp values: fact groups, and proofs that may call Lisp functions.
+//! It knows no designators: layers above add functors of their own to the table.
 //!
 //! Variables are symbols that begin with `?`. Functors of the language itself are
 //! recognised by name in whatever package they are written; those of fact groups by
@@ -8,5 +9,7 @@
 pub(crate) mod builtins;
 pub(crate) mod engine;
 pub(crate) mod facts;
-mod functors;
+pub(crate) mod functor;
+pub(crate) mod functors;
+pub(crate) mod goal;
 pub(crate) mod term;

@@ -169,6 +169,26 @@ impl Bindings {
         Ok(Value::list_with_tail(items, rest))
     }
 
+    /// A term with unbound variables as the symbols that they were written as.
+    pub(crate) fn shown(&self, term: &Value) -> Result<Value, Box<Raise>> {
+        fn named(term: &Value) -> Value {
+            match term {
+                Value::Foreign(_) => match term.as_foreign::<Variable>() {
+                    Some(variable) => variable.name.into(),
+                    None => term.clone(),
+                },
+                // `resolve` limits how deep this goes.
+                Value::Cons(_) => {
+                    let mut rest = term.iter_list();
+                    let items: Vec<Value> = rest.by_ref().map(|t| named(&t)).collect();
+                    Value::list_with_tail(items, named(&rest.rest))
+                }
+                other => other.clone(),
+            }
+        }
+        Ok(named(&self.resolve(term)?))
+    }
+
     /// Is there an unbound variable in the term?
     pub(crate) fn is_ground(&self, term: &Value) -> Result<bool, Box<Raise>> {
         let mut pending = vec![self.resolve(term)?];

@@ -22,7 +22,7 @@ impl Session {
         }
         let special = match designators::spot(&context) {
             Some(Spot::Class) => designators::classes(),
-            Some(Spot::Key(described)) => designators::keys(&described),
+            Some(Spot::Key(described)) => designators::keys(&self.image, &described),
             Some(Spot::Value(described, key)) => self.values_of_key(&described, key, &context),
             None => Vec::new(),
         };

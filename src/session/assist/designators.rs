@@ -2,6 +2,9 @@
 
 use super::context::{Context, Open, bare};
 use super::{first_sentence, lower};
+use std::rc::Rc;
+
+use crate::lisp::image::Image;
 use crate::plan::designator::schema;
 use crate::plan::designator::schema::{Key, Kind, TypeRow};
 use crate::plan::designator::value::Class;
@@ -61,37 +64,35 @@ impl Described<'_, '_> {
             .and_then(|(_, value)| *value)
     }
 
-    /// The table rows of its type.
-    pub(super) fn rows(&self) -> Vec<&'static TypeRow> {
+    /// The rows of its type.
+    fn rows(&self, image: &Image) -> Vec<Rc<TypeRow>> {
         let name = self.value_of("type").map(|name| bare(name).to_uppercase());
-        name.map_or_else(Vec::new, |name| schema::rows(self.class, &name).collect())
+        name.map_or_else(Vec::new, |name| schema::rows(image, self.class, &name))
     }
 
     /// The keys that it takes.
-    pub(super) fn keys(&self) -> Vec<&'static Key> {
+    pub(super) fn keys(&self, image: &Image) -> Vec<Key> {
         match self.class {
-            Class::Object => schema::OBJECT_KEYS.iter().collect(),
-            Class::Location => schema::LOCATION_KEYS.iter().collect(),
+            Class::Object => schema::OBJECT_KEYS.to_vec(),
+            Class::Location => schema::LOCATION_KEYS.to_vec(),
             _ => {
-                let mut keys: Vec<&'static Key> = Vec::new();
-                for key in self.rows().into_iter().flat_map(|row| row.keys) {
-                    if !keys.iter().any(|known| known.name == key.name) {
-                        keys.push(key);
-                    }
+                let mut keys: Vec<Key> = Vec::new();
+                for row in self.rows(image) {
+                    let is_new = |key: &&Key| keys.iter().all(|known| known.name != key.name);
+                    let new: Vec<Key> = row.keys.iter().filter(is_new).cloned().collect();
+                    keys.extend(new);
                 }
                 keys
             }
         }
     }
 
-    /// The key with that name.
-    pub(super) fn key(&self, name: &str) -> Option<&'static Key> {
+    /// The key of that name.
+    pub(super) fn key(&self, image: &Image, name: &str) -> Option<Key> {
         let name = bare(name).to_uppercase();
-        let keys = self.keys().into_iter();
-        keys.clone().find(|key| key.name == name).or_else(|| {
-            keys.clone()
-                .find(|key| key.aliases.contains(&name.as_str()))
-        })
+        let mut keys = self.keys(image);
+        keys.sort_by_key(|key| key.name != name);
+        keys.into_iter().find(|key| key.is_named(&name))
     }
 }
 
@@ -112,16 +113,16 @@ pub(super) fn classes() -> Vec<Candidate> {
     ]
 }
 
-/// The keys that could be added, without those already present.
-pub(super) fn keys(described: &Described<'_, '_>) -> Vec<Candidate> {
+/// The keys that could stand there, those that are there already left out.
+pub(super) fn keys(image: &Image, described: &Described<'_, '_>) -> Vec<Candidate> {
     let mut keys: Vec<Candidate> = Vec::new();
     if described.value_of("type").is_none() && described.class != Class::Location {
         keys.push(candidate("type", "what kind it is"));
     }
-    let is_new = |key: &&Key| key.name != "TYPE" && described.value_of(key.name).is_none();
-    for key in described.keys().into_iter().filter(is_new) {
+    let is_new = |key: &Key| key.name != "TYPE" && described.value_of(&key.name).is_none();
+    for key in described.keys(image).into_iter().filter(is_new) {
         let mark = if key.is_required { " (needed)" } else { "" };
-        keys.push(candidate(lower(key.name), format!("{}{mark}", key.doc)));
+        keys.push(candidate(lower(&key.name), format!("{}{mark}", key.doc)));
     }
     keys
 }
@@ -136,7 +137,7 @@ impl Session {
     ) -> Vec<Candidate> {
         let name = lower(bare(key));
         match (name.as_str(), described.class) {
-            ("type", Class::Action | Class::Motion) => types(described.class),
+            ("type", Class::Action | Class::Motion) => types(&self.image, described.class),
             ("type", _) => self.object_types(),
             ("name", _) => self.object_names(),
             ("arm" | "arms" | "gripper" | "camera", _) => vec![
@@ -147,17 +148,19 @@ impl Session {
             ("direction", _) => ["forward", "left", "right", "up", "down"]
                 .map(|direction| candidate(direction, "where to look"))
                 .to_vec(),
-            ("collision-mode", _) => vec![
-                candidate("avoid-all", "touch nothing"),
-                candidate("allow-hand", "the hand may touch"),
-                candidate("allow-all", "the arm may touch"),
-            ],
             ("object" | "of", _) => vec![candidate("(an object ", "a description of an object")],
-            _ => match described.key(key).map(|key| key.kind) {
-                Some(Kind::Location | Kind::Place) => {
+            _ => match described
+                .key(&self.image, key)
+                .map(|key| (key.kind, key.doc))
+            {
+                Some((Kind::Member(members), doc)) => members
+                    .iter()
+                    .map(|member| candidate(lower(member), doc.clone()))
+                    .collect(),
+                Some((Kind::Location | Kind::Place, _)) => {
                     vec![candidate("(a location ", "a description of a place")]
                 }
-                Some(Kind::Object | Kind::Objects) => {
+                Some((Kind::Object | Kind::DetectedObject | Kind::Objects, _)) => {
                     vec![candidate("(an object ", "a description of an object")]
                 }
                 _ => Vec::new(),
@@ -210,13 +213,13 @@ impl Session {
     }
 }
 
-/// The types of a class, excluding aliases.
-fn types(class: Class) -> Vec<Candidate> {
+/// The types of a class, without aliases.
+fn types(image: &Image, class: Class) -> Vec<Candidate> {
     let mut found: Vec<Candidate> = Vec::new();
-    for row in schema::TYPES.iter().filter(|row| row.class == class) {
-        let name = lower(row.name);
+    for row in schema::all(image, class) {
+        let name = lower(&row.name);
         if !found.iter().any(|c| c.text == name) {
-            found.push(candidate(name, first_sentence(row.doc)));
+            found.push(candidate(name, first_sentence(&row.doc)));
         }
     }
     found

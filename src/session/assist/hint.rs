@@ -20,13 +20,13 @@ impl Session {
         let hint = match designators::spot(&context) {
             Some(Spot::Class) => return None,
             Some(Spot::Key(described)) => {
-                let keys = described.keys().into_iter();
-                let names: Vec<String> = keys.map(|key| lower(key.name)).collect();
+                let keys = described.keys(&self.image).into_iter();
+                let names: Vec<String> = keys.map(|key| lower(&key.name)).collect();
                 (!names.is_empty()).then(|| format!("keys: {}", names.join(", ")))
             }
             Some(Spot::Value(described, name)) => {
-                let key = described.key(name);
-                key.map(|key| format!("({} …) {}", lower(key.name), key.doc))
+                let key = described.key(&self.image, name);
+                key.map(|key| format!("({} …) {}", lower(&key.name), key.doc))
             }
             None => {
                 let list = context.lists.last()?;
@@ -49,10 +49,10 @@ impl Session {
         match designators::spot(&inner) {
             Some(Spot::Key(described)) => {
                 let keys: Vec<String> = described
-                    .keys()
+                    .keys(&self.image)
                     .into_iter()
                     .map(|key| {
-                        let name = lower(key.name);
+                        let name = lower(&key.name);
                         if key.is_required {
                             format!("({name} …)")
                         } else {

@@ -31,7 +31,7 @@ impl Session {
     pub(super) fn is_type_name(&self, name: &str) -> bool {
         let upper = name.to_uppercase();
         let mut described = [Class::Action, Class::Motion].into_iter();
-        described.any(|class| schema::type_names(class).any(|known| known == upper))
+        described.any(|class| schema::is_type(&self.image, class, &upper))
             || self
                 .host
                 .simulation

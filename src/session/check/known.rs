@@ -13,7 +13,7 @@ use crate::lisp::value::symbol::Sym;
 pub(in crate::session) struct KnownNames {
     /// Names of functions, macros and variables.
     pub(crate) defined: BTreeSet<Sym>,
-    /// Names in designator rules, in upper case.
+    /// Names in rules and definitions for designators, in upper case.
     pub(crate) in_rules: BTreeSet<String>,
     /// Whether anything may be defined, because another file is loaded or a form made at run
     /// time is evaluated.
@@ -55,6 +55,7 @@ impl KnownNames {
         match head.map(|head| image.name(head)) {
             Some("DEFCLASS" | "DEFINE-CONDITION") => self.note_accessors(image, form),
             Some("DEF-FACT-GROUP") => self.note_rules(image, form),
+            Some("DEF-ACTION") => self.note_action(image, form),
             _ => {}
         }
     }
@@ -72,6 +73,23 @@ impl KnownNames {
                 options = options.cdr_or_nil();
             }
         }
+    }
+
+    /// A type of actions may be used above its definition.
+    fn note_action(&mut self, image: &Image, form: &Value) {
+        let definition = form.cdr_or_nil();
+        let is_aliases = |option: &Value| {
+            let head = option.car_or_nil().as_symbol();
+            head.is_some_and(|head| image.name(head) == "ALIASES")
+        };
+        let options = definition.cdr_or_nil().cdr_or_nil();
+        let aliases = options.iter_list().filter(is_aliases);
+        let mut names: Vec<Value> = vec![definition.car_or_nil()];
+        names
+            .extend(aliases.flat_map(|option| option.cdr_or_nil().iter_list().collect::<Vec<_>>()));
+        let names = names.iter().filter_map(Value::as_symbol);
+        self.in_rules
+            .extend(names.map(|name| image.name(name).to_uppercase()));
     }
 
     fn note_rules(&mut self, image: &Image, form: &Value) {

@@ -117,4 +117,25 @@ const TABLE: &[(&str, &str)] = &[
         "",
     ),
     ("(load \"other.plan\") (from-there from-there)", ""),
+    // Actions that the text defines are known, above their definitions and below.
+    (
+        "(in-package :pp-tut) (an action (type waving) (arm left)) \
+         (def-action waving ((arm (member left right)) &optional (times number)) (list ?arm ?times)) \
+         (an action (type waving) (arm left) (times 2))",
+        "",
+    ),
+    (
+        "(in-package :pp-tut) (def-action waving ((arm keywords \"which\")) (list ?arm)) \
+         (an action (type waving) (amr left)) (an action (type wavng) (arm left)) \
+         (an action (type waving))",
+        "1:105: The action WAVING has no key AMR; did you mean ARM?\n\
+         1:133: There is no action of type WAVNG; did you mean WAVING?\n\
+         1:156: The action WAVING needs (arm …): which.",
+    ),
+    (
+        "(in-package :pp-tut) (def-action waving ((arm side)) ?arm)",
+        "1:42: In the key (ARM SIDE): SIDE is not a kind; there are LOCATION, PLACE, OBJECT, \
+         DETECTED-OBJECT, OBJECTS, NUMBER, KEYWORDS, KEYWORD, SYMBOL, STRING, LIST, POSES, POSE, \
+         KEYWORD-OR-OBJECT, ACTION, T, and (MEMBER …).",
+    ),
 ];

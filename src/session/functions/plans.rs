@@ -94,8 +94,8 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
     control(
         "PLACING-TARGET",
-        "object target",
-        "The pose where an object is to be placed.",
+        "object target name",
+        "The pose where an object is to be placed: the target; else where the described object was detected; else where that of the name was when a hand took it.",
         &[],
         host!(placing_target),
     ),
@@ -363,6 +363,7 @@ fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let held = Held {
         side,
         grasp: type_text(image, &args[2]),
+        taken_from: simulation.base() * object.in_base,
     };
     simulation.held.insert(object.name, held);
     done(Value::NIL)
@@ -436,6 +437,12 @@ fn object_to_place(
 fn placing_target(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     if args[1].is_true() {
         return done(Simulation::location_pose(image, &args[1])?);
+    }
+    let name = simulation.object_named(image, &args[2])?;
+    if args[0].is_nil()
+        && let Some(held) = simulation.held.get(&name)
+    {
+        return done(in_base(&(simulation.base().inverse() * held.taken_from)));
     }
     let object = simulation.perceived(image, &args[0])?;
     done(in_base(&object.in_base))

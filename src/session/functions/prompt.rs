@@ -128,38 +128,29 @@ fn tell_help(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply
 }
 
 fn list_actions(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
-    let rows = schema::TYPES
-        .iter()
-        .filter(|row| row.class == Class::Action);
-    let text: String = rows.map(row_text).collect();
+    let rows = schema::all(image, Class::Action);
+    let text: String = rows.iter().map(|row| row_text(row)).collect();
     say(image, &text);
     nothing()
 }
 
-/// An action or motion with its keys, optional ones in brackets.
+/// An action or motion with its keys.
 fn row_text(row: &schema::TypeRow) -> String {
-    let class = match row.class {
-        Class::Motion => "a motion",
-        _ => "an action",
-    };
-    let keys: Vec<String> = row
-        .keys
-        .iter()
-        .map(|key| {
-            let name = key.name.to_lowercase();
-            if key.is_required {
-                format!("({name} …)")
-            } else {
-                format!("[({name} …)]")
-            }
-        })
-        .collect();
-    let type_name = row.name.to_lowercase();
-    format!(
-        "({class} (type {type_name}) {})\n    {}\n",
-        keys.join(" "),
-        row.doc
-    )
+    format!("{}\n    {}\n", row.shape(), row.doc)
+}
+
+/// What the keys of an action or motion mean, and an example.
+fn keys_text(row: &schema::TypeRow) -> String {
+    let mut text = String::new();
+    for key in &row.keys {
+        let mark = if key.is_required { ", needed" } else { "" };
+        let name = key.name.to_lowercase();
+        text.push_str(&format!("      {name}: {}{mark}\n", key.doc));
+    }
+    if let Some(example) = &row.example {
+        text.push_str(&format!("    For example {example}\n"));
+    }
+    text
 }
 
 fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
@@ -174,15 +165,10 @@ fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
             text.push_str(&told);
         }
     }
-    for row in schema::TYPES.iter().filter(|row| row.is_named(&name)) {
-        text.push_str(&row_text(row));
-        for key in row.keys {
-            let mark = if key.is_required { ", needed" } else { "" };
-            text.push_str(&format!(
-                "      {}: {}{mark}\n",
-                key.name.to_lowercase(),
-                key.doc
-            ));
+    for class in [Class::Action, Class::Motion] {
+        for row in schema::rows(image, class, &name) {
+            text.push_str(&row_text(&row));
+            text.push_str(&keys_text(&row));
         }
     }
     if let Some(kind) = type_text(image, &args[0])

@@ -4,6 +4,7 @@ use crate::lisp::builtin::{Builtin, Operator};
 use crate::lisp::image::Image;
 use crate::lisp::value::package::PackageTable;
 use crate::session::functions;
+use crate::session::simulation::motion_types;
 
 /// Builtins by package.
 static FUNCTIONS: &[(&str, &[Builtin])] = &[
@@ -15,6 +16,8 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("ROSLISP", functions::ros::LOG_TABLE),
     ("ROSLISP-UTILITIES", functions::ros::UTILITIES_TABLE),
     ("ROS-LOAD", functions::ros::LOAD_TABLE),
+    ("ASDF", functions::ros::ASDF_TABLE),
+    ("QUICKLISP-CLIENT", functions::ros::QUICKLISP_TABLE),
     ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::snapshots::TABLE),
     ("PLANWRIGHT", functions::pictures::TABLE),
@@ -62,6 +65,7 @@ pub(crate) fn install(image: &mut Image) {
         }
     }
     image.install(PackageTable::CL, functions::leaving::TABLE);
+    motion_types::install(image);
     for (from, to, names) in ALIASES {
         let (Some(from), Some(to)) = (image.packages.find(from), image.packages.find(to)) else {
             continue;

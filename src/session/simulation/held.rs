@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use crate::robot::Side;
+use crate::spatial::Pose;
 
 /// How an object is held.
 #[derive(Clone, Debug, PartialEq)]
@@ -10,6 +11,8 @@ pub(in crate::session) struct Held {
     pub(crate) side: Side,
     /// The grasp by which it was picked up, if known.
     pub(crate) grasp: Option<String>,
+    /// Where it was detected before that, in the map.
+    pub(crate) taken_from: Pose,
 }
 
 impl Simulation {

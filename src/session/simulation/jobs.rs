@@ -98,7 +98,7 @@ impl Jobs {
         }
         let mut still_waiting = VecDeque::new();
         while let Some(job) = self.waiting.pop_front() {
-            let is_busy = |other: &Job| other.module == job.module;
+            let is_busy = |other: &Job| job.module.excludes(other.module);
             if self.active.iter().any(is_busy) || still_waiting.iter().any(is_busy) {
                 still_waiting.push_back(job);
             } else {

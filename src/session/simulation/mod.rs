@@ -6,6 +6,7 @@ pub(super) mod grasp_search;
 pub(super) mod held;
 pub(super) mod imagined;
 pub(crate) mod jobs;
+pub(super) mod motion_types;
 pub(super) mod motions;
 pub(super) mod names;
 mod outcome;

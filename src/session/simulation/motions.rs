@@ -9,11 +9,8 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
-use crate::motion::{
-    CollisionMode, Detect, DetectQuery, DetectedObject, Drive, GripperCommand, Look, LookDirection,
-    LookTarget, Motion, MoveGripper, MoveJoints, MoveTcp, MoveTorso, PoseGoal, ProcessModule, Put,
-    TcpPath, Together,
-};
+use crate::motion::command::{self, Argument, ArgumentKind, Arguments, MotionCommand};
+use crate::motion::{DetectQuery, DetectedObject, Motion, PoseGoal};
 use crate::plan::designator::MotionRequest;
 use crate::plan::designator::failure::no_process_module;
 use crate::plan::designator::object;
@@ -67,196 +64,82 @@ fn real(value: &Value) -> Result<f64> {
 }
 
 impl Simulation {
-    /// The motion that a designator describes, and the designator named in its failures.
+    /// The motion that is requested, and what its failures are about.
     pub(in crate::session) fn motion_for(
         &mut self,
         image: &mut Image,
         request: &MotionRequest,
     ) -> Result<(Box<dyn Motion>, Value)> {
-        let designator = &request.designator;
-        let get = |image: &mut Image, key: &str| property(image, designator, key);
-        let required = |image: &mut Image, key: &str| {
-            property(image, designator, key).ok_or_else(|| {
-                Raise::simple(format!(
-                    "{} lacks ({} …).",
-                    print::to_string(image, designator, false),
-                    key.to_lowercase()
-                ))
-            })
+        let refused = |image: &mut Image, text: &dyn std::fmt::Display| {
+            let shown = print::to_string(image, &request.designator, false);
+            no_process_module(image, &format!("{shown}\n{text}"))
         };
-        let motion: Box<dyn Motion> = match request.motion_type.as_str() {
-            "GOING" => {
-                let location = match get(image, "TARGET") {
-                    Some(target) => target,
-                    None => required(image, "POSE")?,
-                };
-                let pose = Simulation::location_pose(image, &location)?;
-                let goal = self.pose_as_given(image, &pose)?;
-                return Ok((Box::new(Drive::new(&goal)), location));
+        let Some(known) = command::type_named(&request.motion_type) else {
+            return Err(refused(
+                image,
+                &"No motion of this type can be carried out.",
+            ));
+        };
+        let given = |name: &str| request.property(name).filter(|value| value.is_true());
+        let mut arguments = Arguments::default();
+        for key in known.keys {
+            if let Some(value) = given(key.name) {
+                let argument = self.argument(image, key.kind, value)?;
+                arguments.insert(key.name, argument);
             }
-            "MOVING-TORSO" => {
-                let height = required(image, "JOINT-ANGLE")?;
-                Box::new(MoveTorso::new(real(&height)?))
-            }
-            "LOOKING" => return self.looking(image, designator),
-            "DETECTING" => {
-                let object = required(image, "OBJECT")?;
-                let query = self.detecting(image, &object);
-                self.sought = Some(query.clone());
-                return Ok((Box::new(Detect::new(query)), object));
-            }
-            "OPENING" | "OPENING-GRIPPER" => {
-                self.gripper(image, designator, |_| Ok(GripperCommand::Open))?
-            }
-            "CLOSING" | "CLOSING-GRIPPER" => {
-                self.gripper(image, designator, |_| Ok(GripperCommand::Close))?
-            }
-            "MOVING-GRIPPER-JOINT" => {
-                let position = required(image, "JOINT-ANGLE")?;
-                let position = real(&position)?;
-                self.gripper(image, designator, |_| {
-                    Ok(GripperCommand::Position(position))
-                })?
-            }
-            "GRIPPING" => {
-                let object = get(image, "OBJECT").map(|o| current(&o));
-                let name = object.and_then(|o| property(image, &o, "NAME"));
-                let object = match name {
-                    Some(name) => Some(self.object_named(image, &name)?),
-                    None => None,
-                };
-                self.gripper(image, designator, |_| {
-                    Ok(GripperCommand::Grip {
-                        object: object.clone(),
-                    })
-                })?
-            }
-            "MOVING-TCP" => {
-                let mode = get(image, "COLLISION-MODE");
-                let mode = mode.and_then(|m| name_text(image, &m));
-                let (path, mode) = match mode.as_deref() {
-                    Some("ALLOW-ALL") => (TcpPath::Straight, CollisionMode::AllowAll),
-                    Some("ALLOW-HAND" | "ALLOW-FINGERS" | "ALLOW-ARM" | "ALLOW-ATTACHED") => {
-                        (TcpPath::Straight, CollisionMode::AllowHand)
-                    }
-                    _ => (TcpPath::Free, CollisionMode::AvoidAll),
-                };
-                let mut goals = [None, None];
-                for (goal, keys) in goals
-                    .iter_mut()
-                    .zip([["LEFT-TARGET", "LEFT-POSE"], ["RIGHT-TARGET", "RIGHT-POSE"]])
-                {
-                    for key in keys {
-                        if let Some(target) = get(image, key) {
-                            *goal = Some(self.tcp_goal(image, &target)?);
-                        }
-                    }
-                }
-                let [left, right] = goals;
-                Box::new(MoveTcp::new(left, right, path, mode))
-            }
-            "PUTTING" => {
-                let arm = required(image, "ARM")?;
-                let target = required(image, "TARGET")?;
-                let goal = self.tcp_goal(image, &target)?;
-                Box::new(Put::new(side(image, &arm)?, goal))
-            }
-            "MOVING-ARM-JOINTS" => {
-                let mut configurations = [None, None];
-                for (configuration, keys) in configurations.iter_mut().zip([
-                    ["LEFT-CONFIGURATION", "LEFT-JOINT-STATES"],
-                    ["RIGHT-CONFIGURATION", "RIGHT-JOINT-STATES"],
-                ]) {
-                    for key in keys {
-                        if let Some(list) = get(image, key) {
-                            *configuration = Some(numbers(&list)?);
-                        }
-                    }
-                }
-                let [left, right] = configurations;
-                Box::new(MoveJoints::new(left, right))
-            }
-            _ => {
-                let shown = print::to_string(image, designator, false);
-                return Err(no_process_module(image, &shown));
+        }
+        let command = match MotionCommand::new(known.name, &arguments) {
+            Some(Ok(command)) => command,
+            Some(Err(error)) => return Err(Raise::simple(error.to_string())),
+            None => {
+                return Err(refused(
+                    image,
+                    &"No motion of this type can be carried out.",
+                ));
             }
         };
-        Ok((motion, designator.clone()))
+        if let MotionCommand::Detecting(detecting) = &command {
+            self.sought = Some(detecting.query.clone());
+        }
+        let subject = known.about.iter().find_map(|name| given(name));
+        let subject = subject.unwrap_or(&request.designator).clone();
+        Ok((command.job(), subject))
     }
 
-    fn tcp_goal(&self, image: &mut Image, target: &Value) -> Result<PoseGoal> {
-        let pose = Simulation::location_pose(image, target)?;
-        Ok(match frame_of(&pose).as_deref() {
-            Some(BASE) => PoseGoal::InBase(self.pose_as_given(image, &pose)?),
-            _ => PoseGoal::InMap(self.pose_in_map(image, &pose)?),
+    /// A value as an argument of the kind.
+    fn argument(&self, image: &mut Image, kind: ArgumentKind, value: &Value) -> Result<Argument> {
+        Ok(match kind {
+            ArgumentKind::Number => Argument::Number(real(value)?),
+            ArgumentKind::Numbers => Argument::Numbers(numbers(value)?),
+            ArgumentKind::MapPose => {
+                let pose = Simulation::location_pose(image, value)?;
+                Argument::MapPose(self.pose_as_given(image, &pose)?)
+            }
+            ArgumentKind::Place => {
+                let pose = Simulation::location_pose(image, value)?;
+                Argument::Place(match frame_of(&pose).as_deref() {
+                    Some(BASE) => PoseGoal::InBase(self.pose_as_given(image, &pose)?),
+                    _ => PoseGoal::InMap(self.pose_in_map(image, &pose)?),
+                })
+            }
+            ArgumentKind::Frame => {
+                let name = value.as_text().unwrap_or_default();
+                self.frame_in_map(image, &name)?;
+                Argument::Word(name)
+            }
+            ArgumentKind::Word | ArgumentKind::Member(_) => {
+                Argument::Word(name_text(image, value).unwrap_or_default())
+            }
+            ArgumentKind::Side => Argument::Sides(vec![side(image, value)?]),
+            ArgumentKind::Sides => Argument::Sides(sides(image, value)?),
+            ArgumentKind::Described => Argument::Described(self.detecting(image, value)),
+            ArgumentKind::InWorld => {
+                let newest = current(value);
+                let name = property(image, &newest, "NAME");
+                let name = name.map(|name| self.object_named(image, &name));
+                Argument::InWorld(name.transpose()?)
+            }
         })
-    }
-
-    fn gripper(
-        &self,
-        image: &mut Image,
-        designator: &Value,
-        command: impl Fn(Side) -> Result<GripperCommand>,
-    ) -> Result<Box<dyn Motion>> {
-        let Some(gripper) = property(image, designator, "GRIPPER") else {
-            let shown = print::to_string(image, designator, false);
-            return Err(no_process_module(image, &shown));
-        };
-        let mut motions: Vec<Box<dyn Motion>> = Vec::new();
-        for side in sides(image, &gripper)? {
-            motions.push(Box::new(MoveGripper::new(side, command(side)?)));
-        }
-        Ok(Box::new(Together::new(ProcessModule::Grippers, motions)))
-    }
-
-    fn looking(
-        &mut self,
-        image: &mut Image,
-        designator: &Value,
-    ) -> Result<(Box<dyn Motion>, Value)> {
-        let get = |image: &mut Image, key: &str| property(image, designator, key);
-        let target = get(image, "TARGET").or_else(|| get(image, "POSE"));
-        if let Some(target) = target {
-            let pose = Simulation::location_pose(image, &target)?;
-            let look = match frame_of(&pose).as_deref() {
-                Some(BASE) => LookTarget::InBase(self.pose_as_given(image, &pose)?),
-                _ => LookTarget::InMap(self.pose_in_map(image, &pose)?),
-            };
-            return Ok((Box::new(Look::new(look)), target));
-        }
-        if let Some(frame) = get(image, "FRAME") {
-            let name = frame.as_text().unwrap_or_default();
-            self.frame_in_map(image, &name)?;
-            return Ok((Box::new(Look::new(LookTarget::Frame(name))), frame));
-        }
-        if let Some(object) = get(image, "OBJECT") {
-            let current = current(&object);
-            let name = property(image, &current, "NAME").unwrap_or(Value::NIL);
-            let name = self.object_named(image, &name)?;
-            return Ok((Box::new(Look::new(LookTarget::Frame(name))), object));
-        }
-        let Some(direction) = get(image, "DIRECTION") else {
-            let shown = print::to_string(image, designator, false);
-            return Err(no_process_module(image, &shown));
-        };
-        let text = name_text(image, &direction).unwrap_or_default();
-        let target = match text.as_str() {
-            "FORWARD" => LookDirection::Forward,
-            "LEFT" => LookDirection::Left,
-            "RIGHT" => LookDirection::Right,
-            "UP" => LookDirection::Up,
-            "DOWN" => LookDirection::Down,
-            _ => {
-                return Err(Raise::simple(format!(
-                    "{text} direction is unknown for PR2 projection PTU\n\
-                     the head looks forward, left, right, up or down"
-                )));
-            }
-        };
-        Ok((
-            Box::new(Look::new(LookTarget::Direction(target))),
-            direction,
-        ))
     }
 
     fn detecting(&self, image: &mut Image, object: &Value) -> DetectQuery {

@@ -1,0 +1,116 @@
+//! Motions as they are asked for: one variant for each type, with its arguments.
+//!
+//! What there is to know of a type stands in its file: its names, its keys, how it is made of
+//! arguments, and the job that carries it out. A new type is a file and a line in the list
+//! below. Nothing here knows how a language writes values: [`ArgumentKind`] says what a key
+//! takes, and whoever asks for a motion provides [`Arguments`] of these kinds.
+
+mod argument;
+mod detecting;
+mod going;
+mod hands;
+mod looking;
+mod motion_type;
+mod moving_arm_joints;
+mod moving_tcp;
+mod moving_torso;
+mod putting;
+mod waiting;
+
+pub(crate) use argument::{Argument, ArgumentError, ArgumentKind, Arguments};
+pub(crate) use motion_type::{MotionKey, MotionType};
+
+use super::job::Motion;
+
+/// A type of motions: a structure of its arguments.
+trait Command: Sized {
+    /// What is known of the type.
+    const TYPE: MotionType;
+
+    /// The motion with these arguments.
+    fn new(arguments: &Arguments) -> Result<Self, ArgumentError>;
+
+    /// The job that carries it out.
+    fn job(self) -> Box<dyn Motion>;
+}
+
+macro_rules! commands {
+    ($($variant:ident($file:ident)),* $(,)?) => {
+        /// A motion that is asked for.
+        #[derive(Clone, Debug, PartialEq)]
+        pub(crate) enum MotionCommand {
+            $(#[doc = concat!("See [`", stringify!($file), "`].")] $variant($file::$variant)),*
+        }
+
+        /// All types of motions, in the order of the manual.
+        pub(crate) static TYPES: &[MotionType] = &[$($file::$variant::TYPE),*];
+
+        impl MotionCommand {
+            /// The motion of the type of that name, which is no alias; `None` if there is no
+            /// such type.
+            pub(crate) fn new(
+                name: &str,
+                arguments: &Arguments,
+            ) -> Option<Result<Self, ArgumentError>> {
+                $(if name == $file::$variant::TYPE.name {
+                    return Some($file::$variant::new(arguments).map(Self::$variant));
+                })*
+                None
+            }
+
+            /// The job that carries it out.
+            pub(crate) fn job(self) -> Box<dyn Motion> {
+                match self {
+                    $(Self::$variant(command) => command.job()),*
+                }
+            }
+        }
+    };
+}
+
+commands! {
+    Going(going),
+    MovingTorso(moving_torso),
+    Looking(looking),
+    Detecting(detecting),
+    Opening(hands),
+    Closing(hands),
+    Gripping(hands),
+    MovingGripperJoint(hands),
+    MovingTcp(moving_tcp),
+    Putting(putting),
+    MovingArmJoints(moving_arm_joints),
+    Waiting(waiting),
+}
+
+/// The type of that name, which is no alias.
+pub(crate) fn type_named(name: &str) -> Option<&'static MotionType> {
+    TYPES.iter().find(|known| known.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_keys_that_a_type_refers_to_are_its_own() {
+        for motion in TYPES {
+            for name in motion.one_of.iter().chain(motion.about) {
+                assert!(motion.keys.iter().any(|key| key.name == *name), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_motion_without_its_arguments_is_refused_or_needs_none() {
+        for motion in TYPES {
+            let made = MotionCommand::new(motion.name, &Arguments::default());
+            let is_optional = motion.keys.iter().all(|key| !key.is_required);
+            assert!(
+                made.is_some_and(|made| made.is_err() || is_optional),
+                "{}",
+                motion.name
+            );
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The keys of object and location designators, whatever their types.
+
+use std::borrow::Cow;
+
+use super::{Key, Kind};
+
+const fn optional(name: &'static str, kind: Kind, doc: &'static str) -> Key {
+    Key {
+        name: Cow::Borrowed(name),
+        aliases: Vec::new(),
+        kind,
+        is_required: false,
+        doc: Cow::Borrowed(doc),
+    }
+}
+
+/// Keys of object designators.
+pub(crate) static OBJECT_KEYS: &[Key] = &[
+    optional("TYPE", Kind::Keyword, "the type"),
+    optional("NAME", Kind::Symbol, "the name in the world"),
+    optional("URDF-NAME", Kind::Symbol, "the name of a link"),
+    optional("PART-OF", Kind::Keyword, "what it is a part of"),
+    optional("COLOR", Kind::Anything, "the colour"),
+    optional("SIZE", Kind::Anything, "the size"),
+    optional("POSE", Kind::Anything, "where it was seen"),
+    optional("LOCATION", Kind::Anything, "where it is"),
+    optional("CAD-MODEL", Kind::Anything, "a model of its shape"),
+];
+
+/// Keys of location designators.
+pub(crate) static LOCATION_KEYS: &[Key] = &[
+    optional("POSE", Kind::PoseStamped, "the pose itself"),
+    optional("OBJECT", Kind::Object, "the object to reach or see"),
+    optional("ARM", Kind::Keyword, "the arm that is to reach"),
+    optional("OF", Kind::Anything, "the object whose location it is"),
+    optional("ON", Kind::Anything, "the surface it is on"),
+    optional("IN", Kind::Anything, "the container it is in"),
+    optional("ABOVE", Kind::Anything, "what it is above of"),
+    optional("LOCATION", Kind::Anything, "the location to reach or see"),
+    optional("REACHABLE-FOR", Kind::Anything, "who is to reach it"),
+    optional("VISIBLE-FOR", Kind::Anything, "who is to see it"),
+    optional("SIDE", Kind::Anything, "left, right, front or back"),
+    optional("RANGE", Kind::Anything, "how far away at most (m)"),
+    optional("RANGE-INVERT", Kind::Anything, "how far away at least (m)"),
+    optional(
+        "CENTERED-WITH-PADDING",
+        Kind::Anything,
+        "how far from the edges (m)",
+    ),
+    optional("LEFT-OF", Kind::Anything, "what it is left of"),
+    optional("RIGHT-OF", Kind::Anything, "what it is right of"),
+    optional("IN-FRONT-OF", Kind::Anything, "what it is in front of"),
+    optional("BEHIND", Kind::Anything, "what it is behind of"),
+    optional("NEAR", Kind::Anything, "what it is near to"),
+    optional("FAR-FROM", Kind::Anything, "what it is far from"),
+    optional("FOR", Kind::Anything, "what it is for"),
+    optional("CONTEXT", Kind::Anything, "what it is used for"),
+    optional(
+        "OBJECT-COUNT",
+        Kind::Anything,
+        "how many objects are to fit",
+    ),
+];

@@ -1,0 +1,125 @@
+//! One type of action or motion, and one of its keys.
+
+use std::borrow::Cow;
+
+use super::Kind;
+use crate::lisp::value::symbol::Sym;
+use crate::plan::designator::value::Class;
+
+/// A name or a text of a row: of the program itself, or of a definition that was read.
+pub(crate) type Text = Cow<'static, str>;
+
+/// One key.
+#[derive(Clone, Debug)]
+pub(crate) struct Key {
+    /// The name in upper case.
+    pub(crate) name: Text,
+    /// Other names for it.
+    pub(crate) aliases: Vec<Text>,
+    /// What it takes.
+    pub(crate) kind: Kind,
+    /// Must it be there?
+    pub(crate) is_required: bool,
+    /// What it means.
+    pub(crate) doc: Text,
+}
+
+impl Key {
+    /// Is this the key's name or another name for it?
+    pub(crate) fn is_named(&self, name: &str) -> bool {
+        self.name == name || self.aliases.iter().any(|alias| alias == name)
+    }
+
+    /// Its names, aliases last.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(&self.name)
+            .chain(&self.aliases)
+            .map(|name| &**name)
+    }
+}
+
+/// One type of action or motion.
+#[derive(Clone, Debug)]
+pub(crate) struct TypeRow {
+    /// Action or motion.
+    pub(crate) class: Class,
+    /// The type's name in upper case.
+    pub(crate) name: Text,
+    /// Which of several rows of that name this is; they are told apart by the keys that are
+    /// required.
+    pub(crate) variant: Option<Text>,
+    /// Other names for it.
+    pub(crate) aliases: Vec<Text>,
+    /// The function of an action's plan; `NIL` for a motion, which has none.
+    pub(crate) plan: Sym,
+    /// The keys that it reads.
+    pub(crate) keys: Vec<Key>,
+    /// Of these keys at least one must be there; none if the list is empty.
+    pub(crate) one_of: Vec<Text>,
+    /// Is a designator without the keys that are needed taken for one of an unknown type?
+    pub(crate) is_known_by_keys: bool,
+    /// What it does.
+    pub(crate) doc: Text,
+    /// A designator of the type, as it is written.
+    pub(crate) example: Option<Text>,
+}
+
+impl TypeRow {
+    /// Is this the type's name or another name for it?
+    pub(crate) fn is_named(&self, name: &str) -> bool {
+        self.names().any(|known| known == name)
+    }
+
+    /// Its names, aliases last.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        std::iter::once(&self.name)
+            .chain(&self.aliases)
+            .map(|name| &**name)
+    }
+
+    /// The key of that name.
+    pub(crate) fn key(&self, name: &str) -> Option<&Key> {
+        self.keys.iter().find(|key| key.is_named(name))
+    }
+
+    /// All key names, with aliases.
+    pub(crate) fn key_names(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().flat_map(Key::names)
+    }
+
+    /// What is needed and not there, for people: a key that is required, or one of several.
+    pub(crate) fn lacking(&self, is_there: impl Fn(&str) -> bool) -> Option<String> {
+        let is_given = |key: &Key| key.names().any(&is_there);
+        if let Some(key) = self.keys.iter().find(|k| k.is_required && !is_given(k)) {
+            let meaning = match &*key.doc {
+                "" => String::new(),
+                doc => format!(": {doc}"),
+            };
+            return Some(format!("({} …){meaning}", key.name.to_lowercase()));
+        }
+        let mut choices = self.one_of.iter().filter_map(|name| self.key(name));
+        if self.one_of.is_empty() || choices.any(is_given) {
+            return None;
+        }
+        let names: Vec<String> = self.one_of.iter().map(|n| n.to_lowercase()).collect();
+        Some(format!("one of {}", names.join(", ")))
+    }
+
+    /// The shape of a designator of the type; keys that need not be there are in brackets.
+    pub(crate) fn shape(&self) -> String {
+        let article = match self.class {
+            Class::Motion => "a motion",
+            _ => "an action",
+        };
+        let mut shape = format!("({article} (type {})", self.name.to_lowercase());
+        for key in &self.keys {
+            let name = key.name.to_lowercase();
+            shape.push_str(&match key.is_required {
+                true => format!(" ({name} …)"),
+                false => format!(" [({name} …)]"),
+            });
+        }
+        shape.push(')');
+        shape
+    }
+}

@@ -1,0 +1,116 @@
+//! A functor that Rust carries out: one row of a table.
+
+use super::goal::Action;
+use super::term::Bindings;
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
+
+/// A functor. It is recognised by its name, in whatever package that is written.
+pub(crate) struct Functor {
+    /// The name in upper case.
+    pub(crate) name: &'static str,
+    /// The shape of a goal, after the functor. The number of arguments is read from it.
+    pub(crate) arguments: &'static str,
+    /// When the goal holds.
+    pub(crate) doc: &'static str,
+    /// What a goal asks for.
+    pub(crate) apply: fn(Call<'_>) -> Result<Action, Box<Raise>>,
+}
+
+/// A functor.
+pub(crate) const fn functor(
+    name: &'static str,
+    arguments: &'static str,
+    doc: &'static str,
+    apply: fn(Call<'_>) -> Result<Action, Box<Raise>>,
+) -> Functor {
+    Functor {
+        name,
+        arguments,
+        doc,
+        apply,
+    }
+}
+
+impl Functor {
+    /// May a goal have so many arguments?
+    pub(crate) fn takes(&self, count: usize) -> bool {
+        let (mut least, mut most) = (0, Some(0));
+        let mut is_optional = false;
+        for word in self.arguments.split_whitespace() {
+            match word {
+                "&optional" => is_optional = true,
+                word if word.ends_with('…') => most = None,
+                _ => {
+                    least += usize::from(!is_optional);
+                    most = most.map(|most| most + 1);
+                }
+            }
+        }
+        count >= least && most.is_none_or(|most| count <= most)
+    }
+}
+
+/// A goal that is to be proved, at its functor.
+pub(crate) struct Call<'c> {
+    /// The image.
+    pub(crate) image: &'c mut Image,
+    /// The bindings so far.
+    pub(crate) bindings: &'c mut Bindings,
+    /// The functor, as it is written.
+    pub(crate) functor: Sym,
+    /// The arguments, as many as the functor takes.
+    pub(crate) args: &'c [Value],
+    /// How many choices there were when the clause of the goal was entered: `!` goes back to
+    /// that many.
+    pub(crate) clause: usize,
+    /// How many choices there are.
+    pub(crate) barrier: usize,
+    /// The number of the next choice.
+    pub(crate) next_choice: u64,
+}
+
+impl Call<'_> {
+    /// An argument; `NIL` beyond the last one.
+    pub(crate) fn arg(&self, index: usize) -> Value {
+        self.args.get(index).cloned().unwrap_or(Value::NIL)
+    }
+
+    /// The arguments from one on.
+    pub(crate) fn rest(&self, from: usize) -> &[Value] {
+        self.args.get(from..).unwrap_or_default()
+    }
+
+    /// Makes two terms equal: the goal holds if that is possible.
+    pub(crate) fn unify(self, a: &Value, b: &Value) -> Action {
+        holds(self.bindings.unify(a, b))
+    }
+
+    /// Arguments as functions get them.
+    pub(crate) fn shown(&self, terms: &[Value]) -> Result<Vec<Value>, Box<Raise>> {
+        terms.iter().map(|term| self.bindings.shown(term)).collect()
+    }
+}
+
+/// The goal holds, or it does not.
+pub(crate) fn holds(is_so: bool) -> Action {
+    if is_so { Action::Succeed } else { Action::Fail }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_number_of_arguments_is_read_from_the_shape() {
+        let takes =
+            |arguments, count| functor("F", arguments, "", |_| Ok(Action::Fail)).takes(count);
+        assert!(takes("", 0) && !takes("", 1));
+        assert!(takes("a b", 2) && !takes("a b", 1) && !takes("a b", 3));
+        assert!(takes("a &optional b", 1) && takes("a &optional b", 2));
+        assert!(!takes("a &optional b", 3));
+        assert!(takes("a goal…", 1) && takes("a goal…", 7) && !takes("a goal…", 0));
+    }
+}
