@@ -157,8 +157,13 @@ fn walk(class: Class) {
     let mut lies = Vec::new();
     for row in &rows {
         assert!(row.example.is_some(), "{} has no example", row.name);
-        for designator in designators(row) {
-            let mut table = Table::new();
+        let holds = matches!(&*row.name, "GRIPPING" | "PICKING-UP" | "PLACING");
+        let mut table = Table::new();
+        for (index, designator) in designators(row).into_iter().enumerate() {
+            // What a hand has taken is not on the table any more.
+            if holds && index > 0 {
+                table = Table::new();
+            }
             if row.name == "PLACING" {
                 let picked =
                     table.perform("(an action (type picking-up) (object ?object) (arm left))");

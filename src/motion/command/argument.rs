@@ -121,7 +121,7 @@ impl Arguments {
     /// A pose in its frame, if it is there.
     pub(super) fn place(&self, key: &str) -> Option<PoseGoal> {
         match self.get(key) {
-            Some(Argument::Place(place)) => Some(place.clone()),
+            Some(Argument::Place(place)) => Some(*place),
             _ => None,
         }
     }

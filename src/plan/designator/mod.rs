@@ -20,9 +20,7 @@ pub(crate) mod schema;
 pub(crate) mod syntax;
 pub(crate) mod value;
 
-pub(crate) use failure::no_process_module;
 pub(crate) use request::MotionRequest;
-pub(crate) use value::current;
 
 use super::{library, packages, prolog as prolog_rules};
 use crate::lisp::image::Image;
@@ -82,11 +80,6 @@ pub(crate) fn property(image: &Image, designator: &Value, key: &str) -> Option<V
     value::as_designator(designator)?
         .property_named(image, key)
         .filter(Value::is_true)
-}
-
-/// Does a designator ask for all things that fit?
-pub(crate) fn asks_for_all(_: &Image, designator: &Value) -> bool {
-    value::as_designator(designator).is_some_and(value::Designator::is_all)
 }
 
 fn define_class(image: &mut Image, name: Sym, superclass: Sym) {

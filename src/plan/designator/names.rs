@@ -114,11 +114,3 @@ fn uncamel(name: &str) -> String {
     }
     out
 }
-
-/// Do two values name the same thing?
-pub(crate) fn same_name(image: &Image, a: &Value, b: &Value) -> bool {
-    match (name_text(image, a), name_text(image, b)) {
-        (Some(a), Some(b)) => canonical(&a) == canonical(&b),
-        _ => false,
-    }
-}

@@ -447,7 +447,7 @@ fn perceived_objects_keep_what_was_asked_for() {
     let mut image = image();
     let query = crate::plan::designator::value::make(
         &mut image,
-        crate::plan::designator::value::Class::Object,
+        Class::Object,
         &[("COLOR", Value::Int(1))],
     );
     let (name, kind) = (image.keyword("BOTTLE-1"), image.keyword("BOTTLE"));

@@ -139,14 +139,6 @@ impl Designator {
             .collect()
     }
 
-    /// The first value of the first property of a key.
-    pub(crate) fn property(&self, key: Sym) -> Option<Value> {
-        self.properties()
-            .into_iter()
-            .find(|(k, _)| k.as_symbol() == Some(key))
-            .map(|(_, values)| values.car_or_nil())
-    }
-
     /// The first value of the property whose key has the name (upper case).
     pub(crate) fn property_named(&self, image: &Image, name: &str) -> Option<Value> {
         self.properties()

@@ -31,13 +31,6 @@ impl Foreign for Variable {
     }
 }
 
-/// Is this symbol a variable as plans write them?
-pub(crate) fn is_variable_name(image: &Image, value: &Value) -> bool {
-    value
-        .as_symbol()
-        .is_some_and(|sym| image.name(sym).starts_with('?'))
-}
-
 fn too_deep() -> Box<Raise> {
     Raise::simple("A term of a Prolog goal is nested too deeply.")
 }
