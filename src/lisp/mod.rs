@@ -21,6 +21,7 @@ pub(crate) mod types;
 pub(crate) mod value;
 pub(crate) mod vm;
 
+#[cfg(test)]
 pub(crate) use image::Image;
 pub(crate) use value::Value;
 pub(crate) use value::raise::Raise;

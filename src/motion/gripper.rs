@@ -38,6 +38,7 @@ pub(crate) type MoveGripper = Job<Fingers>;
 
 /// What the fingers of a hand are doing.
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant, reason = "there are two of them at a time")]
 pub(crate) enum Fingers {
     /// They move to an opening.
     Move(JointMotion<FingerGoal>),

@@ -58,5 +58,4 @@ pub(crate) use move_tcp::{MoveTcp, PoseGoal, TcpPath};
 pub(crate) use move_torso::MoveTorso;
 pub(crate) use put::Put;
 pub(crate) use reach::{can_reach, can_stand, touching_at};
-pub(crate) use together::Together;
 pub(crate) use unreachable::{UnreachablePose, UnreachableReason};

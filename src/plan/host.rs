@@ -61,9 +61,11 @@ pub(crate) trait Host {
 }
 
 /// A host without a world.
+#[cfg(test)]
 #[derive(Default, Clone, Copy, Debug)]
 pub(crate) struct NullHost;
 
+#[cfg(test)]
 impl Host for NullHost {
     fn request(&mut self, _: &mut Image, _: TaskId, _: Box<dyn Any>) -> Reply {
         Reply::Now(Err(Raise::control("There is no world to act in.")))

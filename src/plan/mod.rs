@@ -25,14 +25,13 @@ mod state;
 mod task;
 mod tree;
 
-pub(crate) use fluent::{Fluent, FluentRef};
-pub(crate) use host::{Advance, Host, NullHost, Outcome, Reply, Ticket};
+#[cfg(test)]
+pub(crate) use host::NullHost;
+pub(crate) use host::{Advance, Host, Reply, Ticket};
 pub(crate) use install::install;
-pub(crate) use journal::TaskChange;
 pub(crate) use overview::tell_overview;
-pub(crate) use scheduler::{Evaluation, Scheduler, TaskInfo};
+pub(crate) use scheduler::{Evaluation, Scheduler};
 pub(crate) use state::Plan;
-pub(crate) use task::{Status, Task, TaskId, TaskName, TaskRef};
-pub(crate) use tree::{NodeObject, TreeNode};
+pub(crate) use task::{Status, TaskId, TaskRef};
 
 type Result<T> = std::result::Result<T, Box<crate::lisp::value::raise::Raise>>;

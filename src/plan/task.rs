@@ -96,6 +96,7 @@ pub(crate) struct Task {
     /// Its name.
     pub(crate) name: TaskName,
     /// Is it the outermost task of a plan?
+    #[allow(dead_code, reason = "part of the data")]
     pub(crate) is_toplevel: bool,
     /// Its place in the task tree.
     pub(crate) node: Rc<TreeNode>,

@@ -67,7 +67,7 @@ fn a_robot_with_other_names_moves() {
     };
     let form = "(in-package :pp-tut)
                 (with-simulated-robot
-                  (perform (a motion (type moving-torso) (joint-angle 0.2)))
+                  (perform (a motion (type moving-torso) (joint-angle 0.2d0)))
                   (perform (a motion (type looking) (direction down))))";
     let outcome = session.evaluate("test", form, &mut sink);
     assert_eq!(outcome, Outcome::Finished, "{printed}");

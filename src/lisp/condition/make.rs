@@ -77,6 +77,7 @@ pub(crate) fn make_condition(
 }
 
 /// The text that a condition brings along itself: that of an error in Rust code.
+#[cfg(test)]
 pub(crate) fn report(condition: &Value) -> Option<String> {
     match condition {
         Value::Instance(instance) => instance.slot(known::REPORT)?.as_text(),

@@ -2,4 +2,4 @@
 
 pub(crate) mod classes;
 pub(crate) mod make;
-pub(crate) use make::{Draft, draft, make, make_condition, report};
+pub(crate) use make::{draft, make, make_condition};

@@ -19,9 +19,11 @@ mod suggest;
 mod symbol;
 
 pub(crate) use completeness::{Completeness, is_complete};
-pub(crate) use error::{ReadError, ReadErrorKind};
+pub(crate) use error::ReadError;
 pub(crate) use lexer::{Lexer, Token, TokenKind};
-pub(crate) use parser::{Outcome, Reader, read_all};
+#[cfg(test)]
+pub(crate) use parser::read_all;
+pub(crate) use parser::{Outcome, Reader};
 pub(crate) use suggest::nearest;
 pub(crate) use symbol::upcase;
 

@@ -109,6 +109,7 @@ impl Kind {
 }
 
 /// Reads all forms of a source in the current package.
+#[cfg(test)]
 pub(crate) fn read_all(
     image: &mut Image,
     source: SourceId,

@@ -16,8 +16,6 @@ pub(crate) mod type_of;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use parse::parse;
-pub(crate) use specifier::{Answers, Stop, Type};
 pub(crate) use test::{TypeCheck, typep, typep_with};
 pub(crate) use type_of::type_of;
 

@@ -20,8 +20,10 @@ pub(crate) enum TypeCheck {
     /// The value of a call is needed first; [`typep_with`] goes on from there.
     NeedsCall {
         /// The function.
+        #[allow(dead_code, reason = "part of the data")]
         function: Value,
         /// The arguments.
+        #[allow(dead_code, reason = "part of the data")]
         args: Vec<Value>,
     },
 }

@@ -35,11 +35,6 @@ impl Vector {
             .unwrap_or_else(|| self.items.borrow().len())
     }
 
-    /// Has the vector no active element?
-    pub(crate) fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
     /// The element at an index, whether or not the fill pointer covers it.
     pub(crate) fn get(&self, index: usize) -> Option<Value> {
         self.items.borrow().get(index).cloned()

@@ -78,6 +78,7 @@ pub(crate) enum Op {
     /// Return the top.
     Return,
     /// Make the top a single value.
+    #[allow(dead_code, reason = "part of the data")]
     Primary,
     /// Pop the values of a call and push exactly so many of them.
     Spread(u32),

@@ -88,6 +88,7 @@ impl HashTable {
     }
 
     /// Is there no entry?
+    #[cfg(test)]
     pub(crate) fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -5,11 +5,12 @@ use super::symbol::{Sym, SymbolTable};
 
 macro_rules! known {
     ($($package:ident { $($id:ident = $name:literal),* $(,)? })*) => {
-        #[allow(non_camel_case_types, clippy::upper_case_acronyms)]
+        #[allow(dead_code, non_camel_case_types, clippy::upper_case_acronyms)]
         #[repr(u32)]
         enum Index { $($($id,)*)* }
         $($(
             #[doc = concat!("The symbol `", $name, "`.")]
+            #[allow(dead_code, reason = "the table makes the symbol, named in Rust or not")]
             pub(crate) const $id: Sym = Sym(Index::$id as u32);
         )*)*
         /// Package and name of every known symbol, in table order.

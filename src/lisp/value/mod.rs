@@ -158,7 +158,7 @@ impl Value {
     }
 
     /// A value of a higher layer.
-    pub(crate) fn foreign(object: impl crate::lisp::value::foreign::Foreign) -> Value {
+    pub(crate) fn foreign(object: impl foreign::Foreign) -> Value {
         Value::Foreign(Rc::new(ForeignBox::new(object)))
     }
 
@@ -259,9 +259,7 @@ impl Value {
         match (self, other) {
             (Value::Big(a), Value::Big(b)) => a == b,
             (Value::Ratio(a), Value::Ratio(b)) => a == b,
-            (Value::Foreign(a), Value::Foreign(_))
-                if crate::lisp::value::number::is_complex(self) =>
-            {
+            (Value::Foreign(a), Value::Foreign(_)) if number::is_complex(self) => {
                 a.object().is_equal(other)
             }
             _ => self.is_eq(other),

@@ -60,11 +60,6 @@ impl LispString {
         self.length.get()
     }
 
-    /// Is the string empty?
-    pub(crate) fn is_empty(&self) -> bool {
-        self.length.get() == 0
-    }
-
     /// How many characters there is room for.
     pub(crate) fn capacity(&self) -> usize {
         self.capacity.get().max(self.len())

@@ -63,6 +63,7 @@ pub(crate) struct SymbolData {
     /// How the symbol is bound as a variable.
     pub(crate) kind: VariableKind,
     /// How many dynamic bindings are alive in all fibers.
+    #[allow(dead_code, reason = "part of the data")]
     pub(crate) bindings: u32,
     /// The global function.
     pub(crate) function: FunctionCell,
@@ -114,13 +115,9 @@ impl SymbolTable {
     }
 
     /// Number of symbols.
+    #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
         self.entries.len()
-    }
-
-    /// Is there no symbol?
-    pub(crate) fn is_empty(&self) -> bool {
-        self.entries.is_empty()
     }
 
     /// All symbols, in order of creation.

@@ -7,7 +7,6 @@ use super::{Fluent, FluentName, Kind, Missed, Operation};
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::ForeignBox;
 use crate::lisp::value::slot::Slot;
-use crate::lisp::value::symbol::Sym;
 use crate::plan::state::Plan;
 
 /// A counted reference to a fluent.
@@ -167,10 +166,5 @@ impl FluentRef {
 
     pub(super) fn upgrade(weak: &Weak<ForeignBox>) -> Option<FluentRef> {
         weak.upgrade().map(FluentRef)
-    }
-
-    /// The symbol of the fluent's class.
-    pub(crate) fn type_symbol(&self) -> Sym {
-        self.get().type_symbol
     }
 }

@@ -61,7 +61,7 @@ impl Placement {
     };
 
     /// As a rigid transform.
-    pub(crate) fn to_pose(&self) -> spatial::Pose {
+    pub(crate) fn to_pose(self) -> spatial::Pose {
         spatial::Pose::from_parts(
             Translation3::from(self.position.0),
             self.orientation.rotation(),
@@ -98,12 +98,7 @@ pub(crate) struct PoseStamped {
     pub(crate) placement: Placement,
 }
 
-impl PoseStamped {
-    /// As a rigid transform from the frame.
-    pub(crate) fn pose(&self) -> spatial::Pose {
-        self.placement.to_pose()
-    }
-}
+impl PoseStamped {}
 
 /// A transform from a frame to a child frame.
 #[derive(Clone, PartialEq, Debug)]

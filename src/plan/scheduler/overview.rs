@@ -5,6 +5,7 @@ use super::live::{Live, Wait};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
+#[cfg(test)]
 use crate::plan::state::Plan;
 use crate::plan::task::{Status, TaskId};
 
@@ -27,6 +28,7 @@ pub(crate) struct TaskInfo {
 
 impl Scheduler {
     /// Simulated seconds since the session began.
+    #[cfg(test)]
     pub(crate) fn now(&self, image: &Image) -> f64 {
         Plan::of(image).now()
     }

@@ -124,6 +124,7 @@ impl Scheduler {
     }
 
     /// The number of evaluations that have stopped and not been left.
+    #[cfg(test)]
     pub(crate) fn depth(&self) -> usize {
         self.roots.len()
     }

@@ -19,11 +19,6 @@ pub(crate) fn from_big(n: BigInt) -> Value {
     }
 }
 
-/// A count as a value.
-pub(crate) fn from_usize(n: usize) -> Value {
-    Value::from(n)
-}
-
 /// A fraction as a value, in lowest terms; `None` if the denominator is zero.
 pub(crate) fn ratio(numerator: BigInt, denominator: BigInt) -> Option<Value> {
     if denominator.is_zero() {
@@ -71,17 +66,6 @@ pub(crate) fn is_rational(value: &Value) -> bool {
 /// Is this an integer?
 pub(crate) fn is_integer(value: &Value) -> bool {
     matches!(value, Value::Int(_) | Value::Big(_))
-}
-
-/// Is this an integer between `most-negative-fixnum` and `most-positive-fixnum`?
-pub(crate) fn is_fixnum(value: &Value) -> bool {
-    matches!(
-        value,
-        Value::Int(
-            crate::lisp::value::number::MOST_NEGATIVE_FIXNUM
-                ..=crate::lisp::value::number::MOST_POSITIVE_FIXNUM
-        )
-    )
 }
 
 /// The number as the nearest double float; infinite beyond the largest one; `None` if it

@@ -213,28 +213,27 @@ pub(crate) fn divide_to_float(
 }
 
 /// `(floor a b)`.
+#[cfg(test)]
 pub(crate) fn floor(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Floor)
 }
 
 /// `(ceiling a b)`.
+#[cfg(test)]
 pub(crate) fn ceiling(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Ceiling)
 }
 
 /// `(truncate a b)`.
+#[cfg(test)]
 pub(crate) fn truncate(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Truncate)
 }
 
 /// `(round a b)`.
+#[cfg(test)]
 pub(crate) fn round(a: &Value, b: &Value) -> Result<(Value, Value), Box<Raise>> {
     divide(a, b, Rounding::Round)
-}
-
-/// The integer that a real number is rounded to.
-pub(crate) fn quotient(a: &Value, rounding: Rounding) -> NumberResult {
-    Ok(divide(a, &Value::Int(1), rounding)?.0)
 }
 
 /// `(mod a b)`.

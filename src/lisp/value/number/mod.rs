@@ -27,20 +27,19 @@ pub(crate) use compare::{
     compare, equal_by_value, greater, greater_equal, is_even, is_minus, is_plus, is_zero, less,
     less_equal, maximum, minimum, number_equal,
 };
-pub(crate) use complex::{
-    Complex, cis, complex, conjugate, imaginary_part, is_complex, phase, real_part,
-};
+pub(crate) use complex::{cis, complex, conjugate, imaginary_part, is_complex, phase, real_part};
 pub(crate) use convert::{
-    denominator, from_big, from_usize, is_fixnum, is_integer, is_number, is_rational, is_real,
-    numerator, ratio, rational, rationalize, to_big, to_double, to_f32, to_f64, to_float_like,
-    to_single,
+    denominator, from_big, is_integer, is_number, is_rational, is_real, numerator, ratio, rational,
+    rationalize, to_big, to_double, to_f64, to_float_like, to_single,
 };
-pub(crate) use division::{
-    Rounding, ceiling, divide, divide_to_float, floor, modulo, quotient, remainder, round, truncate,
-};
+pub(crate) use division::{Rounding, divide, divide_to_float, modulo, remainder};
+#[cfg(test)]
+pub(crate) use division::{ceiling, floor, round, truncate};
 pub(crate) use float_parts::{decode, digits, integer_decode, precision, scale, sign_of};
 pub(crate) use power::{expt, gcd, isqrt, lcm, sqrt};
-pub(crate) use random::{RandomState, make_random_state, random, random_from};
+#[cfg(test)]
+pub(crate) use random::random;
+pub(crate) use random::{RandomState, make_random_state, random_from};
 pub(crate) use ratio::Ratio;
 pub(crate) use transcendental::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cos, cosh, exp, log, log_base, sin, sinh, tan,
