@@ -21,7 +21,7 @@ pub(crate) struct Draft {
 
 /// The condition that an error in Rust code stands for.
 ///
-/// An explicit report is kept in the condition, so that [`report`] finds it; a
+/// An explicit report is kept in the condition, so that it is found again; a
 /// `SIMPLE-CONDITION` also gets it as its format control.
 pub(crate) fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
     let (class, text, initargs) = match raise {

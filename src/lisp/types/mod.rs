@@ -1,7 +1,7 @@
 //! Type specifiers: reading them, testing values, comparing types, converting.
 //!
 //! `satisfies` and `deftype` call Lisp functions. Rust code never does: an operation that
-//! needs the value of a call stops with the call ([`Stop::Call`]) and is begun again with
+//! needs the value of a call stops with the call (`Stop::Call`) and is begun again with
 //! the answer; answers are kept in order, so nothing is called twice.
 
 pub(crate) mod asking;

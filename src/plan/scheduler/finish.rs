@@ -2,6 +2,7 @@
 
 use super::group::unwrapped;
 use super::live::{Answer, Ending, Live, Slot, Told, Wait};
+use super::task_start;
 use super::{Scheduler, TaskInfo};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -10,7 +11,6 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::fiber::{Dynamic, Fiber};
-use crate::plan::builtins;
 use crate::plan::fluent;
 use crate::plan::journal::TaskChange;
 use crate::plan::request::Call;
@@ -56,11 +56,11 @@ impl Scheduler {
         }
         let constraints = inner.constraints.take();
         if !constraints.is_empty() {
-            function = builtins::constrained(&plan, (function, args), constraints);
+            function = task_start::constrained(&plan, (function, args), constraints);
             args = Vec::new();
         }
         if !initialisers.is_empty() {
-            function = builtins::initialised(&plan, (function, args), initialisers);
+            function = task_start::initialised(&plan, (function, args), initialisers);
             args = Vec::new();
         }
         let mut live = Live::new(id, Answer::Start(function, args));

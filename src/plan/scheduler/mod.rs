@@ -21,6 +21,7 @@ mod requests;
 mod root;
 mod run;
 mod suspension;
+mod task_start;
 
 pub(crate) use group::composite;
 pub(crate) use overview::TaskInfo;

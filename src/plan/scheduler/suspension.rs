@@ -2,9 +2,9 @@
 
 use super::Scheduler;
 use super::live::{Answer, SetAside, Slot, Told, Wait};
+use super::task_start;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::plan::builtins;
 use crate::plan::host::Host;
 use crate::plan::state::Plan;
 use crate::plan::task::Status;
@@ -72,7 +72,7 @@ impl Scheduler {
             None => return,
         };
         let wait = self.leave_wait(slot);
-        let runner = builtins::hook_runner(&Plan::of(image), hooks);
+        let runner = task_start::hook_runner(&Plan::of(image), hooks);
         if let Some(live) = self.live_mut(slot) {
             live.set_aside = Some(Box::new(SetAside {
                 wait,
