@@ -92,6 +92,24 @@ impl<'a> Node<'a> {
         numbers.try_into().map_err(|_| wrong())
     }
 
+    /// A linear colour: red, green, blue and optionally alpha, from 0 to 1.
+    pub(crate) fn color(&self) -> Result<[f32; 4], DataError> {
+        let wrong = || self.expected("three or four numbers from 0 to 1 (red green blue alpha)");
+        let parts = self.list().map_err(|_| wrong())?;
+        let mut color = [1.0; 4];
+        if parts.len() < 3 || parts.len() > 4 {
+            return Err(wrong());
+        }
+        for (channel, part) in color.iter_mut().zip(parts) {
+            let value = part.number()?;
+            if !(0.0..=1.0).contains(&value) {
+                return Err(part.expected("a number from 0 to 1"));
+            }
+            *channel = value as f32;
+        }
+        Ok(color)
+    }
+
     /// A list of names.
     pub(crate) fn symbols(&self) -> Result<Vec<&'a str>, DataError> {
         self.list()?.iter().map(Node::symbol).collect()

@@ -141,7 +141,7 @@ impl ObjectLibrary {
             name: name.clone(),
             shapes: solids,
             mass: record.required("mass")?.positive()?,
-            color: color(record.required("color")?)?,
+            color: record.required("color")?.color()?,
         };
         match self.objects.insert(name, object) {
             None => Ok(()),
@@ -151,24 +151,6 @@ impl ObjectLibrary {
             }
         }
     }
-}
-
-/// Red, green, blue and optionally alpha.
-fn color(node: Node<'_>) -> Result<[f32; 4], DataError> {
-    let wrong = || node.expected("three or four numbers from 0 to 1 (red green blue alpha)");
-    let parts = node.list().map_err(|_| wrong())?;
-    let mut color = [1.0; 4];
-    if parts.len() < 3 || parts.len() > 4 {
-        return Err(wrong());
-    }
-    for (channel, part) in color.iter_mut().zip(parts) {
-        let value = part.number()?;
-        if !(0.0..=1.0).contains(&value) {
-            return Err(part.expected("a number from 0 to 1"));
-        }
-        *channel = value as f32;
-    }
-    Ok(color)
 }
 
 /// Shapes, each with its keys besides `at` and `rpy`.

@@ -8,8 +8,11 @@ use crate::picture::surface::Surface;
 use crate::spatial::pose::from_xyz_rpy;
 use crate::spatial::{PlacedShape, Pose};
 
-/// Linear colour of things without a colour of their own.
-pub(crate) const PLAIN: [f32; 4] = [0.6, 0.6, 0.6, 1.0];
+/// A linear colour: red, green, blue, alpha.
+pub(crate) type Color = [f32; 4];
+
+/// Colour of things without a colour of their own.
+pub(crate) const PLAIN: Color = [0.6, 0.6, 0.6, 1.0];
 
 /// A surface that a link or an object shows.
 #[derive(Clone, Debug)]
@@ -18,7 +21,7 @@ pub(crate) struct Look {
     /// Pose of the surface's frame in the frame of the link or object.
     pub(crate) at: Pose,
     /// Its own colour, if it has one.
-    pub(crate) color: Option<[f32; 4]>,
+    pub(crate) color: Option<Color>,
     pub(crate) finish: Finish,
 }
 
@@ -33,40 +36,30 @@ impl Look {
         }
     }
 
-    /// A surface in the frame of the link or object.
-    pub(crate) fn of_surface(surface: Surface, color: [f32; 4], finish: Finish) -> Self {
+    /// A glossy surface at a pose in the frame of the link or object.
+    pub(crate) fn of_surface(surface: Arc<Surface>, at: Pose, color: Option<Color>) -> Self {
         Self {
-            surface: Arc::new(surface),
-            at: Pose::identity(),
-            color: Some(color),
-            finish,
+            surface,
+            at,
+            color,
+            finish: Finish::Gloss,
         }
     }
 
-    /// The surface of revolution of a line about an axis through `middle` (m; y, z for x; z, x
-    /// for y; x, y for z). The line is given by distances from the axis and positions along it
-    /// (m).
-    pub(crate) fn turned(
-        along: Along,
-        line: &[[f64; 2]],
-        middle: [f64; 2],
-        color: [f32; 4],
-    ) -> Self {
+    /// The pose of a surface of revolution about an axis through `middle` (m; y, z for x; z, x
+    /// for y; x, y for z).
+    pub(crate) fn pose_of_axis(along: Along, middle: [f64; 2]) -> Pose {
         let quarter = std::f64::consts::FRAC_PI_2;
         let [u, v] = middle;
-        let at = match along {
+        match along {
             Along::X => from_xyz_rpy([0.0, u, v], [0.0, quarter, 0.0]),
             Along::Y => from_xyz_rpy([v, 0.0, u], [-quarter, 0.0, 0.0]),
             Along::Z => from_xyz_rpy([u, v, 0.0], [0.0; 3]),
-        };
-        Self {
-            at,
-            ..Self::of_surface(Surface::lathed(line), color, Finish::Gloss)
         }
     }
 
     /// The body shown by a thing at the pose (map frame); `color` is the thing's own.
-    pub(crate) fn body(&self, owner: &Owner, pose: &Pose, color: [f32; 4]) -> Body {
+    pub(crate) fn body(&self, owner: &Owner, pose: &Pose, color: Color) -> Body {
         Body {
             owner: owner.clone(),
             surface: self.surface.clone(),

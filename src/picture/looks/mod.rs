@@ -2,10 +2,9 @@
 //! cylinders. Looks have no effect on anything: neither physics nor the robot's camera knows of
 //! them.
 
-mod kitchen;
+mod appearances;
 mod look;
-mod objects;
-mod pr2;
+mod surfaces;
 mod vessel;
 
 use std::sync::Arc;
@@ -17,6 +16,7 @@ use super::surface::Surface;
 use crate::robot::{KinematicTree, Link, LinkId};
 use crate::spatial::Pose;
 use crate::world::{Models, Object, World};
+use appearances::Appearances;
 use look::{Look, PLAIN};
 
 /// Half the edge length (m) of the drawn floor.
@@ -55,7 +55,7 @@ impl Looks {
                 .map(|kind| {
                     (
                         kind.name.clone(),
-                        objects::looks_of(&kind.name, &kind.shapes),
+                        Appearances::built_in().of_object(&kind.name, &kind.shapes),
                     )
                 })
                 .collect(),
@@ -102,7 +102,7 @@ fn link_scene(tree: &KinematicTree, link: LinkId, kind: Kind) -> Scene {
 /// The appearance of an object, in its own frame.
 fn object_scene(object: &Object) -> Scene {
     let mut scene = Scene::default();
-    let looks = objects::looks_of(object.type_name(), object.shapes());
+    let looks = Appearances::built_in().of_object(object.type_name(), object.shapes());
     add_object(object, &looks, &Pose::identity(), &mut scene.bodies);
     scene
 }
@@ -137,15 +137,14 @@ fn add_object(object: &Object, looks: &[Look], pose: &Pose, bodies: &mut Vec<Bod
 
 impl Dressed {
     fn new(tree: &KinematicTree, id: LinkId, link: &Link, kind: Kind) -> Self {
-        let own = if kind == Kind::Robot && tree.name() == pr2::NAME {
-            pr2::looks_of(&link.name)
-        } else {
-            None
+        let own = match kind {
+            Kind::Robot => Appearances::built_in().of_link(tree.name(), &link.name),
+            _ => None,
         };
         Self {
             link: id,
             owner: Owner::new(kind, &link.name),
-            looks: own.unwrap_or_else(|| as_modelled(link, kind)),
+            looks: own.map_or_else(|| as_modelled(link, kind), <[Look]>::to_vec),
         }
     }
 
@@ -171,7 +170,7 @@ fn as_modelled(link: &Link, kind: Kind) -> Vec<Look> {
     let shapes = link.visuals.iter();
     let mut looks: Vec<_> = shapes.map(|s| Look::of_shape(s, bevel, finish)).collect();
     if kind == Kind::Furniture {
-        looks.extend(kitchen::extras_of(&link.name));
+        looks.extend_from_slice(Appearances::built_in().of_furniture(&link.name));
     }
     looks
 }
