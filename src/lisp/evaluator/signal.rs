@@ -8,7 +8,7 @@ use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::calls::run;
+use crate::lisp::vm::computation::{Computation, Progress, compute};
 use crate::lisp::vm::fiber::{Dynamic, Handler};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
@@ -70,33 +70,13 @@ impl Machine<'_> {
         condition: Value,
         declined: Declined,
     ) -> Result<Step, Box<Raise>> {
-        let mut search = Search {
+        let search = Search {
             condition,
+            declined,
             position: self.fiber.dynamic.len(),
             tried: 0,
         };
-        let Some(first) = search.next(self)? else {
-            return Ok(declined.step(search.condition));
-        };
-        run(self, "SIGNAL", |calls| async move {
-            let mut handler = first;
-            loop {
-                let args = vec![search.condition.clone()];
-                calls.call_in_frame(&handler, args).await;
-                let next;
-                (search, next) = calls
-                    .with(move |machine| {
-                        machine.unmask_handlers();
-                        let next = search.next(machine);
-                        (search, next)
-                    })
-                    .await;
-                match next? {
-                    Some(next) => handler = next,
-                    None => return Ok(declined.step(search.condition)),
-                }
-            }
-        })
+        compute(self, "SIGNAL", search)
     }
 
     /// Ends the masking of handlers that the innermost dynamic entry is.
@@ -110,10 +90,35 @@ impl Machine<'_> {
 /// The search for handlers of a condition, from the innermost outwards.
 struct Search {
     condition: Value,
+    declined: Declined,
     /// Entries at and above this index have been searched.
     position: usize,
     /// Handlers of the entry at `position` that have been tried, if it is being searched.
     tried: usize,
+}
+
+impl Computation for Search {
+    type Output = Step;
+
+    const NEEDS_FRAME: bool = true;
+
+    fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<Progress<Step>, Box<Raise>> {
+        if answer.is_some() {
+            // A handler has declined.
+            machine.unmask_handlers();
+        }
+        Ok(match self.next(machine)? {
+            Some(function) => Progress::Call {
+                function,
+                args: vec![self.condition.clone()],
+            },
+            None => Progress::Done(self.declined.step(self.condition.clone())),
+        })
+    }
 }
 
 impl Search {

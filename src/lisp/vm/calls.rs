@@ -16,6 +16,7 @@ use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 use super::callable::function_of;
+use super::computation::{Progress, Remainder};
 use super::machine::Machine;
 use super::step::Step;
 use crate::lisp::image::Image;
@@ -254,32 +255,65 @@ where
     let body = body(Calls(exchange.clone()));
     let suspended = Suspended {
         name,
-        exchange,
-        rest: Box::pin(async move { body.await.map(Into::into) }),
+        rest: Rest::Function {
+            exchange,
+            future: Box::pin(async move { body.await.map(Into::into) }),
+        },
         annotation: None,
     };
-    Box::new(suspended).advance(machine)
+    Box::new(suspended).advance(machine, None)
 }
 
-/// The rest of a builtin that waits.
+/// A builtin that waits.
 pub(crate) struct Suspended {
     name: &'static str,
-    exchange: Rc<Exchange>,
-    rest: Pin<Box<dyn Future<Output = Result<Step, Box<Raise>>>>>,
+    rest: Rest,
     annotation: Option<Rc<Annotation>>,
 }
 
+/// What is left of a builtin.
+enum Rest {
+    /// An asynchronous function.
+    Function {
+        exchange: Rc<Exchange>,
+        future: Pin<Box<dyn Future<Output = Result<Step, Box<Raise>>>>>,
+    },
+    /// A computation that ends with a step.
+    Computation(Box<dyn Remainder>),
+}
+
 impl Suspended {
-    fn advance(mut self: Box<Self>, machine: &mut Machine<'_>) -> Result<Step, Box<Raise>> {
+    /// A builtin that a computation is the rest of.
+    pub(super) fn in_computation(name: &'static str, computation: Box<dyn Remainder>) -> Self {
+        Self {
+            name,
+            rest: Rest::Computation(computation),
+            annotation: None,
+        }
+    }
+
+    fn advance(
+        mut self: Box<Self>,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<Step, Box<Raise>> {
+        let (exchange, future) = match &mut self.rest {
+            Rest::Computation(computation) => {
+                let progress = computation.advance(machine, answer)?;
+                return self.go_on_computing(machine, progress);
+            }
+            Rest::Function { exchange, future } => (exchange, future),
+        };
+        exchange.answer.set(answer);
         let mut context = Context::from_waker(Waker::noop());
         let mut budget = DIRECT_CALLS;
         self.annotation = None;
         loop {
-            if let Poll::Ready(outcome) = self.rest.as_mut().poll(&mut context) {
+            if let Poll::Ready(outcome) = future.as_mut().poll(&mut context) {
                 return outcome;
             }
             // A builtin awaits nothing but errands, so one is there.
-            match self.exchange.errand.take() {
+            match exchange.errand.take() {
                 Some(Errand::Work(work)) => work.perform(machine),
                 Some(Errand::Call {
                     function,
@@ -292,7 +326,7 @@ impl Suspended {
                         && let Some(value) =
                             call_directly(machine.image, &function, args.as_slice())
                     {
-                        self.exchange.answer.set(Some(value?.primary()));
+                        exchange.answer.set(Some(value?.primary()));
                         continue;
                     }
                     let all = matches!(manner, Manner::Values);
@@ -314,14 +348,43 @@ impl Suspended {
         }
     }
 
+    /// Goes on with a computation that has come so far.
+    pub(super) fn go_on_computing(
+        mut self: Box<Self>,
+        machine: &mut Machine<'_>,
+        mut progress: Progress<Step>,
+    ) -> Result<Step, Box<Raise>> {
+        let mut budget = DIRECT_CALLS;
+        loop {
+            let (function, args) = match progress {
+                Progress::Done(step) => return Ok(step),
+                Progress::Call { function, args } => (function, args),
+            };
+            budget -= 1;
+            if budget > 0
+                && let Rest::Computation(computation) = &mut self.rest
+                && !computation.needs_frame()
+                && let Some(value) = call_directly(machine.image, &function, &args)
+            {
+                progress = computation.advance(machine, Some(value?.primary()))?;
+                continue;
+            }
+            return Ok(Step::Call {
+                function,
+                args,
+                all: false,
+                then: self,
+            });
+        }
+    }
+
     /// Goes on with the value.
     pub(crate) fn resume(
         self: Box<Self>,
         machine: &mut Machine<'_>,
         value: Value,
     ) -> Result<Step, Box<Raise>> {
-        self.exchange.answer.set(Some(value));
-        self.advance(machine)
+        self.advance(machine, Some(value))
     }
 
     /// The builtin's name, for backtraces.

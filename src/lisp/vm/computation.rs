@@ -1,6 +1,6 @@
 //! Computations that stop where they need the value of a Lisp call.
 
-use super::calls::{Args, Calls, run};
+use super::calls::{Args, Calls, Suspended};
 use super::machine::Machine;
 use super::step::Step;
 use crate::lisp::value::Value;
@@ -24,6 +24,10 @@ pub(crate) trait Computation: 'static {
     /// What it computes.
     type Output: 'static;
 
+    /// Whether even pure builtins are called on top of a frame, for the sake of dynamic
+    /// entries made for the call.
+    const NEEDS_FRAME: bool = false;
+
     /// Goes on as far as possible. `answer` is the value of the call that it stopped at.
     fn advance(
         &mut self,
@@ -36,40 +40,26 @@ impl Calls {
     /// Carries a computation out.
     pub(crate) async fn compute<C: Computation>(
         &self,
-        mut computation: C,
+        computation: C,
     ) -> Result<C::Output, Box<Raise>> {
-        let progress;
-        (computation, progress) = self.advance(computation, None).await;
-        self.finish(computation, progress?).await
-    }
-
-    async fn finish<C: Computation>(
-        &self,
-        mut computation: C,
-        mut progress: Progress<C::Output>,
-    ) -> Result<C::Output, Box<Raise>> {
+        // Boxed, since it goes to the machine and back for every call.
+        let mut computation = Box::new(computation);
+        let mut answer = None;
         loop {
-            let (function, args) = match progress {
+            let progress;
+            (computation, progress) = self
+                .with(move |machine| {
+                    let progress = computation.advance(machine, answer);
+                    (computation, progress)
+                })
+                .await;
+            match progress? {
                 Progress::Done(output) => return Ok(output),
-                Progress::Call { function, args } => (function, args),
-            };
-            let answer = self.call(&function, Args::Many(args)).await;
-            let next;
-            (computation, next) = self.advance(computation, Some(answer)).await;
-            progress = next?;
+                Progress::Call { function, args } => {
+                    answer = Some(self.call(&function, Args::Many(args)).await);
+                }
+            }
         }
-    }
-
-    async fn advance<C: Computation>(
-        &self,
-        mut computation: C,
-        answer: Option<Value>,
-    ) -> (C, Result<Progress<C::Output>, Box<Raise>>) {
-        self.with(move |machine| {
-            let progress = computation.advance(machine, answer);
-            (computation, progress)
-        })
-        .await
     }
 }
 
@@ -85,8 +75,43 @@ where
 {
     match computation.advance(machine, None)? {
         Progress::Done(output) => Ok(output.into()),
-        call @ Progress::Call { .. } => run(machine, name, |calls| async move {
-            calls.finish(computation, call).await
-        }),
+        Progress::Call { function, args } => {
+            let suspended = Suspended::in_computation(name, Box::new(computation));
+            Box::new(suspended).go_on_computing(machine, Progress::Call { function, args })
+        }
+    }
+}
+
+/// The rest of a builtin that is a computation.
+pub(super) trait Remainder {
+    /// See [`Computation::NEEDS_FRAME`].
+    fn needs_frame(&self) -> bool;
+
+    /// See [`Computation::advance`].
+    fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<Progress<Step>, Box<Raise>>;
+}
+
+impl<C> Remainder for C
+where
+    C: Computation,
+    C::Output: Into<Step>,
+{
+    fn needs_frame(&self) -> bool {
+        C::NEEDS_FRAME
+    }
+
+    fn advance(
+        &mut self,
+        machine: &mut Machine<'_>,
+        answer: Option<Value>,
+    ) -> Result<Progress<Step>, Box<Raise>> {
+        Ok(match Computation::advance(self, machine, answer)? {
+            Progress::Done(output) => Progress::Done(output.into()),
+            Progress::Call { function, args } => Progress::Call { function, args },
+        })
     }
 }
