@@ -45,7 +45,6 @@ impl Session {
     /// What is shown for an unhandled condition.
     pub(super) fn describe(&mut self, condition: &Value) -> Abort {
         let calls = self.image.condition_calls(condition);
-        let calls: Vec<OpenCall> = calls.unwrap_or_default().to_vec();
         let sources = &self.image.sources;
         let mut places = calls.iter().filter_map(|call| sources.locate(call.place));
         let place = places.next();

@@ -54,7 +54,7 @@ impl Machine<'_> {
 
     /// Remembers where a condition was signalled, unless that is known.
     pub(crate) fn note_place(&mut self, condition: &Value, place: Place) {
-        if place.is_some() && self.image.condition_calls(condition).is_none() {
+        if place.is_some() && !self.image.knows_condition_calls(condition) {
             let mut calls = self.calls();
             if calls.iter().find(|c| c.place.is_some()).map(|c| c.place) != Some(place) {
                 let subject = None;

@@ -7,10 +7,10 @@ pub(crate) mod open_call;
 mod output;
 pub(crate) mod polls;
 pub(crate) mod setf_expander;
+mod signalled;
 
 use std::any::Any;
 use std::cell::RefCell;
-use std::collections::VecDeque;
 use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -20,10 +20,10 @@ use indexmap::IndexMap;
 use self::definition::Installed;
 use self::identity::Identities;
 use self::notes::{Note, NoteKind};
-use self::open_call::OpenCall;
 pub(crate) use self::output::Output;
 use self::polls::Polls;
 use self::setf_expander::SetfExpander;
+use self::signalled::Signalled;
 use super::builtin::{Builtin, Entry, Operator};
 use super::native::BuiltinCall;
 use super::source::{Place, Sources};
@@ -64,8 +64,7 @@ pub(crate) struct Image {
     pub(crate) notes: Option<Vec<Note>>,
     /// Runs of macro functions inside each other.
     pub(crate) nesting: usize,
-    /// The calls in which the conditions signalled last were signalled, newest last.
-    condition_calls: VecDeque<(Vec<Value>, Vec<OpenCall>)>,
+    signalled: Signalled,
     identities: i64,
     /// What the tables say of functions, macros and special operators, by name: calls, help,
     /// completion, the manual and the test of the examples read this one table.
@@ -84,10 +83,6 @@ pub(crate) struct Image {
 
 /// The stream of the random generator: any constant does.
 const STREAM: u128 = 0xa02b_dbf7_bb3c_0a7a;
-/// Conditions whose calls are remembered.
-const REMEMBERED_CONDITIONS: usize = 64;
-/// Calls that are remembered of one condition.
-const MOST_CALLS: usize = 512;
 /// Bytes of the Rust stack that the compiler may use unless told otherwise: a test's
 /// thread has two megabytes.
 const STACK_BUDGET: usize = 1 << 20;
@@ -118,7 +113,7 @@ impl Image {
             stack_budget: STACK_BUDGET,
             notes: None,
             nesting: 0,
-            condition_calls: VecDeque::new(),
+            signalled: Signalled::default(),
             identities: 0,
             natives: Vec::new(),
             printed: RefCell::default(),
@@ -185,45 +180,6 @@ impl Image {
     pub(crate) fn fresh_identity(&mut self) -> i64 {
         self.identities += 1;
         self.identities
-    }
-
-    /// The calls that were open where a condition was signalled, innermost first; none if
-    /// that is not known.
-    pub(crate) fn condition_calls(&self, condition: &Value) -> Option<&[OpenCall]> {
-        self.condition_calls
-            .iter()
-            .rev()
-            .find(|(known, _)| known.iter().any(|other| other.is_eq(condition)))
-            .map(|(_, calls)| calls.as_slice())
-    }
-
-    /// Remembers the calls that were open where a condition was signalled.
-    pub(crate) fn set_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
-        if self.condition_calls.len() == REMEMBERED_CONDITIONS {
-            self.condition_calls.pop_front();
-        }
-        self.condition_calls
-            .push_back((vec![condition.clone()], calls));
-    }
-
-    /// Adds the calls of the code that a condition has come to from a task of its own.
-    pub(crate) fn add_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
-        let known = self.condition_calls.iter_mut().rev();
-        let mut known = known.filter(|(of, _)| of.iter().any(|other| other.is_eq(condition)));
-        if let Some((_, inner)) = known.next() {
-            inner.extend(calls);
-            inner.truncate(MOST_CALLS);
-        }
-    }
-
-    /// A condition goes on in another one, its envelope: what is known of its calls, and what
-    /// becomes known later, holds for both.
-    pub(crate) fn share_condition_calls(&mut self, condition: &Value, envelope: &Value) {
-        let known = self.condition_calls.iter_mut().rev();
-        let mut known = known.filter(|(of, _)| of.iter().any(|other| other.is_eq(condition)));
-        if let Some((of, _)) = known.next() {
-            of.push(envelope.clone());
-        }
     }
 
     /// The function that a function or a symbol designates.

@@ -1,0 +1,75 @@
+//! Where the conditions that were signalled last came from.
+
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::rc::Rc;
+
+use super::Image;
+use super::open_call::OpenCall;
+use crate::lisp::value::Value;
+
+/// Conditions whose calls are remembered.
+const REMEMBERED: usize = 64;
+
+/// Calls that are remembered of one condition.
+const MOST_CALLS: usize = 512;
+
+/// The calls in which the conditions signalled last were signalled.
+#[derive(Default)]
+pub(super) struct Signalled {
+    /// Newest last; conditions that share their calls have one list.
+    recent: VecDeque<(Value, Rc<RefCell<Vec<OpenCall>>>)>,
+}
+
+impl Signalled {
+    fn calls(&self, condition: &Value) -> Option<&Rc<RefCell<Vec<OpenCall>>>> {
+        let (older, newer) = self.recent.as_slices();
+        let mut all = newer.iter().rev().chain(older.iter().rev());
+        all.find(|(known, _)| known.is_eq(condition))
+            .map(|(_, calls)| calls)
+    }
+
+    fn remember(&mut self, condition: &Value, calls: Rc<RefCell<Vec<OpenCall>>>) {
+        if self.recent.len() == REMEMBERED {
+            self.recent.pop_front();
+        }
+        self.recent.push_back((condition.clone(), calls));
+    }
+}
+
+impl Image {
+    /// Whether it is known where a condition was signalled.
+    pub(crate) fn knows_condition_calls(&self, condition: &Value) -> bool {
+        self.signalled.calls(condition).is_some()
+    }
+
+    /// The calls that were open where a condition was signalled, innermost first; none if
+    /// that is not known.
+    pub(crate) fn condition_calls(&self, condition: &Value) -> Vec<OpenCall> {
+        let calls = self.signalled.calls(condition);
+        calls.map_or_else(Vec::new, |calls| calls.borrow().clone())
+    }
+
+    /// Remembers the calls that were open where a condition was signalled.
+    pub(crate) fn set_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
+        let calls = Rc::new(RefCell::new(calls));
+        self.signalled.remember(condition, calls);
+    }
+
+    /// Adds the calls of the code that a condition has come to from a task of its own.
+    pub(crate) fn add_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
+        if let Some(inner) = self.signalled.calls(condition) {
+            let mut inner = inner.borrow_mut();
+            inner.extend(calls);
+            inner.truncate(MOST_CALLS);
+        }
+    }
+
+    /// A condition goes on in another one, its envelope: what is known of its calls, and what
+    /// becomes known later, holds for both.
+    pub(crate) fn share_condition_calls(&mut self, condition: &Value, envelope: &Value) {
+        if let Some(calls) = self.signalled.calls(condition).cloned() {
+            self.signalled.remember(envelope, calls);
+        }
+    }
+}
