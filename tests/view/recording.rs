@@ -140,3 +140,119 @@ fn a_file_that_cannot_be_written_is_told() {
         "{error}"
     );
 }
+
+#[test]
+fn a_full_disk_is_called_so() {
+    let full = std::path::Path::new("/dev/full");
+    if !full.exists() {
+        return;
+    }
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    let told = session.begin_recording(full).unwrap_err().to_string();
+    assert_eq!(told, "cannot record into /dev/full: the disk is full");
+}
+
+/// The recording with its chunks compressed, as other tools rewrite it.
+fn compressed(bytes: &[u8], name: &str, compress: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
+    const CHUNK: u8 = 6;
+    let number = |at: usize| {
+        let bytes = bytes[at..at + 8].try_into().unwrap();
+        usize::try_from(u64::from_le_bytes(bytes)).unwrap()
+    };
+    let mut to = bytes[..8].to_vec();
+    let mut at = 8;
+    let mut chunks = 0;
+    while at + 9 <= bytes.len() {
+        let (opcode, begin) = (bytes[at], at + 9);
+        let end = begin + number(at + 1);
+        if end > bytes.len() {
+            break;
+        }
+        if opcode == CHUNK {
+            chunks += 1;
+            // Times, size and checksum, then the empty name and the length of the content.
+            let content = compress(&bytes[begin + 28 + 4 + 8..end]);
+            let length = 28 + 4 + name.len() + 8 + content.len();
+            to.push(CHUNK);
+            to.extend((length as u64).to_le_bytes());
+            to.extend(&bytes[begin..begin + 28]);
+            to.extend(u32::try_from(name.len()).unwrap().to_le_bytes());
+            to.extend(name.as_bytes());
+            to.extend((content.len() as u64).to_le_bytes());
+            to.extend(content);
+        } else {
+            to.extend(&bytes[at..end]);
+        }
+        at = end;
+    }
+    assert!(chunks > 0);
+    to.extend(&bytes[at..]);
+    to
+}
+
+fn lz4(content: &[u8]) -> Vec<u8> {
+    let mut encoder = lz4_flex::frame::FrameEncoder::new(Vec::new());
+    std::io::Write::write_all(&mut encoder, content).unwrap();
+    encoder.finish().unwrap()
+}
+
+fn zstd(content: &[u8]) -> Vec<u8> {
+    use ruzstd::encoding::{CompressionLevel, compress_to_vec};
+    compress_to_vec(content, CompressionLevel::Fastest)
+}
+
+#[test]
+fn what_other_tools_have_compressed_is_read() {
+    let (bytes, _) = recorded("compressed");
+    let (plain, plain_history) = read(&bytes);
+    let plain = plain.unwrap();
+    for packed in [
+        compressed(&bytes, "lz4", lz4),
+        compressed(&bytes, "zstd", zstd),
+    ] {
+        assert!(packed.len() < bytes.len() / 2);
+        let (found, history) = read(&packed);
+        assert_eq!(found.unwrap(), plain);
+        let past = |history: &History| format!("{:?}", history.past(0.0, 100.0, 10_000));
+        assert!(past(&history) == past(&plain_history));
+
+        let (cut, _) = read(&packed[..packed.len() * 7 / 10]);
+        assert!(cut.map_or(true, |cut| cut.is_cut_off));
+        for at in (0..packed.len()).step_by(packed.len() / 60) {
+            let mut damaged = packed.clone();
+            damaged[at] ^= 0x55;
+            let _ = read(&damaged);
+        }
+    }
+    let unknown = compressed(&bytes, "snappy", <[u8]>::to_vec);
+    let told = read(&unknown).0.unwrap_err().to_string();
+    assert_eq!(
+        told,
+        "a chunk is compressed with snappy: only lz4 and zstd can be read"
+    );
+}
+
+#[test]
+fn a_chunk_that_unpacks_to_more_than_it_says_is_refused() {
+    let (bytes, _) = recorded("bomb");
+    let bomb = compressed(&bytes, "zstd", |content| {
+        zstd(&vec![0; content.len() + (64 << 20)])
+    });
+    let told = read(&bomb).0.unwrap_err().to_string();
+    assert!(told.starts_with("a chunk has "), "{told}");
+}
+
+#[test]
+fn damage_that_the_reader_of_the_format_does_not_expect_is_an_error() {
+    let (mut bytes, _) = recorded("panic");
+    let mut at = 8;
+    while bytes[at] != 6 {
+        let length = u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap());
+        at += 9 + usize::try_from(length).unwrap();
+    }
+    // The first record of the chunk says that it is longer than any number.
+    let first = at + 9 + 28 + 4 + 8;
+    bytes[first + 1..first + 9].fill(0xff);
+    let told = read(&bytes).0.unwrap_err().to_string();
+    assert!(told.starts_with("the file is damaged in a way"), "{told}");
+}

@@ -7,6 +7,7 @@
 
 mod base64;
 mod channel;
+mod decompress;
 mod follower;
 mod message;
 pub(crate) mod read;
@@ -17,23 +18,63 @@ mod write;
 pub(crate) use follower::{Recorder, RecordingResult};
 pub(crate) use read::read_recording;
 
-use std::io;
+use std::io::{self, ErrorKind};
 
 use thiserror::Error;
 
 /// Why a recording cannot be written or read.
 #[derive(Debug, Error)]
 pub(crate) enum RecordingError {
+    /// There is no space left on the disk.
+    #[error("the disk is full")]
+    DiskFull,
     /// The file cannot be read or written.
     #[error("{0}")]
-    File(#[from] io::Error),
+    File(io::Error),
     /// The file is not an MCAP file.
     #[error("it is not an MCAP file: {0}")]
-    Format(#[from] mcap::McapError),
+    Format(mcap::McapError),
+    /// A chunk is larger than any that a recorder writes.
+    #[error("a chunk of {size} bytes is too large")]
+    LargeChunk {
+        /// Its unpacked size (bytes).
+        size: u64,
+    },
+    /// A chunk is compressed in an unknown way.
+    #[error("a chunk is compressed with {0}: only lz4 and zstd can be read")]
+    Compression(String),
+    /// The library that reads MCAP files has failed.
+    #[error("the file is damaged in a way that the reader of MCAP files does not expect: {0}")]
+    Reader(String),
     /// A message cannot be read or written.
     #[error("a message is malformed: {0}")]
     Message(#[from] serde_json::Error),
     /// The file contains nothing that can be shown.
     #[error("it contains no planwright recording")]
     Foreign,
+}
+
+impl From<io::Error> for RecordingError {
+    fn from(error: io::Error) -> Self {
+        match error.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded => Self::DiskFull,
+            _ => Self::File(error),
+        }
+    }
+}
+
+impl From<mcap::McapError> for RecordingError {
+    fn from(error: mcap::McapError) -> Self {
+        match of_system(&error) {
+            Some(code) => io::Error::from_raw_os_error(code).into(),
+            None => Self::Format(error),
+        }
+    }
+}
+
+/// The number of the operating system's error that is behind an error, if there is one.
+fn of_system(error: &(dyn std::error::Error + 'static)) -> Option<i32> {
+    let causes = std::iter::successors(Some(error), |error| error.source());
+    let mut of_files = causes.filter_map(|error| error.downcast_ref::<io::Error>());
+    of_files.find_map(io::Error::raw_os_error)
 }

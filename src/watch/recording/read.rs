@@ -1,5 +1,6 @@
 //! Reading a recording back.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use indexmap::IndexMap;
@@ -9,6 +10,7 @@ use serde::de::DeserializeOwned;
 
 use super::RecordingError;
 use super::channel::Channel;
+use super::decompress::decompressed;
 use super::message::{FrameTransform, FrameTransforms, Log, SceneUpdate, Shown, Task};
 use super::shapes::{frame_of, node, path_name};
 use crate::watch::live::History;
@@ -28,7 +30,19 @@ pub(crate) struct Recording {
 }
 
 /// Reads a file's bytes into a history. Messages that are not ours are skipped.
+///
+/// Damage that makes the library for MCAP files panic is an error, too.
 pub(crate) fn read_recording(bytes: &[u8], to: &History) -> Result<Recording, RecordingError> {
+    let read = AssertUnwindSafe(|| read_messages(&*decompressed(bytes)?, to));
+    catch_unwind(read).unwrap_or_else(|payload| {
+        let text = payload.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| payload.downcast_ref::<&str>().copied());
+        let text = text.unwrap_or("no reason is given");
+        Err(RecordingError::Reader(text.to_owned()))
+    })
+}
+
+fn read_messages(bytes: &[u8], to: &History) -> Result<Recording, RecordingError> {
     let mut reader = Reader {
         to,
         nodes: Vec::new(),
