@@ -1,9 +1,9 @@
 //! The session's side of the dialogue with the prompt.
 
 use super::Session;
-use super::dialogue::{Completions, Converse};
+use super::dialogue::{Completions, Converse, Repeat};
 
-impl Converse for Session {
+impl Repeat for Session {
     fn set_interactive(&mut self, is_interactive: bool) {
         self.console.is_interactive = is_interactive;
         self.scheduler.set_stops_in_place(is_interactive);
@@ -13,6 +13,16 @@ impl Converse for Session {
             .keep_snapshots_of_motions(is_interactive);
     }
 
+    fn interrupted_at(&self) -> Option<u64> {
+        self.image.polls.seen_at()
+    }
+
+    fn interrupt_next_at(&mut self, at: u64) {
+        self.console.interrupt_next = Some(at);
+    }
+}
+
+impl Converse for Session {
     fn level(&self) -> usize {
         self.console.level()
     }
@@ -37,15 +47,11 @@ impl Converse for Session {
         self.is_type_name(name)
     }
 
-    fn interrupted_at(&self) -> Option<u64> {
-        self.image.polls.seen_at()
-    }
-
-    fn interrupt_next_at(&mut self, at: u64) {
-        self.console.interrupt_next = Some(at);
-    }
-
     fn world_hash(&self) -> u64 {
         self.host.simulation.world().hash()
+    }
+
+    fn finish(&mut self) -> Result<(), String> {
+        self.end_recording().map_err(|error| error.to_string())
     }
 }

@@ -159,6 +159,24 @@ impl Session {
         self.host.audience.end_recording(&self.host.simulation)
     }
 
+    /// Evaluates an input: one for the inspector, for the debugger, or forms at the top level.
+    fn evaluate_input(
+        &mut self,
+        source_name: &str,
+        text: &str,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        if let Some(outcome) = self.inspector_input(text, sink) {
+            return outcome;
+        }
+        if self.console.level() > 0 {
+            return self.console_input(source_name, text, sink);
+        }
+        let asked = self.question(source_name, text);
+        let text = asked.as_deref().unwrap_or(text);
+        self.evaluate_text(source_name, text, sink)
+    }
+
     /// Evaluates one form at top level.
     fn evaluate_form(&mut self, form: &Value, sink: &mut dyn FnMut(Event)) -> Ended {
         self.image.set_special(known::MINUS, form.clone());
@@ -188,6 +206,11 @@ impl Session {
             }
         };
         self.flush(sink);
+        if let Some(error) = self.host.audience.broken_recording() {
+            sink(Event::Output(format!(
+                "; The recording has ended: {error}.\n"
+            )));
+        }
         self.host.audience.show(&self.host.simulation, Cause::Rest);
         self.shift_forms(form);
         if let Ended::Values(values) = &ended {
@@ -265,22 +288,19 @@ impl Evaluate for Session {
         self.image.polls.begin(self.console.interrupt_next.take());
         // A user who asked to leave and then continues has changed their mind.
         self.host.person.quit = None;
-        if let Some(outcome) = self.inspector_input(text, sink) {
-            return outcome;
-        }
-        if self.console.level() > 0 {
-            return self.console_input(source_name, text, sink);
+        if text.trim().is_empty() {
+            // It only shows a stopped evaluation again.
+            return self.evaluate_input(source_name, text, sink);
         }
         let record = self.image.extension::<record::Record>();
         let record = record.unwrap_or_else(|| self.image.extend(record::Record::default()));
-        record.begin(self.package_name(), source_name, text);
-        let mut both = |event: Event| {
+        record.begin(self.prompt(), source_name, text);
+        let outcome = self.evaluate_input(source_name, text, &mut |event| {
             record.note(&event);
             sink(event);
-        };
-        let asked = self.question(text);
-        let text = asked.as_deref().unwrap_or(text);
-        self.evaluate_text(source_name, text, &mut both)
+        });
+        record.end(outcome, self.image.polls.seen_at());
+        outcome
     }
 
     fn check(&mut self, source_name: &str, text: &str) -> Vec<Finding> {

@@ -1,8 +1,11 @@
 //! The inputs and outputs of a session, so that it can be written as a transcript.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 
-use super::dialogue::{Event, Screen};
+use super::dialogue::prompt_line::prompt_line;
+use super::dialogue::repeat::with_interrupt;
+use super::dialogue::{Event, Outcome, Screen};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -14,15 +17,17 @@ use crate::lisp::value::raise::Raise;
 pub(super) struct Record(RefCell<Vec<Entry>>);
 
 struct Entry {
+    /// What the prompt showed, with the state of a stopped evaluation.
     prompt: String,
     input: String,
     screen: Screen<Vec<u8>>,
-    /// Whether the evaluation has stopped; a replay goes no further.
-    is_over: bool,
+    interrupted_at: Option<u64>,
+    /// Whether it asked to end the session; if the session went on, it had no effect.
+    quits: bool,
 }
 
 impl Record {
-    /// Call when an input at the top level is about to be evaluated.
+    /// Call when an input is about to be evaluated.
     pub(crate) fn begin(&self, prompt: String, source_name: &str, input: &str) {
         let mut screen = Screen::new(Vec::new());
         screen.begin_input(source_name, input);
@@ -30,45 +35,92 @@ impl Record {
             prompt,
             input: input.to_owned(),
             screen,
-            is_over: false,
+            interrupted_at: None,
+            quits: false,
         });
     }
 
-    /// Records an event. Where a user decides how to continue after a condition, a replay
-    /// aborts, so that is what is recorded.
+    /// Records an event.
     pub(crate) fn note(&self, event: &Event) {
-        let mut entries = self.0.borrow_mut();
-        let Some(entry) = entries.last_mut().filter(|entry| !entry.is_over) else {
-            return;
-        };
-        // Writing to memory does not fail.
-        let _ = match event {
-            Event::Stopped(stop) => {
-                entry.is_over = true;
-                let aborted = Event::Aborted(Box::new(stop.abort.clone()));
-                entry.screen.show(&aborted)
-            }
-            other => entry.screen.show(other),
-        };
+        if let Some(entry) = self.0.borrow_mut().last_mut() {
+            // Writing to memory does not fail.
+            let _ = entry.screen.show(event);
+        }
+    }
+
+    /// Call when the input has been evaluated.
+    pub(crate) fn end(&self, outcome: Outcome, interrupted_at: Option<u64>) {
+        if let Some(entry) = self.0.borrow_mut().last_mut() {
+            entry.interrupted_at = interrupted_at;
+            entry.quits = matches!(outcome, Outcome::Quit(_));
+        }
     }
 
     /// The transcript of all entries but the last, which is still being evaluated.
     fn transcript(&self) -> String {
         let entries = self.0.borrow();
-        let mut text = String::new();
-        let count = entries.len().saturating_sub(1);
-        for entry in entries.iter().take(count) {
-            text.push_str(&format!("{}> {}\n", entry.prompt, entry.input.trim_end()));
-            let output = String::from_utf8_lossy(entry.screen.written());
-            text.push_str(&output);
-            if !output.is_empty() && !output.ends_with('\n') {
-                text.push('\n');
-            }
-            text.push('\n');
+        let Some((last, earlier)) = entries.split_last() else {
+            return String::new();
+        };
+        let mut text: String = earlier
+            .iter()
+            .filter(|entry| !entry.quits)
+            .map(Entry::text)
+            .collect();
+        let is_stopped = prompt_line(&format!("{}>", last.prompt))
+            .is_some_and(|prompt| !prompt.state.is_empty());
+        if is_stopped {
+            // A replay stops where the next prompt shows that the evaluation stopped.
+            text.push_str(&format!("{}>\n", last.prompt));
         }
         text
     }
 }
+
+impl Entry {
+    /// The entry in a transcript.
+    fn text(&self) -> String {
+        let input = self.input.trim_end();
+        let input = match self.interrupted_at {
+            Some(at) => Cow::Owned(with_interrupt(input, at)),
+            None => Cow::Borrowed(input),
+        };
+        let mut text = format!("{}> {input}\n", self.prompt);
+        for line in String::from_utf8_lossy(self.screen.written()).lines() {
+            text.push_str(&comparable(line));
+            text.push('\n');
+        }
+        text.push('\n');
+        text
+    }
+}
+
+/// A line of output with wildcards in place of what no replay repeats: real time and the
+/// address of the live view. A line that looks like a prompt must not be taken for one.
+fn comparable(line: &str) -> Cow<'_, str> {
+    if let Some(prompt) = prompt_line(line) {
+        let rest = line.get(prompt.name.len()..).unwrap_or_default();
+        return format!("{ANYTHING}{rest}").into();
+    }
+    if let Some((simulated, real)) = line.split_once(" s simulated, ")
+        && simulated.starts_with("; ")
+        && real.ends_with(" s real")
+    {
+        return format!("{simulated} s simulated, {ANYTHING} s real").into();
+    }
+    if let Some((before, address)) = line.split_once(LOCAL_ADDRESS) {
+        let end = address.find(['"', ' ']).unwrap_or(address.len());
+        let after = address.get(end..).unwrap_or_default();
+        return format!("{before}{LOCAL_ADDRESS}{ANYTHING}{after}").into();
+    }
+    line.into()
+}
+
+/// The wildcard for any text within a line.
+const ANYTHING: &str = "[..]";
+
+/// What addresses of the live view begin with.
+const LOCAL_ADDRESS: &str = "http://127.0.0.1:";
 
 /// Builtins of package `PLANWRIGHT`.
 pub(super) static TABLE: &[Builtin] = &[pure(

@@ -287,6 +287,9 @@ fn after_kill_9_the_session_goes_on_with_the_same_world() {
     killed.kill();
 
     let mut terminal = Terminal::start_resumed(&state);
+    terminal.wait_for("; Input 4 began, but nothing says that it ended:");
+    terminal.wait_for("Evaluate it again? If not, it is left out. (y or n)");
+    terminal.line("y");
     terminal.wait_for("; Resumed 4 inputs; the world's hash is");
     assert!(terminal.text().contains(&expected), "{}", terminal.text());
     terminal.wait_for_last_line("PP-TUT>");
@@ -295,6 +298,95 @@ fn after_kill_9_the_session_goes_on_with_the_same_world() {
     assert!(terminal.text().contains(":KEPT"));
     terminal.keys(CTRL_D);
     assert_eq!(terminal.exit_status(), Some(0));
+}
+
+#[test]
+fn an_input_that_ended_the_program_is_left_out_and_not_asked_about_again() {
+    let state = State::new("poison");
+    let mut terminal = Terminal::start(&state, &[]);
+    terminal.evaluate("(defvar *precious* 42)");
+    let sign = state.path().join("begun");
+    let name = sign.to_str().expect("a path");
+    terminal.line(&format!(
+        "(progn (open {name:?} :direction :output) (loop))"
+    ));
+    terminal.wait_until("the evaluation", |_| sign.exists());
+    terminal.kill();
+    let mut resumed = Terminal::start_resumed(&state);
+    resumed.wait_for(";   (progn (open ");
+    resumed.wait_for("Evaluate it again?");
+    resumed.line("n");
+    resumed.wait_for("; Resumed 1 inputs;");
+    resumed.wait_for_last_line("CL-USER>");
+    resumed.evaluate("(defvar *later* (1+ *precious*))");
+    resumed.kill();
+    let again = Terminal::start_resumed(&state);
+    again.wait_for("; Resumed 2 inputs;");
+    again.wait_for_last_line("CL-USER>");
+    again.evaluate("(list *precious* *later*)");
+    assert!(again.text().contains("(42 43)"), "{}", again.text());
+}
+
+#[test]
+fn two_sessions_never_write_to_one_journal() {
+    let state = State::new("two-sessions");
+    let file = state.path().join("shared.journal");
+    let file = file.to_str().expect("a path");
+    let resume = format!("--resume={file}");
+    let mut first = Terminal::start(&state, &["--journal", file]);
+    first.evaluate("(defvar *precious* 42)");
+    let mut second = Terminal::start(&state, &[&resume]);
+    second.wait_for("belongs to a running session.");
+    second.evaluate("(defvar *second* (list 1 2 3))");
+    first.evaluate("(defvar *third* 3)");
+    first.kill();
+    second.evaluate("(defvar *fourth* 4)");
+    second.kill();
+    let mut first = Terminal::start(&state, &[&resume]);
+    first.wait_for("; Resumed 2 inputs;");
+    first.evaluate("(list *precious* *third*)");
+    assert!(first.text().contains("(42 3)"), "{}", first.text());
+    // The copy was written last, and nobody has it now.
+    let second = Terminal::start(&state, &["--resume"]);
+    second.wait_for("; Resumed 3 inputs;");
+    second.evaluate("(list *precious* *second* *fourth*)");
+    assert!(
+        second.text().contains("(42 (1 2 3) 4)"),
+        "{}",
+        second.text()
+    );
+    first.kill();
+}
+
+#[test]
+fn what_is_typed_after_an_interrupt_of_resuming_is_kept() {
+    let state = State::new("resume-interrupted");
+    let mut terminal = Terminal::start(&state, &[]);
+    terminal.evaluate("(defvar *a* 1)");
+    terminal.evaluate("(defvar *slow* nil)");
+    let file = state.path().join("slow");
+    let slow = format!(
+        "(setf *slow* (if (probe-file {0:?}) (loop) (open {0:?} :direction :output)))",
+        file.to_str().expect("a path")
+    );
+    terminal.evaluate(&slow);
+    terminal.evaluate("(defvar *lost* 1)");
+    terminal.kill();
+    let mut resumed = Terminal::start_resumed(&state);
+    resumed.wait_for("; Input 3 of 4");
+    resumed.keys(CTRL_C);
+    resumed.wait_for("; Interrupted at input 3 of 4.");
+    resumed.wait_for("this session is kept in");
+    resumed.wait_for_last_line("CL-USER stopped>");
+    resumed.line("1");
+    resumed.wait_for_last_line("CL-USER>");
+    resumed.evaluate("(defvar *new* (1+ *a*))");
+    resumed.kill();
+    let again = Terminal::start_resumed(&state);
+    again.wait_for("; Resumed 5 inputs;");
+    again.wait_for_last_line("CL-USER>");
+    again.evaluate("(list *a* *new* (boundp '*lost*))");
+    assert!(again.text().contains("(1 2 NIL)"), "{}", again.text());
 }
 
 #[test]

@@ -75,6 +75,115 @@ fn recordings_that_cannot_be_read_or_written_are_told() {
 }
 
 #[test]
+fn a_recording_on_a_full_disk_says_so() {
+    if !std::path::Path::new("/dev/full").exists() {
+        return;
+    }
+    let (status, _, err) = output(&["run", "--eval", "1", "--record", "/dev/full"]);
+    assert_eq!(status, Some(2));
+    assert!(err.contains("/dev/full: the disk is full"), "{err}");
+}
+
+#[cfg(unix)]
+/// Evaluates standard input with state in that directory.
+fn piped(
+    state: &std::path::Path,
+    arguments: &[&str],
+    input: &str,
+) -> (Option<i32>, String, String) {
+    let mut child = planwright(arguments)
+        .stdin(Stdio::piped())
+        .env("XDG_STATE_HOME", state)
+        .spawn()
+        .unwrap();
+    // A program that has refused its arguments does not read.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    told(child.wait_with_output().unwrap())
+}
+
+#[cfg(unix)]
+#[test]
+fn a_recording_that_cannot_go_on_says_so() {
+    let state = super::pseudo_terminal::State::new("record-limit");
+    let file = state.path().join("a.mcap");
+    // Files may have 300 blocks of 512 bytes.
+    let limited = "trap '' XFSZ; ulimit -f 300; exec \"$0\"";
+    let mut child = Command::new("sh")
+        .args(["-c", limited, env!("CARGO_BIN_EXE_planwright")])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let raise = "(with-simulated-robot (perform (a motion (type moving-torso) (joint-angle 0.3))))";
+    let lower = "(with-simulated-robot (perform (a motion (type moving-torso) (joint-angle 0.1))))";
+    let input = format!(
+        "(in-package :pp-tut)\n(record {:?})\n{}(list :still :here)\n",
+        file.to_str().unwrap(),
+        format!("{raise}\n{lower}\n").repeat(6)
+    );
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    let (_, out, err) = told(child.wait_with_output().unwrap());
+    assert!(out.ends_with("(:STILL :HERE)\n"), "{out}");
+    // It is told after an input, or at the latest at the end.
+    assert!(
+        format!("{out}{err}").contains("a.mcap: File too large"),
+        "{out}{err}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_piped_is_kept_and_resumed_if_that_is_asked_for() {
+    let state = super::pseudo_terminal::State::new("piped");
+    let file = state.path().join("a.journal");
+    let name = file.to_str().unwrap();
+    let (status, out, err) = piped(
+        state.path(),
+        &["--journal", name],
+        "(defvar *a* 1)\n(car 5)\n(incf *a*)\n",
+    );
+    assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
+    let (_, out, err) = piped(state.path(), &[&format!("--resume={name}")], "(list *a*)\n");
+    assert_eq!(out, "(2)\n");
+    assert!(err.starts_with("; Resumed 3 inputs; "), "{err}");
+    let (status, _, err) = piped(state.path(), &["--journal", name], "1");
+    assert_eq!(status, Some(2));
+    assert!(
+        err.contains("is the journal of an earlier session"),
+        "{err}"
+    );
+    let (status, _, err) = piped(state.path(), &["--journal", "Cargo.toml"], "1");
+    assert_eq!(status, Some(2));
+    assert!(err.contains("Cargo.toml is not a journal"), "{err}");
+    let (_, out, err) = piped(state.path(), &["--journal", "/dev/full"], "(list 1)");
+    assert_eq!(out, "(1)\n");
+    assert!(err.starts_with("; Nothing typed here is kept"), "{err}");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_old_journal_is_resumed_without_the_input_that_may_have_ended_the_program() {
+    let state = super::pseudo_terminal::State::new("old-journal");
+    let file = state.path().join("old.journal");
+    let text = "planwright journal 1\nseed 0\ninput (defvar *a* 42)\ninput (error \"poison\")\n";
+    std::fs::write(&file, text).unwrap();
+    let resume = format!("--resume={}", file.to_str().unwrap());
+    let (status, out, err) = piped(state.path(), &[&resume], "(list *a*)\n");
+    assert_eq!((status, out.as_str()), (Some(0), "(42)\n"), "{err}");
+    assert!(err.contains("is of an older planwright."), "{err}");
+    assert!(
+        err.contains("; Input 2 began, but nothing says that it ended. It is left out:\n;   (error \"poison\")\n"),
+        "{err}"
+    );
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), text);
+    // The copy does not ask again.
+    let (_, out, err) = piped(state.path(), &["--resume"], "(list *a*)\n");
+    assert_eq!(out, "(42)\n");
+    assert!(!err.contains("Input 2"), "{err}");
+}
+
+#[test]
 fn a_run_with_the_view_ends_when_nobody_looks() {
     let (status, out, err) = output(&["run", "--eval", "(+ 1 2)", "--view"]);
     assert_eq!((status, out.as_str()), (Some(0), "3\n"));

@@ -1,8 +1,9 @@
 //! What the prompt's inputs do, without a terminal: evaluations that stand still, going back
 //! in the world, taking values apart, completion and hints.
 
+use crate::front::transcript::{Transcript, Verdict, replay};
 use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Converse, Evaluate, Outcome, Screen};
+use crate::session::dialogue::{Converse, Evaluate, Outcome, Repeat, Screen};
 use crate::session::{Session, SessionOptions};
 
 /// A session that a person talks to.
@@ -669,5 +670,93 @@ fn a_session_is_saved_as_a_transcript() {
         saved.ends_with("PP-TUT> (princ \"x\")\nx\n\"x\"\n\n"),
         "{saved}"
     );
-    assert!(!saved.contains("PP-TUT> q"), "{saved}");
+    assert!(saved.contains("PP-TUT 1]> q\n"), "{saved}");
+}
+
+/// Saves the session as a transcript, replays that and expects no difference; returns it.
+fn saved_and_replayed(talk: &mut Talk, name: &str) -> String {
+    let path = crate::tests::scratch_folder().join(format!("{name}.transcript"));
+    let shown = path.to_str().expect("a path");
+    talk.say(&format!("(pw:save-transcript {shown:?})"));
+    let saved = std::fs::read_to_string(&path).expect("it is there");
+    let transcript = Transcript::parse("saved", &saved);
+    let mut fresh = Session::new(&SessionOptions::default()).expect("the session starts");
+    for verdict in replay(&transcript, &mut fresh) {
+        if let Verdict::Failed(difference) = verdict {
+            panic!("{}\n{saved}", difference.unified().join("\n"));
+        }
+    }
+    saved
+}
+
+#[test]
+fn what_was_typed_in_the_debugger_is_saved_and_replayed() {
+    let mut talk = Talk::new();
+    talk.say("(defparameter *a* (list *unknown* (lambda () 1)))");
+    talk.choose("[USE-VALUE]");
+    talk.say("(+ 40 2)");
+    talk.say("*a*");
+    talk.say("(defun f (x) (list x (car x)))");
+    talk.say("(f 5)");
+    talk.say("(setf *a* (lambda () x))");
+    talk.say("(f 6)");
+    talk.say(":bt");
+    talk.say("a");
+    talk.say(":locals");
+    talk.say("q");
+    talk.say("(funcall *a*)");
+    let saved = saved_and_replayed(&mut talk, "debugger");
+    assert!(saved.contains(" value> (+ 40 2)\n*A*\n"), "{saved}");
+    assert!(saved.contains("PP-TUT 2]> :bt\n"), "{saved}");
+    assert!(saved.contains("PP-TUT> (funcall *a*)\n5\n"), "{saved}");
+}
+
+#[test]
+fn what_the_prompt_alone_understands_is_saved_and_replayed() {
+    let mut talk = Talk::new();
+    talk.say("(in-package :cl-user)");
+    talk.say("?mapcar");
+    talk.say("(time (list (lambda () 1)))");
+    talk.say("(tasks)");
+    talk.say("(inspect (list 1 (list 2 3)))");
+    talk.say("1");
+    talk.say("q");
+    talk.say("(values) 1");
+    talk.say("(format t \"A> not a prompt~%PP 1]> nor this~%...~%~%\")");
+    talk.say("(world-hash)");
+    let saved = saved_and_replayed(&mut talk, "prompt");
+    assert!(saved.contains("CL-USER inspect> 1\n"), "{saved}");
+    assert!(saved.contains(" s simulated, [..] s real\n"), "{saved}");
+    assert!(saved.contains("\n[..]> not a prompt\n"), "{saved}");
+}
+
+#[test]
+fn a_session_that_stands_still_is_saved_and_replayed() {
+    let mut talk = Talk::new();
+    talk.session.interrupt_next_at(50);
+    talk.say("(loop)");
+    talk.session.interrupt_next_at(70);
+    talk.say("0");
+    talk.say("(tasks)");
+    talk.say("1");
+    talk.say("(car 5)");
+    let saved = saved_and_replayed(&mut talk, "standing-still");
+    assert!(
+        saved.contains("PP-TUT> (loop) ; Ctrl-C at poll 50\n"),
+        "{saved}"
+    );
+    assert!(saved.ends_with("PP-TUT 1]>\n"), "{saved}");
+}
+
+#[test]
+fn completions_do_not_change_the_numbers_of_objects() {
+    let mut talk = Talk::new();
+    talk.say("(defparameter *one* (lambda () 1))");
+    let completions = talk.session.completions("(funcall *one", 13);
+    assert!(
+        completions.candidates[0].doc.contains("{…}"),
+        "{completions:?}"
+    );
+    talk.say("(list (lambda () 2) *one*)");
+    saved_and_replayed(&mut talk, "numbers");
 }

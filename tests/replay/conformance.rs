@@ -7,7 +7,8 @@ use std::path::Path;
 use std::thread;
 
 use crate::front::transcript::{Transcript, Verdict, replay_all};
-use crate::session::dialogue::Evaluate;
+use crate::session::Session;
+use crate::session::dialogue::Repeat;
 
 const KNOWN: &str = "tests/conformance/known-differences.txt";
 const FOLDERS: [(&str, &str); 4] = [
@@ -37,7 +38,7 @@ fn only_known_entries_differ() {
     );
 }
 
-fn open() -> Result<Box<dyn Evaluate>, String> {
+fn open() -> Result<Session, String> {
     crate::front::command::open_default()
 }
 
@@ -61,7 +62,7 @@ fn transcripts(folder: &str, extension: &str) -> Vec<Transcript> {
 }
 
 /// What differs, with the diff.
-fn differing<V: Evaluate>(
+fn differing<V: Repeat>(
     transcripts: &[Transcript],
     open: impl Fn() -> Result<V, String> + Sync,
 ) -> BTreeMap<Place, String> {

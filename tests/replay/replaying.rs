@@ -6,13 +6,15 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::front::transcript::{Transcript, Verdict, replay, replay_all};
-use crate::session::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
+use crate::session::dialogue::{Abort, Evaluate, Event, Finding, Outcome, Repeat, Stop};
 
 /// `print X` prints X without ending the line, `fail X` ends the input, `quit` the
 /// session, `count` gives the number of inputs so far; else a word is its own value.
 #[derive(Default)]
 struct Words {
     inputs: usize,
+    is_interactive: bool,
+    interrupt_at: Option<u64>,
 }
 
 impl Evaluate for Words {
@@ -21,6 +23,17 @@ impl Evaluate for Words {
         for instruction in text.split(';').map(str::trim) {
             match instruction.split_once(' ').unwrap_or((instruction, "")) {
                 ("print", what) => sink(Event::Output(what.to_owned())),
+                ("fail", _) if self.is_interactive => {
+                    sink(Event::Stopped(Box::new(Stop {
+                        choices: vec!["Leave.".to_owned()],
+                        ..Stop::default()
+                    })));
+                    return Outcome::Stopped;
+                }
+                ("wait", _) => {
+                    let at = self.interrupt_at.take().unwrap_or_default();
+                    sink(Event::Values(vec![at.to_string()]));
+                }
                 ("fail", what) => {
                     sink(Event::Aborted(Box::new(Abort {
                         report: format!("There is no {what}."),
@@ -30,6 +43,7 @@ impl Evaluate for Words {
                     return Outcome::Aborted;
                 }
                 ("quit", _) => return Outcome::Quit(0),
+                ("none", _) => sink(Event::Values(Vec::new())),
                 ("count", _) => sink(Event::Values(vec![self.inputs.to_string()])),
                 (word, _) => sink(Event::Values(vec![word.to_owned()])),
             }
@@ -47,6 +61,20 @@ impl Evaluate for Words {
 
     fn interrupt_handle(&self) -> Arc<AtomicBool> {
         Arc::default()
+    }
+}
+
+impl Repeat for Words {
+    fn set_interactive(&mut self, is_interactive: bool) {
+        self.is_interactive = is_interactive;
+    }
+
+    fn interrupted_at(&self) -> Option<u64> {
+        None
+    }
+
+    fn interrupt_next_at(&mut self, at: u64) {
+        self.interrupt_at = Some(at);
     }
 }
 
@@ -86,6 +114,26 @@ fn values_stand_below_output() {
 fn a_failure_ends_its_input_only() {
     let text = "A> a; fail bottle; b\na\n...\n; Evaluation aborted on #<[..]BOTTLE>.\n\nA> c\nc\n";
     assert_eq!(differing("a", text), [0usize; 0]);
+}
+
+#[test]
+fn an_evaluation_stops_where_the_next_prompt_shows_that_it_did() {
+    let text = "A> fail x\n0: Leave.\n\nA 1]> count\n2\n\nA> fail y\n...\n; Evaluation aborted on #<NO-Y>.\n\nA> fail z\n 0: Leave.\n\nA 1]>\n";
+    assert_eq!(differing("a", &text.replace("\n0:", "\n 0:")), [0usize; 0]);
+}
+
+#[test]
+fn an_interrupt_is_repeated_where_it_came() {
+    assert_eq!(
+        differing("a", "A> wait ; Ctrl-C at poll 7\n7\n"),
+        [0usize; 0]
+    );
+}
+
+#[test]
+fn that_a_form_has_no_value_may_be_told_before_the_end() {
+    assert_eq!(differing("a", "A> none; b\n; No value\nb\n"), [0usize; 0]);
+    assert_eq!(differing("a", "A> none; b\nb\n"), [0usize; 0]);
 }
 
 #[test]

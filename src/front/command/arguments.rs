@@ -35,11 +35,11 @@ pub(crate) struct Arguments {
 /// Options of the prompt.
 #[derive(Args, Debug, Default)]
 pub(crate) struct PromptOptions {
-    /// Resume the last session, or the one recorded in the journal FILE: evaluate all its
-    /// inputs again, which leads to the same state
+    /// Resume the last session that is over, or the one recorded in the journal FILE: evaluate
+    /// all its inputs again, which leads to the same state
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true)]
     pub(crate) resume: Option<Option<PathBuf>>,
-    /// File to save the inputs to [default: a file in the state directory]
+    /// New file to save the inputs to [default: a file in the state directory]
     #[arg(long, value_name = "FILE", conflicts_with = "resume")]
     pub(crate) journal: Option<PathBuf>,
 }

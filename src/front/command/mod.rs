@@ -74,7 +74,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         None if io::IsTerminal::is_terminal(&io::stdin()) => {
             prompt::prompt(arguments.options, &arguments.prompt, &watch)
         }
-        None => pipe::evaluate_standard_input(options, &watch),
+        None => pipe::evaluate_standard_input(arguments.options, &arguments.prompt, &watch),
         Some(Command::Run {
             files,
             eval,

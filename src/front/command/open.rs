@@ -48,9 +48,9 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
     Ok(session)
 }
 
-/// A fresh evaluator, as with no options on the command line.
+/// A fresh session, as with no options on the command line.
 #[cfg(test)]
-pub(crate) fn open_default() -> Result<Box<dyn Evaluate>, String> {
+pub(crate) fn open_default() -> Result<Session, String> {
     let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;
-    open(&arguments.options).map_err(|error| error.to_string())
+    open_session(&arguments.options).map_err(|error| error.to_string())
 }

@@ -8,7 +8,7 @@ use super::open::open_session;
 use super::paint::Paint;
 use super::watching;
 use crate::front::prompt;
-use crate::front::prompt::{Beginning, Earlier, Journal, ReplOptions};
+use crate::front::prompt::{Beginning, JournalError, Opened, ReplOptions, Wanted};
 
 /// Runs the prompt, in a fresh session or in a resumed one.
 pub(crate) fn prompt(
@@ -16,18 +16,7 @@ pub(crate) fn prompt(
     wanted: &PromptOptions,
     watch: &WatchArguments,
 ) -> Result<Status, CommandError> {
-    let earlier = match &wanted.resume {
-        Some(path) => Some(Earlier::read(path.as_deref())?),
-        None => None,
-    };
-    if let Some(earlier) = &earlier {
-        let beginning = earlier.beginning.clone();
-        options.seed = beginning.seed;
-        options.world = beginning.world;
-        options.robot = beginning.robot;
-        options.robot_description = beginning.robot_description;
-    }
-    let journal = journal(&options, wanted, earlier.as_ref());
+    let journals = open_journals(&mut options, wanted)?;
     let mut session = open_session(&options)?;
     watching::begin(&mut session, watch)?;
     let paint = Paint::new(options.color, &io::stdout());
@@ -35,31 +24,38 @@ pub(crate) fn prompt(
         session,
         ReplOptions {
             is_colored: paint.is_on(),
-            journal,
-            resume: earlier.map(|earlier| earlier.inputs).unwrap_or_default(),
+            journals,
             ..ReplOptions::default()
         },
     )?;
     Ok(Status::Left(status))
 }
 
-/// The journal of this session. The prompt also works without one.
-fn journal(
-    options: &Options,
+/// Opens the journals that the options ask for. A session that is resumed determines how it
+/// begins.
+pub(super) fn open_journals(
+    options: &mut Options,
     wanted: &PromptOptions,
-    earlier: Option<&Earlier>,
-) -> Option<Journal> {
-    if let Some(earlier) = earlier {
-        return Journal::go_on(&earlier.path).ok();
-    }
+) -> Result<Opened, JournalError> {
+    let journal = match (&wanted.resume, &wanted.journal) {
+        (Some(Some(path)), _) => Wanted::Of(path),
+        (Some(None), _) => Wanted::Last,
+        (None, Some(path)) => Wanted::In(path),
+        (None, None) => Wanted::Fresh,
+    };
     let beginning = Beginning {
         seed: options.seed,
         world: options.world.clone(),
         robot: options.robot.clone(),
         robot_description: options.robot_description.clone(),
     };
-    match &wanted.journal {
-        Some(path) => Journal::create(path, &beginning).ok(),
-        None => Journal::begin(&beginning),
+    let opened = prompt::open(journal, &beginning)?;
+    if let Some(earlier) = &opened.earlier {
+        let beginning = earlier.beginning.clone();
+        options.seed = beginning.seed;
+        options.world = beginning.world;
+        options.robot = beginning.robot;
+        options.robot_description = beginning.robot_description;
     }
+    Ok(opened)
 }

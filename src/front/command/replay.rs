@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use super::arguments::Options;
 use super::failure::{CommandError, Status, read};
-use super::open::open;
+use super::open::open_session;
 use super::paint::Paint;
 use crate::front::transcript::{Transcript, Verdict, blessed, replay_all};
 
@@ -36,7 +36,7 @@ pub(crate) fn replay(
     replay_all(
         &transcripts,
         jobs,
-        || open(options),
+        || open_session(options),
         |transcript, verdicts| {
             let path = files.next();
             if told.is_ok() {

@@ -8,8 +8,11 @@ use super::failure::{CommandError, Status, read};
 use super::open::open_session;
 use super::paint::Paint;
 use crate::front::prompt;
-use crate::front::prompt::ReplOptions;
+use crate::front::prompt::{Opened, ReplOptions};
 use crate::front::transcript::{Transcript, replay_first};
+
+/// A journal could not be resumed to the same state, which depends on the transcript.
+const UNKEPT: &str = "; Nothing typed here is kept; (save-transcript \"FILE\") saves all of it.";
 
 /// Replays the file up to and including the `entry`th input (counted from one) and opens the
 /// prompt.
@@ -49,6 +52,10 @@ pub(crate) fn stop_at(
         ReplOptions {
             is_colored: paint.is_on(),
             remark: Some(remark),
+            journals: Opened {
+                remarks: vec![UNKEPT.to_owned()],
+                ..Opened::default()
+            },
             inputs_before: entry,
             ..ReplOptions::default()
         },

@@ -128,11 +128,20 @@ impl LineEditor {
 
     /// Asks a question; returns whether the answer is yes.
     pub(crate) fn confirm(&mut self, question: &str) -> bool {
-        match self.editor.readline(&format!("{question} (y or n) ")) {
-            Ok(answer) => matches!(answer.trim(), "y" | "Y" | "yes"),
+        match self.answer(question) {
             // A second Ctrl-D means yes.
             Err(ReadlineError::Eof) => true,
-            Err(_) => false,
+            answer => answer.unwrap_or(false),
         }
+    }
+
+    /// Asks a question; returns whether the answer is yes, and not Ctrl-D, either.
+    pub(crate) fn is_wanted(&mut self, question: &str) -> bool {
+        self.answer(question).unwrap_or(false)
+    }
+
+    fn answer(&mut self, question: &str) -> std::result::Result<bool, ReadlineError> {
+        let answer = self.editor.readline(&format!("{question} (y or n) "))?;
+        Ok(matches!(answer.trim(), "y" | "Y" | "yes"))
     }
 }

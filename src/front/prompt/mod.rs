@@ -10,8 +10,10 @@ mod highlight;
 mod history;
 mod indent;
 mod journal;
+mod keeper;
 mod keys;
 mod pasted;
+mod resume;
 
 use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
@@ -31,7 +33,9 @@ use assist::Shared;
 use editor::LineEditor;
 use pasted::Inputs;
 
-pub(crate) use journal::{Beginning, Earlier, Journal, JournalError, Recorded};
+pub(crate) use journal::{Beginning, Earlier, JournalError, Opened, Wanted, open};
+pub(crate) use keeper::Keeper;
+pub(crate) use resume::{Doubt, excerpt, resume, settle_doubts};
 
 /// Why the prompt cannot be used.
 #[derive(Debug, Error)]
@@ -63,10 +67,8 @@ const SOON: Duration = Duration::from_millis(90);
 pub(crate) struct ReplOptions {
     /// Whether to use colours.
     pub(crate) is_colored: bool,
-    /// Where inputs are saved before they are evaluated.
-    pub(crate) journal: Option<Journal>,
-    /// Inputs of an earlier session to evaluate first.
-    pub(crate) resume: Vec<Recorded>,
+    /// Where inputs are saved before they are evaluated, and the session to resume.
+    pub(crate) journals: Opened,
     /// A remark to print before the first prompt.
     pub(crate) remark: Option<String>,
     /// Number of inputs evaluated before the prompt.
@@ -103,7 +105,12 @@ pub(crate) fn run(
         screen.set_pictures(pictures);
     }
     io::stdout().write_all(BANNER.as_bytes())?;
-    if let Some(remark) = &options.remark {
+    let Opened {
+        journal,
+        earlier,
+        remarks,
+    } = options.journals;
+    for remark in options.remark.iter().chain(&remarks) {
         writeln!(io::stdout(), "{remark}")?;
     }
     let mut repl = Repl {
@@ -111,44 +118,18 @@ pub(crate) fn run(
         interrupt,
         is_evaluating,
         screen,
-        journal: options.journal,
+        keeper: Keeper::new(journal),
         number: options.inputs_before,
     };
-    if let Some(code) = repl.resume(&options.resume)? {
-        return Ok(code);
+    if let Some(mut earlier) = earlier {
+        repl.resume(&mut earlier, &mut editor)?;
     }
-    loop {
-        let (prompt, draft, level, answer) = {
-            let mut evaluator = repl.evaluator.borrow_mut();
-            let draft = evaluator.take_draft();
-            let answer = evaluator.answer_to_interrupt();
-            (evaluator.prompt(), draft, evaluator.level(), answer)
-        };
-        // A second Ctrl-C may come before the line editor is ready for it.
-        let is_hurried = repl.interrupt.swap(false, Ordering::Relaxed);
-        let read = match answer {
-            Some(_) if is_hurried => Err(ReadlineError::Interrupted),
-            _ => editor.read(&prompt, draft.as_deref()),
-        };
-        let text = match read {
-            Ok(text) => text,
-            Err(ReadlineError::Interrupted) => match answer {
-                Some(answer) => answer.to_owned(),
-                None => continue,
-            },
-            Err(ReadlineError::Eof) if level == 0 => return Ok(0),
-            Err(ReadlineError::Eof) => {
-                if editor.confirm("An evaluation is suspended. Leave anyway?") {
-                    return Ok(0);
-                }
-                continue;
-            }
-            Err(error) => return Err(error.into()),
-        };
-        if let Some(code) = repl.take(&text)? {
-            return Ok(code);
-        }
+    let status = repl.converse(&mut editor)?;
+    if let Err(reason) = repl.evaluator.borrow_mut().finish() {
+        // If standard error is closed, the message is lost.
+        let _ = writeln!(io::stderr(), "; {reason}.");
     }
+    Ok(status)
 }
 
 /// What the prompt works with besides the line editor.
@@ -157,12 +138,48 @@ struct Repl {
     interrupt: Arc<AtomicBool>,
     is_evaluating: Arc<AtomicBool>,
     screen: Screen<io::Stdout>,
-    journal: Option<Journal>,
+    keeper: Keeper,
     /// Number of the latest input.
     number: usize,
 }
 
 impl Repl {
+    /// Reads and evaluates inputs; returns the exit status.
+    fn converse(&mut self, editor: &mut LineEditor) -> Result<u8, ReplError> {
+        loop {
+            let (prompt, draft, level, answer) = {
+                let mut evaluator = self.evaluator.borrow_mut();
+                let draft = evaluator.take_draft();
+                let answer = evaluator.answer_to_interrupt();
+                (evaluator.prompt(), draft, evaluator.level(), answer)
+            };
+            // A second Ctrl-C may come before the line editor is ready for it.
+            let is_hurried = self.interrupt.swap(false, Ordering::Relaxed);
+            let read = match answer {
+                Some(_) if is_hurried => Err(ReadlineError::Interrupted),
+                _ => editor.read(&prompt, draft.as_deref()),
+            };
+            let text = match read {
+                Ok(text) => text,
+                Err(ReadlineError::Interrupted) => match answer {
+                    Some(answer) => answer.to_owned(),
+                    None => continue,
+                },
+                Err(ReadlineError::Eof) if level == 0 => return Ok(0),
+                Err(ReadlineError::Eof) => {
+                    if editor.confirm("An evaluation is suspended. Leave anyway?") {
+                        return Ok(0);
+                    }
+                    continue;
+                }
+                Err(error) => return Err(error.into()),
+            };
+            if let Some(code) = self.take(&text)? {
+                return Ok(code);
+            }
+        }
+    }
+
     /// Evaluates typed or pasted text; returns the exit status if that ends the session.
     fn take(&mut self, text: &str) -> Result<Option<u8>, ReplError> {
         let inputs = Inputs::of(text);
@@ -199,78 +216,48 @@ impl Repl {
     }
 
     fn evaluate(&mut self, input: &str, stops: bool) -> Result<Outcome, ReplError> {
-        self.note(|journal| journal.input(input, stops));
+        self.keeper.begun(input, stops);
         self.number += 1;
         let name = input_name(self.number);
-        let outcome = {
-            let mut evaluator = self.evaluator.borrow_mut();
-            evaluator.set_interactive(stops);
-            self.is_evaluating.store(true, Ordering::Relaxed);
-            let outcome = evaluate_on(&mut self.screen, &mut *evaluator, &name, input);
-            self.is_evaluating.store(false, Ordering::Relaxed);
-            evaluator.set_interactive(true);
-            outcome?
-        };
-        let interrupted_at = self.evaluator.borrow().interrupted_at();
-        if let Some(at) = interrupted_at {
-            self.note(|journal| journal.interrupted(at));
-        }
+        let mut evaluator = self.evaluator.borrow_mut();
+        evaluator.set_interactive(stops);
+        self.is_evaluating.store(true, Ordering::Relaxed);
+        let outcome = evaluate_on(&mut self.screen, &mut *evaluator, &name, input);
+        self.is_evaluating.store(false, Ordering::Relaxed);
+        evaluator.set_interactive(true);
+        // What ended because nobody sees its output was not interrupted by the user.
+        let outcome = outcome?;
+        self.keeper.ended(&*evaluator);
         Ok(outcome)
     }
 
-    /// Writes to the journal; if that fails, says so once and stops writing.
-    fn note(&mut self, write: impl FnOnce(&mut Journal) -> io::Result<()>) {
-        let Some(journal) = &mut self.journal else {
-            return;
-        };
-        if let Err(error) = write(journal) {
-            self.journal = None;
-            // If standard error is closed, the message is lost.
-            let _ = writeln!(io::stderr(), "; Cannot write the journal any more: {error}");
-        }
-    }
-
-    /// Evaluates the inputs of an earlier session again without showing their output.
-    fn resume(&mut self, inputs: &[Recorded]) -> Result<Option<u8>, ReplError> {
-        let mut out = io::stdout();
-        for (at, input) in inputs.iter().enumerate() {
-            write!(out, "\r\x1b[2K; Input {} of {} …", at + 1, inputs.len())?;
-            out.flush()?;
-            self.number += 1;
-            let name = input_name(self.number);
-            let mut evaluator = self.evaluator.borrow_mut();
-            evaluator.set_interactive(input.stops);
-            if let Some(at) = input.interrupted_at {
-                evaluator.interrupt_next_at(at);
-            }
-            evaluator.evaluate(&name, &input.text, &mut |_| {});
-            evaluator.set_interactive(true);
-            let interrupted = evaluator.interrupted_at();
-            drop(evaluator);
-            if interrupted != input.interrupted_at {
-                writeln!(out, "\r\x1b[2K; Interrupted at input {}.", at + 1)?;
-                self.journal = None;
-                return Ok(None);
-            }
-        }
-        if !inputs.is_empty() {
-            let hash = self.evaluator.borrow().world_hash();
+    /// Evaluates the inputs of an earlier session again without showing their output. Asks
+    /// about those that may have ended the program.
+    fn resume(&mut self, earlier: &mut Earlier, editor: &mut LineEditor) -> Result<(), ReplError> {
+        settle_doubts(earlier, &mut self.keeper, |number, text| {
             writeln!(
-                out,
-                "\r\x1b[2K; Resumed {} inputs; the world's hash is {hash:016x}.",
-                inputs.len()
+                io::stdout(),
+                "; Input {number} began, but nothing says that it ended:\n{}",
+                excerpt(text)
             )?;
-        }
+            let again = editor.is_wanted("Evaluate it again? If not, it is left out.");
+            Ok(if again { Doubt::Retry } else { Doubt::Skip })
+        })?;
+        resume(
+            &mut *self.evaluator.borrow_mut(),
+            &mut self.keeper,
+            earlier,
+            &mut self.number,
+            io::stdout(),
+            true,
+        )?;
         let mut evaluator = self.evaluator.borrow_mut();
+        evaluator.set_interactive(true);
         if evaluator.level() > 0 {
             // An empty input shows again where the evaluation is suspended.
-            evaluate_on(
-                &mut self.screen,
-                &mut *evaluator,
-                &input_name(self.number),
-                "",
-            )?;
+            let name = input_name(self.number);
+            evaluate_on(&mut self.screen, &mut *evaluator, &name, "")?;
         }
-        Ok(None)
+        Ok(())
     }
 }

@@ -33,7 +33,10 @@ impl<'a> Inputs<'a> {
         let mut inputs = Inputs::of(before);
         for entry in Transcript::parse("", session).entries {
             inputs.output_lines += entry.expected.len();
-            if !entry.input.trim().is_empty() {
+            if entry.is_stopped {
+                // An answer to the debugger: without a condition it means nothing.
+                inputs.output_lines += entry.input.lines().count().max(1);
+            } else if !entry.input.trim().is_empty() {
                 inputs.inputs.push(Cow::Owned(entry.input));
             }
         }
@@ -50,7 +53,8 @@ impl<'a> Inputs<'a> {
 fn first_prompt(text: &str) -> Option<usize> {
     let mut start = 0;
     for line in text.split_inclusive('\n') {
-        if prompt_line(line.trim_end_matches(['\r', '\n'])).is_some() {
+        let prompt = prompt_line(line.trim_end_matches(['\r', '\n']));
+        if prompt.is_some_and(|prompt| prompt.state.is_empty()) {
             let before = text.get(..start)?;
             return is_whole(before).then_some(start);
         }

@@ -22,6 +22,8 @@ pub(crate) struct Transcript {
 pub(crate) struct Entry {
     /// Line of the prompt, from one.
     pub(crate) line: usize,
+    /// Whether an evaluation is stopped when the prompt appears.
+    pub(crate) is_stopped: bool,
     /// The text after the prompt, up to and including the line that completes it.
     pub(crate) input: String,
     /// The expected lines, without trailing blanks and trailing blank lines.
@@ -65,15 +67,15 @@ fn entries(lines: &[String], block: Range<usize>) -> Vec<Entry> {
     prompts
         .iter()
         .zip(ends.chain([block.end]))
-        .map(|((number, prompt), end)| entry(lines, *number, prompt.input, end))
+        .map(|((number, prompt), end)| entry(lines, *number, *prompt, end))
         .collect()
 }
 
 /// The entry whose prompt is on line `number`; the next prompt is on line `end`.
 ///
 /// An input that is incomplete at the next prompt ends there; reading it then fails.
-fn entry(lines: &[String], number: usize, first: &str, end: usize) -> Entry {
-    let mut input = first.to_owned();
+fn entry(lines: &[String], number: usize, prompt: PromptLine<'_>, end: usize) -> Entry {
+    let mut input = prompt.input.to_owned();
     let mut next = number + 1;
     while !is_whole(&input) {
         let Some(line) = lines.get(next).filter(|_| next < end) else {
@@ -88,6 +90,7 @@ fn entry(lines: &[String], number: usize, first: &str, end: usize) -> Entry {
     let expected_at = next..next + expected.len();
     Entry {
         line: number + 1,
+        is_stopped: !prompt.state.is_empty(),
         input,
         expected,
         expected_at,

@@ -8,13 +8,16 @@ use std::thread;
 
 use super::parse::Transcript;
 use super::verdict::Verdict;
+use crate::session::dialogue::repeat::{Repeat, split_interrupt};
 use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Evaluate, Outcome, Screen};
+use crate::session::dialogue::{Outcome, Screen};
 
 /// Runs the inputs of a transcript one after the other.
 ///
-/// After an input that ends the session, the remaining ones have no output.
-pub(crate) fn replay(transcript: &Transcript, evaluator: &mut impl Evaluate) -> Vec<Verdict> {
+/// After an input that ends the session, the remaining ones have no output. Where the next
+/// prompt shows that an evaluation is stopped, conditions and interrupts stop this one; elsewhere
+/// they end it.
+pub(crate) fn replay(transcript: &Transcript, evaluator: &mut impl Repeat) -> Vec<Verdict> {
     replay_first(transcript, transcript.entries.len(), evaluator)
 }
 
@@ -22,7 +25,7 @@ pub(crate) fn replay(transcript: &Transcript, evaluator: &mut impl Evaluate) -> 
 pub(crate) fn replay_first(
     transcript: &Transcript,
     count: usize,
-    evaluator: &mut impl Evaluate,
+    evaluator: &mut impl Repeat,
 ) -> Vec<Verdict> {
     let mut left = false;
     transcript
@@ -32,7 +35,10 @@ pub(crate) fn replay_first(
         .enumerate()
         .map(|(number, entry)| {
             let mut output = String::new();
-            if !left {
+            // A prompt without an input only shows how the input before it ended.
+            if !left && !entry.input.trim().is_empty() {
+                let next = transcript.entries.get(number + 1);
+                evaluator.set_interactive(next.is_some_and(|next| next.is_stopped));
                 let name = input_name(number + 1);
                 let outcome;
                 (output, outcome) = evaluate(evaluator, &name, &entry.input);
@@ -44,7 +50,11 @@ pub(crate) fn replay_first(
 }
 
 /// What the screen shows for an input.
-fn evaluate(evaluator: &mut impl Evaluate, name: &str, input: &str) -> (String, Outcome) {
+fn evaluate(evaluator: &mut impl Repeat, name: &str, input: &str) -> (String, Outcome) {
+    let (input, interrupted_at) = split_interrupt(input);
+    if let Some(at) = interrupted_at {
+        evaluator.interrupt_next_at(at);
+    }
     let mut screen = Screen::new(Vec::new());
     screen.begin_input(name, input);
     let outcome = evaluator.evaluate(name, input, &mut |event| {
@@ -69,7 +79,7 @@ pub(crate) fn replay_all<V, E>(
     open: impl Fn() -> Result<V, E> + Sync,
     mut report: impl FnMut(&Transcript, Result<Vec<Verdict>, E>) -> bool,
 ) where
-    V: Evaluate,
+    V: Repeat,
     E: Send,
 {
     let next = AtomicUsize::new(0);

@@ -73,17 +73,22 @@ pub(crate) struct Identities {
     entries: HashMap<usize, (u64, Held)>,
     given: u64,
     sweep_at: usize,
+    /// Whether objects without a number get none now.
+    is_aside: bool,
 }
 
 impl Identities {
-    fn number(&mut self, value: &Value) -> u64 {
+    fn number(&mut self, value: &Value) -> Option<u64> {
         let Some((address, tag, held)) = Held::of(value) else {
-            return FIRST;
+            return Some(FIRST);
         };
         if let Some((number, held)) = self.entries.get(&address)
             && held.is_alive()
         {
-            return *number;
+            return Some(*number);
+        }
+        if self.is_aside {
+            return None;
         }
         if self.entries.len() >= self.sweep_at.max(SWEEP_FROM) {
             self.entries.retain(|_, (_, held)| held.is_alive());
@@ -92,12 +97,23 @@ impl Identities {
         let number = FIRST + self.given * STEP + tag;
         self.given += 1;
         self.entries.insert(address, (number, held));
-        number
+        Some(number)
     }
 }
 
 /// The made-up address of an object, in braces: the same one whenever it is printed.
 pub(crate) fn identity(image: &Image, value: &Value) -> String {
-    let number = image.printed.borrow_mut().number(value);
-    format!("{{{number:010X}}}")
+    match image.printed.borrow_mut().number(value) {
+        Some(number) => format!("{{{number:010X}}}"),
+        None => "{…}".to_owned(),
+    }
+}
+
+/// Prints something that is shown beside the session, such as a completion: objects get no
+/// numbers by that, so that the session prints the same whoever looks on.
+pub(crate) fn aside<T>(image: &Image, print: impl FnOnce() -> T) -> T {
+    let was_aside = std::mem::replace(&mut image.printed.borrow_mut().is_aside, true);
+    let printed = print();
+    image.printed.borrow_mut().is_aside = was_aside;
+    printed
 }

@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::{first_sentence, lower};
 use crate::lisp::builtins::help;
+use crate::lisp::image::identity::aside;
 use crate::lisp::print;
 use crate::lisp::value::package::{PackageId, PackageTable};
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
@@ -176,7 +177,8 @@ impl Session {
         if data.value.is_unbound() {
             return Some("a variable without a value".to_owned());
         }
-        let shown = print::to_string(&self.image, &data.value, true);
+        let image = &self.image;
+        let shown = aside(image, || print::to_string(image, &data.value, true));
         Some(format!("= {}", crate::session::on_one_line(&shown)))
     }
 }

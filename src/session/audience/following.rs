@@ -2,6 +2,7 @@
 
 use super::Audience;
 use crate::lisp::image::Image;
+use crate::lisp::image::identity::aside;
 use crate::lisp::print;
 use crate::motion::PlannedTrajectory;
 use crate::plan::{Plan, Status};
@@ -71,7 +72,8 @@ impl Audience {
             return;
         }
         for change in Plan::of(image).fetch_journal() {
-            let failure = change.failure.map(|f| print::report::report(image, &f));
+            let report = |f| aside(image, || print::report::report(image, &f));
+            let failure = change.failure.map(report);
             let news = WatchEvent::Task(TaskNews {
                 id: TaskId::Task(change.id.0),
                 parent: change.parent.map(|parent| TaskId::Task(parent.0)),

@@ -124,6 +124,17 @@ impl Audience {
         }
     }
 
+    /// The reason why the recording has ended by itself, if it has; told once.
+    pub(in crate::session) fn broken_recording(&mut self) -> Option<WatchError> {
+        let error = self.recording.as_ref()?.result.take()?;
+        let open = self.recording.take()?;
+        self.remove_follower(open.follower);
+        Some(WatchError::Record {
+            path: open.path,
+            error,
+        })
+    }
+
     /// The server of the live view, if it is open.
     pub(crate) fn view_server(&self) -> Option<&Server> {
         self.view.as_ref().map(|view| &view.server)

@@ -4,6 +4,7 @@ use super::{Asking, Session};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::FunctionCell;
+use crate::session::dialogue::screen::is_input_name;
 use crate::session::dialogue::{Event, Outcome};
 use crate::session::host::parts::View;
 
@@ -68,10 +69,10 @@ impl Session {
         }
     }
 
-    /// Expands shorthand: `?name` asks for documentation, unless it is a variable with a value;
+    /// Expands shorthand in an input at a prompt, whoever types it: `?name` asks for documentation, unless it is a variable with a value;
     /// and the functions of package `PLANWRIGHT` can be called from every package.
-    pub(in crate::session) fn question(&self, text: &str) -> Option<String> {
-        if !self.console.is_interactive {
+    pub(in crate::session) fn question(&self, source_name: &str, text: &str) -> Option<String> {
+        if !is_input_name(source_name) {
             return None;
         }
         self.documentation_asked(text)

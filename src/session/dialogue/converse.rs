@@ -1,14 +1,10 @@
-//! What the prompt needs from an evaluator beyond evaluation: how to continue after a stop,
-//! what could be typed next, and what is needed to repeat a session.
+//! What the prompt needs from an evaluator beyond evaluation: how to continue after a stop, and
+//! what could be typed next.
 
-use super::evaluate::Evaluate;
+use super::repeat::Repeat;
 
 /// An evaluator for interactive use.
-pub(crate) trait Converse: Evaluate {
-    /// Sets whether an unhandled condition or an interrupt stops the evaluation where it is,
-    /// so that the next input says how to continue; by default, both end it.
-    fn set_interactive(&mut self, is_interactive: bool);
-
+pub(crate) trait Converse: Repeat {
     /// Number of stopped evaluations.
     fn level(&self) -> usize;
 
@@ -29,14 +25,12 @@ pub(crate) trait Converse: Evaluate {
     /// Whether the name is that of a designator type.
     fn is_designator_type(&self, name: &str) -> bool;
 
-    /// Where the last input was interrupted, if it was; used to repeat that in another session.
-    fn interrupted_at(&self) -> Option<u64>;
-
-    /// Makes the next input be interrupted there.
-    fn interrupt_next_at(&mut self, at: u64);
-
     /// A hash of the world's state.
     fn world_hash(&self) -> u64;
+
+    /// Ends what the session still writes, such as a recording; returns the reason if that
+    /// failed.
+    fn finish(&mut self) -> Result<(), String>;
 }
 
 /// The completions at a place.

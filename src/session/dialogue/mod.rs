@@ -10,10 +10,12 @@ pub(crate) mod evaluate;
 mod evaluate_on;
 mod input;
 pub(crate) mod prompt_line;
+pub(crate) mod repeat;
 pub(crate) mod screen;
 
 pub(crate) use converse::{Candidate, Completions, Converse};
 pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
 pub(crate) use evaluate_on::{evaluate_keeping_abort, evaluate_on};
 pub(crate) use input::is_whole;
+pub(crate) use repeat::Repeat;
 pub(crate) use screen::Screen;

@@ -219,7 +219,7 @@ impl<W: Write> Screen<W> {
             self.source_has_lines
                 .then(|| format!("line {}, column {}", place.line, place.column))
         } else {
-            (!place.name.starts_with(INPUT_NAME)).then(|| place.to_string())
+            (!is_input_name(&place.name)).then(|| place.to_string())
         }
     }
 }
@@ -232,6 +232,11 @@ const INPUT_NAME: &str = "prompt[";
 /// The name of the `number`th input at a prompt, as the source of places.
 pub(crate) fn input_name(number: usize) -> String {
     format!("{INPUT_NAME}{number}]")
+}
+
+/// Whether this names an input at a prompt.
+pub(crate) fn is_input_name(source_name: &str) -> bool {
+    source_name.starts_with(INPUT_NAME)
 }
 
 #[cfg(test)]
