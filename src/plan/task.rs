@@ -95,9 +95,6 @@ impl fmt::Display for TaskName {
 pub(crate) struct Task {
     /// Its name.
     pub(crate) name: TaskName,
-    /// Is it the outermost task of a plan?
-    #[allow(dead_code, reason = "part of the data")]
-    pub(crate) is_toplevel: bool,
     /// Its place in the task tree.
     pub(crate) node: Rc<TreeNode>,
     /// Was it told to hold still before it began?
@@ -184,7 +181,6 @@ impl TaskRef {
         let names = &plan.names;
         let object = Rc::new(ForeignBox::new(Task {
             name,
-            is_toplevel,
             node,
             is_held: Cell::new(false),
             result: RefCell::new(Value::NIL),

@@ -39,6 +39,15 @@ pub(crate) static TABLE: &[Builtin] = &[
         invoke_restart,
     ),
     control(
+        "INVOKE-RESTART-INTERACTIVELY",
+        "restart",
+        "Calls the function of a restart with the arguments that its :interactive function returns.",
+        &[
+            "(restart-case (invoke-restart-interactively 'r) (r (x) :interactive (lambda () (list 1)) x)) => 1",
+        ],
+        invoke_restart_interactively,
+    ),
+    control(
         "INVOKE-DEBUGGER",
         "condition",
         "Stops with a condition.",
@@ -175,13 +184,35 @@ fn signal_break(machine: &mut Machine<'_>, args: &[Value]) -> Result<Step> {
 }
 
 fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    match machine.find_restart(&args[0]) {
-        Some(restart) => Ok(call_restart(&restart, args[1..].to_vec())),
-        None => {
-            let shown = print::to_string(machine.image, &args[0], true);
-            Err(Raise::control(format!("No restart {shown} is active.")))
-        }
+    let restart = active_restart(machine, &args[0])?;
+    Ok(call_restart(&restart, args[1..].to_vec()))
+}
+
+fn invoke_restart_interactively(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    let restart = active_restart(machine, &args[0])?;
+    let asks = restart.as_foreign::<Restart>();
+    let asks = asks.map_or(Value::NIL, |restart| restart.interactive.clone());
+    if asks.is_nil() {
+        return Ok(call_restart(&restart, Vec::new()));
     }
+    run(
+        machine,
+        "INVOKE-RESTART-INTERACTIVELY",
+        |calls| async move {
+            let args = calls.call(&asks, Args::Many(Vec::new())).await;
+            let args = args
+                .list_to_vec()
+                .ok_or_else(|| Raise::type_error(&args, known::LIST))?;
+            Ok(call_restart(&restart, args))
+        },
+    )
+}
+
+fn active_restart(machine: &mut Machine<'_>, designator: &Value) -> Result<Value> {
+    machine.find_restart(designator).ok_or_else(|| {
+        let shown = print::to_string(machine.image, designator, true);
+        Raise::control(format!("No restart {shown} is active."))
+    })
 }
 
 fn call_restart(restart: &Value, args: Vec<Value>) -> Step {

@@ -18,7 +18,7 @@ pub(crate) static TABLE: &[Builtin] = &[pure(
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%DEFINE-STRUCTURE",
-        "name parent slots constructor copier predicate documentation conc-name",
+        "name parent slots copier predicate documentation conc-name",
         "Defines a structure as DEFSTRUCT describes it.",
         &[],
         define_structure,

@@ -18,7 +18,6 @@ pub(crate) struct Restart {
     /// A string, or a function of a stream that describes it; `NIL` if there is none.
     pub(crate) report: Value,
     /// A function that asks for the arguments; `NIL` if there is none.
-    #[allow(dead_code, reason = "part of the data")]
     pub(crate) interactive: Value,
 }
 

@@ -94,7 +94,6 @@ impl Machine<'_> {
                     Op::Drop(n) => self.drop_values(n),
                     Op::Slide(n) => self.slide(n),
                     Op::Dup => self.duplicate(),
-                    Op::Primary => self.map_top(Value::primary),
                     Op::Spread(count) => self.spread(count),
 
                     Op::Jump(target) => {

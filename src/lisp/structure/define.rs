@@ -16,13 +16,12 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// Defines a structure: `(name parent ((slot accessor initform type read-only)…)
-/// constructor copier predicate documentation conc-name)`.
+/// copier predicate documentation conc-name)`.
 pub(crate) fn define_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let [
         Value::Symbol(name),
         parent,
         slots,
-        constructor,
         copier,
         predicate,
         doc,
@@ -33,7 +32,6 @@ pub(crate) fn define_structure(image: &mut Image, args: &[Value]) -> Result<Valu
     };
     let mut layout = StructureLayout {
         slots: Vec::new(),
-        constructor: constructor.as_symbol().filter(|c| *c != known::NIL),
         conc_name: conc_name.as_text().unwrap_or_default().into(),
     };
     let mut accessors = Vec::new();
@@ -130,7 +128,7 @@ pub(super) fn check_slot_type(
     }
     match typep(image, value, slot_type)? {
         TypeCheck::No => Err(Raise::type_error(value, slot_type.clone())),
-        TypeCheck::Yes | TypeCheck::NeedsCall { .. } => Ok(()),
+        TypeCheck::Yes | TypeCheck::NeedsCall => Ok(()),
     }
 }
 

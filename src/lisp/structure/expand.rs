@@ -110,18 +110,12 @@ fn definition_form(
         })
         .collect();
     let parent = definition.include.as_ref().map(|(parent, _)| *parent);
-    let constructor = definition
-        .constructors
-        .iter()
-        .find(|c| c.lambda_list.is_none())
-        .map(|c| c.name);
     let or_nil = |sym: Option<Sym>| quote(sym.map_or(Value::NIL, Value::Symbol));
     form![
         known::SYS_DEFINE_STRUCTURE,
         quote(definition.name),
         or_nil(parent),
         quote(Value::list(described)),
-        or_nil(constructor),
         or_nil(definition.copier),
         or_nil(definition.predicate),
         doc_form(definition.doc.as_ref()),

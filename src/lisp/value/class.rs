@@ -80,9 +80,6 @@ pub(crate) struct StructureSlot {
 pub(crate) struct StructureLayout {
     /// All slots, included ones first.
     pub(crate) slots: Vec<StructureSlot>,
-    /// Name of the constructor with keyword arguments, if there is one.
-    #[allow(dead_code, reason = "part of the data")]
-    pub(crate) constructor: Option<Sym>,
     /// The prefix of the accessors.
     pub(crate) conc_name: Rc<str>,
 }

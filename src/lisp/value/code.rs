@@ -77,9 +77,6 @@ pub(crate) enum Op {
     MultipleValueCall(u16, bool),
     /// Return the top.
     Return,
-    /// Make the top a single value.
-    #[allow(dead_code, reason = "part of the data")]
-    Primary,
     /// Pop the values of a call and push exactly so many of them.
     Spread(u32),
     /// Car of the top.

@@ -62,9 +62,6 @@ pub(crate) struct SymbolData {
     pub(crate) value: Value,
     /// How the symbol is bound as a variable.
     pub(crate) kind: VariableKind,
-    /// How many dynamic bindings are alive in all fibers.
-    #[allow(dead_code, reason = "part of the data")]
-    pub(crate) bindings: u32,
     /// The global function.
     pub(crate) function: FunctionCell,
     /// The function of `(setf (name …) …)`.

@@ -180,8 +180,12 @@ impl Session {
                 restart,
                 takes_value,
             } => {
+                let invoke = match takes_value || !text.trim().is_empty() {
+                    true => "INVOKE-RESTART",
+                    false => "INVOKE-RESTART-INTERACTIVELY",
+                };
                 let mut form = vec![
-                    self.image.intern(PackageTable::CL, "INVOKE-RESTART").into(),
+                    self.image.intern(PackageTable::CL, invoke).into(),
                     Value::list([known::QUOTE.into(), restart]),
                 ];
                 if !text.trim().is_empty() {
@@ -259,6 +263,9 @@ impl Session {
 
 /// Whether a restart needs a value from the user.
 fn takes_value(image: &Image, restart: &Restart) -> bool {
+    if restart.interactive.is_true() {
+        return false;
+    }
     if matches!(restart.name, known::USE_VALUE | known::STORE_VALUE) {
         return true;
     }
