@@ -1,4 +1,4 @@
-//! The failures of the plan language and of a robot's actions: one table.
+//! The failures of the plan language and of the robot's actions, in one table.
 
 use crate::lisp::image::Image;
 use crate::lisp::object::defclass;
@@ -17,10 +17,10 @@ use super::names::Packages;
 /// A class of failures.
 struct Failure {
     name: &'static str,
-    /// Direct superclasses: of this table, or of Common Lisp.
+    /// Direct superclasses, from this table or from Common Lisp.
     parents: &'static [&'static str],
     slots: &'static [Slot],
-    /// The text unless one is given.
+    /// The default text.
     description: Option<&'static str>,
 }
 
@@ -85,7 +85,7 @@ const LANGUAGE: &[Failure] = &[
     failure("POLICY-CHECK-CONDITION-MET", &["POLICY-FAILURE"], &[]),
 ];
 
-/// Failures of a robot's actions.
+/// Failures of the robot's actions.
 const COMMON: &[Failure] = &[
     Failure {
         name: "LOW-LEVEL-FAILURE",
@@ -281,7 +281,7 @@ pub(super) fn define(image: &mut Image, packages: Packages) -> Result<()> {
     Ok(())
 }
 
-/// The symbol of a parent: one of the package of failures, of the language, or of Lisp.
+/// The symbol of a parent, from the package of failures, the plan language or Common Lisp.
 fn parent(image: &mut Image, name: &str, home: PackageId, packages: Packages) -> Sym {
     for package in [home, packages.implementation] {
         if let Some((sym, _)) = image.packages.find_symbol(package, name) {
@@ -347,7 +347,7 @@ fn report_by(image: &mut Image, home: PackageId, name: &str, report: Report) {
     }
 }
 
-/// The value of the slot of a name, whatever its package.
+/// The value of the slot with that name, in whatever package.
 fn slot_value(image: &Image, condition: &Value, name: &str) -> Value {
     let Value::Instance(instance) = condition else {
         return Value::NIL;
@@ -385,7 +385,7 @@ fn report_policy(image: &mut Image, home: PackageId, name: &str, text: &'static 
     }
 }
 
-/// A format control given to the failure, or else its description.
+/// The format control given to the failure, or else its description.
 fn report_description(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let control = slot_value(machine.image, &args[0], "FORMAT-CONTROL");
     if control.is_true() {
@@ -398,7 +398,8 @@ fn report_description(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Ste
     }
     let description = slot_value(machine.image, &args[0], "DESCRIPTION");
     match description.as_text() {
-        // A description is a format control, of which only what texts need is heeded.
+        // A description is a format control, of which only the directives that texts need are
+        // supported.
         Some(text) => {
             let text = text.replace("~%", "\n").replace("~~", "~");
             stream::write(machine.image, &args[1], &text)?;

@@ -1,5 +1,4 @@
-//! The world as the scheduler sees it: something that carries out requests while simulated
-//! time passes.
+//! The interface to the world, which carries out requests while simulated time passes.
 
 use std::any::Any;
 
@@ -8,18 +7,18 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 
-/// A request of a task that the host is working on.
+/// A pending request of a task.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub(crate) struct Ticket(pub(crate) u64);
 
-/// What became of a request: its value, or the condition to signal in the task.
+/// The result of a request: its value, or the condition to signal in the task.
 pub(crate) type Outcome = Result<Value, Box<Raise>>;
 
-/// The host's answer to a request.
+/// The host's reply to a request.
 pub(crate) enum Reply {
-    /// It is done.
+    /// It is completed.
     Now(Outcome),
-    /// It takes simulated time: [`Host::advance`] tells when it is done.
+    /// It takes simulated time: [`Host::advance`] reports its completion.
     Later(Ticket),
 }
 
@@ -27,34 +26,34 @@ pub(crate) enum Reply {
 pub(crate) struct Advance {
     /// The time now, in simulated seconds.
     pub(crate) now: f64,
-    /// Requests that are done.
+    /// Requests that are completed.
     pub(crate) done: Vec<(Ticket, Outcome)>,
 }
 
-/// Carries out what tasks request of the world.
+/// Carries out tasks' requests to the world.
 pub(crate) trait Host {
-    /// A request that the scheduler does not know itself.
+    /// Handles a request that is not for the scheduler.
     fn request(&mut self, image: &mut Image, task: TaskId, request: Box<dyn Any>) -> Reply;
 
-    /// Lets simulated time pass from `now` until a request is done or until the given
-    /// time, in seconds. Called only when every task is blocked and a request is open;
-    /// returns without either when the image's interrupt flag is set, which it leaves set.
+    /// Lets simulated time pass from `now` until a request is completed or until the given time, in
+    /// seconds. Called only when every task is blocked and a request is pending. Returns early if
+    /// the image's interrupt flag is set, and leaves it set.
     fn advance(&mut self, image: &mut Image, now: f64, until: Option<f64>) -> Advance;
 
-    /// Simulated time jumps from `now` to `until`, in seconds: no request is open and
-    /// every task sleeps. Returns the time at which to go on: `until`, or an earlier one
-    /// if the image's interrupt flag is set.
+    /// Lets simulated time jump from `now` to `until`, in seconds: no request is pending and every
+    /// task sleeps. Returns the time at which to continue: `until`, or an earlier one if the
+    /// image's interrupt flag is set.
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64;
 
-    /// Nobody waits for the request any more: stop working on it.
+    /// Cancels a request for which no task waits any more.
     fn cancel(&mut self, image: &mut Image, ticket: Ticket);
 
-    /// The task that made the request is suspended: hold still.
+    /// Pauses a request because the task that made it is suspended.
     fn pause(&mut self, image: &mut Image, ticket: Ticket) {
         let _ = (image, ticket);
     }
 
-    /// The task that made the request goes on.
+    /// Resumes a request because the task that made it is woken up.
     fn wake(&mut self, image: &mut Image, ticket: Ticket) {
         let _ = (image, ticket);
     }

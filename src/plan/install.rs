@@ -1,4 +1,4 @@
-//! Bringing the plan language into an image.
+//! Installs the plan language in an image.
 
 use super::names::{Names, Packages};
 use super::package::reexport;
@@ -13,11 +13,12 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::symbol::Sym;
 
-/// Makes the packages of the plan language in an image that has the standard ones, and
-/// everything in them.
+/// Makes the packages of the plan language and everything in them, in an image that has the
+/// standard ones.
 pub(crate) fn install(image: &mut Image) {
     let packages = Packages::make(image);
-    // Arithmetic on fluents comes before Common Lisp's is exported from the same package.
+    // Arithmetic on fluents is defined before that of Common Lisp is exported from the same
+    // package.
     for table in builtins::LANGUAGE {
         image.install(packages.cpl, table);
     }
@@ -35,7 +36,7 @@ pub(crate) fn install(image: &mut Image) {
     image.install(PackageTable::CL, builtins::COMMON_LISP);
     define_variables(image, &names);
     define_types(image, &names);
-    // The tables are consistent: every superclass is defined before.
+    // The tables are consistent: every superclass is defined first.
     let _ = failure_table::define(image, packages);
     crate::lisp::library::install(image, &library::LANGUAGE);
     reexport(image, packages.cpl, "CRAM-LANGUAGE-IMPLEMENTATION");
@@ -72,7 +73,7 @@ fn define_variables(image: &mut Image, names: &Names) {
     image.set_function(name, inherit);
 }
 
-/// The classes of fluents, tasks and what else is not an instance.
+/// Defines the classes of fluents, tasks and other values that are not instances.
 fn define_types(image: &mut Image, names: &Names) {
     for (name, parent) in [
         (names.fluent, known::T),

@@ -1,4 +1,4 @@
-//! What becomes of tasks, noted for those who follow a session. Nothing depends on it.
+//! A journal of changes in the states of tasks, for followers of a session. Nothing depends on it.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -6,27 +6,27 @@ use std::collections::VecDeque;
 use super::task::{Status, TaskId};
 use crate::lisp::value::Value;
 
-/// Entries that are kept until somebody fetches them; the oldest are forgotten first.
+/// Maximum number of entries kept until they are fetched; the oldest are discarded first.
 const MOST_ENTRIES: usize = 20_000;
 
-/// A task that began, or whose status changed.
+/// A task that has begun, or whose status has changed.
 #[derive(Clone)]
 pub(crate) struct TaskChange {
     /// Which task.
     pub(crate) id: TaskId,
-    /// The task that started it; none if the prompt did.
+    /// The task that started it; `None` if it was started from the prompt.
     pub(crate) parent: Option<TaskId>,
     /// Its name.
     pub(crate) name: String,
-    /// Its status now.
+    /// Its new status.
     pub(crate) status: Status,
-    /// The failure that it ended with.
+    /// The failure with which it ended.
     pub(crate) failure: Option<Value>,
     /// Simulated time (s).
     pub(crate) time: f64,
 }
 
-/// A list of changes, if anybody wants one.
+/// A list of changes, if the journal is kept.
 #[derive(Default)]
 pub(super) struct Journal {
     entries: RefCell<Option<VecDeque<TaskChange>>>,

@@ -1,9 +1,9 @@
-//! CRAM's plan language: tasks that run in parallel, fluents that they wait for, failures
-//! and how plans handle them.
+//! CRAM's plan language: tasks that run in parallel, fluents that they wait for, failures and their
+//! handling.
 //!
-//! [`install()`] brings the language into an image; a [`Scheduler`] runs what uses it. The
-//! layer knows nothing of robots: what a task asks of the world is a request that the
-//! scheduler hands to its [`Host`].
+//! [`install()`] installs the language in an image; a [`Scheduler`] runs its programs. This layer
+//! does not know about robots: when a task asks the world for something, the scheduler passes the
+//! request to its [`Host`].
 
 pub(crate) mod builtins;
 pub(crate) mod designator;

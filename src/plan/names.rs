@@ -1,4 +1,4 @@
-//! The symbols of the plan language that Rust code names, and the packages they live in.
+//! The symbols of the plan language that Rust code uses, and their packages.
 
 use super::package::{PackageDefinition, define};
 use crate::lisp::image::Image;
@@ -10,9 +10,9 @@ use crate::lisp::value::symbol::Sym;
 pub(crate) struct Packages {
     /// `CRAM-LANGUAGE`: what programs use.
     pub(crate) cpl: PackageId,
-    /// `CRAM-LANGUAGE-IMPLEMENTATION`: where the symbols are at home.
+    /// `CRAM-LANGUAGE-IMPLEMENTATION`: the home of the symbols.
     pub(crate) implementation: PackageId,
-    /// `PLAN-SYSTEM`: what the macros expand into.
+    /// `PLAN-SYSTEM`: used in the expansions of macros.
     pub(crate) system: PackageId,
     /// `CRAM-COMMON-FAILURES`.
     pub(crate) failures: PackageId,
@@ -82,7 +82,7 @@ const FAILURES: PackageDefinition = PackageDefinition {
 
 macro_rules! names {
     ($($package:ident { $($id:ident = $name:literal),* $(,)? })*) => {
-        /// Symbols of the plan language by what they name.
+        /// Symbols of the plan language.
         #[allow(missing_docs)]
         #[derive(Clone, Copy)]
         pub(crate) struct Names {

@@ -1,4 +1,4 @@
-//! `tasks`: tells what runs.
+//! `tasks`: shows what is running.
 
 use super::request::Request;
 use crate::lisp::value::Value;
@@ -7,7 +7,7 @@ use crate::lisp::vm::calls::run;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
-/// Asks the scheduler for the tree of tasks and writes it.
+/// Requests the tree of tasks from the scheduler and prints it.
 pub(crate) fn tell_overview(machine: &mut Machine<'_>) -> Result<Step, Box<Raise>> {
     run(machine, "TASKS", |calls| async move {
         let text = calls.request(Request::Overview).await;

@@ -1,30 +1,30 @@
-//! Making packages from tables.
+//! Makes packages from tables.
 
 use crate::lisp::image::Image;
 use crate::lisp::value::package::PackageId;
 
-/// A package as a layer defines it.
+/// The definition of a package.
 pub(crate) struct PackageDefinition {
     /// The name.
     pub(crate) name: &'static str,
     /// Other names.
     pub(crate) nicknames: &'static [&'static str],
-    /// A sentence about it.
+    /// The documentation.
     pub(crate) doc: &'static str,
-    /// Packages whose exported symbols it inherits; they exist already.
+    /// Packages whose exported symbols it inherits; they must exist.
     pub(crate) uses: &'static [&'static str],
-    /// Names of symbols of its own that it exports.
+    /// Names of the symbols of its own that it exports.
     pub(crate) exports: &'static [&'static str],
-    /// Packages whose exported symbols it exports, too, unless it has a symbol of its own
-    /// by that name.
+    /// Packages whose exported symbols it also exports, except those with the same name as one of
+    /// its own symbols.
     pub(crate) reexports: &'static [&'static str],
 }
 
-/// Makes the package, or completes the one that has its name.
+/// Makes the package, or completes an existing one with that name.
 pub(crate) fn define(image: &mut Image, definition: &PackageDefinition) -> PackageId {
     let existing = image.packages.find(definition.name);
     let made = existing.or_else(|| image.packages.make(definition.name, &[]));
-    // Only 65536 packages would leave none to make; the user's package then stands in.
+    // This fails only if there are 65536 packages; then the user's package is used instead.
     let id = made.unwrap_or(crate::lisp::value::package::PackageTable::USER);
     for nickname in definition.nicknames {
         image.packages.add_nickname(id, nickname);
@@ -44,7 +44,7 @@ pub(crate) fn define(image: &mut Image, definition: &PackageDefinition) -> Packa
     id
 }
 
-/// Exports what another package exports, except under names that the package has itself.
+/// Exports what another package exports, except names of the package's own symbols.
 pub(crate) fn reexport(image: &mut Image, id: PackageId, source: &str) {
     let Some(source) = image.packages.find(source) else {
         return;

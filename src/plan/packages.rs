@@ -1,9 +1,8 @@
-//! The packages that plans name, with their nicknames and exported symbols.
+//! The packages used in plans, with their nicknames and exported symbols.
 //!
-//! The table exports what has a meaning without being a function, a variable or a class:
-//! functors, hooks of rules, what the plans that come with the program define. Tables of
-//! builtins export their own names. A package that exists already gets the missing
-//! nicknames, uses and exports.
+//! The table exports symbols that are not functions, variables or classes: functors, hooks for
+//! rules, what the built-in plans define. Tables of builtins export their own names. A package that
+//! exists already gets the missing nicknames, uses and exports.
 
 use crate::lisp::image::Image;
 use crate::lisp::value::package::{PackageId, PackageTable};
@@ -34,10 +33,10 @@ const fn row(
     }
 }
 
-/// All packages of plans, except those of the plan language itself and of its failures.
+/// All packages for plans, except those of the plan language itself and of its failures.
 pub(crate) static PACKAGES: &[PackageRow] = &[
     row("CRAM-UTILITIES", &["CUT"], ""),
-    // Functors are known by name in any package; these are those that CRAM exports.
+    // Functors are recognised by name in any package; these are those that CRAM exports.
     row(
         "CRAM-PROLOG",
         &["PROLOG"],
@@ -98,7 +97,7 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
     row("CRAM-KNOWROB-PICK-PLACE", &["KR-PP"], ""),
     row("CRAM-OBJECT-KNOWLEDGE", &["OBJECTS"], ""),
     row("CRAM-ROBOT-INTERFACES", &["ROB-INT"], ""),
-    // What a goal of an action asks, once a plan has defined it.
+    // Tests the goal of an action, once a plan has defined it.
     row("CRAM-OCCASIONS-EVENTS", &["COE", "CET"], "HOLDS"),
     row("CRAM-PLAN-OCCASIONS-EVENTS", &["CPOE"], ""),
     row(
@@ -125,7 +124,7 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
     row("PLANWRIGHT", &["PW"], ""),
 ];
 
-/// Packages that inherit from others than `COMMON-LISP`.
+/// Packages that inherit from packages other than `COMMON-LISP`.
 const USES: &[(&str, &[&str])] = &[
     (
         "CRAM-PICK-PLACE-TUTORIAL",
@@ -136,7 +135,7 @@ const USES: &[(&str, &[&str])] = &[
     ("CRAM-BULLET-WORLD-TUTORIAL", &["CRAM-PROLOG"]),
 ];
 
-/// Symbols of one package that another one imports, and exports if the flag says so.
+/// Symbols of one package that another one imports, and exports if the flag is true.
 const IMPORTS: &[(&str, &str, &str, bool)] = &[
     (
         "CRAM-PICK-PLACE-TUTORIAL",
@@ -191,11 +190,11 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
     ),
 ];
 
-/// The package of that name, made if need be, with the nicknames.
+/// The package with that name, made if necessary, with the nicknames.
 pub(crate) fn ensure(image: &mut Image, name: &str, nicknames: &[&str]) -> PackageId {
     let id = match image.packages.find(name) {
         Some(id) => id,
-        // The name is free, so `make` fails only when 65536 packages exist.
+        // The name is free, so `make` fails only if there are 65536 packages.
         None => image.packages.make(name, &[]).unwrap_or(PackageTable::USER),
     };
     for nickname in nicknames {
@@ -204,13 +203,13 @@ pub(crate) fn ensure(image: &mut Image, name: &str, nicknames: &[&str]) -> Packa
     id
 }
 
-/// The symbol of a package, exported; package and symbol are made if need be.
+/// The exported symbol of a package; package and symbol are made if necessary.
 pub(crate) fn symbol(image: &mut Image, package: &str, name: &str) -> Sym {
     let id = ensure(image, package, &[]);
     image.export_symbol(id, name)
 }
 
-/// Gives a symbol that has none a name and its place in a package, exported.
+/// Gives a symbol without a name a name and a home package, from which it is exported.
 pub(crate) fn name_symbol(image: &mut Image, sym: Sym, package: PackageId, name: &str) {
     let data = image.symbols.get_mut(sym);
     data.name = name.into();
@@ -218,7 +217,7 @@ pub(crate) fn name_symbol(image: &mut Image, sym: Sym, package: PackageId, name:
     image.packages.export(&mut image.symbols, package, sym);
 }
 
-/// Makes all packages of the table with their symbols.
+/// Makes all packages of the table, with their symbols.
 pub(crate) fn install(image: &mut Image) {
     for row in PACKAGES {
         let id = ensure(image, row.name, row.nicknames);
@@ -246,7 +245,7 @@ pub(crate) fn install(image: &mut Image) {
     }
 }
 
-/// Lets a package inherit from those of the named ones that exist.
+/// Makes a package inherit from those of the named packages that exist.
 fn use_packages(image: &mut Image, id: PackageId, names: &[&str]) {
     for name in names {
         if let Some(used) = image.packages.find(name) {

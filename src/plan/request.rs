@@ -1,4 +1,4 @@
-//! What builtins of the plan language ask of the scheduler.
+//! What builtins of the plan language request from the scheduler.
 
 use super::fluent::FluentRef;
 use super::task::TaskRef;
@@ -10,7 +10,7 @@ pub(crate) type Call = (Value, Vec<Value>);
 
 /// A request to the scheduler.
 pub(crate) enum Request {
-    /// Wait for so many simulated seconds; the answer is `NIL`.
+    /// Wait for this many simulated seconds; the answer is `NIL`.
     Sleep(f64),
     /// Wait until the fluent is pulsed (the answer is `T`) or until a time (`NIL`).
     Wait {
@@ -19,7 +19,7 @@ pub(crate) enum Request {
     },
     /// Start a plan and wait for its values.
     TopLevel { name: Option<Sym>, function: Value },
-    /// Run functions in tasks of their own, and wait until it is clear what comes of it.
+    /// Run functions in separate tasks, and wait for the result of the group.
     Group {
         kind: GroupKind,
         functions: Vec<Call>,
@@ -28,22 +28,22 @@ pub(crate) enum Request {
     },
     /// Run a function in a task that has not begun, and wait for its values.
     Run { task: TaskRef, function: Value },
-    /// Wait for the end of a task; its values or its failure are the answer.
+    /// Wait for the end of a task; the answer is its values or its failure.
     Join(TaskRef),
-    /// End a task; with `sync`, wait until it has ended.
+    /// Evaporate a task; with `sync`, wait until it has ended.
     Evaporate { task: TaskRef, sync: bool },
-    /// Stop a task and all below it until it is woken up.
+    /// Suspend a task and all below it until it is woken up.
     Suspend(TaskRef),
-    /// Let a suspended task go on.
+    /// Wake up a suspended task.
     WakeUp(TaskRef),
-    /// Remember what to call when the current task is suspended, or forget the last.
+    /// Add a function to call when the current task is suspended, or remove the last one.
     Hook(Option<Value>),
-    /// The hooks have been called: wait on as before.
+    /// The hooks have been called: resume the interrupted wait.
     HooksDone,
-    /// Forbid (-1), allow again, or allow in between (+1) that the current task is
-    /// suspended or evaporated while it waits.
+    /// Forbid (-1), allow again, or allow temporarily (+1) that the current task is suspended or
+    /// evaporated while it waits.
     Scheduling(i32),
-    /// Tell the tasks that are alive, and those of the last plan that have ended: a text.
+    /// Describe, as a text, the tasks that are alive and those of the last plan that have ended.
     Overview,
 }
 

@@ -1,5 +1,5 @@
-//! What the plan language keeps in an image: its symbols, the clock's reading, who is to be
-//! woken, and the variables and trees that outlive a plan.
+//! What the plan language stores in an image: its symbols, the time, the waiters to wake, and the
+//! variables and trees that outlive a plan.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -16,21 +16,21 @@ use crate::lisp::value::symbol::Sym;
 
 /// The plan language's part of an image.
 pub(crate) struct Plan {
-    /// Symbols that Rust code names.
+    /// Symbols that Rust code uses.
     pub(crate) names: Names,
-    /// Simulated seconds. Only the scheduler sets it.
+    /// Simulated seconds, set only by the scheduler.
     now: Cell<f64>,
-    /// Tasks whose fluents changed since the scheduler last looked, in the order in which
-    /// they are to run.
+    /// Tasks whose fluents changed since the scheduler last checked, in the order in which they
+    /// will run.
     woken: RefCell<Vec<Waiter>>,
-    /// Special variables that every task binds anew, in order of definition: to the value
-    /// in the task that starts it, or to what a function makes of that.
+    /// Special variables that every task binds, in order of definition: to their value in the task
+    /// that starts it, or to what a function computes from that.
     pub(crate) task_variables: RefCell<Vec<(Sym, Option<Value>)>>,
     /// Task trees of named top-level plans.
     pub(crate) trees: RefCell<IndexMap<Sym, Rc<TreeNode>>>,
-    /// What became of tasks.
+    /// Changes in the states of tasks.
     pub(super) journal: Journal,
-    /// Numbers given to fluents and tasks without a name.
+    /// Numbers for fluents and tasks without a name.
     numbers: Cell<u64>,
 }
 
@@ -54,8 +54,8 @@ impl Plan {
     ///
     /// # Panics
     ///
-    /// Never: builtins and requests of the plan language come to an image by
-    /// [`super::install()`], which puts this part there first.
+    /// Never: builtins and requests of the plan language are installed by [`super::install()`],
+    /// which first puts this part there.
     pub(crate) fn of(image: &Image) -> Rc<Plan> {
         match image.extension() {
             Some(plan) => plan,
@@ -72,23 +72,23 @@ impl Plan {
         self.now.set(now);
     }
 
-    /// From here on, what becomes of tasks is noted until it is fetched.
+    /// Begins to record changes in the states of tasks until they are fetched.
     pub(crate) fn keep_journal(&self) {
         self.journal.begin();
     }
 
-    /// What has become of tasks since it was fetched last.
+    /// The changes in the states of tasks since the last fetch.
     pub(crate) fn fetch_journal(&self) -> Vec<TaskChange> {
         self.journal.fetch()
     }
 
-    /// A number for a name that nobody gave.
+    /// A number for a generated name.
     pub(crate) fn fresh_number(&self) -> u64 {
         self.numbers.set(self.numbers.get() + 1);
         self.numbers.get()
     }
 
-    /// Wakes tasks that wait for one fluent: in the order in which the tasks were made.
+    /// Wakes the tasks that wait for a fluent, in order of creation.
     pub(crate) fn wake(&self, waiters: &mut Vec<Waiter>) {
         waiters.sort_by_key(|w| w.order);
         self.woken.borrow_mut().append(waiters);

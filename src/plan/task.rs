@@ -1,8 +1,7 @@
-//! Tasks as programs see them: a name, a place in the task tree, a status, a result.
+//! Tasks as seen by programs: a name, a place in the task tree, a status, a result.
 //!
-//! What a task does is the scheduler's business; a task object knows at which entry of the
-//! scheduler it runs while it is alive, and nothing more, so that a dead task that somebody
-//! holds keeps no memory but its result.
+//! The scheduler runs tasks; a task object only knows its entry in the scheduler while it is alive,
+//! so that a reference to a dead task keeps nothing but its result in memory.
 
 use std::cell::{Cell, OnceCell, RefCell};
 use std::fmt;
@@ -16,7 +15,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
 use crate::lisp::value::symbol::Sym;
 
-/// Tells tasks apart and orders them by creation.
+/// Identifies tasks and orders them by creation.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub(crate) struct TaskId(pub(crate) u64);
 
@@ -26,14 +25,14 @@ impl fmt::Display for TaskId {
     }
 }
 
-/// What a task is doing.
+/// The status of a task.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Status {
-    /// Nothing yet.
+    /// It has not begun.
     Created,
     /// It runs, or waits for something.
     Running,
-    /// It holds still until somebody wakes it up.
+    /// It is suspended until it is woken up.
     Suspended,
     /// It has ended with values.
     Succeeded,
@@ -44,7 +43,7 @@ pub(crate) enum Status {
 }
 
 impl Status {
-    /// Has the task ended?
+    /// Whether the task has ended.
     pub(crate) fn is_dead(self) -> bool {
         matches!(
             self,
@@ -52,7 +51,7 @@ impl Status {
         )
     }
 
-    /// Has the task ended without a failure?
+    /// Whether the task has ended without a failure.
     pub(crate) fn is_done(self) -> bool {
         matches!(self, Status::Succeeded | Status::Evaporated)
     }
@@ -70,10 +69,10 @@ impl Status {
     }
 }
 
-/// How a task is called.
+/// The name of a task.
 #[derive(Clone, Debug)]
 pub(crate) enum TaskName {
-    /// As somebody said.
+    /// Given by the program.
     Given(Rc<str>),
     /// `[WHAT]-NUMBER`.
     Numbered(Rc<str>, u64),
@@ -97,13 +96,13 @@ pub(crate) struct Task {
     pub(crate) name: TaskName,
     /// Its place in the task tree.
     pub(crate) node: Rc<TreeNode>,
-    /// Was it told to hold still before it began?
+    /// Whether it was told to suspend before it began.
     pub(super) is_held: Cell<bool>,
-    /// The values that it ended with (`Value::Multiple` unless one), or its failure.
+    /// The values with which it ended (`Value::Multiple` unless there is just one), or its failure.
     pub(super) result: RefCell<Value>,
     /// Fluents that must be true before it may begin.
     pub(super) constraints: RefCell<Vec<Value>>,
-    /// Where the scheduler keeps it while it is alive.
+    /// Its entry in the scheduler while it is alive.
     pub(super) slot: Cell<Option<u32>>,
     status: Cell<Status>,
     status_fluent: OnceCell<FluentRef>,
@@ -113,12 +112,12 @@ pub(crate) struct Task {
 }
 
 impl Task {
-    /// What the task is doing.
+    /// The status of the task.
     pub(crate) fn status(&self) -> Status {
         self.status.get()
     }
 
-    /// What it ended with: its values, or its failure.
+    /// Its values, or its failure.
     pub(crate) fn result(&self) -> Value {
         self.result.borrow().clone().primary()
     }
@@ -127,7 +126,7 @@ impl Task {
         self.status.set(status);
     }
 
-    /// The status fluent, if anybody has asked for it.
+    /// The status fluent, if it has been requested before.
     pub(super) fn known_fluent(&self) -> Option<&FluentRef> {
         self.status_fluent.get()
     }
@@ -201,7 +200,7 @@ impl TaskRef {
         task
     }
 
-    /// The task that a value is.
+    /// The task, if the value is one.
     pub(crate) fn from_value(value: &Value) -> Option<TaskRef> {
         match value {
             Value::Foreign(object) if object.downcast_ref::<Task>().is_some() => {
@@ -220,7 +219,7 @@ impl TaskRef {
     ///
     /// # Panics
     ///
-    /// Never: both ways of making a reference check what it refers to.
+    /// Never: both functions that make a reference check what it refers to.
     pub(crate) fn get(&self) -> &Task {
         match self.0.downcast_ref() {
             Some(task) => task,
@@ -228,7 +227,7 @@ impl TaskRef {
         }
     }
 
-    /// Is this the same task?
+    /// Whether this is the same task.
     pub(crate) fn is(&self, other: &TaskRef) -> bool {
         Rc::ptr_eq(&self.0, &other.0)
     }

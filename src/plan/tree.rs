@@ -1,8 +1,8 @@
 //! The task tree: which plans were called from which, by path.
 //!
-//! A path is a list of parts, innermost first. The second call of the same part in the same
-//! node gets the part `(part… :CALL 2)`. A node remembers the last node of each part and
-//! how many there were, so a loop over a plan does not fill memory.
+//! A path is a list of parts, innermost first. The second call of the same part in the same node
+//! gets the part `(part… :CALL 2)`. A node remembers only the last node of each part and the number
+//! of calls, so a loop around a plan does not fill memory.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -17,18 +17,18 @@ pub(crate) struct TreeNode {
     /// The path, innermost part first.
     pub(crate) path: Value,
     children: RefCell<Vec<Child>>,
-    /// Position of each part in `children`.
+    /// Index of each part in `children`.
     parts: HashTable,
     object: RefCell<std::rc::Weak<ForeignBox>>,
 }
 
 struct Child {
     first: Rc<TreeNode>,
-    /// The node of the last call but the first.
+    /// The node of the last call, unless that is the first.
     last: Option<Rc<TreeNode>>,
-    /// Calls in this run of the tree.
+    /// Number of calls in this run of the tree.
     calls: i64,
-    /// Most calls in any run.
+    /// Greatest number of calls in any run.
     most: i64,
 }
 
@@ -43,7 +43,7 @@ impl TreeNode {
         })
     }
 
-    /// Starts a new run: calls are counted from one again, the structure stays.
+    /// Starts a new run: calls are counted from one again, but the structure remains.
     pub(crate) fn restart(&self) {
         let mut pending: Vec<Rc<TreeNode>> = Vec::new();
         self.restart_children(&mut pending);
@@ -89,19 +89,19 @@ impl TreeNode {
         node
     }
 
-    /// The nodes below that are remembered, in order of their parts' first call.
+    /// The remembered nodes below, in the order of their parts' first calls.
     pub(crate) fn children(&self) -> Vec<Rc<TreeNode>> {
         let children = self.children.borrow();
         let both = |c: &Child| std::iter::once(c.first.clone()).chain(c.last.clone());
         children.iter().flat_map(both).collect()
     }
 
-    /// How many nodes there were below.
+    /// The number of nodes there have been below.
     pub(crate) fn child_count(&self) -> i64 {
         self.children.borrow().iter().map(|c| c.most).sum()
     }
 
-    /// The node as a value: always the same object while somebody holds it.
+    /// The node as a value: the same object as long as it is referenced.
     pub(crate) fn value(self: &Rc<TreeNode>, type_symbol: Sym) -> Value {
         if let Some(object) = self.object.borrow().upgrade() {
             return Value::Foreign(object);

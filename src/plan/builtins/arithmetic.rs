@@ -1,5 +1,5 @@
-//! Arithmetic and comparison that works on fluents, too: with a fluent among the arguments
-//! the result is a network.
+//! Arithmetic and comparison that also work on fluents: with a fluent among the arguments, the
+//! result is a network.
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
@@ -102,13 +102,13 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// The step that sleeps.
+/// The step that sleeps for the given time.
 pub(super) fn sleep(args: &[Value]) -> Result<Step> {
     let seconds = seconds(&args[0])?;
     Ok(Step::request(Request::Sleep(seconds)))
 }
 
-/// A number of seconds that is not negative.
+/// A non-negative number of seconds.
 pub(super) fn seconds(value: &Value) -> Result<f64> {
     match number::to_f64(value) {
         Some(seconds) if seconds >= 0.0 && seconds.is_finite() => Ok(seconds),
@@ -119,8 +119,8 @@ pub(super) fn seconds(value: &Value) -> Result<f64> {
     }
 }
 
-/// What a function of Common Lisp returns for the arguments; with a fluent among them, a
-/// network of that.
+/// Applies a Common Lisp function to the arguments; if there is a fluent among them, returns a
+/// network that does so.
 fn apply(
     machine: &mut Machine<'_>,
     prefix: &'static str,
@@ -134,7 +134,7 @@ fn apply(
     operate(machine, prefix, Operation::Pure(function), args)
 }
 
-/// The function of Common Lisp of a name, which programs cannot define anew.
+/// The Common Lisp function with that name, which programs cannot redefine.
 fn pure_function(image: &Image, name: Sym) -> Result<PureFn> {
     if let Some(function) = image.function(name)
         && let Body::Native(native) = &function.body

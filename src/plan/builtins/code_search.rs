@@ -1,9 +1,9 @@
-//! What macros of the plan language look for in the code that they get: all of it is
-//! walked each time, so that this must be fast.
+//! Searches by macros of the plan language in the code they are given: all of it is walked each
+//! time, so this must be fast.
 //!
-//! `with-tags` binds a variable for each `(:tag name …)` in its body before the body runs,
-//! so it looks for them in the forms: also in what macros of the program expand into, not
-//! in quoted data, nor in a `with-tags` inside, which binds its own.
+//! `with-tags` binds a variable for each `(:tag name …)` in its body before the body runs, so it
+//! searches the forms for them, and the expansions of the program's macros, but not quoted data,
+//! nor a nested `with-tags`, which binds its own.
 
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::compile;
@@ -36,10 +36,10 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     ),
 ];
 
-/// Macro expansions that one search for tags may make.
+/// Maximum number of macro expansions in one search for tags.
 const MOST_EXPANSIONS: usize = 10_000;
 
-/// The names of the tags in forms, in order.
+/// The names of the tags in the forms, in order.
 fn find_tags(image: &mut Image, body: &Value) -> Vec<Sym> {
     let names = Plan::of(image).names;
     let mut tags = Vec::new();
@@ -101,7 +101,7 @@ fn push_elements(pending: &mut Vec<Value>, list: &Value) {
     pending[start..].reverse();
 }
 
-/// Does `(function name)` occur in a form?
+/// Whether `(function name)` occurs in the form.
 fn mentions_function(form: &Value, name: &Value) -> bool {
     let mut pending = vec![form.clone()];
     while let Some(Value::Cons(cons)) = pending.pop() {

@@ -85,7 +85,7 @@ fn thunks(functions: Vec<Value>) -> Vec<Call> {
     functions.into_iter().map(|f| (f, Vec::new())).collect()
 }
 
-/// Is the code that runs part of a plan?
+/// Fails unless the running code is part of a plan.
 pub(super) fn check_plan(machine: &Machine<'_>, name: &str) -> Result<()> {
     let current = Plan::of(machine.image).names.current_task;
     if machine.image.special(current).is_nil() {
@@ -166,10 +166,9 @@ fn partial_order(machine: &mut Machine<'_>, mut args: Vec<Value>) -> Result<Step
     group(machine, "PARTIAL-ORDER", GroupKind::All, thunks(args))
 }
 
-/// A circle among the orders, in words.
+/// A cycle among the orderings, in words, if there is one.
 fn circle(edges: &[(TaskRef, TaskRef)]) -> Option<String> {
-    // Orders from which no task remains that has to wait form no circle: take away the
-    // tasks that wait for nobody, again and again.
+    // Repeatedly removes tasks that wait for no other; if no ordering remains, there is no cycle.
     let mut left: Vec<&(TaskRef, TaskRef)> = edges.iter().collect();
     loop {
         let before = left.len();
@@ -184,7 +183,7 @@ fn circle(edges: &[(TaskRef, TaskRef)]) -> Option<String> {
         }
     }
     let (start, _) = left.first()?;
-    // Every task that is left waits for one that is left: going back leads round a circle.
+    // Each remaining task waits for another one, so following them leads around a cycle.
     let mut path = vec![start];
     while let Some((earlier, _)) = left
         .iter()

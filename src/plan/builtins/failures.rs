@@ -1,4 +1,4 @@
-//! Failing.
+//! Signalling failures.
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::signalling;
@@ -53,7 +53,7 @@ fn fail(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
             }
             let draft = condition::draft(machine.image, *class, &args[1..])?;
             if !draft.pending.is_empty() {
-                // Some initial value must be computed.
+                // An initial value must be computed.
                 return signalling::signal_with(machine, args, simple, Declined::Stop);
             }
             Value::Instance(draft.condition)

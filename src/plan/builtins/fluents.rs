@@ -1,4 +1,4 @@
-//! Fluents: making, reading, storing, waiting, callbacks.
+//! Fluents: creating, reading, setting, waiting, callbacks.
 
 use super::arithmetic::seconds;
 use super::networks::fluent_argument;
@@ -186,7 +186,7 @@ fn wait_for(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     };
     let until = match timeout {
         Some(timeout) if timeout.is_true() => {
-            // A timeout of zero or less has passed already.
+            // A timeout of zero or less has already expired.
             let seconds = if is_negative(&timeout) {
                 0.0
             } else {
@@ -203,7 +203,7 @@ fn is_negative(value: &Value) -> bool {
     crate::lisp::value::number::to_f64(value).is_some_and(|x| x < 0.0)
 }
 
-/// Waits until the fluent's value is not `NIL`, at most until a time.
+/// Waits until the fluent's value is not `NIL`, or until a time.
 fn wait_until_true(
     machine: &mut Machine<'_>,
     fluent: FluentRef,
@@ -229,7 +229,7 @@ fn wait_until_true(
 fn register_callback(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let fluent = fluent_argument(machine, &args[0])?;
     run(machine, "VALUE", |calls| async move {
-        // Changes of a network are told from its value now.
+        // Changes of a network are relative to its present value.
         fluent::value(&calls, &fluent).await?;
         if fluent.get().add_callback(&args[1], &args[2]) {
             return Ok(args[2].clone());

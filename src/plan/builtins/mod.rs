@@ -23,7 +23,7 @@ pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
     tree::TABLE,
 ];
 
-/// Functions of package `CRAM-LANGUAGE` itself: those that stand in for Common Lisp's.
+/// Functions of package `CRAM-LANGUAGE` itself, which replace those of Common Lisp.
 pub(crate) static LANGUAGE: &[&[Builtin]] = &[arithmetic::TABLE];
 
 /// Functions of package `PLAN-SYSTEM`.
@@ -35,7 +35,7 @@ pub(crate) static SYSTEM: &[&[Builtin]] = &[
     tree::SYSTEM_TABLE,
 ];
 
-/// What `setf` calls for places of the plan language.
+/// What `setf` calls for places in the plan language.
 pub(crate) static SETTERS: &[&[Builtin]] = &[fluents::SETTERS];
 
 /// Functions of package `COMMON-LISP` that need the scheduler.

@@ -1,4 +1,4 @@
-//! Networks of fluents: `fl-and`, `fl-funcall` and their kin.
+//! Networks of fluents: `fl-and`, `fl-funcall` and the like.
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
@@ -85,12 +85,12 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// Is there a fluent among the values?
+/// Whether there is a fluent among the values.
 fn has_fluent(args: &[Value]) -> bool {
     args.iter().any(|a| FluentRef::from_value(a).is_some())
 }
 
-/// A network over the arguments, or at once its value if no fluent is among them.
+/// A network over the arguments, or just its value if there is no fluent among them.
 pub(super) fn operate(
     machine: &mut Machine<'_>,
     prefix: &'static str,
@@ -114,7 +114,7 @@ pub(super) fn operate(
     })
 }
 
-/// A network with its first value.
+/// A network, with its initial value.
 fn make(
     machine: &mut Machine<'_>,
     prefix: &'static str,
@@ -149,7 +149,7 @@ fn fl_apply(machine: &mut Machine<'_>, mut args: Vec<Value>) -> Result<Step> {
     Ok(Step::TailCall { function, args })
 }
 
-/// The fluent that an argument must be.
+/// The fluent given as an argument, or a type error.
 pub(super) fn fluent_argument(machine: &Machine<'_>, value: &Value) -> Result<FluentRef> {
     FluentRef::from_value(value)
         .ok_or_else(|| Raise::type_error(value, Plan::of(machine.image).names.fluent))
@@ -176,7 +176,7 @@ fn pulsed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         },
     };
     run(machine, "VALUE", |calls| async move {
-        // Counting pulses of a network starts with its value now.
+        // The pulses of a network are counted relative to its present value.
         fluent::value(&calls, &source).await?;
         Ok(FluentRef::pulses(&plan, &source, mode).value())
     })

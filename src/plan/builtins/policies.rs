@@ -1,4 +1,4 @@
-//! Policies: conditions that are watched while a body runs. The library says how.
+//! Policies: conditions that are watched while a body runs. The Lisp library implements them.
 
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
@@ -14,7 +14,7 @@ pub(crate) struct Policy {
     name: Value,
     parameters: Value,
     doc: Value,
-    /// A property list of functions of a storage and the parameters.
+    /// A property list of functions that take a storage and the parameters.
     parts: Value,
     type_symbol: Sym,
 }

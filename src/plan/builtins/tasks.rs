@@ -1,4 +1,4 @@
-//! Tasks: status, result, ending, suspending.
+//! Tasks: status, result, evaporating, suspending.
 
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::builtins::keywords;
@@ -206,12 +206,12 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     ),
 ];
 
-/// The task that an argument must be.
+/// The task given as an argument, or a type error.
 pub(super) fn task(image: &Image, value: &Value) -> Result<TaskRef> {
     TaskRef::from_value(value).ok_or_else(|| Raise::type_error(value, Plan::of(image).names.task))
 }
 
-/// The tail of a list of keywords that begins with the first argument.
+/// The tail of a list of keywords from the first argument on.
 fn member(_: &mut Image, args: &[Value]) -> Result<Value> {
     let mut rest = args[1].clone();
     while let Value::Cons(cons) = rest.clone() {
@@ -223,7 +223,7 @@ fn member(_: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::NIL)
 }
 
-/// A fluent that tells whether the status is in the list that a variable holds.
+/// A fluent that tells whether the status is in the list that a variable contains.
 pub(super) fn status_net(image: &Image, plan: &Plan, task: &TaskRef, list: Sym) -> FluentRef {
     let args = vec![task.get().fluent(plan).value(), image.special(list).clone()];
     FluentRef::net(plan, "FN-FL-FUNCALL", Operation::Pure(member), args)
@@ -236,7 +236,7 @@ fn status_in(image: &mut Image, value: &Value, list: fn(&Plan) -> Sym) -> Result
     member(image, &[status.into(), list])
 }
 
-/// The task that is told something, of arguments `task &key reason sync`.
+/// The task that a request is about, from the arguments `task &key reason sync`.
 fn told(machine: &Machine<'_>, args: &[Value]) -> Result<TaskRef> {
     let names = Plan::of(machine.image).names;
     keywords::parse(machine.image, &args[1..], [names.reason, names.sync])?;

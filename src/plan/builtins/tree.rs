@@ -1,4 +1,4 @@
-//! The task tree: tags, and calls of plans at nodes of their own.
+//! The task tree: tags, and calls of plans at their own nodes.
 
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
@@ -88,7 +88,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
             let shown = print::to_string(image, &args[0], true);
             let text = format!("(:TAG {shown} ..) used outside of WITH-TAGS.");
             let current = Plan::of(image).names.current_task;
-            // Inside a plan the form has been compiled.
+            // Inside a plan, the form has been compiled.
             Err(if image.special(current).is_nil() {
                 Raise::simple(text)
             } else {
@@ -141,7 +141,7 @@ fn tagged(image: &Image) -> Value {
     Plan::of(image).names.tagged.into()
 }
 
-/// A task at the next node for a part, below that of the current task.
+/// A task at the next node for a part, below the current task's node.
 fn task_at(image: &Image, name: TaskName, part: &Value) -> Result<TaskRef> {
     let plan = Plan::of(image);
     let current = image.special(plan.names.current_task);

@@ -1,4 +1,4 @@
-//! Making, reading and linking designators.
+//! Creating, reading and linking designators.
 
 use super::value;
 use super::value::{Class, Designator, Quantifier};
@@ -327,7 +327,7 @@ fn equate(image: &mut Image, args: &[Value]) -> Result<Value> {
     ))
 }
 
-/// A designator like another one, with other properties.
+/// A designator like another one, but with other properties.
 fn like(image: &mut Image, original: &Designator, properties: Vec<Value>) -> Value {
     let description = list(properties);
     Value::foreign(Designator::new(
@@ -431,7 +431,7 @@ fn with_designators(image: &mut Image, form: &Value) -> Result<Value> {
         let variable = definition.car_or_nil();
         let mut class = definition.cdr_or_nil().car_or_nil();
         let mut properties = definition.cdr_or_nil().cdr_or_nil().car_or_nil();
-        // Also (variable (class properties)).
+        // `(variable (class properties))` is accepted, too.
         if let Value::Cons(inner) = &class {
             properties = inner.cdr().car_or_nil();
             class = inner.car();
@@ -455,7 +455,7 @@ fn with_desig_props(image: &mut Image, form: &Value) -> Result<Value> {
     let reader = packages::symbol(image, "CRAM-DESIGNATORS", "DESIG-PROP-VALUE");
     let mut bindings = vec![list(vec![variable.clone(), designator])];
     for name in names.iter_list() {
-        // As in WITH-SLOTS, (variable key) names them apart.
+        // As in `with-slots`, `(variable key)` gives the variable a name of its own.
         let (name, key) = match &name {
             Value::Cons(pair) => (pair.car(), pair.cdr().car_or_nil()),
             _ => (name.clone(), name.clone()),

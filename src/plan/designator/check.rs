@@ -1,4 +1,4 @@
-//! Checks of property values against the kinds that the schema demands.
+//! Checks property values against the kinds that the schema requires.
 
 use super::schema;
 use super::schema::{Key, Kind, TypeRow};
@@ -16,10 +16,10 @@ use crate::plan::pose::value::{as_placement, as_pose_stamped};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// How deep designators inside designators are checked.
+/// Maximum depth of nested designators that are checked.
 const MOST_NESTED: usize = 16;
 
-/// Is the value of the kind? `name` is the key as it was written: `pose` takes poses where
+/// Whether the value is of the kind. `name` is the key as written: `pose` takes poses where
 /// `target` takes locations.
 fn is_of_kind(image: &Image, value: &Value, kind: &Kind, name: &str) -> bool {
     let is_class = |class| value::as_class(value, class).is_some();
@@ -53,7 +53,7 @@ fn is_of_kind(image: &Image, value: &Value, kind: &Kind, name: &str) -> bool {
     }
 }
 
-/// The type specifier that errors name.
+/// The type specifier named in errors.
 fn type_specifier(image: &mut Image, kind: &Kind, name: &str) -> Value {
     if let Kind::Member(members) = kind {
         let members = members.iter().map(|m| Value::from(image.keyword(m)));
@@ -90,7 +90,7 @@ fn type_specifier(image: &mut Image, kind: &Kind, name: &str) -> Value {
     }
 }
 
-/// What to write instead, where that can be guessed.
+/// What to write instead, if that can be guessed.
 fn hint(image: &Image, value: &Value, kind: &Kind, name: &str) -> Option<String> {
     let key = name.to_lowercase();
     let quoted = value
@@ -128,7 +128,7 @@ fn hint(image: &Image, value: &Value, kind: &Kind, name: &str) -> Option<String>
     }
 }
 
-/// `*NAME*`, as global variables are called.
+/// Whether the name is that of a global variable by convention, `*NAME*`.
 fn is_variable_name(name: &str) -> bool {
     name.len() > 2 && name.starts_with('*') && name.ends_with('*')
 }
@@ -160,8 +160,7 @@ pub(crate) fn check_value(
         .with(known::K_EXPECTED_TYPE, expected))
 }
 
-/// Checks the properties that a row of the schema knows, and those of the designators
-/// inside them.
+/// Checks the properties that a row of the schema lists, and those of nested designators.
 pub(crate) fn check_row(image: &mut Image, designator: &Designator, row: &TypeRow) -> Result<()> {
     for (key, values) in designator.properties() {
         let Some(name) = key.as_symbol().map(|s| image.name(s).to_owned()) else {
@@ -231,7 +230,7 @@ pub(crate) fn check_property(
     }
 }
 
-/// The kinds of keys of actions and motions whatever their type.
+/// The kinds of the keys that actions and motions have regardless of their type.
 fn general_kind(class: Class, name: &str) -> Kind {
     match (class, name) {
         (Class::Motion, "TARGET" | "LEFT-TARGET" | "RIGHT-TARGET") => Kind::Location,

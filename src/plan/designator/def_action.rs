@@ -1,4 +1,4 @@
-//! `def-action`: a type of actions, its keys and its plan in one definition.
+//! `def-action`: a type of actions, its keys and its plan in a single definition.
 
 use super::schema::{self, Key, Kind, Text, TypeRow};
 use super::value::Class;
@@ -41,7 +41,7 @@ pub(crate) static TABLE: &[Builtin] = &[pure(
     },
 )];
 
-/// The shape of a definition, for messages.
+/// The syntax of a definition, for messages.
 const SHAPE: &str =
     "(def-action type ((key kind \"what it means\")…) \"what it does\" (:option …)… body…)";
 
@@ -69,13 +69,13 @@ fn text_of(image: &Image, sym: Sym) -> Text {
     Text::Owned(image.name(sym).to_uppercase())
 }
 
-/// A key with the form of its value when it is not given.
+/// A key, and the form of its default value.
 struct KeyDefinition {
     key: Key,
     default: Option<Value>,
 }
 
-/// A definition taken apart.
+/// A parsed definition.
 struct Definition {
     name: Sym,
     keys: Vec<KeyDefinition>,
@@ -85,12 +85,12 @@ struct Definition {
     plan: Sym,
     variant: Option<Text>,
     example: Option<Text>,
-    /// The forms of the plan.
+    /// The body of the plan.
     body: Value,
 }
 
 impl Definition {
-    /// Takes apart what stands after `def-action`.
+    /// Parses what follows `def-action`.
     fn parse(image: &Image, definition: &Value) -> Result<Definition> {
         let type_name = definition.car_or_nil();
         let Some(name) = name_of(&type_name) else {
@@ -214,7 +214,7 @@ impl Definition {
         Ok(())
     }
 
-    /// An example is a designator of the type.
+    /// Parses an example, which must be a designator of the type.
     fn parse_example(&self, image: &Image, option: &Value, values: &[Value]) -> Result<Text> {
         let head = |form: &Value| form.car_or_nil().as_symbol().map(|s| image.name(s));
         if let [example] = values
@@ -241,7 +241,7 @@ impl Definition {
         ))
     }
 
-    /// The row of the table.
+    /// The row for the table of types.
     fn row(self, image: &Image) -> TypeRow {
         TypeRow {
             class: Class::Action,
@@ -413,7 +413,7 @@ fn parse_key(
     Ok(definition)
 }
 
-/// The kind that a definition names, or what is wrong about it.
+/// The kind that a definition names, or what is wrong with it.
 fn parse_kind(image: &Image, value: &Value) -> std::result::Result<Kind, String> {
     if let Value::Cons(cons) = value {
         let head = cons.car().as_symbol().map(|s| image.name(s));

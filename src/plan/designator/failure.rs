@@ -1,4 +1,4 @@
-//! The conditions of designators that cannot be resolved.
+//! The conditions signalled when a designator cannot be resolved.
 
 use crate::lisp::image::Image;
 use crate::lisp::object::define::ClassDefinition;
@@ -10,8 +10,8 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::packages;
 
-/// Defines the condition classes. The plan language's failures exist already, or errors
-/// stand in for them.
+/// Defines the condition classes. The failures of the plan language must have been defined;
+/// otherwise errors take their place.
 pub(crate) fn define(image: &mut Image) {
     let error = packages::symbol(image, "CRAM-DESIGNATORS", "DESIGNATOR-ERROR");
     let slots = ["DESIGNATOR", "REASON", "SUGGESTION"].map(|name| slot(image, name));
@@ -38,7 +38,7 @@ fn slot(image: &mut Image, name: &str) -> SlotDefinition {
 }
 
 fn define_class(image: &mut Image, name: Sym, superclasses: Vec<Sym>, slots: Vec<SlotDefinition>) {
-    // The superclasses are defined already.
+    // The superclasses have been defined.
     let _ = image.define_unchecked(ClassDefinition {
         name,
         kind: ClassKind::Condition,
@@ -49,7 +49,7 @@ fn define_class(image: &mut Image, name: Sym, superclasses: Vec<Sym>, slots: Vec
     });
 }
 
-/// The class of plain plan failures, if the plan language is there.
+/// The class of plain plan failures, if the plan language is present.
 fn plan_failure(image: &Image) -> Option<Sym> {
     ["CRAM-LANGUAGE", "CRAM-LANGUAGE-IMPLEMENTATION"]
         .into_iter()
@@ -78,7 +78,7 @@ fn with_data(
     raise
 }
 
-/// Why a designator has no meaning.
+/// Why a designator cannot be resolved.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
 pub(crate) struct Unresolved {
     /// A sentence; empty if nothing is known.
@@ -111,7 +111,7 @@ pub(crate) fn reference_failure(
     with_data(image, raise, designator, &why.reason, suggestion)
 }
 
-/// A `DESIGNATOR-ERROR` with a text, and a reason on a line of its own.
+/// A `DESIGNATOR-ERROR` with a text, and the reason on a separate line.
 pub(crate) fn designator_error(
     image: &mut Image,
     designator: &Value,
@@ -128,7 +128,7 @@ pub(crate) fn designator_error(
     with_data(image, raise, designator, &why.reason, suggestion)
 }
 
-/// The failure of a motion that no part of the robot carries out.
+/// The failure for a motion that no process module carries out.
 pub(crate) fn no_process_module(image: &mut Image, shown: &str) -> Box<Raise> {
     let class = plan_failure(image).unwrap_or(known::SIMPLE_ERROR);
     Raise::new(

@@ -1,4 +1,4 @@
-//! The Prolog functors that look at designators.
+//! The Prolog functors that query designators.
 
 use super::check;
 use super::value;

@@ -1,4 +1,4 @@
-//! From an action or motion designator to the plan or motion of the schema.
+//! Grounding: from an action or motion designator to the plan or motion of the schema.
 
 use std::rc::Rc;
 
@@ -15,9 +15,9 @@ use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::plan::pose::value::as_pose_stamped;
 
-/// Why a designator is not grounded.
+/// Why a designator cannot be grounded.
 pub(crate) enum Refusal {
-    /// A value is of a wrong type: an error of its own.
+    /// A value has the wrong type, which is an error of its own.
     Error(Box<Raise>),
     /// There is no such type of action or motion.
     UnknownType(Unresolved),
@@ -35,15 +35,15 @@ impl Refusal {
     }
 }
 
-/// An action or motion whose type is known and whose keys fit.
+/// An action or motion whose type is known and whose keys are valid.
 pub(crate) struct Grounding {
     /// The row of the schema.
     pub(crate) row: Rc<TypeRow>,
-    /// Keys in upper case, aliases resolved, with their values; the type is not among them.
+    /// Keys in upper case, aliases resolved, with their values; the type is not included.
     pub(crate) properties: Vec<(String, Value)>,
 }
 
-/// Finds the row of the schema that fits the designator.
+/// Finds the row of the schema that matches the designator.
 pub(crate) fn ground(image: &mut Image, designator: &Designator) -> Result<Grounding, Refusal> {
     let class = designator.class;
     let kind = class.name().to_lowercase();
@@ -100,7 +100,7 @@ fn unknown_type(image: &Image, class: Class, name: &str) -> Unresolved {
     Unresolved { reason, suggestion }
 }
 
-/// What is needed and not there.
+/// What is required but missing.
 fn missing(image: &Image, designator: &Designator, row: &TypeRow) -> Option<Unresolved> {
     let kind = row.class.name().to_lowercase();
     let lacking = row.lacking(|name| designator.property_named(image, name).is_some())?;
@@ -114,7 +114,7 @@ fn missing(image: &Image, designator: &Designator, row: &TypeRow) -> Option<Unre
     }
 }
 
-/// A key that the row does not know but that is near to one it knows.
+/// A key that is not in the row but similar to one that is.
 fn unknown_key(image: &Image, designator: &Designator, row: &TypeRow) -> Option<(String, String)> {
     designator.properties().iter().find_map(|(key, _)| {
         let name = image.name(key.as_symbol()?);
@@ -138,7 +138,7 @@ fn mistyped_key(image: &Image, designator: &Designator, row: &TypeRow) -> Option
     })
 }
 
-/// An object that is given to what acts on none must not be passed over.
+/// Refuses an object given to a type that takes none: it must not be ignored silently.
 fn needless_object(image: &Image, designator: &Designator, row: &TypeRow) -> Option<Unresolved> {
     if row.key("OBJECT").is_some() {
         return None;
@@ -153,7 +153,7 @@ fn needless_object(image: &Image, designator: &Designator, row: &TypeRow) -> Opt
     )))
 }
 
-/// Some keys take only an object that was detected.
+/// Refuses an object that has not been detected for a key that requires it.
 fn not_detected(image: &Image, designator: &Designator, row: &TypeRow) -> Option<Unresolved> {
     let mut keys = row.keys.iter().filter(|k| k.kind == Kind::DetectedObject);
     keys.find_map(|key| {

@@ -1,6 +1,5 @@
-//! Checks of designators as they are written: types that do not exist, keys that a type
-//! does not take. Mistakes become notes of the compiler; nothing is refused here, because
-//! a program may define types of its own.
+//! Checks designators as written: unknown types, keys that a type does not take. Mistakes become
+//! compiler notes; nothing is refused here, because a program may define types of its own.
 
 use super::schema;
 use super::schema::TypeRow;
@@ -19,7 +18,7 @@ pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value
         .iter()
         .filter_map(|property| named(image, property))
         .collect();
-    // What a template splices in is not known.
+    // What a template splices in is unknown.
     let is_whole = written.len() == properties.len();
     let mut mistakes = match class {
         Class::Action | Class::Motion if is_whole => of_type(image, class, &written),
@@ -34,7 +33,7 @@ pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value
     }
 }
 
-/// Key and value of a property, `(when condition (key value))` looked into.
+/// Key and value of a property, also inside `(when condition (key value))`.
 fn named(image: &Image, property: &Value) -> Option<(String, Value)> {
     let head = property.car_or_nil();
     if head.as_symbol() == Some(known::WHEN) {
@@ -88,7 +87,7 @@ fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(Str
     mistakes
 }
 
-/// The name that a value stands for if it is a plain symbol: no `?variable`, no global.
+/// The name that a plain symbol stands for, unless it is a `?variable` or a global.
 fn literal_name(image: &Image, value: &Value) -> Option<String> {
     let sym = value.as_symbol()?;
     if image.is_keyword(sym) {
@@ -99,7 +98,7 @@ fn literal_name(image: &Image, value: &Value) -> Option<String> {
     (!is_global && !data.name.starts_with('?')).then(|| name(image, sym))
 }
 
-/// Why a value is not what it seems: it is quoted, or looks like a call.
+/// Why a value is not evaluated as it may seem: it is quoted, or looks like a call.
 fn not_evaluated(image: &Image, key: &str, value: &Value) -> Option<String> {
     let head = value.as_cons()?.car().as_symbol()?;
     let key = key.to_lowercase();

@@ -1,7 +1,7 @@
 //! Locations: poses that are given, generated or sampled, and checked by validators.
 //!
-//! Generators run in order of ascending priority; each gives a list of poses. A pose is a
-//! solution if no validator rejects it. After so many rejections in a row
+//! Generators run in ascending order of priority; each returns a list of poses. A pose is a
+//! solution if no validator rejects it. After a number of rejections in a row
 //! (`*location-generator-max-retries*`) the search ends.
 
 use super::check;
@@ -22,13 +22,13 @@ use crate::lisp::vm::calls::{Args, Calls};
 use crate::plan::pose::value::as_placement;
 use crate::plan::{Result, packages};
 
-/// Where generators are kept: a list of `(priority function documentation enabled)`.
+/// The variable with the generators: a list of `(priority function documentation enabled)`.
 const GENERATORS: &str = "*LOCATION-GENERATORS*";
-/// Where validators are kept, in the same way.
+/// The variable with the validators, in the same form.
 const VALIDATORS: &str = "*LOCATION-VALIDATION-FUNCTIONS*";
-/// The variable that says how many rejections in a row end a search.
+/// The variable with the number of rejections in a row that ends a search.
 const MOST_RETRIES: &str = "*LOCATION-GENERATOR-MAX-RETRIES*";
-/// Its value at the start.
+/// Its initial value.
 const RETRIES: i64 = 30;
 
 /// Functions of package `CRAM-DESIGNATORS`.
@@ -173,7 +173,7 @@ fn change(image: &mut Image, list: &str, function: &Value, change: Change) -> Re
     Ok(Value::bool(found))
 }
 
-/// The functions that are enabled, in order of priority.
+/// The enabled functions, in order of priority.
 fn enabled(image: &mut Image, list: &str) -> Vec<Value> {
     let list = variable(image, list);
     image
@@ -189,7 +189,7 @@ fn enabled(image: &mut Image, list: &str) -> Vec<Value> {
         .collect()
 }
 
-/// What a search comes to.
+/// The result of a search.
 enum Found {
     /// A pose.
     Pose(Value),
@@ -197,7 +197,7 @@ enum Found {
     Nothing(String),
 }
 
-/// Resolves a location: its pose.
+/// Resolves a location to its pose.
 pub(crate) async fn reference(calls: &Calls, designator: &Value) -> Result<Value> {
     match first_solution(calls, designator).await? {
         Found::Pose(pose) => Ok(pose),
@@ -214,8 +214,8 @@ pub(crate) async fn reference(calls: &Calls, designator: &Value) -> Result<Value
     }
 }
 
-/// The same, with a plan failure if there is no solution; it says the message, if there is
-/// one, in place of the reason.
+/// Like [`reference`], but with a plan failure if there is no solution; its text is the message, if
+/// there is one, instead of the reason.
 pub(crate) async fn try_reference(
     calls: &Calls,
     designator: &Value,
@@ -235,7 +235,7 @@ pub(crate) async fn try_reference(
     }
 }
 
-/// The pose that a location is resolved to, is given, or is found first.
+/// The pose that a location was resolved to or specifies, or else the first one found.
 async fn first_solution(calls: &Calls, designator: &Value) -> Result<Found> {
     let location = designator.clone();
     let known = calls.with(move |machine| known_pose(machine.image, &location));
@@ -259,7 +259,7 @@ async fn first_solution(calls: &Calls, designator: &Value) -> Result<Found> {
     search.run(calls).await
 }
 
-/// The pose of a location that need not be searched for.
+/// The pose of a location, if no search is needed.
 fn known_pose(image: &mut Image, designator: &Value) -> Result<Option<Value>> {
     let target = value::designator(image, designator)?;
     if let Some(data) = target.data.borrow().clone() {
@@ -274,7 +274,7 @@ fn known_pose(image: &mut Image, designator: &Value) -> Result<Option<Value>> {
     Ok(pose)
 }
 
-/// The pose that a location says itself, or that of the object it is the location of.
+/// The pose that a location specifies, or that of the object whose location it is.
 fn given_pose(image: &Image, target: &Designator) -> Option<Value> {
     if let Some(pose) = target.property_named(image, "POSE") {
         return Some(pose);
@@ -292,18 +292,18 @@ fn given_pose(image: &Image, target: &Designator) -> Option<Value> {
 
 /// A search for solutions of one location.
 struct Search {
-    /// The description.
+    /// The designator that describes the location.
     designator: Value,
-    /// The designator that gets the solution.
+    /// The designator that receives the solution.
     owner: Value,
-    /// Poses that were generated and not looked at, the next one last.
+    /// Poses that were generated but not checked yet, the next one last.
     samples: Vec<Value>,
-    /// Generators that have not run, the next one last.
+    /// Generators that have not run yet, the next one last.
     generators: Vec<Value>,
 }
 
 impl Search {
-    /// Looks at samples until one is accepted; generators are asked for more.
+    /// Checks samples, running generators for more, until one is accepted.
     async fn run(mut self, calls: &Calls) -> Result<Found> {
         let mut rejections = 0;
         loop {
@@ -331,7 +331,7 @@ impl Search {
         }
     }
 
-    /// Asks the validators about a sample.
+    /// Whether the validators accept a sample.
     async fn is_accepted(&self, calls: &Calls, sample: &Value) -> bool {
         let validators = calls.with(|machine| enabled(machine.image, VALIDATORS));
         let mut is_sure = false;
@@ -353,7 +353,7 @@ impl Search {
         is_sure || !is_doubtful
     }
 
-    /// Makes a sample what the owner stands for, and keeps what has not been looked at.
+    /// Makes a sample the value of the owner, and keeps what has not been checked.
     fn settle(self, sample: &Value) {
         if let Some(target) = value::as_designator(&self.owner) {
             *target.data.borrow_mut() = Some(sample.clone());
@@ -363,7 +363,7 @@ impl Search {
     }
 }
 
-/// How many rejections in a row end a search.
+/// The number of rejections in a row that ends a search.
 fn most_retries(image: &mut Image) -> i64 {
     let most = variable(image, MOST_RETRIES);
     match image.special(most) {
@@ -381,7 +381,7 @@ fn reason(rejections: i64) -> String {
     }
 }
 
-/// The next solution, as a designator that is equated with this one; `NIL` if there is none.
+/// The next solution, as a designator equated with this one; `NIL` if there is none.
 pub(crate) async fn next_solution(calls: &Calls, designator: &Value) -> Result<Value> {
     if let Found::Nothing(_) = first_solution(calls, designator).await? {
         return Ok(Value::NIL);
@@ -402,7 +402,7 @@ pub(crate) async fn next_solution(calls: &Calls, designator: &Value) -> Result<V
     let search = Search {
         designator: designator.clone(),
         owner: owner.clone(),
-        // Both are kept in reverse.
+        // Both are kept in reverse order.
         samples: rest.car_or_nil().iter_list().collect(),
         generators: rest.cdr_or_nil().iter_list().collect(),
     };

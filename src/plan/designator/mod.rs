@@ -1,7 +1,7 @@
 //! Designators: actions, motions, objects and locations described by properties.
 //!
-//! This folder knows their syntax, their types and keys, and how they are resolved; it
-//! moves nothing. A motion becomes a request to whoever runs the plan.
+//! This folder defines their syntax, their types and keys, and how they are resolved; it moves
+//! nothing. A motion becomes a request to the host.
 
 pub(crate) mod access;
 pub(crate) mod check;
@@ -30,7 +30,7 @@ use crate::lisp::value::class::ClassKind;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 
-/// Makes the packages, classes, variables, functions and macros; after the plan language.
+/// Defines the packages, classes, variables, functions and macros. Install the plan language first.
 pub(crate) fn install(image: &mut Image) {
     packages::install(image);
     schema::install(image);
@@ -74,8 +74,8 @@ pub(crate) fn install(image: &mut Image) {
     }
 }
 
-/// The first value of a property, by the key's name in upper case; `None` if it is absent,
-/// `NIL`, or the value is no designator.
+/// The first value of a property, by the key's name in upper case; `None` if it is missing or
+/// `NIL`, or if the value is not a designator.
 pub(crate) fn property(image: &Image, designator: &Value, key: &str) -> Option<Value> {
     value::as_designator(designator)?
         .property_named(image, key)
@@ -83,7 +83,7 @@ pub(crate) fn property(image: &Image, designator: &Value, key: &str) -> Option<V
 }
 
 fn define_class(image: &mut Image, name: Sym, superclass: Sym) {
-    // The superclass is defined already.
+    // The superclass has been defined.
     let _ = image.define_unchecked(ClassDefinition {
         name,
         kind: ClassKind::Builtin,

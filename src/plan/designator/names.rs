@@ -1,6 +1,6 @@
-//! Names of things: a symbol in plans, a string with underscores in frames.
+//! Names of things: symbols in plans, strings with underscores in frames.
 //!
-//! Names are compared leniently: `BOTTLE-1`, `:BOTTLE-1` and `"bottle_1"` are one.
+//! Names are compared leniently: `BOTTLE-1`, `:BOTTLE-1` and `"bottle_1"` are the same.
 
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;

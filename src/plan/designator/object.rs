@@ -1,4 +1,4 @@
-//! Object designators after perception, and what they refer to.
+//! Object designators after perception, and the data that they refer to.
 
 use super::names;
 use super::value;
@@ -31,7 +31,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// What the designator of a perceived object refers to.
+/// The data that the designator of a perceived object refers to.
 pub(crate) struct ObjectData {
     /// The object's name in the world.
     pub(crate) identifier: Value,
@@ -51,7 +51,7 @@ impl Foreign for ObjectData {
     }
 }
 
-/// Data, or that of a perceived object's designator.
+/// The data itself, or that of a perceived object's designator.
 fn object_data<'a>(image: &mut Image, argument: &'a Value) -> Result<&'a ObjectData, Box<Raise>> {
     match argument.as_foreign::<ObjectData>() {
         Some(data) => Ok(data),
@@ -62,10 +62,9 @@ fn object_data<'a>(image: &mut Image, argument: &'a Value) -> Result<&'a ObjectD
     }
 }
 
-/// A designator of a perceived object: type, name and poses, and the other properties of
-/// the query. `name` is the name as it was given when the object was spawned, `kind` the
-/// keyword of its type; the poses are in the frames "base_footprint" and "map". It is not
-/// equated with the query.
+/// A designator of a perceived object: type, name and poses, and the other properties of the query.
+/// `name` is the name given when the object was spawned, `kind` the keyword of its type; the poses
+/// are in the frames "base_footprint" and "map". It is not equated with the query.
 pub(crate) fn perceived(
     image: &mut Image,
     query: &Value,

@@ -1,4 +1,4 @@
-//! `perform`: an action calls its plan, a motion becomes a request to whoever runs the plan.
+//! `perform`: an action calls its plan; a motion becomes a request to the host.
 
 use super::failure;
 use super::failure::Unresolved;
@@ -40,7 +40,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// Is a plan running: is this fiber a task?
+/// Whether a plan is running, that is, whether this fiber is a task.
 fn is_in_plan(image: &mut Image) -> bool {
     let task = packages::symbol(image, "CRAM-LANGUAGE-IMPLEMENTATION", "*CURRENT-TASK*");
     let value = image.special(task);
@@ -82,7 +82,8 @@ fn not_performable(image: &mut Image, argument: &Value) -> Box<Raise> {
         .with(k_arguments, Value::list([argument.clone()]))
 }
 
-/// With a goal: nothing if it holds already, and a failure if it does not hold afterwards.
+/// Performs an action. If it has a goal, does nothing if the goal already holds, and fails if it
+/// does not hold afterwards.
 async fn perform_action(calls: &Calls, designator: &Value) -> Result<Value> {
     let action = designator.clone();
     let goal = calls.with(move |machine| goal_of(machine.image, &action));
@@ -123,7 +124,7 @@ async fn perform_action(calls: &Calls, designator: &Value) -> Result<Value> {
         .await
 }
 
-/// The goal of an action, and the function that tells whether it holds.
+/// The goal of an action, and the function that tests it.
 fn goal_of(image: &mut Image, action: &Value) -> Option<(Value, Value)> {
     let goal = crate::plan::designator::property(image, action, "GOAL")?;
     let holds = packages::symbol(image, "CRAM-OCCASIONS-EVENTS", "HOLDS");
@@ -141,8 +142,7 @@ async fn run_action(calls: &Calls, designator: &Value) -> Result<Value> {
     call_plan(calls, designator, plan, args).await
 }
 
-/// The plan of an action that is not resolved yet, and its arguments: by a rule, or else by
-/// the table.
+/// The plan of an unresolved action, and its arguments: from a rule, or else from the table.
 async fn resolve_action(calls: &Calls, designator: &Value) -> Result<PlanCall> {
     let found = groundings(calls, designator).await?;
     let action = designator.clone();
@@ -171,8 +171,8 @@ async fn resolve_action(calls: &Calls, designator: &Value) -> Result<PlanCall> {
 /// The function of a plan, and its arguments.
 type PlanCall = (Value, Vec<Value>);
 
-/// The call that a rule's `(plan argument…)` says. A plan that takes keywords and is given
-/// nothing but an action gets that action's properties.
+/// The call that a rule's `(plan argument…)` specifies. A plan that takes only keywords and is
+/// given a single action receives that action's properties.
 async fn commanded(calls: &Calls, plan: Value, args: Value) -> PlanCall {
     let args: Vec<Value> = args.iter_list().collect();
     let [only] = args.as_slice() else {
@@ -191,7 +191,7 @@ async fn commanded(calls: &Calls, plan: Value, args: Value) -> PlanCall {
     (plan, keywords.collect())
 }
 
-/// Does the function take keyword arguments and nothing else?
+/// Whether the function takes keyword arguments and no others.
 fn takes_keywords(image: &Image, plan: &Value) -> bool {
     let Ok(function) = image.coerce_to_function(plan) else {
         return false;
@@ -205,16 +205,16 @@ fn takes_keywords(image: &Image, plan: &Value) -> bool {
     }
 }
 
-/// How many motions have been begun; the image keeps it for [`Performance`].
+/// Number of motions begun so far; the image keeps it for [`Performance`].
 pub(crate) struct MotionsBegun(pub(crate) u64);
 
-/// What there is to know about the call of an action's plan.
+/// What is known about a call of an action's plan.
 pub(crate) struct Performance {
-    /// How many motions had been begun before it.
+    /// Number of motions begun before it.
     pub(crate) motions_before: u64,
 }
 
-/// Calls the function of a plan. The frame of the call tells the action.
+/// Calls the function of a plan. The stack frame of the call records the action.
 async fn call_plan(
     calls: &Calls,
     designator: &Value,
@@ -252,7 +252,8 @@ fn check_defined(image: &mut Image, designator: &Value, plan: &Value) -> Result<
     ))
 }
 
-/// A process module of the plan's own, or a request to whoever runs the plan.
+/// Performs a motion: by a process module that the program defines, or else by a request to the
+/// host.
 async fn perform_motion(calls: &Calls, designator: &Value) -> Result<Step> {
     let symbols = calls.with(|machine| {
         let names = [
@@ -309,7 +310,7 @@ fn no_module(image: &mut Image, designator: &Value, why: &Unresolved) -> Box<Rai
     failure::no_process_module(image, &format!("{shown}\n{}", why.reason))
 }
 
-/// Puts poses in place of locations that must be searched for.
+/// Replaces locations that must be searched for by the poses found.
 async fn resolve_places(calls: &Calls, request: &mut MotionRequest) -> Result<()> {
     for (_, place) in &mut request.properties {
         let location = place.clone();
@@ -337,7 +338,7 @@ async fn resolve_places(calls: &Calls, request: &mut MotionRequest) -> Result<()
     Ok(())
 }
 
-/// The motion with another location in place of one.
+/// The motion with one location replaced by another.
 fn with_place(image: &mut Image, motion: &Designator, old: &Value, new: &Value) -> Value {
     let properties: Vec<Value> = motion
         .properties()

@@ -1,7 +1,7 @@
 //! `reference` and `next-solution`: what a designator stands for.
 //!
-//! Rules of plans (`action-grounding`, `motion-grounding`) come first, then the schema.
-//! Locations are sampled and validated, see [`crate::plan::designator::location`].
+//! Rules defined by plans (`action-grounding`, `motion-grounding`) come first, then the schema. For
+//! the sampling and validation of locations, see [`crate::plan::designator::location`].
 
 use super::failure;
 use super::failure::Unresolved;
@@ -25,7 +25,7 @@ use crate::plan::prolog::engine::Engine;
 use crate::plan::prolog::facts;
 use crate::plan::{Result, packages};
 
-/// Groundings of one designator that are looked for.
+/// Maximum number of groundings of one designator that are searched for.
 const MOST_GROUNDINGS: usize = 64;
 
 /// Functions of package `CRAM-DESIGNATORS`.
@@ -65,7 +65,7 @@ pub(crate) static EXECUTIVE_TABLE: &[Builtin] = &[control(
     try_reference,
 )];
 
-/// What a designator stands for.
+/// Resolves a designator.
 pub(crate) async fn reference(calls: &Calls, designator: &Value) -> Result<Value> {
     let subject = designator.clone();
     let known = calls.with(move |machine| {
@@ -94,7 +94,7 @@ pub(crate) async fn reference(calls: &Calls, designator: &Value) -> Result<Value
     }
 }
 
-/// The error that nothing is known of an object or a person.
+/// The error for an object or a person about which nothing is known.
 fn unknown(image: &mut Image, designator: &Value, class: Class) -> Box<Raise> {
     let shown = print::to_string(image, designator, false);
     let (kind, why) = match class {
@@ -105,7 +105,7 @@ fn unknown(image: &mut Image, designator: &Value, class: Class) -> Box<Raise> {
     failure::designator_error(image, designator, &text, &Unresolved::new(why))
 }
 
-/// The list of groundings that rules of plans give an action or a motion.
+/// The list of groundings that rules give for an action or a motion.
 pub(crate) async fn groundings(calls: &Calls, designator: &Value) -> Result<Value> {
     let is_action = value::as_class(designator, Class::Action).is_some();
     let name = if is_action {
@@ -119,8 +119,8 @@ pub(crate) async fn groundings(calls: &Calls, designator: &Value) -> Result<Valu
     solutions_of(calls, functor, None, designator).await
 }
 
-/// The list of values that rules `(functor designator ?value)` give, and of which
-/// `(condition ?value)` holds if rules speak of that.
+/// The list of values given by rules `(functor designator ?value)`, restricted to those for which
+/// `(condition ?value)` holds if there are rules about the condition.
 pub(crate) async fn solutions_of(
     calls: &Calls,
     functor: Sym,
@@ -145,7 +145,7 @@ pub(crate) async fn solutions_of(
     Ok(Value::list(values))
 }
 
-/// The query for those values, and its variable; none if no rule speaks of the functor.
+/// The query for those values, and its variable; `None` if there are no rules about the functor.
 fn query(
     image: &mut Image,
     functor: Sym,
@@ -165,7 +165,7 @@ fn query(
     Ok(Some((Engine::new(image, &query)?, variable)))
 }
 
-/// The first grounding by rules, or what the schema says.
+/// The first grounding by rules, or else the one by the schema.
 fn resolved(image: &mut Image, designator: &Value, found: &Value) -> Result<Value> {
     let target = value::designator(image, designator)?;
     if let Value::Cons(cons) = found {
@@ -202,7 +202,7 @@ fn unresolved(
     failure::designator_error(image, designator, &text, why)
 }
 
-/// A designator for the next thing that a designator may stand for; `NIL` if there is none.
+/// A designator for the next solution of a designator; `NIL` if there is none.
 async fn next_solution(calls: &Calls, designator: &Value) -> Result<Value> {
     let subject = designator.clone();
     let class =
@@ -220,7 +220,7 @@ async fn next_solution(calls: &Calls, designator: &Value) -> Result<Value> {
     }
 }
 
-/// The same for an action or a motion, from the groundings that it was resolved with.
+/// The next solution of an action or a motion, from the groundings that were found with the first.
 fn next_grounding(image: &mut Image, designator: &Value) -> Result<Value> {
     let target = value::designator(image, designator)?;
     if let Some(next) = target.successor.borrow().clone() {
@@ -246,13 +246,13 @@ pub(crate) fn same_description(image: &mut Image, target: &Designator) -> Value 
     Value::foreign(new)
 }
 
-/// `reference` with plan failures in place of errors of designators.
+/// `reference` with plan failures instead of designator errors.
 fn try_reference(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let designator = args[0].clone();
     let message = args.get(1).and_then(Value::as_text).unwrap_or_default();
     let class = value::designator(machine.image, &designator)?.class;
     run(machine, "REFERENCE", |calls| async move {
-        // Locations end their search in the same failure.
+        // The search for a location signals the same failure itself.
         if class == Class::Location {
             return location::try_reference(&calls, &designator, message).await;
         }
@@ -267,7 +267,7 @@ fn try_reference(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     })
 }
 
-/// An error of a designator as a plan failure; other errors as they are.
+/// Converts a designator error to a plan failure; returns other errors unchanged.
 pub(crate) fn as_failure(
     image: &mut Image,
     designator: &Value,

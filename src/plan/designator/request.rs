@@ -1,16 +1,15 @@
-//! What a motion asks of whoever runs the plan.
+//! What a motion requests from the host.
 
 use crate::lisp::value::Value;
 
-/// A motion to carry out. The fiber that made the request is resumed with the motion's
-/// value, or with a failure.
+/// A motion to carry out. The fiber that made the request is resumed with the motion's value, or
+/// with a failure.
 pub(crate) struct MotionRequest {
     /// The motion designator.
     pub(crate) designator: Value,
     /// The motion's type in upper case, aliases resolved: `"GOING"`, `"MOVING-TCP"`, ….
     pub(crate) motion_type: String,
-    /// The properties by key name in upper case, aliases resolved; poses of location
-    /// designators stay designators.
+    /// The properties by key name in upper case, aliases resolved; locations remain designators.
     pub(crate) properties: Vec<(String, Value)>,
 }
 

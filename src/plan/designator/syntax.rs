@@ -1,8 +1,8 @@
-//! `(a TYPE (key value)…)` and its kin: from the form to code that makes the designator.
+//! `(a TYPE (key value)…)` and the like: from the form to code that makes the designator.
 //!
-//! A key is a symbol or a string. A value is parsed when the form is expanded: symbols
-//! become keywords unless they are `?variables` or bound globally, lists are parsed item by
-//! item and never called, nested designator forms make designators.
+//! A key is a symbol or a string. Values are parsed when the form is expanded: symbols become
+//! keywords unless they are `?variables` or bound globally, lists are parsed item by item and never
+//! called, and nested designator forms make designators.
 
 use super::literal;
 use super::value::{Class, Quantifier};
@@ -18,9 +18,9 @@ use crate::plan::packages;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// How deep values may be nested.
+/// Maximum depth of nested values.
 const MOST_NESTED: usize = 200;
-/// Bound globals whose value is a bound global, and so on.
+/// Maximum length of a chain of globals whose values name further globals.
 const LONGEST_CHAIN: usize = 32;
 
 /// Macros of package `CRAM-DESIGNATORS`.
@@ -118,7 +118,7 @@ fn designator_form(
     ]))
 }
 
-/// Code for a property list, or for `NIL` where a condition leaves the property out.
+/// Code for a property list, or for `NIL` if a condition omits the property.
 fn property_code(image: &mut Image, property: &Value, depth: usize) -> Result<Value> {
     let items = property.list_to_vec().filter(|items| !items.is_empty());
     let Some(items) = items else {
@@ -196,7 +196,7 @@ fn list_code(image: &mut Image, value: &Value, depth: usize) -> Result<Value> {
     Ok(list(code))
 }
 
-/// Is this the start of a nested designator: a, an, all, some or the, and a kind?
+/// The quantifier (a, an, all, some, the) if this is the start of a nested designator.
 fn nested_quantifier(image: &Image, head: &Value, form: &Value) -> Option<Quantifier> {
     let quantifier = match image.name(head.as_symbol()?) {
         "A" | "AN" | "SOME" | "THE" => Quantifier::A,
@@ -211,8 +211,8 @@ fn nested_quantifier(image: &Image, head: &Value, form: &Value) -> Option<Quanti
     Class::named(&name).map(|_| quantifier)
 }
 
-/// `?variables` are evaluated; what is bound globally counts as its value; everything else
-/// is the keyword.
+/// `?variables` are evaluated; a globally bound symbol stands for its value; any other symbol
+/// becomes the keyword.
 fn symbol_code(image: &mut Image, sym: Sym) -> Value {
     if image.is_keyword(sym) {
         return sym.into();

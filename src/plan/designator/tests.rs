@@ -13,7 +13,7 @@ use crate::lisp::value::symbol::known;
 use crate::lisp::vm::fiber::Fiber;
 use crate::lisp::vm::machine::{Event, Machine};
 
-/// An image in which designators need no prefix and a plan seems to run.
+/// An image in which designators need no package prefix and a plan seems to be running.
 pub(crate) fn image() -> Image {
     let mut image = Image::new();
     crate::plan::designator::install(&mut image);
@@ -41,7 +41,7 @@ const ACTIONS: &str = "
       (:plan grip))
     (def-action picking-up ((object detected-object)) (:plan pick-up))";
 
-/// Some types of motions, each with a key that it needs.
+/// Some types of motions, each with a required key.
 const MOTIONS: &[(&str, Key)] = &[
     ("GOING", key("TARGET", Kind::Place, "where to")),
     (
@@ -80,8 +80,8 @@ fn motion(name: &'static str, key: &Key) -> TypeRow {
     }
 }
 
-/// The printed values of the last form; `!!` and the report of a condition; `??` and the
-/// motion that was requested.
+/// The printed values of the last form; `!!` and the report of a condition; `??` and the requested
+/// motion.
 pub(crate) fn evaluate_in(image: &mut Image, text: &str) -> String {
     let source = image.sources.add("test", text);
     let mut reader = Reader::new(image, source);
@@ -507,7 +507,7 @@ fn with_designators_binds_them_in_order() {
     )]);
 }
 
-/// The mistakes that compiling a text notes.
+/// The mistakes that the compiler notes in a text.
 fn mistakes(text: &str) -> Vec<String> {
     let mut image = image();
     let source = image.sources.add("test", text);

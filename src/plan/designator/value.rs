@@ -1,7 +1,7 @@
 //! Designators: symbolic descriptions of actions, motions, objects and locations.
 //!
-//! A designator is its own identity. Equating two links them into one chain, whose newest
-//! member is what is known best; both ends keep each other alive.
+//! A designator has its own identity. Equating two designators links them into a chain, whose
+//! newest member holds the best knowledge; each end keeps the other alive.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -69,7 +69,7 @@ impl Class {
     }
 }
 
-/// Is one thing described, or are all that fit?
+/// Whether one thing is described, or all that match.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Quantifier {
     /// One.
@@ -79,7 +79,7 @@ pub(crate) enum Quantifier {
 }
 
 impl Quantifier {
-    /// As in the printed form.
+    /// The word in the printed form.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Quantifier::A => "A",
@@ -102,9 +102,9 @@ pub(crate) struct Designator {
     pub(crate) successor: RefCell<Option<Value>>,
     /// What it refers to, once resolved.
     pub(crate) data: RefCell<Option<Value>>,
-    /// Does `data` come from perception or another effect, and not from the description?
+    /// Whether `data` comes from perception or another effect rather than from the description.
     pub(crate) is_effective: Cell<bool>,
-    /// Solutions after `data`: a list, or `NIL`.
+    /// Further solutions after `data`: a list, or `NIL`.
     pub(crate) solutions: RefCell<Option<Value>>,
     class_symbol: Sym,
 }
@@ -153,7 +153,7 @@ impl Designator {
         Some(image.name(sym).to_owned())
     }
 
-    /// Does it describe all things that fit?
+    /// Whether it describes all things that match.
     pub(crate) fn is_all(&self) -> bool {
         self.quantifier == Quantifier::All
     }
@@ -201,12 +201,12 @@ fn follow(value: &Value, link: fn(&Designator) -> &RefCell<Option<Value>>) -> Va
     at
 }
 
-/// Are two designators of one chain?
+/// Whether two designators belong to the same chain.
 pub(crate) fn equal(a: &Value, b: &Value) -> bool {
     as_designator(a).is_some() && as_designator(b).is_some() && first(a).is_eq(&first(b))
 }
 
-/// Links two chains: `successor`'s follows `parent`'s. False if they are one already.
+/// Links two chains: that of `successor` follows that of `parent`. False if they are the same.
 pub(crate) fn equate(parent: &Value, successor: &Value) -> bool {
     if equal(parent, successor) {
         return false;
@@ -219,7 +219,7 @@ pub(crate) fn equate(parent: &Value, successor: &Value) -> bool {
     true
 }
 
-/// A fresh designator as a value, from keyword names and values.
+/// A new designator as a value, from keyword names and values.
 pub(crate) fn make(image: &mut Image, class: Class, properties: &[(&str, Value)]) -> Value {
     let list: Vec<Value> = properties
         .iter()
@@ -230,8 +230,7 @@ pub(crate) fn make(image: &mut Image, class: Class, properties: &[(&str, Value)]
 }
 
 impl Drop for Designator {
-    /// Frees designators inside designators with a loop: the depth of nesting costs no
-    /// Rust stack.
+    /// Frees nested designators with a loop: the depth of nesting costs no Rust stack.
     fn drop(&mut self) {
         let mut pending = Vec::new();
         self.release(&mut pending);
@@ -255,7 +254,7 @@ impl Drop for Designator {
 }
 
 impl Designator {
-    /// Moves everything that the designator holds elsewhere.
+    /// Moves all the designator's references to `pending`.
     fn release(&self, pending: &mut Vec<Value>) {
         pending.push(self.description.replace(Value::NIL));
         let links = [&self.parent, &self.successor, &self.data, &self.solutions];
@@ -263,15 +262,15 @@ impl Designator {
     }
 }
 
-/// How many designators inside each other are being printed.
+/// Counts the nested designators being printed.
 struct Level;
 
 thread_local! {
     static LEVELS: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Designators inside each other that are printed; those below appear without their
-/// properties, and printing one that contains itself ends.
+/// Maximum depth of nested designators that are printed with their properties, so that printing one
+/// that contains itself ends.
 const MOST_LEVELS: usize = 32;
 
 impl Level {
@@ -319,7 +318,7 @@ impl Foreign for Designator {
 fn bare(context: &dyn PrintContext, value: &Value, escape: bool) -> String {
     match value {
         Value::Symbol(sym) if context.is_keyword(*sym) => context.name(*sym).to_owned(),
-        // Inside of lists, keywords keep their colon.
+        // Inside lists, keywords keep their colon.
         Value::Cons(_) => context.text(value, true),
         other => context.text(other, escape),
     }

@@ -1,7 +1,7 @@
-//! Computing the value of a fluent.
+//! Computes the value of a fluent.
 //!
-//! The computation keeps its own stack, for chains of networks may be long, and stops at
-//! each call of a Lisp function.
+//! The computation has its own stack, because chains of networks may be long, and it pauses at each
+//! call of a Lisp function.
 
 use super::{FluentRef, Kind, Missed, Operation};
 use crate::lisp::image::Image;
@@ -14,10 +14,10 @@ use crate::lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// The value of a fluent being computed.
+/// The computation of a fluent's value.
 pub(crate) struct Reading {
     stack: Vec<Frame>,
-    /// Shall pulses and changes stay unread?
+    /// Whether pulses and changes remain unread.
     peek: bool,
 }
 
@@ -26,12 +26,12 @@ struct Frame {
     args: Vec<Value>,
     next: usize,
     values: Vec<Value>,
-    /// The function of the network has been called.
+    /// Whether the function of the network has been called.
     is_called: bool,
 }
 
 impl Reading {
-    /// The value of the fluent; if `fresh`, what it keeps is computed anew.
+    /// Starts to compute the value of the fluent; with `fresh`, a cached value is not used.
     pub(crate) fn new(fluent: &FluentRef, peek: bool, fresh: bool) -> Reading {
         let mut reading = Reading {
             stack: Vec::new(),
@@ -68,7 +68,7 @@ impl Reading {
         });
     }
 
-    /// Goes on; `answer` is the value of the call that it stopped at.
+    /// Continues; `answer` is the value of the call at which it paused.
     pub(super) fn go_on(
         &mut self,
         image: &mut Image,
@@ -147,7 +147,7 @@ impl Reading {
         }
     }
 
-    /// Ends the topmost fluent's part.
+    /// Ends the computation of the topmost fluent, whose value is given.
     fn finish(&mut self, value: Value) -> Value {
         if let Some(frame) = self.stack.pop()
             && let Kind::Net {
@@ -215,7 +215,7 @@ enum ChangeStep {
     Value { now: Value, is_same: bool },
 }
 
-/// The values of the frame are the source's value, its key, and the answer of the test.
+/// The values in the frame are the source's value, its key, and the result of the test.
 fn change_step(
     frame: &mut Frame,
     source: &FluentRef,
@@ -255,7 +255,7 @@ impl Computation for Reading {
     }
 }
 
-/// The value of a fluent, in the middle of a builtin.
+/// The value of a fluent, for use inside a builtin.
 pub(crate) async fn value(calls: &Calls, fluent: &FluentRef) -> Result<Value> {
     match fluent.get().known_value() {
         Some(value) => Ok(value),

@@ -1,12 +1,12 @@
 //! Fluents: values that tasks can wait for.
 //!
-//! A value fluent holds a value. A network computes its value from other fluents and keeps
-//! it until one of them changes. A pulse fluent is true once per pulse of another one, a
-//! change fluent once per change.
+//! A value fluent contains a value. A network computes its value from other fluents and keeps it
+//! until one of them changes. A pulse fluent is true once per pulse of another fluent, a change
+//! fluent once per change.
 //!
-//! A change spreads in order of rank, so that a network is computed once however many ways
-//! lead to it. Networks are held weakly by what they depend on: they live as long as
-//! somebody uses them. Chains of networks of any length cost no Rust stack.
+//! A change propagates in order of rank, so a network is computed once, however many paths lead to
+//! it. Fluents have weak references to the networks that depend on them: a network lives as long as
+//! it is used. Chains of networks of any length cost no Rust stack.
 
 mod evaluation;
 mod propagation;
@@ -25,14 +25,14 @@ pub(crate) use evaluation::{read, value};
 pub(crate) use propagation::{Propagation, pulse, settle, store};
 pub(crate) use reference::FluentRef;
 
-/// A task that waits, at one of its waits.
+/// A waiting task, at a particular wait.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Waiter {
     /// Creation order of the task.
     pub(crate) order: u64,
     /// The scheduler's entry of the task.
     pub(crate) slot: u32,
-    /// Tells this wait from others.
+    /// Identifies this wait.
     pub(crate) token: u64,
 }
 
@@ -42,9 +42,9 @@ pub(crate) struct Fluent {
     kind: Kind,
     /// Greater than that of every fluent that this one depends on.
     rank: u32,
-    /// Order of creation, for networks of one rank.
+    /// Creation order, for networks of the same rank.
     serial: u64,
-    /// How often it was pulsed or changed.
+    /// How many times it was pulsed or changed.
     pulses: Cell<u64>,
     callbacks: RefCell<Vec<(Value, Value)>>,
     dependents: RefCell<Vec<Weak<ForeignBox>>>,
@@ -52,7 +52,7 @@ pub(crate) struct Fluent {
     type_symbol: Sym,
 }
 
-/// How a fluent is called.
+/// The name of a fluent.
 enum FluentName {
     Given(Value),
     Numbered(&'static str, u64),
@@ -60,19 +60,19 @@ enum FluentName {
 
 /// Where a fluent's value comes from.
 enum Kind {
-    /// From whoever stores it.
+    /// From calls that store it.
     Value {
         value: Slot,
-        /// Decides whether a new value is a change; `NIL` stands for `eql`.
+        /// Determines whether a new value is a change; `NIL` stands for `eql`.
         test: Value,
     },
     /// From other fluents.
     Net {
         operation: Operation,
         args: RefCell<Vec<Value>>,
-        /// The value while it holds; "no value" if it must be computed.
+        /// The value while it is valid; "no value" if it must be computed.
         cache: Slot,
-        /// Does the value hold until something it depends on is pulsed?
+        /// Whether the value is valid until something it depends on is pulsed.
         is_cacheable: bool,
     },
     /// From the pulses of another fluent.
@@ -97,9 +97,9 @@ enum Kind {
 pub(crate) enum Operation {
     /// By a function that needs no machine.
     Pure(PureFn),
-    /// The last, or `NIL` at the first that is `NIL`.
+    /// The last value, or `NIL` as soon as one is `NIL`.
     And,
-    /// The first that is not `NIL`.
+    /// The first value that is not `NIL`.
     Or,
     /// By a Lisp function.
     Call(Value),
@@ -107,10 +107,10 @@ pub(crate) enum Operation {
     Apply(Value),
 }
 
-/// What a pulse fluent does about pulses that nobody was waiting for.
+/// What a pulse fluent does about pulses for which no task was waiting.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Missed {
-    /// Those before its creation do not count; others count as one.
+    /// Those before its creation do not count; later ones count as one.
     Never,
     /// All count as one.
     Once,
@@ -119,7 +119,7 @@ pub(crate) enum Missed {
 }
 
 impl Fluent {
-    /// The name, as it is shown.
+    /// The name as shown.
     pub(crate) fn name(&self, context: &dyn PrintContext) -> String {
         match &self.name {
             FluentName::Given(name) => context.text(name, false),
@@ -135,7 +135,7 @@ impl Fluent {
         }
     }
 
-    /// The value, if it can be told without computing.
+    /// The value, if it is known without computing it.
     pub(crate) fn known_value(&self) -> Option<Value> {
         let value = match &self.kind {
             Kind::Value { value, .. } => value.get(),
@@ -149,12 +149,12 @@ impl Fluent {
         (!value.is_unbound()).then_some(value)
     }
 
-    /// Does somebody store its value?
+    /// Whether its value can be set.
     pub(crate) fn is_settable(&self) -> bool {
         matches!(self.kind, Kind::Value { .. })
     }
 
-    /// What decides whether a stored value is a change; `NIL` stands for `eql`.
+    /// The test for whether a stored value is a change; `NIL` stands for `eql`.
     pub(crate) fn test(&self) -> Value {
         match &self.kind {
             Kind::Value { test, .. } => test.clone(),
@@ -162,7 +162,7 @@ impl Fluent {
         }
     }
 
-    /// Does its value hold until it is pulsed?
+    /// Whether its value is valid until it is pulsed.
     pub(crate) fn is_cacheable(&self) -> bool {
         match &self.kind {
             Kind::Value { .. } => true,
@@ -176,12 +176,12 @@ impl Fluent {
         self.waiters.borrow_mut().push(waiter);
     }
 
-    /// Waits no longer.
+    /// Stops waiting.
     pub(crate) fn remove_waiter(&self, token: u64) {
         self.waiters.borrow_mut().retain(|w| w.token != token);
     }
 
-    /// The callback of a name.
+    /// The callback with that name.
     pub(crate) fn callback(&self, name: &Value) -> Option<Value> {
         let callbacks = self.callbacks.borrow();
         let found = callbacks.iter().find(|(n, _)| n.is_eql(name));
@@ -198,7 +198,7 @@ impl Fluent {
         true
     }
 
-    /// Removes a callback; was it there?
+    /// Removes a callback; returns whether it existed.
     pub(crate) fn remove_callback(&self, name: &Value) -> bool {
         let mut callbacks = self.callbacks.borrow_mut();
         let before = callbacks.len();

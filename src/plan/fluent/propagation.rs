@@ -1,4 +1,4 @@
-//! Spreading a change: waking tasks, computing networks, calling callbacks.
+//! Propagates a change: wakes tasks, computes networks, calls callbacks.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::rc::Rc;
@@ -15,16 +15,16 @@ use crate::plan::state::Plan;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// A change that spreads.
+/// A change being propagated.
 pub(crate) struct Propagation {
     plan: Rc<Plan>,
-    /// Networks to look at, by rank and age.
+    /// Networks to check, by rank and age.
     pending: BTreeMap<(u32, u64), FluentRef>,
-    /// Callbacks to call, with the value.
+    /// Callbacks to call, each with the value.
     calls: VecDeque<(Value, Value)>,
-    /// The network that is being computed, and its value before.
+    /// The network being computed, and its previous value.
     current: Option<(FluentRef, Value, Reading, Purpose)>,
-    /// What the builtin returns in the end.
+    /// What the builtin returns at the end.
     result: Value,
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct Propagation {
 enum Purpose {
     /// To see whether it has changed.
     Update,
-    /// To tell its callbacks.
+    /// To pass the value to its callbacks.
     Report,
 }
 
@@ -63,8 +63,8 @@ fn spread(machine: &mut Machine<'_>, fluent: &FluentRef, result: Value) -> Resul
     propagation.spread(machine)
 }
 
-/// Stores a value and spreads the change as far as no Lisp function is needed; what is
-/// left, if anything is, must go on in a fiber.
+/// Stores a value and propagates the change until a Lisp function must be called; the rest, if any,
+/// must continue in a fiber.
 pub(crate) fn settle(image: &mut Image, fluent: &FluentRef, new: Value) -> Option<Propagation> {
     let plan = Plan::of(image);
     if let Kind::Value { value, .. } = &fluent.get().kind {
@@ -101,8 +101,8 @@ impl Propagation {
         }
     }
 
-    /// Counts a pulse, wakes who waits for it, notes the networks that depend on it, and
-    /// the callbacks if the value is known.
+    /// Counts a pulse, wakes waiting tasks, and queues dependent networks, and callbacks if the
+    /// value is known.
     fn pulse(&mut self, fluent: &FluentRef, value: Option<Value>) {
         let inner = fluent.get();
         inner.pulses.set(inner.pulses.get() + 1);
@@ -129,7 +129,7 @@ impl Propagation {
         }
     }
 
-    /// Does what can be done; a call that is needed, or nothing when all is done.
+    /// Does what it can; returns the next call that is needed, or `None` when finished.
     fn go_on(
         &mut self,
         image: &mut Image,
@@ -153,7 +153,7 @@ impl Propagation {
                         self.current = Some((fluent, before, reading, purpose));
                         return Ok(Some((function, args)));
                     }
-                    // Whoever reads the network gets the error; it has changed, at least.
+                    // Readers of the network will get the error; it has changed, at least.
                     Err(_) => self.pulse_broken(&fluent),
                 }
                 continue;
@@ -179,7 +179,7 @@ impl Propagation {
         }
     }
 
-    /// A network whose value cannot be computed: its callbacks get nothing.
+    /// Pulses a network whose value cannot be computed; its callbacks are not called.
     fn pulse_broken(&mut self, fluent: &FluentRef) {
         let inner = fluent.get();
         inner.pulses.set(inner.pulses.get() + 1);
@@ -192,10 +192,10 @@ impl Propagation {
         }
     }
 
-    /// Makes a call that was taken out the next thing to do.
+    /// Puts back a call that was taken out.
     fn restart_with(&mut self, function: Value, args: Vec<Value>) {
         match self.current.take() {
-            // The network is computed from the start.
+            // The network is computed again from the start.
             Some((fluent, before, _, purpose)) => {
                 let reading = Reading::new(&fluent, purpose == Purpose::Report, true);
                 self.current = Some((fluent, before, reading, purpose));
@@ -207,7 +207,7 @@ impl Propagation {
         }
     }
 
-    /// Goes on in a fiber.
+    /// Continues in a fiber.
     pub(crate) fn spread(self, machine: &mut Machine<'_>) -> Result<Step> {
         compute(machine, "PULSE", self)
     }
@@ -221,7 +221,7 @@ impl Computation for Propagation {
         machine: &mut Machine<'_>,
         answer: Option<Value>,
     ) -> Result<Progress<Value>> {
-        // Without a network under way, the value is that of a callback.
+        // Unless a network is being computed, the value is that of a callback.
         let answer = answer.filter(|_| self.current.is_some());
         Ok(match self.go_on(machine.image, answer)? {
             None => Progress::Done(std::mem::take(&mut self.result)),

@@ -1,4 +1,4 @@
-//! References to fluents, and how fluents are made.
+//! References to fluents, and the creation of fluents.
 
 use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
@@ -42,7 +42,7 @@ impl FluentRef {
         FluentRef::value_fluent(plan, Some(name), value, Value::NIL)
     }
 
-    /// A value fluent whose changes a test function tells (`NIL`: `eql`).
+    /// A value fluent with a test that determines what counts as a change (`NIL`: `eql`).
     pub(crate) fn value_fluent(
         plan: &Plan,
         name: Option<Value>,
@@ -102,8 +102,8 @@ impl FluentRef {
         FluentRef::depending(plan, "FN-PULSE-FLUENT", kind, source)
     }
 
-    /// A fluent that is true once per change of the source. `old` is the source's value
-    /// now, as the key function makes it.
+    /// A fluent that is true once per change of the source. `old` is the present value of the
+    /// source after applying the key function.
     pub(crate) fn change(
         plan: &Plan,
         source: &FluentRef,
@@ -128,7 +128,7 @@ impl FluentRef {
         fluent
     }
 
-    /// The fluent that a value is.
+    /// The fluent, if the value is one.
     pub(crate) fn from_value(value: &Value) -> Option<FluentRef> {
         match value {
             Value::Foreign(object) if object.downcast_ref::<Fluent>().is_some() => {
@@ -147,7 +147,7 @@ impl FluentRef {
     ///
     /// # Panics
     ///
-    /// Never: every way of making a reference checks what it refers to.
+    /// Never: every function that makes a reference checks what it refers to.
     pub(crate) fn get(&self) -> &Fluent {
         match self.0.downcast_ref() {
             Some(fluent) => fluent,
@@ -155,7 +155,7 @@ impl FluentRef {
         }
     }
 
-    /// Is this the same fluent?
+    /// Whether this is the same fluent.
     pub(crate) fn is(&self, other: &FluentRef) -> bool {
         Rc::ptr_eq(&self.0, &other.0)
     }

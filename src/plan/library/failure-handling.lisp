@@ -1,5 +1,5 @@
-;;;; Handling failures: handlers around a body that can be begun again. The handlers run
-;;;; where the failure is, so that they may decline; RETRY jumps before the body.
+;;;; Failure handling: handlers around a body that can be restarted. The handlers run where the
+;;;; failure is signalled, so that they may decline; RETRY jumps to the start of the body.
 
 (in-package :cram-language-implementation)
 
@@ -65,8 +65,8 @@ in an envelope, so that they have names."
            `(block nil
               (tagbody ,again (macrolet ((retry () ',jump)) ,attempt)))))))
 
-;;; Retry counters: a counter is a list of its name, the variable of what is left, and the
-;;; variable of its start.
+;;; Retry counters: a counter is a list of its name, the variable with the remaining number of
+;;; retries, and the variable with the initial number.
 
 (defun %expand-do-retry (counters name body)
   "The expansion of DO-RETRY."

@@ -1,5 +1,5 @@
-;;;; Networks of fluents. They are made by the functions of CRAM-LANGUAGE that work on numbers
-;;;; and fluents; these are other names for those.
+;;;; Networks of fluents. They are made by the functions of CRAM-LANGUAGE that work on numbers and
+;;;; fluents; these are other names for those functions.
 
 (in-package :cram-language-implementation)
 

@@ -1,5 +1,5 @@
-;;;; Goals: plans that are chosen by matching the arguments of a call against patterns. The
-;;;; goals of a name are lists of pattern, variables, function and documentation.
+;;;; Goals: plans that are chosen by matching the arguments of a call against patterns. The goals
+;;;; with one name are lists of pattern, variables, function and documentation.
 
 (in-package :cram-language-implementation)
 

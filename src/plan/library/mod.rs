@@ -1,12 +1,12 @@
-//! The part of the plan language that is written in Lisp: the same kind of files as in
-//! [`crate::lisp::library`], which says how to write them.
+//! The part of the plan language that is written in Lisp. For how to write the files, see
+//! [`crate::lisp::library`].
 
 use std::sync::LazyLock;
 
 use crate::lisp::library::definition::File;
 use crate::lisp::library::{Library, library_file};
 
-/// What needs no designators; installed with the plan language.
+/// Files that need no designators; installed with the plan language.
 static LANGUAGE_FILES: &[File] = &[
     library_file!("src/plan/library", "fluents.lisp"),
     library_file!("src/plan/library", "combinators.lisp"),
@@ -17,10 +17,10 @@ static LANGUAGE_FILES: &[File] = &[
     library_file!("src/plan/library", "suspension.lisp"),
 ];
 
-/// Bindings and lazy lists: CRAM's utilities, which need nothing of the plan language.
+/// Bindings and lazy lists: CRAM's utilities, which need nothing from the plan language.
 static UTILITY_FILES: &[File] = &[library_file!("src/plan/library", "utilities.lisp")];
 
-/// What needs designators; installed after them.
+/// Files that need designators; installed after those.
 static DESIGNATOR_FILES: &[File] = &[library_file!("src/plan/library", "process-modules.lisp")];
 
 /// The library of the plan language.

@@ -1,4 +1,4 @@
-;;; Process modules: functions that carry out motions, one motion at a time each.
+;;; Process modules: functions that carry out motions, each module one motion at a time.
 
 (in-package :cram-process-modules)
 

@@ -1,4 +1,4 @@
-;;;; Waiting for conditions again and again; suspending tasks.
+;;;; Waiting for conditions repeatedly; suspending tasks.
 
 (in-package :cram-language-implementation)
 

@@ -1,4 +1,4 @@
-//! Arguments of the functions on poses: numbers of any type, lists in place of vectors.
+//! Arguments of the functions on poses: numbers of any type, lists instead of vectors.
 
 use super::names;
 use super::value;
@@ -18,7 +18,7 @@ pub(crate) fn real(value: &Value) -> Result<f64> {
     number::to_f64(value).ok_or_else(|| Raise::type_error(value, known::REAL))
 }
 
-/// `count` numbers of a list; `what` and `names` say in errors what they are.
+/// `count` numbers from a list; `what` and `names` describe them in errors.
 fn numbers<const N: usize>(
     image: &Image,
     list: &Value,
@@ -111,7 +111,7 @@ pub(crate) fn placement(image: &Image, argument: &Value) -> Result<Placement> {
     }
 }
 
-/// Any pose or transform; the type to name in the error.
+/// Any pose or transform; `expected` is the type named in errors.
 pub(crate) fn as_kind(argument: &Value, expected: Sym) -> Result<Placement> {
     value::as_placement(argument).ok_or_else(|| Raise::type_error(argument, expected))
 }

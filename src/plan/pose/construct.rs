@@ -1,4 +1,4 @@
-//! Making vectors, quaternions, poses and transforms, and their parts.
+//! Constructs vectors, quaternions, poses and transforms, and extracts their parts.
 
 use super::argument;
 use super::argument::Result;
@@ -203,7 +203,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// The placement of two arguments: position and orientation.
+/// The placement given by two arguments: position and orientation.
 fn parts(image: &Image, args: &[Value]) -> Result<Placement> {
     Ok(Placement {
         position: argument::vector(image, &args[0])?,
@@ -211,7 +211,7 @@ fn parts(image: &Image, args: &[Value]) -> Result<Placement> {
     })
 }
 
-/// The placement with what the two keyword arguments replace.
+/// The placement with the parts that two keyword arguments replace.
 pub(crate) fn changed(
     image: &Image,
     mut placement: Placement,

@@ -1,8 +1,8 @@
 //! Poses, transforms, vectors and quaternions as values of plans.
 //!
-//! What needs the robot or the world (looking up a transform, the robot's pose) is not
-//! here. Lengths are metres, angles radians, quaternions x y z w. A quaternion is kept as
-//! it was given for printing and is normalised wherever it is computed with.
+//! Functions that need the robot or the world (looking up a transform, the robot's pose) are
+//! elsewhere. Lengths are in metres, angles in radians, quaternions in the order x y z w. A
+//! quaternion is stored as given, for printing, and normalised for every computation.
 
 pub(crate) mod algebra;
 pub(crate) mod argument;
@@ -23,7 +23,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::package::Access;
 use crate::lisp::value::symbol::Sym;
 
-/// Classes: symbol, its name, superclass, and whether it belongs to the stamped ones.
+/// Classes: symbol, its name, superclass, and whether it is one of the stamped ones.
 const CLASSES: &[(Sym, &str, Sym, bool)] = &[
     (names::VECTOR_3D, "3D-VECTOR", known::T, false),
     (names::QUATERNION, "QUATERNION", known::T, false),
@@ -38,7 +38,7 @@ const CLASSES: &[(Sym, &str, Sym, bool)] = &[
     ),
 ];
 
-/// Frames that plans name by variables.
+/// Variables that contain names of frames.
 const FRAMES: &[(&str, &str)] = &[
     ("*FIXED-FRAME*", "map"),
     ("*ODOM-FRAME*", "odom_combined"),
@@ -48,7 +48,7 @@ const FRAMES: &[(&str, &str)] = &[
     ("*ROBOT-RIGHT-TOOL-FRAME*", "r_gripper_tool_frame"),
 ];
 
-/// Makes the packages, classes, variables and functions.
+/// Defines the packages, classes, variables and functions.
 pub(crate) fn install(image: &mut Image) {
     let plain = ensure(image, "CL-TRANSFORMS", &[]);
     let stamped = ensure(image, "CL-TRANSFORMS-STAMPED", &["CL-TF", "CL-TF2"]);
@@ -57,7 +57,7 @@ pub(crate) fn install(image: &mut Image) {
     for (symbol, name, superclass, is_stamped) in CLASSES {
         let home = if *is_stamped { stamped } else { plain };
         name_symbol(image, *symbol, home, name);
-        // The table is consistent: superclasses stand before their subclasses.
+        // The table is consistent: superclasses precede their subclasses.
         let _ = image.define_unchecked(ClassDefinition {
             name: *symbol,
             kind: ClassKind::Builtin,
@@ -82,7 +82,7 @@ pub(crate) fn install(image: &mut Image) {
     image.packages.use_package(cram, stamped);
     image.install(cram, stamped::CRAM_TABLE);
     image.install(tutorial, tutorial::TABLE);
-    // People write `cl-tf:make-3d-vector` as well as `cl-transforms:make-3d-vector`.
+    // Both `cl-tf:make-3d-vector` and `cl-transforms:make-3d-vector` are in use.
     let names: Vec<Sym> = image
         .packages
         .get(plain)

@@ -1,4 +1,4 @@
-//! Composing, inverting and converting poses and transforms without frames.
+//! Composes, inverts and converts poses and transforms without frames.
 
 use super::names;
 use nalgebra::Point3;
@@ -115,7 +115,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// The inverse: a stamped transform leads from child to frame then.
+/// The inverse: a stamped transform then leads from the child frame to the frame.
 pub(crate) fn invert(transform: &Value) -> Result<Value> {
     let placement = argument::as_kind(transform, names::TRANSFORM)?;
     let inverse = Placement::of(&placement.to_pose().inverse());

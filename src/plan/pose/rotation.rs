@@ -193,7 +193,7 @@ fn matrix_to_quaternion(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(value::quaternion(quaternion_of(&matrix).0))
 }
 
-/// Shepperd's method on the matrix as it is: exact for rotations, close for rounded ones.
+/// Shepperd's method on the matrix as given: exact for rotations, close for rounded ones.
 fn quaternion_of(matrix: &Matrix3<f64>) -> Quaternion {
     let rotation = Rotation3::from_matrix_unchecked(*matrix);
     let q = UnitQuaternion::from_rotation_matrix(&rotation);

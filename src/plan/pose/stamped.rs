@@ -376,7 +376,7 @@ fn copy_transform_stamped(image: &mut Image, args: &[Value]) -> Result<Value> {
     ))
 }
 
-/// The product of two stamped transforms under new frame names.
+/// The product of two stamped transforms, with new frame names.
 fn product(
     image: &mut Image,
     left: &TransformStamped,

@@ -1,4 +1,4 @@
-//! Poses at work: each test evaluates text and compares what is printed.
+//! Tests of poses: each evaluates a text and compares what is printed.
 
 use crate::plan::designator::tests::{evaluate_in, image};
 

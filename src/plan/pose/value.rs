@@ -10,14 +10,14 @@ use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::symbol::Sym;
 use crate::spatial;
 
-/// Shorter quaternions stand for no rotation.
+/// Quaternions shorter than this stand for no rotation.
 const SHORTEST_QUATERNION: f64 = 1e-9;
 
 /// A position or direction (m).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Vector3(pub(crate) [f64; 3]);
 
-/// A quaternion x y z w as it was given.
+/// A quaternion x y z w as given.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Quaternion(pub(crate) [f64; 4]);
 
@@ -25,7 +25,7 @@ impl Quaternion {
     /// No rotation.
     pub(crate) const IDENTITY: Quaternion = Quaternion([0.0, 0.0, 0.0, 1.0]);
 
-    /// As a rotation; one that is too short to be one is no rotation.
+    /// As a rotation; a quaternion that is too short is no rotation.
     pub(crate) fn rotation(&self) -> UnitQuaternion<f64> {
         let [x, y, z, w] = self.0;
         let q = Hamilton::new(w, x, y, z);
@@ -44,7 +44,7 @@ impl Quaternion {
     }
 }
 
-/// A position and a quaternion as they were given.
+/// A position and a quaternion as given.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Placement {
     /// The position (m).
@@ -78,10 +78,10 @@ impl Placement {
     }
 }
 
-/// A pose or transform in no frame.
+/// A pose or transform without frames.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Unstamped {
-    /// Is it a transform, not a pose?
+    /// Whether it is a transform rather than a pose.
     pub(crate) is_transform: bool,
     /// Where.
     pub(crate) placement: Placement,
@@ -92,7 +92,7 @@ pub(crate) struct Unstamped {
 pub(crate) struct PoseStamped {
     /// The frame's name.
     pub(crate) frame: Rc<str>,
-    /// When it held (s of simulated time).
+    /// Its time stamp (s of simulated time).
     pub(crate) stamp: f64,
     /// Where.
     pub(crate) placement: Placement,
@@ -107,9 +107,9 @@ pub(crate) struct TransformStamped {
     pub(crate) frame: Rc<str>,
     /// The child frame's name.
     pub(crate) child: Rc<str>,
-    /// When it held (s of simulated time).
+    /// Its time stamp (s of simulated time).
     pub(crate) stamp: f64,
-    /// Where the child is in the frame.
+    /// The pose of the child frame in the frame.
     pub(crate) placement: Placement,
 }
 
@@ -221,7 +221,7 @@ pub(crate) fn as_quaternion(value: &Value) -> Option<[f64; 4]> {
     value.as_foreign::<Quaternion>().map(|q| q.0)
 }
 
-/// `((x y z) (x y z w))` with five places, as stamped poses print.
+/// `((x y z) (x y z w))` with five decimals, as stamped poses print.
 fn short(placement: &Placement) -> String {
     let [x, y, z] = placement.position.0;
     let [a, b, c, d] = placement.orientation.0;

@@ -1,4 +1,4 @@
-//! `prolog`, `prove-one` and their kin.
+//! `prolog`, `prove-one` and the like.
 
 use super::engine::{Engine, Progress};
 use crate::lisp::builtin::{Builtin, control};
@@ -11,7 +11,7 @@ use crate::lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Solutions that one query may have.
+/// Maximum number of solutions of a query.
 const MOST_SOLUTIONS: usize = 100_000;
 
 /// Functions of package `CRAM-PROLOG`.
@@ -44,7 +44,7 @@ fn start(machine: &mut Machine<'_>, query: &Value, most: usize) -> Result<Step> 
     compute(machine, "PROLOG", Solve::new(engine, most))
 }
 
-/// The list of the bindings of at most so many solutions.
+/// The list of the bindings of up to `most` solutions.
 pub(crate) async fn solve(calls: &Calls, engine: Engine, most: usize) -> Result<Value> {
     calls.compute(Solve::new(engine, most)).await
 }

@@ -1,4 +1,4 @@
-//! The prover: goals to prove, and choices to come back to.
+//! The prover: goals to prove, and choice points to backtrack to.
 
 use std::rc::Rc;
 
@@ -16,24 +16,24 @@ use crate::lisp::value::symbol::Sym;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Steps between two looks at the interrupt flag.
+/// Steps between checks of the interrupt flag.
 const INTERRUPT_INTERVAL: u32 = 1024;
-/// Choices that may be open at once.
+/// Maximum number of open choice points.
 const MOST_CHOICES: usize = 200_000;
 
 /// Goals to prove, in order.
 pub(crate) type Goals = Option<Rc<GoalNode>>;
 
-/// A goal with those after it.
+/// A goal and those after it.
 pub(crate) struct GoalNode {
     goal: Goal,
-    /// How many choices there were when the clause of this goal was entered: `!` goes back
-    /// to that many.
+    /// Number of choice points when the clause of this goal was entered: `!` cuts back to that
+    /// many.
     clause: usize,
     next: Goals,
 }
 
-/// What to do when a choice is come back to.
+/// What to do on backtracking to a choice point.
 enum Alternative {
     /// Try the next clauses of a goal.
     Clauses {
@@ -43,7 +43,7 @@ enum Alternative {
     },
     /// Unify a term with the next items of a list.
     Items { term: Value, rest: Vec<Value> },
-    /// Go on with other goals.
+    /// Continue with other goals.
     Goals,
     /// The collection is complete: unify it with a term.
     Collected {
@@ -66,17 +66,18 @@ struct Choice {
 enum Awaited {
     /// Unify it with a term.
     Result(Value),
-    /// Go on if it is not `NIL`.
+    /// Continue if it is not `NIL`.
     Truth,
     /// Unify one of the items of the list with a term.
     OneOf(Value),
-    /// Unify the variables with what one of several lists of pairs says of their names.
+    /// Unify the variables with the values that one of several lists of pairs gives for their
+    /// names.
     OneOfBindings(Vec<Value>),
-    /// Go on.
+    /// Continue.
     Nothing,
 }
 
-/// How far the prover got.
+/// How far the prover has come.
 pub(crate) enum Progress {
     /// A proof was found.
     Proved,
@@ -91,7 +92,7 @@ pub(crate) enum Progress {
     },
 }
 
-/// A prover at work on one query.
+/// A prover for one query.
 pub(crate) struct Engine {
     /// The bindings so far.
     bindings: Bindings,
@@ -150,7 +151,7 @@ impl Engine {
         self.search(image)
     }
 
-    /// Goes on with the value of the call that was asked for.
+    /// Continues with the value of the requested call.
     pub(crate) fn deliver(&mut self, image: &mut Image, value: Value) -> Result<Progress> {
         let holds = match self.awaited.take() {
             None | Some(Awaited::Nothing) => true,
@@ -233,7 +234,7 @@ impl Engine {
         }
     }
 
-    /// Starts to prove a term: does it hold so far, or must a function be called?
+    /// Begins to prove a term; returns whether it holds so far.
     fn prove(
         &mut self,
         image: &mut Image,
@@ -388,7 +389,7 @@ impl Engine {
         self.numbers += 1;
     }
 
-    /// Enters the first clause from `next` on whose head fits; leaves a choice for others.
+    /// Enters the first clause from `next` on whose head matches; leaves a choice point for others.
     fn try_clauses(
         &mut self,
         image: &Image,
@@ -422,7 +423,7 @@ impl Engine {
         Ok(false)
     }
 
-    /// Unifies a term with the first item that fits; leaves a choice for the others.
+    /// Unifies a term with the first item that matches; leaves a choice point for the others.
     fn choose_item(&mut self, term: Value, items: Vec<Value>) -> bool {
         let mark = self.bindings.mark();
         let mut items = items.into_iter();
@@ -440,7 +441,7 @@ impl Engine {
         false
     }
 
-    /// Goes back to the last choice that leads on; false if there is none.
+    /// Backtracks to the last choice point with an alternative left; false if there is none.
     fn backtrack(&mut self, image: &Image) -> Result<bool> {
         while let Some(choice) = self.choices.pop() {
             self.bindings.undo(choice.mark);
@@ -491,7 +492,7 @@ fn wrong_count(image: &Image, functor: Sym, count: usize) -> Box<Raise> {
     ))
 }
 
-/// The items without those that are equal to an earlier one.
+/// The items without those equal to earlier ones.
 fn distinct(items: Vec<Value>) -> Vec<Value> {
     let mut kept: Vec<Value> = Vec::new();
     for item in items {
@@ -505,7 +506,7 @@ fn distinct(items: Vec<Value>) -> Vec<Value> {
     kept
 }
 
-/// What a list of pairs says of a variable's name, or the variable itself.
+/// The value that a list of pairs gives for a variable's name, or the variable itself.
 fn bound_by(variable: &Value, pairs: &Value) -> Value {
     let Some(name) = variable.as_foreign::<Variable>().map(|v| v.name) else {
         return variable.clone();

@@ -1,4 +1,4 @@
-//! Fact groups: rules by the symbol that their heads begin with.
+//! Fact groups: rules by the symbol that begins their heads.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -20,7 +20,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 /// `(<- head goal…)`: the head holds if the goals do.
 #[derive(Clone)]
 pub(crate) struct Clause {
-    /// The head: a list, or a symbol alone.
+    /// The head: a list, or just a symbol.
     pub(crate) head: Value,
     /// The list of goals.
     pub(crate) body: Value,
@@ -51,41 +51,41 @@ impl Facts {
         self.handlers.borrow().get(&functor).cloned()
     }
 
-    /// The functor of that name that Rust carries out.
+    /// The functor with that name that is implemented in Rust.
     pub(crate) fn functor(&self, name: &str) -> Option<&'static Functor> {
         self.functors.borrow().get(name).copied()
     }
 
-    /// All functors that Rust carries out.
+    /// All functors that are implemented in Rust.
     pub(crate) fn functors(&self) -> Vec<&'static Functor> {
         self.functors.borrow().values().copied().collect()
     }
 
-    /// Does any group say something about the functor?
+    /// Whether any fact group has a clause for the functor.
     pub(crate) fn knows(&self, functor: Sym) -> bool {
         let groups = self.groups.borrow();
         groups.values().flatten().any(|(name, _)| *name == functor)
     }
 }
 
-/// Makes an image without facts.
+/// Installs an empty collection of facts in an image.
 pub(crate) fn install(image: &mut Image) {
     image.extend(Facts::default());
 }
 
-/// The facts of an image; of one without Prolog, none.
+/// The facts of an image; empty if it has no Prolog.
 pub(crate) fn of(image: &Image) -> Rc<Facts> {
     image.extension().unwrap_or_default()
 }
 
-/// Makes functors known.
+/// Adds functors.
 pub(crate) fn install_functors(image: &Image, table: &'static [Functor]) {
     let facts = of(image);
     let mut functors = facts.functors.borrow_mut();
     functors.extend(table.iter().map(|functor| (functor.name, functor)));
 }
 
-/// Functions of package `CRAM-PROLOG` that its macros expand into.
+/// Functions of package `CRAM-PROLOG` into which its macros expand.
 pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "DEFINE-FACT-GROUP",
@@ -178,7 +178,7 @@ fn is_arrow(image: &Image, head: &Value) -> bool {
 }
 
 fn check_rule(image: &Image, rule: &Value) -> Result<()> {
-    // A documentation string may stand among the rules.
+    // A documentation string may be among the rules.
     if matches!(rule, Value::Str(_)) {
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! A functor that Rust carries out: one row of a table.
+//! A functor implemented in Rust: one row of a table.
 
 use super::goal::Action;
 use super::term::Bindings;
@@ -7,15 +7,15 @@ use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
-/// A functor. It is recognised by its name, in whatever package that is written.
+/// A functor. It is recognised by its name, in whatever package.
 pub(crate) struct Functor {
     /// The name in upper case.
     pub(crate) name: &'static str,
-    /// The shape of a goal, after the functor. The number of arguments is read from it.
+    /// The arguments of a goal, which also determine their number.
     pub(crate) arguments: &'static str,
     /// When the goal holds.
     pub(crate) doc: &'static str,
-    /// What a goal asks for.
+    /// The effect of a goal.
     pub(crate) apply: fn(Call<'_>) -> Result<Action, Box<Raise>>,
 }
 
@@ -35,7 +35,7 @@ pub(crate) const fn functor(
 }
 
 impl Functor {
-    /// May a goal have so many arguments?
+    /// Whether a goal may have this many arguments.
     pub(crate) fn takes(&self, count: usize) -> bool {
         let (mut least, mut most) = (0, Some(0));
         let mut is_optional = false;
@@ -53,22 +53,21 @@ impl Functor {
     }
 }
 
-/// A goal that is to be proved, at its functor.
+/// A goal that is to be proved.
 pub(crate) struct Call<'c> {
     /// The image.
     pub(crate) image: &'c mut Image,
     /// The bindings so far.
     pub(crate) bindings: &'c mut Bindings,
-    /// The functor, as it is written.
+    /// The functor as written.
     pub(crate) functor: Sym,
     /// The arguments, as many as the functor takes.
     pub(crate) args: &'c [Value],
-    /// How many choices there were when the clause of the goal was entered: `!` goes back to
-    /// that many.
+    /// Number of choice points when the clause of the goal was entered: `!` cuts back to that many.
     pub(crate) clause: usize,
-    /// How many choices there are.
+    /// Number of choice points.
     pub(crate) barrier: usize,
-    /// The number of the next choice.
+    /// The number of the next choice point.
     pub(crate) next_choice: u64,
 }
 
@@ -78,17 +77,17 @@ impl Call<'_> {
         self.args.get(index).cloned().unwrap_or(Value::NIL)
     }
 
-    /// The arguments from one on.
+    /// The arguments from the given index on.
     pub(crate) fn rest(&self, from: usize) -> &[Value] {
         self.args.get(from..).unwrap_or_default()
     }
 
-    /// Makes two terms equal: the goal holds if that is possible.
+    /// Unifies two terms: the goal holds if that is possible.
     pub(crate) fn unify(self, a: &Value, b: &Value) -> Action {
         holds(self.bindings.unify(a, b))
     }
 
-    /// Arguments as functions get them.
+    /// Arguments as passed to functions.
     pub(crate) fn shown(&self, terms: &[Value]) -> Result<Vec<Value>, Box<Raise>> {
         terms.iter().map(|term| self.bindings.shown(term)).collect()
     }

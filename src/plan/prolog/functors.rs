@@ -1,4 +1,4 @@
-//! The functors that the language itself knows.
+//! The functors of the language itself.
 
 use super::functor::{Call, Functor, functor, holds};
 use super::goal::{Action, Collection, Goal};
@@ -53,7 +53,7 @@ pub(crate) static TABLE: &[Functor] = &[
     }),
     functor("TRUE", "", "Holds.", |_| Ok(Action::Succeed)),
     functor("FAIL", "", "Does not hold.", |_| Ok(Action::Fail)),
-    // What runs is the simulation itself.
+    // Everything runs in the simulation itself.
     functor(
         "PROJECTION-RUNNING",
         "environment",
@@ -319,7 +319,7 @@ fn collect(call: &Call<'_>, kind: Collection) -> Action {
     }
 }
 
-/// A function as goals write it: a symbol, `#'symbol`, or a function.
+/// A function as written in goals: a symbol, `#'symbol`, or a function.
 fn function(call: &Call<'_>, term: &Value) -> Result<Value> {
     let term = call.bindings.shown(term)?;
     let is_quoted = matches!(
@@ -333,7 +333,7 @@ fn function(call: &Call<'_>, term: &Value) -> Result<Value> {
     })
 }
 
-/// The call of a function of Common Lisp whose value is the third argument.
+/// The call of a Common Lisp function, whose value is unified with the third argument.
 fn call_for(call: &mut Call<'_>, name: &str, args: Vec<Value>) -> Action {
     Action::CallFor {
         function: call.image.intern(PackageTable::CL, name).into(),
@@ -342,7 +342,8 @@ fn call_for(call: &mut Call<'_>, name: &str, args: Vec<Value>) -> Action {
     }
 }
 
-/// The call of a function with so many arguments, whose value is the next one.
+/// The call of a function with the first `count` arguments, whose value is unified with the next
+/// one.
 fn call_known(call: &Call<'_>, function: Sym, count: usize) -> Result<Action> {
     Ok(Action::CallFor {
         function: function.into(),
@@ -369,7 +370,7 @@ fn greatest(items: impl Iterator<Item = Value>) -> Result<Option<Value>> {
     Ok(best)
 }
 
-/// Joins two lists, or splits one in all ways.
+/// Joins two lists, or splits one in all possible ways.
 fn append(call: Call<'_>) -> Result<Action> {
     let (first, second, both) = (call.arg(0), call.arg(1), call.arg(2));
     if let Some(items) = call.bindings.resolve(&first)?.list_to_vec() {

@@ -1,31 +1,31 @@
-//! What there is to do in a proof, and what a functor asks for.
+//! The steps of a proof, and what a functor can request.
 
 use crate::lisp::value::Value;
 
-/// One thing to do.
+/// A step of a proof.
 #[derive(Clone)]
 pub(crate) enum Goal {
     /// Prove a term.
     Prove(Value),
-    /// Forget all choices made since there were so many.
+    /// Discard all choice points beyond this number of them.
     Cut(usize),
-    /// Forget the one choice of this number, keeping later ones.
+    /// Discard the choice point with this number, but keep later ones.
     Forget(u64),
-    /// Keep a term in a collection, then fail.
+    /// Add a term to a collection, then fail.
     Collect(usize, Value),
     /// Fail.
     Fail,
 }
 
-/// What a functor of the language asks for.
+/// What a functor of the language requests.
 pub(crate) enum Action {
     /// The goal holds.
     Succeed,
     /// It does not.
     Fail,
-    /// Go on with these goals.
+    /// Continue with these goals.
     Then(Vec<Goal>),
-    /// A choice between goals and others; both go on with what follows.
+    /// Choose between two lists of goals; both continue with what follows.
     Either(Vec<Goal>, Vec<Goal>),
     /// Unify a term with each item in turn.
     Items(Value, Vec<Value>),
@@ -56,17 +56,17 @@ pub(crate) enum Action {
         args: Vec<Value>,
         variables: Vec<Value>,
     },
-    /// Call a function and go on.
+    /// Call a function and continue.
     CallOnly { function: Value, args: Vec<Value> },
 }
 
-/// What becomes of collected solutions.
+/// What to do with collected solutions.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Collection {
-    /// All of them, even if there is none.
+    /// Keep all of them, even if there is none.
     All,
-    /// All of them; the goal fails if there is none.
+    /// Keep all of them; the goal fails if there is none.
     Some,
-    /// Each once; the goal fails if there is none.
+    /// Keep each only once; the goal fails if there is none.
     Distinct,
 }

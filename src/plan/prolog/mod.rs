@@ -1,10 +1,10 @@
-//! A small Prolog over Lisp values: fact groups, and proofs that may call Lisp functions.
-//! It knows no designators: layers above add functors of their own to the table.
+//! A small Prolog over Lisp values: fact groups, and proofs that may call Lisp functions. It does
+//! not know about designators: the layers above add their own functors to the table.
 //!
-//! Variables are symbols that begin with `?`. Functors of the language itself are
-//! recognised by name in whatever package they are written; those of fact groups by
-//! identity. Proofs run depth first, in the order of the facts, and backtrack without
-//! recursion, so that a function that is called by a goal may wait.
+//! Variables are symbols that begin with `?`. Functors of the language itself are recognised by
+//! name, in whatever package; those of fact groups by identity. Proofs run depth first, in the
+//! order of the facts, and backtrack without recursion, so that a function called by a goal may
+//! wait.
 
 pub(crate) mod builtins;
 pub(crate) mod engine;

@@ -1,4 +1,4 @@
-//! Terms and bindings: Lisp values in which fresh variables stand for those of a clause.
+//! Terms and bindings: Lisp values in which the variables of a clause are replaced by fresh ones.
 
 use std::rc::Rc;
 
@@ -10,12 +10,12 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
-/// How deep terms may be nested.
+/// Maximum depth of nested terms.
 const MOST_NESTED: usize = 500;
 
 /// A variable of a proof.
 pub(crate) struct Variable {
-    /// Its place among the bindings.
+    /// Its index in the bindings.
     pub(crate) index: usize,
     /// The symbol it was written as.
     pub(crate) name: Sym,
@@ -35,21 +35,21 @@ fn too_deep() -> Box<Raise> {
     Raise::simple("A term of a Prolog goal is nested too deeply.")
 }
 
-/// The variables of one clause or query, as they are made.
+/// The variables of one clause or query, created on demand.
 #[derive(Default)]
 pub(crate) struct Naming {
     /// Symbols with their variables, in order of first appearance.
     pub(crate) variables: Vec<(Sym, Value)>,
 }
 
-/// Bindings, and the order in which they were made.
+/// Bindings, in the order in which they were made.
 #[derive(Default)]
 pub(crate) struct Bindings {
     values: Vec<Option<Value>>,
     trail: Vec<usize>,
 }
 
-/// A state of bindings to come back to.
+/// A state of the bindings that can be restored.
 #[derive(Clone, Copy)]
 pub(crate) struct Mark {
     values: usize,
@@ -57,7 +57,7 @@ pub(crate) struct Mark {
 }
 
 impl Bindings {
-    /// Remembers the present state.
+    /// The present state.
     pub(crate) fn mark(&self) -> Mark {
         Mark {
             values: self.values.len(),
@@ -65,7 +65,7 @@ impl Bindings {
         }
     }
 
-    /// Goes back to a remembered state.
+    /// Restores an earlier state.
     pub(crate) fn undo(&mut self, mark: Mark) {
         for index in self.trail.drain(mark.trail..) {
             if let Some(slot) = self.values.get_mut(index) {
@@ -82,7 +82,7 @@ impl Bindings {
         Value::foreign(Variable { index, name })
     }
 
-    /// The term with variables in place of `?symbols`; `?_` is a new one each time.
+    /// The term with variables instead of `?symbols`; each `?_` is a new one.
     pub(crate) fn rename(
         &mut self,
         image: &Image,
@@ -127,7 +127,7 @@ impl Bindings {
         }
     }
 
-    /// What a term stands for, its parts left as they are.
+    /// What a term is bound to; its parts are left as they are.
     pub(crate) fn walk(&self, term: &Value) -> Value {
         let mut term = term.clone();
         while let Some(next) = term
@@ -139,7 +139,7 @@ impl Bindings {
         term
     }
 
-    /// What a term stands for, with the variables that are unbound left in it.
+    /// The term with all bound variables replaced; unbound ones remain.
     pub(crate) fn resolve(&self, term: &Value) -> Result<Value, Box<Raise>> {
         self.resolve_at(term, 0)
     }
@@ -162,7 +162,7 @@ impl Bindings {
         Ok(Value::list_with_tail(items, rest))
     }
 
-    /// A term with unbound variables as the symbols that they were written as.
+    /// A term in which unbound variables are shown as the symbols that they were written as.
     pub(crate) fn shown(&self, term: &Value) -> Result<Value, Box<Raise>> {
         fn named(term: &Value) -> Value {
             match term {
@@ -170,7 +170,7 @@ impl Bindings {
                     Some(variable) => variable.name.into(),
                     None => term.clone(),
                 },
-                // `resolve` limits how deep this goes.
+                // `resolve` limits the depth.
                 Value::Cons(_) => {
                     let mut rest = term.iter_list();
                     let items: Vec<Value> = rest.by_ref().map(|t| named(&t)).collect();
@@ -182,7 +182,7 @@ impl Bindings {
         Ok(named(&self.resolve(term)?))
     }
 
-    /// Is there an unbound variable in the term?
+    /// Whether the term contains no unbound variables.
     pub(crate) fn is_ground(&self, term: &Value) -> Result<bool, Box<Raise>> {
         let mut pending = vec![self.resolve(term)?];
         while let Some(term) = pending.pop() {
@@ -205,8 +205,8 @@ impl Bindings {
         }
     }
 
-    /// Makes two terms equal by binding variables; false if that is impossible (bindings
-    /// made on the way stay and are to be undone).
+    /// Unifies two terms by binding variables; false if that is impossible (bindings made until
+    /// then remain and must be undone).
     pub(crate) fn unify(&mut self, a: &Value, b: &Value) -> bool {
         let mut pending = vec![(a.clone(), b.clone())];
         while let Some((a, b)) = pending.pop() {

@@ -1,4 +1,4 @@
-//! Simulated time: when every task waits, it passes.
+//! Advances simulated time while every task waits.
 
 use std::cmp::Ordering;
 
@@ -14,10 +14,10 @@ use crate::plan::state::Plan;
 pub(super) struct Alarm {
     /// In simulated seconds.
     pub(crate) time: f64,
-    /// Creation order of who sleeps.
+    /// Creation order of the entry that waits.
     pub(crate) order: u64,
     pub(crate) slot: Slot,
-    /// The wait that it belongs to.
+    /// Identifies the wait that it belongs to.
     pub(crate) token: u64,
 }
 
@@ -38,12 +38,12 @@ impl PartialOrd for Alarm {
     }
 }
 
-/// What came of letting time pass.
+/// The result of letting time pass.
 #[derive(PartialEq, Eq, Debug)]
 pub(super) enum Passed {
     /// Something happened, or may have.
     Something,
-    /// There is nothing that anybody could wait for.
+    /// There is nothing left to wait for.
     Nothing,
 }
 
@@ -102,7 +102,7 @@ impl Scheduler {
         Passed::Something
     }
 
-    /// Gives an answer to an entry's wait, which hooks may have set aside.
+    /// Answers the wait of an entry, which hooks may have set aside.
     fn finish_wait(&mut self, slot: Slot, answer: Answer) {
         match self.live_mut(slot) {
             Some(live) if matches!(live.wait, Wait::Ticket(_)) || live.set_aside.is_none() => {
@@ -119,7 +119,7 @@ impl Scheduler {
         }
     }
 
-    /// The time of the next alarm that somebody still waits for.
+    /// The time of the next alarm whose wait is not over.
     fn next_alarm(&mut self) -> Option<f64> {
         while let Some(alarm) = self.alarms.peek().map(|a| a.0) {
             if self.is_current(&alarm) {

@@ -1,4 +1,4 @@
-//! Who waits for what, and who is ready.
+//! Which entries wait for what, and which are ready.
 
 use super::Scheduler;
 use super::advance::Alarm;
@@ -11,7 +11,7 @@ use crate::plan::state::Plan;
 use std::cmp::Reverse;
 
 impl Scheduler {
-    /// Lets an entry wait, at most until a time.
+    /// Makes an entry wait, possibly with a time limit.
     pub(super) fn block(&mut self, slot: Slot, wait: Wait, until: Option<f64>) {
         self.last_token += 1;
         let token = self.last_token;
@@ -35,7 +35,7 @@ impl Scheduler {
         }
     }
 
-    /// Ends an entry's wait: it runs again, with an answer, as soon as it may.
+    /// Ends an entry's wait: it runs again, with the answer, as soon as possible.
     pub(super) fn make_ready(&mut self, slot: Slot, answer: Answer) {
         self.leave_wait(slot);
         if let Some(live) = self.live_mut(slot) {
@@ -44,7 +44,7 @@ impl Scheduler {
         self.enqueue(slot);
     }
 
-    /// Ends an entry's wait; what it waited for is not told.
+    /// Ends an entry's wait and returns what it waited for.
     pub(super) fn leave_wait(&mut self, slot: Slot) -> Wait {
         let Some(live) = self.live_mut(slot) else {
             return Wait::Nothing;
@@ -58,7 +58,7 @@ impl Scheduler {
         wait
     }
 
-    /// Ends an entry's wait before what it waits for has come.
+    /// Abandons an entry's wait.
     pub(super) fn give_up_wait(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
         let aside = self.live_mut(slot).and_then(|l| l.set_aside.take());
         let waits = [
@@ -73,7 +73,7 @@ impl Scheduler {
         }
     }
 
-    /// Puts an entry in the queue if it is ready and may run.
+    /// Queues an entry if it is ready and may run.
     pub(super) fn enqueue(&mut self, slot: Slot) {
         let Some(live) = self.live_mut(slot) else {
             return;
@@ -105,7 +105,7 @@ impl Scheduler {
         None
     }
 
-    /// Makes those ready whose fluents have changed.
+    /// Makes the entries ready whose fluents have changed.
     pub(super) fn collect_woken(&mut self, plan: &Plan) {
         if !plan.has_woken() {
             return;

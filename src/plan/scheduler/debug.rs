@@ -1,5 +1,5 @@
-//! Tasks that stop where a condition finds no handler, so that a person can look at them
-//! and decide how they go on.
+//! Tasks that stop at an unhandled condition, so that the user can examine them and decide how to
+//! continue.
 
 use super::Scheduler;
 use super::group::{unwrapped, wrapped};
@@ -14,8 +14,8 @@ use crate::plan::state::Plan;
 use crate::plan::task::TaskId;
 
 impl Scheduler {
-    /// From here on, a task stays where it is when a condition finds no handler in it and
-    /// would find none further out either; or, as by default, it fails.
+    /// Sets whether a task stops where it is at a condition that no handler in it or further out
+    /// will handle; by default, it fails.
     pub(crate) fn set_stops_in_place(&mut self, stops: bool) {
         self.stops_in_place = stops;
     }
@@ -31,7 +31,7 @@ impl Scheduler {
         of_task.or_else(of_root)
     }
 
-    /// Which task or root stopped last.
+    /// Identifies the task or root that stopped last.
     pub(crate) fn stopped_id(&self) -> Option<TaskId> {
         self.live(self.stopped()?).map(|live| live.id)
     }
@@ -59,12 +59,12 @@ impl Scheduler {
         self.live_mut(slot).map(|live| &mut live.fiber)
     }
 
-    /// Is the host working on anything?
+    /// Whether the host has pending requests.
     pub(crate) fn has_requests(&self) -> bool {
         !self.tickets.is_empty()
     }
 
-    /// The stopped entry is about to go on.
+    /// Removes the last stop, because its entry is about to continue.
     pub(super) fn leave_stop(&mut self) -> Option<Slot> {
         let slot = self.stopped()?;
         self.stops.pop();
@@ -74,15 +74,15 @@ impl Scheduler {
         Some(slot)
     }
 
-    /// Tells of the last stop again, because nobody else can go on.
+    /// Reports the last stop again, because nothing else can continue.
     pub(super) fn tell_stop_again(&mut self) -> bool {
         self.untold_stop = self.stops.last().map(|(_, condition)| condition.clone());
         self.untold_stop.is_some()
     }
 
-    /// Leaves a frame, and all that was called from it, and goes on with a call in its
-    /// place. The frame is one of the `link`th of the stopped fibers; tasks that were begun
-    /// from further in end first.
+    /// Unwinds a stack frame and everything called from it, and continues with a call in its place.
+    /// The frame belongs to the `link`th of the stopped fibers; tasks begun further in are ended
+    /// first.
     pub(crate) fn replace_frame(
         &mut self,
         image: &mut Image,
@@ -110,15 +110,15 @@ impl Scheduler {
         self.go_on(image, host)
     }
 
-    /// Is this the place for a task to stop, because nobody will handle its condition?
+    /// Whether a task stops here because its condition will not be handled.
     pub(super) fn may_stop(&self, image: &mut Image, slot: Slot, condition: &Value) -> bool {
         self.stops_in_place
             && self.live(slot).is_some_and(|live| live.ending.is_none())
             && !self.is_handled_above(image, slot, condition)
     }
 
-    /// Does anybody handle the condition that the task fails with? A handler that only
-    /// looks at it counts, too.
+    /// Whether there is a handler for the condition with which the task fails, even one that
+    /// declines.
     fn is_handled_above(&self, image: &mut Image, slot: Slot, condition: &Value) -> bool {
         let plan = Plan::of(image);
         let in_task = wrapped(&plan, image, condition.clone());

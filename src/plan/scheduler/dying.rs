@@ -1,4 +1,4 @@
-//! Ending tasks before their time.
+//! Ends tasks prematurely.
 
 use super::Scheduler;
 use super::live::{Answer, Ending, Live, Slot, Told, Wait};
@@ -6,8 +6,8 @@ use crate::lisp::image::Image;
 use crate::plan::host::Host;
 
 impl Scheduler {
-    /// Tells a task and all below it to end: each unwinds, when all below it have ended.
-    /// Those that are ending already, or must not be disturbed, are left alone.
+    /// Evaporates a task and all below it: each unwinds when all below it have ended. Tasks that
+    /// are ending already or must not be disturbed are left alone.
     pub(super) fn evaporate(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
         let mut doomed = Vec::new();
         let mut pending = vec![slot];
@@ -47,7 +47,7 @@ impl Scheduler {
         }
     }
 
-    /// Tells all children of an entry to end.
+    /// Evaporates all children of an entry.
     pub(super) fn evaporate_children(
         &mut self,
         image: &mut Image,
@@ -60,8 +60,9 @@ impl Scheduler {
         }
     }
 
-    /// Ends those that are dying but will never come to an end, without their cleanup
-    /// code; if that waits for tasks of its own, these are told to end first. Was there one?
+    /// Ends dying tasks that would never end by themselves, without running their cleanup code; if
+    /// that code waits for tasks of its own, evaporates these first. Returns whether there were
+    /// any.
     pub(super) fn bury(&mut self, image: &mut Image, host: &mut dyn Host) -> bool {
         let stuck: Vec<Slot> = self
             .dying()

@@ -1,4 +1,4 @@
-//! How tasks begin and end.
+//! The beginning and the end of tasks.
 
 use super::group::unwrapped;
 use super::live::{Answer, Ending, Live, Slot, Told, Wait};
@@ -82,7 +82,7 @@ impl Scheduler {
         self.enqueue(slot);
     }
 
-    /// Notes the status of a task that is alive.
+    /// Notes the status of a live task in the journal.
     fn note(&self, plan: &Plan, slot: Slot, status: Status) {
         if !plan.journal.is_kept() {
             return;
@@ -99,13 +99,13 @@ impl Scheduler {
         });
     }
 
-    /// The number of the task at an entry; a root has none.
+    /// The number of the task at an entry; `None` for a root.
     fn task_id(&self, slot: Slot) -> Option<TaskId> {
         let live = self.live(slot)?;
         live.task.as_ref().map(|_| live.id)
     }
 
-    /// Sets a task's status; whoever waits for its fluent is woken.
+    /// Sets a task's status and wakes those that wait for its fluent.
     pub(super) fn set_status(&mut self, image: &mut Image, task: &TaskRef, status: Status) {
         if task.get().status() == status {
             return;
@@ -123,7 +123,7 @@ impl Scheduler {
         }
     }
 
-    /// A fiber of its own for what a change of status sets off in Lisp functions.
+    /// Adds a fiber for the calls of Lisp functions that a change of status causes.
     fn add_helper(&mut self, image: &Image, rest: fluent::Propagation) {
         let names = Plan::of(image).names;
         let rest = std::cell::Cell::new(Some(rest));
@@ -139,7 +139,7 @@ impl Scheduler {
         self.enqueue(slot);
     }
 
-    /// An entry's function has returned: it ends when its children have ended.
+    /// Call when an entry's function has returned: the entry ends when its children have ended.
     pub(super) fn returned(
         &mut self,
         image: &mut Image,
@@ -167,8 +167,8 @@ impl Scheduler {
         }
     }
 
-    /// An entry has ended. Children that are alive, which is so after a failure only, end
-    /// under its parent's eyes.
+    /// Ends an entry. Live children, which exist only after a failure, are handed over to its
+    /// parent.
     pub(super) fn end(&mut self, image: &mut Image, slot: Slot) {
         let mut ended = Some(slot);
         while let Some(slot) = ended {
@@ -176,10 +176,10 @@ impl Scheduler {
         }
     }
 
-    /// Ends an entry; returns the parent if that has only waited for this to end, too.
+    /// Ends an entry; returns the parent if it was only waiting for that and ends, too.
     fn end_one(&mut self, image: &mut Image, slot: Slot) -> Option<Slot> {
         if self.roots.contains(&slot) {
-            // Roots are looked after by whoever evaluates.
+            // The caller of the evaluation removes roots.
             let live = self.live_mut(slot)?;
             live.wait = Wait::Nothing;
             live.answer = None;
@@ -224,7 +224,7 @@ impl Scheduler {
                 child.parent = live.parent;
             }
         }
-        // The status counts before anybody runs; the parent runs before others who wait.
+        // The status is set before any other task runs; the parent runs before others that wait.
         if let Some(task) = &live.task {
             task.get().set_status(status);
         }
@@ -253,7 +253,7 @@ impl Scheduler {
         ended
     }
 
-    /// Tells an entry that a child has ended; is that the end of the entry?
+    /// Informs an entry that a child has ended; returns whether the entry ends with it.
     fn child_has_ended(&mut self, parent: Slot, child: Slot, orphans: &[Slot]) -> bool {
         let Some(live) = self.live_mut(parent) else {
             return false;

@@ -1,4 +1,4 @@
-//! Tasks that run in parallel for one form, and what comes of them.
+//! Tasks that run in parallel for one form, and the result of the form.
 
 use super::Scheduler;
 use super::live::{Answer, Slot, Wait};
@@ -18,7 +18,7 @@ pub(super) struct Group {
     pub(crate) children: Vec<TaskRef>,
 }
 
-/// What has come of a group.
+/// The state of a group.
 enum Decision {
     Open,
     Value(Value),
@@ -27,8 +27,8 @@ enum Decision {
 }
 
 impl Group {
-    /// Where several tasks have ended since the last look, the last listed decides a
-    /// failure and the winner of `GroupKind::First`, the first listed everything else.
+    /// If several tasks have ended since the last check, the last one listed determines a failure
+    /// or the winner of `GroupKind::First`, the first one listed everything else.
     fn decision(&self) -> Decision {
         let tasks = || self.children.iter().map(TaskRef::get);
         let result = |task: &crate::plan::task::Task| task.result.borrow().clone();
@@ -58,7 +58,8 @@ impl Group {
 }
 
 impl Scheduler {
-    /// Decides what comes of a group; what its owner goes on with, if that is now.
+    /// Determines the result of a group; returns what its owner continues with, if that is possible
+    /// now.
     pub(super) fn decide(
         &mut self,
         image: &mut Image,
@@ -107,7 +108,7 @@ impl Scheduler {
     }
 }
 
-/// A failure that holds others.
+/// A failure that contains other failures.
 pub(crate) fn composite(
     plan: &Plan,
     image: &Image,
@@ -117,7 +118,7 @@ pub(crate) fn composite(
     condition::make_condition(image, plan.names.composite_failure, &initargs)
 }
 
-/// A condition as it crosses the border of a task: a Lisp error is put in an envelope.
+/// A condition as it leaves a task: a Lisp error is wrapped in an envelope.
 pub(super) fn wrapped(plan: &Plan, image: &mut Image, condition: Value) -> Value {
     let Value::Instance(instance) = &condition else {
         return condition;
@@ -135,7 +136,7 @@ pub(super) fn wrapped(plan: &Plan, image: &mut Image, condition: Value) -> Value
     }
 }
 
-/// A condition as it leaves the plan: without its envelopes.
+/// A condition as it leaves the plan, without its envelopes.
 pub(super) fn unwrapped(plan: &Plan, mut condition: Value) -> Value {
     loop {
         let inner = match &condition {

@@ -1,4 +1,4 @@
-//! What the scheduler knows about a task or a root that is alive.
+//! The scheduler's data on a live task or root.
 
 use super::Scheduler;
 use super::group::Group;
@@ -16,34 +16,34 @@ pub(super) type Slot = u32;
 pub(super) struct Live {
     pub(crate) id: TaskId,
     pub(crate) fiber: Fiber,
-    /// The task; a root has none.
+    /// The task; `None` for a root.
     pub(crate) task: Option<TaskRef>,
     pub(crate) parent: Option<Slot>,
     /// Children that are alive, in order of creation.
     pub(crate) children: Vec<Slot>,
     /// What it waits for.
     pub(crate) wait: Wait,
-    /// Tells its current wait from others.
+    /// Identifies its current wait.
     pub(crate) token: u64,
-    /// What to do when it runs next; none while it waits or is dead.
+    /// What to do when it runs next; `None` while it waits or is dead.
     pub(crate) answer: Option<Answer>,
-    /// Is it in the queue of the ready?
+    /// Whether it is in the queue of ready entries.
     pub(crate) is_queued: bool,
-    /// How it will end, once that is decided.
+    /// How it will end, once that is determined.
     pub(crate) ending: Option<Ending>,
-    /// Has it begun to unwind?
+    /// Whether it has begun to unwind.
     pub(crate) is_unwinding: bool,
-    /// How often cleanup code has left the unwinding that called it.
+    /// How many times cleanup code has escaped from unwinding.
     pub(crate) escapes: u32,
-    /// Is it suspended?
+    /// Whether it is suspended.
     pub(crate) is_suspended: bool,
-    /// Negative: it may not be suspended or evaporated now.
+    /// If negative, it must not be suspended or evaporated now.
     pub(crate) scheduling: i32,
-    /// Was it told to end, or to hold still, at a time when that was forbidden?
+    /// Whether it was told to end or to suspend while that was forbidden.
     pub(crate) told: Told,
-    /// What to call when it is suspended, innermost last.
+    /// Functions to call when it is suspended, innermost last.
     pub(crate) hooks: Vec<Value>,
-    /// What the running hooks interrupt.
+    /// The wait that running hooks interrupt.
     pub(crate) set_aside: Option<Box<SetAside>>,
     /// When a sleep or timeout of its wait ends.
     pub(crate) until: Option<f64>,
@@ -54,7 +54,7 @@ pub(super) struct Live {
 /// What an entry waits for.
 #[derive(Default)]
 pub(super) enum Wait {
-    /// Nothing: it runs or is ready.
+    /// Nothing: it is running or ready.
     #[default]
     Nothing,
     /// The end of a sleep.
@@ -63,19 +63,19 @@ pub(super) enum Wait {
     Fluent(FluentRef),
     /// Its children.
     Group(Group),
-    /// The end of its children, then to go on with this answer.
+    /// The end of its children, to continue with this answer.
     Drain(Box<Answer>),
-    /// The end of its children, then its own.
+    /// The end of its children, to end itself.
     LastChildren,
     /// The host.
     Ticket(Ticket),
-    /// The end of another task, then to decide what comes of it.
+    /// The end of another task, to determine the result of the group.
     Join(Group),
     /// The end of another task.
     Death(TaskRef),
-    /// Somebody who wakes it up; it has suspended itself.
+    /// To be woken up; it has suspended itself.
     WakeUp,
-    /// A debugger: its condition was not handled.
+    /// The debugger, at an unhandled condition.
     Debugger,
 }
 
@@ -88,21 +88,21 @@ pub(super) struct SetAside {
 
 /// What to do with an entry's fiber when it runs next.
 pub(super) enum Answer {
-    /// Call a function in the fresh fiber.
+    /// Call a function in the new fiber.
     Start(Value, Vec<Value>),
-    /// Go on with a value.
+    /// Continue with a value.
     Value(Value),
-    /// Go on with an error.
+    /// Continue with an error.
     Raise(Box<Raise>),
-    /// Go on after an interrupt.
+    /// Continue after an interrupt.
     GoOn,
-    /// Go on with a call on top.
+    /// Continue with a call on top.
     Call(Value, Vec<Value>),
-    /// Leave the frame of this index and go on with a call in its place.
+    /// Unwind the frame with this index and continue with a call in its place.
     Replace(usize, Value, Vec<Value>),
-    /// Decide what comes of its children.
+    /// Determine the result of its children.
     Decide(Group),
-    /// Leave everything.
+    /// Unwind everything.
     Unwind,
 }
 
@@ -112,11 +112,11 @@ pub(super) enum Ending {
     Succeeded(Value),
     /// With a failure.
     Failed(Value),
-    /// Told to.
+    /// By evaporation.
     Evaporated,
 }
 
-/// What an entry was told while it could not obey.
+/// What an entry was told to do while it could not.
 #[derive(Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Told {
     #[default]
@@ -150,7 +150,7 @@ impl Live {
         }
     }
 
-    /// May it run while it is suspended: does it run its hooks?
+    /// Whether it may run although it is suspended, because it runs its hooks.
     pub(crate) fn runs_hooks(&self) -> bool {
         self.set_aside.is_some()
     }
@@ -167,13 +167,13 @@ impl Scheduler {
             }
             None => {
                 self.entries.push(live);
-                // Four billion live tasks do not fit in memory.
+                // Four billion live tasks do not fit into memory.
                 u32::try_from(self.entries.len() - 1).unwrap_or(u32::MAX)
             }
         }
     }
 
-    /// Forgets an entry.
+    /// Removes an entry.
     pub(super) fn remove(&mut self, slot: Slot) -> Option<Box<Live>> {
         let live = self.entries.get_mut(slot as usize)?.take()?;
         self.free.push(slot);
@@ -188,7 +188,7 @@ impl Scheduler {
         self.entries.get_mut(slot as usize)?.as_deref_mut()
     }
 
-    /// The entry of a task that is alive.
+    /// The entry of a live task.
     pub(super) fn slot_of(&self, task: &TaskRef) -> Option<Slot> {
         let slot = task.get().slot.get()?;
         let live = self.live(slot)?;
@@ -200,7 +200,7 @@ impl Scheduler {
         TaskId(self.last_id)
     }
 
-    /// Is `slot` below `ancestor`, or the same?
+    /// Whether `slot` is `ancestor` or below it.
     pub(super) fn is_below(&self, slot: Slot, ancestor: Slot) -> bool {
         let mut current = Some(slot);
         while let Some(slot) = current {

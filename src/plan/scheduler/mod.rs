@@ -1,13 +1,13 @@
 //! The scheduler: runs tasks, one at a time, and owns simulated time.
 //!
-//! A task runs until it waits for something. Tasks that are ready run in the order in
-//! which they became so; those that one event wakes, in order of creation. Time passes only
-//! when every task waits: then the host steps the world until something happens, or time
-//! jumps to the next end of a sleep. The same input so gives the same run.
+//! A task runs until it waits for something. Ready tasks run in the order in which they became
+//! ready; those woken by the same event, in order of creation. Time passes only when every task
+//! waits: then the host steps the world until something happens, or time jumps to the next end of a
+//! sleep. So the same input gives the same run.
 //!
-//! The prompt's own thread is a root: it has a fiber like a task, but is none. A root whose
-//! condition nobody handles stays where it is, so that a debugger can look at it, evaluate
-//! in another root on top of it, and go on or abort.
+//! The prompt's own thread is a root: it has a fiber like a task, but is not a task. A root with an
+//! unhandled condition stays where it is, so that the debugger can examine it, evaluate in another
+//! root on top of it, and continue or abort.
 
 mod advance;
 mod answer;
@@ -37,31 +37,31 @@ use crate::lisp::value::Value;
 use advance::Alarm;
 use live::{Live, Slot};
 
-/// Runs tasks on an image.
+/// Runs tasks in an image.
 #[derive(Default)]
 pub(crate) struct Scheduler {
-    /// Tasks and roots that are alive; entries are used again.
+    /// Live tasks and roots; free entries are reused.
     entries: Vec<Option<Box<Live>>>,
     free: Vec<Slot>,
-    /// Entries that are ready, in the order in which they are to run.
+    /// Entries that are ready, in the order in which they will run.
     ready: VecDeque<(Slot, TaskId)>,
-    /// Ends of sleeps and timeouts; those of waits that are over are skipped.
+    /// Ends of sleeps and timeouts; those whose waits are over are skipped.
     alarms: BinaryHeap<Reverse<Alarm>>,
-    /// Requests that the host works on, with who made them.
+    /// Pending requests to the host, with the entries that made them.
     tickets: Vec<(Ticket, Slot)>,
     /// Evaluations at the prompt that have not ended, innermost last.
     roots: Vec<Slot>,
     /// The entry that an interrupt stopped.
     interrupted: Option<Slot>,
-    /// Does a task whose condition nobody handles stay where it is?
+    /// Whether a task with an unhandled condition stays where it is.
     stops_in_place: bool,
-    /// Tasks that have stopped so, with their conditions, newest last.
+    /// Tasks stopped at unhandled conditions, with the conditions, newest last.
     stops: Vec<(Slot, Value)>,
-    /// The condition of a stop that has not been told yet.
+    /// The condition of a stop that has not been reported yet.
     untold_stop: Option<Value>,
-    /// Tasks of the last plan that have ended, in the order in which they did.
+    /// Tasks of the last plan that have ended, in the order in which they ended.
     ended: Vec<TaskInfo>,
-    /// The root whose tasks these are.
+    /// The root to which these tasks belong.
     ended_root: Option<TaskId>,
     /// Number of the last task or root.
     last_id: u64,

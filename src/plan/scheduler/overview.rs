@@ -1,4 +1,4 @@
-//! The tasks as a person sees them.
+//! The tasks as shown to users.
 
 use super::Scheduler;
 use super::live::{Live, Wait};
@@ -9,20 +9,20 @@ use crate::lisp::value::Value;
 use crate::plan::state::Plan;
 use crate::plan::task::{Status, TaskId};
 
-/// A task that is alive.
+/// A live task.
 #[derive(Clone)]
 pub(crate) struct TaskInfo {
     /// Which task.
     pub(crate) id: TaskId,
     /// Its name.
     pub(crate) name: String,
-    /// What it is doing.
+    /// Its status.
     pub(crate) status: Status,
-    /// The task that started it; none if the prompt did.
+    /// The task that started it; `None` if it was started from the prompt.
     pub(crate) parent: Option<TaskId>,
     /// Its path in the task tree, innermost part first.
     pub(crate) path: Value,
-    /// What it waits for, in words; none if it is ready.
+    /// What it waits for, in words; `None` if it is ready.
     pub(crate) waits_for: Option<String>,
 }
 
@@ -33,7 +33,7 @@ impl Scheduler {
         Plan::of(image).now()
     }
 
-    /// The tasks that are alive, in order of creation.
+    /// The live tasks, in order of creation.
     pub(crate) fn tasks(&self, image: &Image) -> Vec<TaskInfo> {
         let mut tasks: Vec<TaskInfo> = self
             .entries
@@ -56,7 +56,7 @@ impl Scheduler {
         tasks
     }
 
-    /// The tasks that are alive and those of the last plan that have ended, as a tree.
+    /// The live tasks and those of the last plan that have ended, as a tree.
     pub(crate) fn task_tree(&self, image: &Image) -> String {
         let mut tasks = self.tasks(image);
         tasks.extend(self.ended.iter().cloned());
@@ -81,14 +81,14 @@ impl Scheduler {
         text
     }
 
-    /// Remembers a task that has ended.
+    /// Records a task that has ended.
     pub(super) fn note_ended(&mut self, info: TaskInfo) {
         if self.ended.len() < MOST_ENDED {
             self.ended.push(info);
         }
     }
 
-    /// A task begins: those of plans before it are forgotten.
+    /// Call when a task begins: those of earlier plans are forgotten.
     pub(super) fn note_begun(&mut self, root: TaskId) {
         if self.ended_root != Some(root) {
             self.ended_root = Some(root);
@@ -96,7 +96,7 @@ impl Scheduler {
         }
     }
 
-    /// Why nobody can go on.
+    /// Why nothing can continue.
     pub(super) fn describe_deadlock(&self, image: &Image) -> String {
         let mut lines =
             vec!["Nothing can go on: all that runs waits for what nobody will do.".to_owned()];
@@ -117,7 +117,7 @@ impl Scheduler {
     }
 }
 
-/// Tasks that have ended and are remembered.
+/// Maximum number of ended tasks that are remembered.
 const MOST_ENDED: usize = 200;
 
 fn line(image: &Image, task: &TaskInfo, depth: usize) -> String {

@@ -1,4 +1,4 @@
-//! Carrying out what builtins request.
+//! Handles the requests of builtins.
 
 use std::any::Any;
 
@@ -16,8 +16,8 @@ use crate::plan::task::{Status, Task, TaskName, TaskRef};
 use crate::plan::tree::TreeNode;
 
 impl Scheduler {
-    /// Carries out a request of the entry that is running with `fiber`: the answer, or none
-    /// if it has to wait.
+    /// Handles a request of the entry that is running with `fiber`; returns the answer, or `None`
+    /// if the entry has to wait.
     pub(super) fn handle(
         &mut self,
         image: &mut Image,
@@ -249,14 +249,14 @@ impl Scheduler {
     }
 }
 
-/// Lets a task that has not begun hold still once it begins, or not.
+/// Sets whether a task that has not begun is to be suspended when it begins.
 fn hold(task: &Task, held: bool) {
     if task.status() == Status::Created {
         task.is_held.set(held);
     }
 }
 
-/// The error of a form that needs a plan around it.
+/// The error for a form that must be inside a plan.
 pub(crate) fn outside_a_plan(name: &str) -> Box<Raise> {
     Raise::simple(format!("'{name}' form not inside a plan."))
 }

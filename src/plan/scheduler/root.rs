@@ -1,4 +1,4 @@
-//! Evaluating forms at the prompt.
+//! Evaluates forms at the prompt.
 
 use super::Scheduler;
 use super::advance::Passed;
@@ -15,16 +15,16 @@ use crate::plan::state::Plan;
 pub(crate) enum Evaluation {
     /// It has ended with these values.
     Values(Vec<Value>),
-    /// A condition found no handler. The evaluation stays where it is until
-    /// [`Scheduler::call`] or [`Scheduler::abort`].
+    /// A condition was not handled. The evaluation stays where it is until [`Scheduler::call`] or
+    /// [`Scheduler::abort`].
     Unhandled(Value),
-    /// It was interrupted; [`Scheduler::go_on`] or [`Scheduler::abort`].
+    /// It was interrupted; continue with [`Scheduler::go_on`] or [`Scheduler::abort`].
     Interrupted,
 }
 
 impl Scheduler {
-    /// Evaluates a form at top level, to its end. If an earlier evaluation has stopped, it
-    /// stays so, and this one runs on top of it.
+    /// Evaluates a form at top level, to its end. An earlier evaluation that has stopped stays
+    /// stopped, and this one runs on top of it.
     pub(crate) fn evaluate(
         &mut self,
         image: &mut Image,
@@ -49,7 +49,7 @@ impl Scheduler {
         self.go_on(image, host)
     }
 
-    /// Goes on after an interrupt.
+    /// Continues after an interrupt.
     pub(crate) fn go_on(&mut self, image: &mut Image, host: &mut dyn Host) -> Evaluation {
         if let Some(slot) = self.interrupted.take()
             && let Some(live) = self.live_mut(slot)
@@ -76,8 +76,8 @@ impl Scheduler {
         }
     }
 
-    /// Goes on with a call on top of the evaluation that stopped last: its value stands in
-    /// place of the failed call, unless it leaves that (as a restart's function does).
+    /// Continues with a call on top of the evaluation that stopped last: its value replaces that of
+    /// the failed call, unless it leaves that call (as a restart's function does).
     pub(crate) fn call(
         &mut self,
         image: &mut Image,
@@ -91,14 +91,14 @@ impl Scheduler {
         self.go_on(image, host)
     }
 
-    /// Leaves the evaluation that stopped last: its tasks end first, then its own cleanup
-    /// code runs, which may take simulated time. An interrupt cuts that short.
+    /// Abandons the evaluation that stopped last: its tasks end first, then its own cleanup code
+    /// runs, which may take simulated time. An interrupt cuts that short.
     pub(crate) fn abort(&mut self, image: &mut Image, host: &mut dyn Host) {
         let Some(root) = self.roots.last().copied() else {
             return;
         };
         if let Some(slot) = self.interrupted.take() {
-            // What was interrupted may unwind like what waits.
+            // An interrupted entry may unwind like a waiting one.
             if let Some(live) = self.live_mut(slot) {
                 live.answer = None;
             }
@@ -123,7 +123,7 @@ impl Scheduler {
         self.untold_stop = None;
     }
 
-    /// The number of evaluations that have stopped and not been left.
+    /// The number of evaluations that have stopped and have not been abandoned.
     #[cfg(test)]
     pub(crate) fn depth(&self) -> usize {
         self.roots.len()
@@ -152,7 +152,7 @@ impl Scheduler {
         }
     }
 
-    /// Has the root's evaluation come to an end, and how?
+    /// The result of the root's evaluation, if it has ended.
     fn ended(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) -> Option<Evaluation> {
         let live = self.live(root)?;
         if matches!(live.wait, Wait::Debugger) {
@@ -188,12 +188,12 @@ impl Scheduler {
         self.remove(root)
     }
 
-    /// Lets the children of a root, which have all been told to end, come to their end.
+    /// Runs until the children of a root, which have all been told to end, have ended.
     pub(super) fn drain(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
         while self.live(root).is_some_and(|l| !l.children.is_empty()) {
             match self.turn(image, host) {
                 Turn::Done => {}
-                // Cleanup code that was interrupted, or waits for ever, is cut short.
+                // Cleanup code that was interrupted, or that would wait for ever, is cut short.
                 Turn::Interrupted | Turn::Stuck => {
                     self.interrupted = None;
                     if !self.bury(image, host) {
@@ -204,7 +204,8 @@ impl Scheduler {
         }
     }
 
-    /// Nobody can go on: those that are dying are buried; else the root hears of it.
+    /// Nothing can continue: buries dying tasks; if there are none, reports the deadlock to the
+    /// root.
     fn stuck(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
         if self.bury(image, host) || self.tell_stop_again() {
             return;

@@ -1,4 +1,4 @@
-//! Running an entry until it waits or ends.
+//! Runs an entry until it waits or ends.
 
 use super::Scheduler;
 use super::group::{unwrapped, wrapped};
@@ -11,7 +11,7 @@ use crate::plan::host::Host;
 use crate::plan::state::Plan;
 use crate::plan::task::Status;
 
-/// How often cleanup code may leave the unwinding that called it.
+/// How many times cleanup code may escape from unwinding.
 const MOST_ESCAPES: u32 = 16;
 
 /// Why an entry stopped running.
@@ -110,14 +110,14 @@ impl Scheduler {
         }
     }
 
-    /// Has the entry's cleanup code left the unwinding that it was called by?
+    /// Whether the entry's cleanup code has escaped from the unwinding that called it.
     fn has_escaped(&self, slot: Slot, fiber: &Fiber) -> bool {
         self.live(slot)
             .is_some_and(|live| live.is_unwinding && fiber.pending.is_empty())
     }
 
-    /// Counts an escape: after a few of them the entry ends without the rest of its cleanup
-    /// code, lest a loop around such code keep it alive.
+    /// Counts an escape: after too many, the entry ends without the rest of its cleanup code, so
+    /// that a loop around such code cannot keep it alive.
     fn may_escape(&mut self, slot: Slot) -> bool {
         self.live_mut(slot).is_some_and(|live| {
             live.escapes += 1;
@@ -125,13 +125,13 @@ impl Scheduler {
         })
     }
 
-    /// A condition that no handler in the fiber took.
+    /// Handles a condition for which the fiber has no handler.
     fn unhandled(&mut self, image: &mut Image, slot: Slot, condition: Value) -> Option<Answer> {
         let plan = Plan::of(image);
         let is_root = self.roots.contains(&slot);
         let live = self.live_mut(slot)?;
         if live.is_unwinding {
-            // An error in cleanup code: the rest is cleaned up.
+            // After an error in cleanup code, the rest of it still runs.
             return Some(Answer::Unwind);
         }
         if is_root {

@@ -1,4 +1,4 @@
-//! Suspending tasks and waking them up.
+//! Suspends tasks and wakes them up.
 
 use super::Scheduler;
 use super::live::{Answer, SetAside, Slot, Told, Wait};
@@ -23,7 +23,7 @@ impl Scheduler {
         found
     }
 
-    /// Lets a task and all below it hold still.
+    /// Suspends a task and all below it.
     pub(super) fn suspend(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
         for slot in self.subtree(slot) {
             let Some(live) = self.live_mut(slot) else {
@@ -32,7 +32,7 @@ impl Scheduler {
             if live.is_suspended || live.ending.is_some() {
                 continue;
             }
-            // A task that has not begun holds still when it first waits.
+            // A task that has not begun is suspended when it first waits.
             let has_begun = !matches!(live.answer, Some(Answer::Start(..)));
             if live.scheduling < 0 || !has_begun {
                 live.told = Told::Suspend;
@@ -54,7 +54,7 @@ impl Scheduler {
         }
     }
 
-    /// Lets an entry that now waits hold still, if it was told to before.
+    /// Suspends an entry that now waits, if it was told to earlier.
     pub(super) fn suspend_if_told(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
         let Some(live) = self.live_mut(slot) else {
             return;
@@ -65,7 +65,7 @@ impl Scheduler {
         }
     }
 
-    /// Interrupts an entry's wait for its hooks.
+    /// Interrupts an entry's wait to run its hooks.
     fn set_aside(&mut self, image: &Image, slot: Slot, hooks: Vec<Value>) {
         let (answer, until) = match self.live_mut(slot) {
             Some(live) => (live.answer.take(), live.until),
@@ -83,7 +83,7 @@ impl Scheduler {
         self.make_ready(slot, Answer::Call(runner, Vec::new()));
     }
 
-    /// The hooks have run: the entry waits on as before.
+    /// Resumes an entry's wait after its hooks have run.
     pub(super) fn resume_aside(&mut self, slot: Slot) {
         let Some(aside) = self.live_mut(slot).and_then(|l| l.set_aside.take()) else {
             return;
@@ -100,7 +100,7 @@ impl Scheduler {
         }
     }
 
-    /// Lets a suspended task and all below it go on.
+    /// Wakes up a suspended task and all below it.
     pub(super) fn wake_up(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
         for slot in self.subtree(slot) {
             let Some(live) = self.live_mut(slot) else {

@@ -1,5 +1,5 @@
-//! Functions that the scheduler puts around what a task calls: waiting for constraints,
-//! setting task variables, running hooks.
+//! Functions that wrap what a task calls: waiting for constraints, setting task variables, running
+//! hooks.
 
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Function;
@@ -9,7 +9,7 @@ use crate::lisp::vm::step::Step;
 use crate::plan::request::{Call, Request};
 use crate::plan::state::Plan;
 
-/// A function that waits for fluents, one after the other, and then calls another one.
+/// A function that waits for fluents, one after another, and then calls another function.
 pub(super) fn constrained(plan: &Plan, call: Call, constraints: Vec<Value>) -> Value {
     let wait_for = Value::from(plan.names.wait_for);
     Value::Function(Function::made_control(
@@ -22,7 +22,7 @@ pub(super) fn constrained(plan: &Plan, call: Call, constraints: Vec<Value>) -> V
                 for constraint in constraints.into_iter().rev() {
                     calls.call1(&wait_for, constraint).await;
                 }
-                // If what it waited for has failed, its parent comes first and ends it.
+                // If a task that it waited for has failed, the parent runs first and ends it.
                 calls.request(Request::Sleep(0.0)).await;
                 Ok(Step::tail_call(function, args))
             })
@@ -33,8 +33,8 @@ pub(super) fn constrained(plan: &Plan, call: Call, constraints: Vec<Value>) -> V
 /// A variable, the function that computes its value for a task, and its arguments.
 pub(super) type Initialiser = (Sym, Value, Vec<Value>);
 
-/// A function that sets task variables to what functions compute, and then calls another
-/// one.
+/// A function that sets task variables to the values computed by functions, and then calls another
+/// function.
 pub(super) fn initialised(plan: &Plan, call: Call, initialisers: Vec<Initialiser>) -> Value {
     Value::Function(Function::made_control(
         plan.names.sys_run_constrained,
@@ -55,7 +55,7 @@ pub(super) fn initialised(plan: &Plan, call: Call, initialisers: Vec<Initialiser
     ))
 }
 
-/// A function that calls a suspended task's hooks, innermost first, and then waits on.
+/// A function that calls a suspended task's hooks, innermost first, and then resumes the wait.
 pub(super) fn hook_runner(plan: &Plan, hooks: Vec<Value>) -> Value {
     Value::Function(Function::made_control(
         plan.names.sys_hook,

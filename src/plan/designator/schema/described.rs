@@ -1,4 +1,4 @@
-//! The keys of object and location designators, whatever their types.
+//! The keys of object and location designators, which do not depend on their types.
 
 use std::borrow::Cow;
 

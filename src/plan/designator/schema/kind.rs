@@ -1,19 +1,19 @@
-//! What kinds of values keys of designators take, and what `def-action` calls them.
+//! The kinds of values that keys of designators take, and their names in `def-action`.
 
 use std::borrow::Cow;
 
 use crate::closest_name::closest_name;
 
-/// What kind of value a key takes.
+/// The kind of value that a key takes.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) enum Kind {
     /// A location designator.
     Location,
-    /// A location designator, or a pose, which stands for the location there.
+    /// A location designator, or a pose, which stands for the location at that pose.
     Place,
     /// An object designator.
     Object,
-    /// The designator of an object that was detected.
+    /// The designator of a detected object.
     DetectedObject,
     /// An object designator or a list of them.
     Objects,
@@ -43,7 +43,7 @@ pub(crate) enum Kind {
     Anything,
 }
 
-/// The kinds under the names that definitions write, with what is told of them.
+/// The kinds by the names used in definitions, each with a description.
 static KINDS: &[(&str, Kind, &str)] = &[
     ("LOCATION", Kind::Location, "a location"),
     ("PLACE", Kind::Place, "a location or a pose"),
@@ -72,7 +72,7 @@ static KINDS: &[(&str, Kind, &str)] = &[
 ];
 
 impl Kind {
-    /// The kind that definitions call so; `(member …)` is none of them.
+    /// The kind with that name in definitions, which does not include `(member …)`.
     pub(crate) fn named(name: &str) -> Option<Kind> {
         KINDS
             .iter()
@@ -80,7 +80,7 @@ impl Kind {
             .map(|(_, kind, _)| kind.clone())
     }
 
-    /// The names that definitions may write.
+    /// The names that can be used in definitions.
     pub(crate) fn names() -> impl Iterator<Item = &'static str> {
         KINDS.iter().map(|(name, ..)| *name)
     }
@@ -90,7 +90,7 @@ impl Kind {
         closest_name(name, Kind::names())
     }
 
-    /// What the key takes, for people.
+    /// What the key takes, as shown to users.
     pub(crate) fn taken(&self) -> Cow<'static, str> {
         if let Kind::Member(members) = self {
             let names: Vec<String> = members.iter().map(|m| m.to_lowercase()).collect();

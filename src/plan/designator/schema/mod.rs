@@ -1,9 +1,9 @@
-//! What types of actions and motions there are, and which keys they take.
+//! The types of actions and motions, and the keys that they take.
 //!
-//! The one table that resolution, checks, completion, hints, help and the manual read. An
-//! image has its own: actions come into it by `def-action`, the program's own and those of
-//! users alike; motions are put there by whoever can carry them out. A type may have several
-//! rows, told apart by the keys that are required.
+//! The single table used for resolution, checks, completion, hints, help and the manual. Every
+//! image has its own: `def-action` adds actions, both the built-in ones and those of users; the
+//! host adds the motions that it can carry out. A type may have several rows, distinguished by the
+//! keys they require.
 
 mod described;
 mod kind;
@@ -15,5 +15,5 @@ pub(crate) use kind::Kind;
 pub(crate) use row::{Key, Text, TypeRow};
 pub(crate) use types::{all, define, install, is_type, nearest_type, rows};
 
-/// Keys that every designator of a class takes, beside those of its type.
+/// Keys that every designator of a class takes, in addition to those of its type.
 pub(crate) const COMMON_KEYS: &[&str] = &["TYPE", "GOAL", "FOR", "DESCRIPTION"];

@@ -6,7 +6,7 @@ use super::Kind;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::designator::value::Class;
 
-/// A name or a text of a row: of the program itself, or of a definition that was read.
+/// A name or a text in a row: either built in, or from a definition that was evaluated.
 pub(crate) type Text = Cow<'static, str>;
 
 /// One key.
@@ -16,16 +16,16 @@ pub(crate) struct Key {
     pub(crate) name: Text,
     /// Other names for it.
     pub(crate) aliases: Vec<Text>,
-    /// What it takes.
+    /// The kind of its value.
     pub(crate) kind: Kind,
-    /// Must it be there?
+    /// Whether it is required.
     pub(crate) is_required: bool,
     /// What it means.
     pub(crate) doc: Text,
 }
 
 impl Key {
-    /// Is this the key's name or another name for it?
+    /// Whether this is the key's name or one of its aliases.
     pub(crate) fn is_named(&self, name: &str) -> bool {
         self.name == name || self.aliases.iter().any(|alias| alias == name)
     }
@@ -45,27 +45,27 @@ pub(crate) struct TypeRow {
     pub(crate) class: Class,
     /// The type's name in upper case.
     pub(crate) name: Text,
-    /// Which of several rows of that name this is; they are told apart by the keys that are
-    /// required.
+    /// Which of several rows with that name this is; they are distinguished by the keys they
+    /// require.
     pub(crate) variant: Option<Text>,
     /// Other names for it.
     pub(crate) aliases: Vec<Text>,
-    /// The function of an action's plan; `NIL` for a motion, which has none.
+    /// The function that is an action's plan; `NIL` for a motion, which has none.
     pub(crate) plan: Sym,
     /// The keys that it reads.
     pub(crate) keys: Vec<Key>,
-    /// Of these keys at least one must be there; none if the list is empty.
+    /// At least one of these keys is required; none if the list is empty.
     pub(crate) one_of: Vec<Text>,
-    /// Is a designator without the keys that are needed taken for one of an unknown type?
+    /// Whether a designator that lacks required keys is treated as one of an unknown type.
     pub(crate) is_known_by_keys: bool,
     /// What it does.
     pub(crate) doc: Text,
-    /// A designator of the type, as it is written.
+    /// An example of a designator of the type.
     pub(crate) example: Option<Text>,
 }
 
 impl TypeRow {
-    /// Is this the type's name or another name for it?
+    /// Whether this is the type's name or one of its aliases.
     pub(crate) fn is_named(&self, name: &str) -> bool {
         self.names().any(|known| known == name)
     }
@@ -87,7 +87,7 @@ impl TypeRow {
         self.keys.iter().flat_map(Key::names)
     }
 
-    /// What is needed and not there, for people: a key that is required, or one of several.
+    /// What is required but missing, as shown to users: a key, or one of several.
     pub(crate) fn lacking(&self, is_there: impl Fn(&str) -> bool) -> Option<String> {
         let is_given = |key: &Key| key.names().any(&is_there);
         if let Some(key) = self.keys.iter().find(|k| k.is_required && !is_given(k)) {
@@ -105,7 +105,7 @@ impl TypeRow {
         Some(format!("one of {}", names.join(", ")))
     }
 
-    /// The shape of a designator of the type; keys that need not be there are in brackets.
+    /// The syntax of a designator of the type; optional keys are in brackets.
     pub(crate) fn shape(&self) -> String {
         let article = match self.class {
             Class::Motion => "a motion",

@@ -17,7 +17,7 @@ pub(crate) fn install(image: &mut Image) {
     image.extend(Types::default());
 }
 
-/// Adds a row; it takes the place of the one with the same name and variant, if there is one.
+/// Adds a row, replacing the one with the same name and variant, if there is one.
 pub(crate) fn define(image: &Image, row: TypeRow) {
     let Some(types) = image.extension::<Types>() else {
         return;
@@ -48,14 +48,14 @@ fn such(image: &Image, is_wanted: impl Fn(&TypeRow) -> bool) -> Vec<Rc<TypeRow>>
     rows.iter().filter(|row| is_wanted(row)).cloned().collect()
 }
 
-/// The rows of a type of that name or alias, those of the name first.
+/// The rows of a type with that name or alias, those with the name first.
 pub(crate) fn rows(image: &Image, class: Class, name: &str) -> Vec<Rc<TypeRow>> {
     let mut rows = such(image, |row| row.class == class && row.is_named(name));
     rows.sort_by_key(|row| row.name != name);
     rows
 }
 
-/// Is there a type of that name or alias?
+/// Whether there is a type with that name or alias.
 pub(crate) fn is_type(image: &Image, class: Class, name: &str) -> bool {
     !rows(image, class, name).is_empty()
 }
