@@ -167,7 +167,7 @@ impl BaseMotion {
         };
         let robot = world.robot_configuration();
         let mut checker = world.collision_checker();
-        // What is already close has not been brought about by driving on.
+        // Ignore what is close already: driving on did not cause that.
         let near = checker.all_hits(robot, &AllowedPairs::none(), margin);
         let allowed = near.into_iter().fold(AllowedPairs::none(), |all, hit| {
             all.and(hit.moving, hit.other)

@@ -30,7 +30,7 @@ pub(crate) enum MotionFailure {
     },
     /// No path leads to the goal.
     #[error(
-        "no way leads to {} for the robot as it stands{}",
+        "no path leads to {} for the robot in its present posture{}",
         place(.goal), list(", in the way: ", .blockers)
     )]
     Enclosed {
@@ -164,7 +164,7 @@ pub(crate) enum MotionFailure {
         right: Option<[f64; 2]>,
     },
     /// The arms would touch something at the goal.
-    #[error("the arms cannot be put there: {}", touch(.hit))]
+    #[error("the arms cannot go there: {}", touch(.hit))]
     ArmGoalInCollision {
         /// What would touch.
         hit: Box<CollisionHit>,
@@ -176,7 +176,7 @@ pub(crate) enum MotionFailure {
         hit: Box<CollisionHit>,
     },
     /// No path for the arms was found.
-    #[error("no path of the arms was found in {samples} attempts: {}", touch(.hit))]
+    #[error("no path for the arms was found in {samples} attempts: {}", touch(.hit))]
     ArmPathNotFound {
         /// What would touch on the straight path.
         hit: Box<CollisionHit>,
@@ -191,8 +191,8 @@ pub(crate) enum MotionFailure {
     },
     /// A hand missed its goal because something else moved the robot meanwhile.
     #[error(
-        "the {side} hand ended {:.1} mm and {:.1} degrees beside its goal, because torso or \
-         base were moved at the same time", .distance * 1e3, .angle.to_degrees()
+        "the {side} hand ended {:.1} mm and {:.1} degrees away from its goal, because the \
+         torso or the base moved at the same time", .distance * 1e3, .angle.to_degrees()
     )]
     HandGoalMissed {
         /// The hand.

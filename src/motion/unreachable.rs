@@ -69,7 +69,7 @@ impl fmt::Display for UnreachablePose {
                 configurations,
             } => write!(
                 f,
-                "all {configurations} postures that were tried touch something, one of them {} and {}",
+                "all {configurations} postures that were tried are in collision, one of them {} with {}",
                 hit.moving, hit.other
             ),
         }

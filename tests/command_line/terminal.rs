@@ -399,7 +399,7 @@ fn a_session_that_stood_still_is_resumed_where_it_stood() {
     terminal.kill();
     let resumed = Terminal::start_resumed(&state);
     resumed.wait_for("; Resumed 3 inputs");
-    resumed.wait_for("2: [ABORT] Back to the top.");
+    resumed.wait_for("2: [ABORT] Return to the top level.");
     resumed.wait_for_last_line("PP-TUT 1]>");
     resumed.line(":locals");
     resumed.wait_for("X = :HERE");

@@ -533,7 +533,7 @@ fn fluents() {
         ),
         (
             "(let ((f (make-fluent))) (wait-for f))",
-            "!! SIMPLE-ERROR Nothing can go on: …",
+            "!! SIMPLE-ERROR Nothing can continue: …",
         ),
         (
             "(let ((f (make-fluent))) (setf (value (not f)) 1))",
@@ -585,7 +585,7 @@ fn suspension_and_evaporation() {
         ),
         (
             "(tl (suspend *current-task*) :woken)",
-            "!! SIMPLE-ERROR Nothing can go on: …",
+            "!! SIMPLE-ERROR Nothing can continue: …",
         ),
         (
             "(tl (with-tags (par (seq (:tag a (suspend *current-task*) :a)) (seq (sleep 1) (wake-up a)))))",

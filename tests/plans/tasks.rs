@@ -202,7 +202,7 @@ fn joining() {
         ),
         (
             "(tl (with-tags (par (join-task a) (:tag a (sleep 1) :a))))",
-            "!! SIMPLE-ERROR The task A has not begun: nobody runs it.",
+            "!! SIMPLE-ERROR The task A has not begun: nothing runs it.",
         ),
         (
             "(tl (with-tags (par (seq (sleep 0.1) (join-task a)) (:tag a (sleep 1) :a))))",
@@ -222,7 +222,7 @@ fn a_deadlock_names_who_waits_for_what() {
         "(tl (with-tags (par (:tag a (wait-for *never*)) (:tag b (wait-for (not (status a)))))))",
     );
     assert!(
-        shown.starts_with("!! SIMPLE-ERROR Nothing can go on"),
+        shown.starts_with("!! SIMPLE-ERROR Nothing can continue"),
         "{shown}"
     );
     assert!(

@@ -1,10 +1,10 @@
-//! Arguments of motions: plain data, whatever language they were written in.
+//! Arguments of motions: plain data, in whatever language they were written.
 
 use crate::motion::{DetectQuery, PoseGoal};
 use crate::robot::Side;
 use crate::spatial::Pose;
 
-/// What a key of a motion takes.
+/// The kind of value that a key of a motion takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ArgumentKind {
     /// A finite number.
@@ -52,13 +52,13 @@ pub(crate) enum Argument {
     InWorld(Option<String>),
 }
 
-/// Why arguments make no motion.
+/// Why the arguments do not make a motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum ArgumentError {
-    /// Something is needed.
+    /// A required argument is missing.
     #[error("({} …) is needed", .0.to_lowercase())]
     Missing(&'static str),
-    /// The head does not look there.
+    /// The direction is unknown.
     #[error(
         "{0} direction is unknown for PR2 projection PTU\n\
          the head looks forward, left, right, up or down"
@@ -102,7 +102,7 @@ impl Arguments {
         }
     }
 
-    /// A list of numbers, if it is there.
+    /// A list of numbers, if given.
     pub(super) fn numbers(&self, key: &str) -> Option<Vec<f64>> {
         match self.get(key) {
             Some(Argument::Numbers(numbers)) => Some(numbers.clone()),
@@ -118,7 +118,7 @@ impl Arguments {
         }
     }
 
-    /// A pose in its frame, if it is there.
+    /// A pose in its frame, if given.
     pub(super) fn place(&self, key: &str) -> Option<PoseGoal> {
         match self.get(key) {
             Some(Argument::Place(place)) => Some(*place),
@@ -126,7 +126,7 @@ impl Arguments {
         }
     }
 
-    /// A word or the name of a frame, if it is there.
+    /// A word or the name of a frame, if given.
     pub(super) fn word(&self, key: &str) -> Option<&str> {
         match self.get(key) {
             Some(Argument::Word(word)) => Some(word),
@@ -156,7 +156,7 @@ impl Arguments {
         }
     }
 
-    /// An object of the world, if it is there; within, its name, if it has one.
+    /// An object in the world, if given; inside it, its name, if it has one.
     pub(super) fn in_world(&self, key: &str) -> Option<Option<String>> {
         match self.get(key) {
             Some(Argument::InWorld(name)) => Some(name.clone()),

@@ -114,11 +114,11 @@ impl Command for Gripping {
     }
 }
 
-/// Opens hands so far.
+/// Moves the fingers of hands to an opening.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MovingGripperJoint {
     hands: Vec<Side>,
-    /// How far (m) the fingers are to be apart.
+    /// Distance (m) between the fingers.
     opening: f64,
 }
 

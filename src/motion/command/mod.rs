@@ -1,9 +1,9 @@
-//! Motions as they are asked for: one variant for each type, with its arguments.
+//! Requested motions: one variant for each type, with its arguments.
 //!
-//! What there is to know of a type stands in its file: its names, its keys, how it is made of
-//! arguments, and the job that carries it out. A new type is a file and a line in the list
-//! below. Nothing here knows how a language writes values: [`ArgumentKind`] says what a key
-//! takes, and whoever asks for a motion provides [`Arguments`] of these kinds.
+//! Everything about a type is in its file: its names, its keys, how it is made from arguments, and
+//! the job that carries it out. A new type is a new file and a line in the list below. Nothing here
+//! depends on how a language writes values: [`ArgumentKind`] says what a key takes, and the caller
+//! provides [`Arguments`] of these kinds.
 
 mod argument;
 mod detecting;
@@ -22,9 +22,9 @@ pub(crate) use motion_type::{MotionKey, MotionType};
 
 use super::job::Motion;
 
-/// A type of motions: a structure of its arguments.
+/// A type of motions: a struct of its arguments.
 trait Command: Sized {
-    /// What is known of the type.
+    /// The description of the type.
     const TYPE: MotionType;
 
     /// The motion with these arguments.
@@ -36,7 +36,7 @@ trait Command: Sized {
 
 macro_rules! commands {
     ($($variant:ident($file:ident)),* $(,)?) => {
-        /// A motion that is asked for.
+        /// A requested motion.
         #[derive(Clone, Debug, PartialEq)]
         pub(crate) enum MotionCommand {
             $(#[doc = concat!("See [`", stringify!($file), "`].")] $variant($file::$variant)),*
@@ -46,8 +46,8 @@ macro_rules! commands {
         pub(crate) static TYPES: &[MotionType] = &[$($file::$variant::TYPE),*];
 
         impl MotionCommand {
-            /// The motion of the type of that name, which is no alias; `None` if there is no
-            /// such type.
+            /// The motion of the type with that name, which must not be an alias; `None` if there
+            /// is no such type.
             pub(crate) fn new(
                 name: &str,
                 arguments: &Arguments,
@@ -83,7 +83,7 @@ commands! {
     Waiting(waiting),
 }
 
-/// The type of that name, which is no alias.
+/// The type with that name, which must not be an alias.
 pub(crate) fn type_named(name: &str) -> Option<&'static MotionType> {
     TYPES.iter().find(|known| known.name == name)
 }

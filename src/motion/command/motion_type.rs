@@ -1,4 +1,4 @@
-//! What is known of a type of motions, and of its keys.
+//! Descriptions of types of motions and of their keys.
 
 use super::ArgumentKind;
 
@@ -11,12 +11,12 @@ pub(crate) struct MotionType {
     pub(crate) aliases: &'static [&'static str],
     /// What it takes.
     pub(crate) keys: &'static [MotionKey],
-    /// Of these keys at least one must be there; none if the list is empty.
+    /// At least one of these keys is required; none if the list is empty.
     pub(crate) one_of: &'static [&'static str],
-    /// Failures are about the value of the first of these keys that is there; else about the
+    /// Failures are about the value of the first of these keys that is given, or else about the
     /// motion as a whole.
     pub(crate) about: &'static [&'static str],
-    /// Does nobody take the motion who does not find the keys that are needed?
+    /// Whether a motion that lacks required keys is treated as one of an unknown type.
     pub(crate) is_known_by_keys: bool,
     /// What it does.
     pub(crate) doc: &'static str,
@@ -33,14 +33,14 @@ pub(crate) struct MotionKey {
     pub(crate) aliases: &'static [&'static str],
     /// What it takes.
     pub(crate) kind: ArgumentKind,
-    /// Must it be there?
+    /// Whether it is required.
     pub(crate) is_required: bool,
     /// What it means.
     pub(crate) doc: &'static str,
 }
 
 impl MotionKey {
-    /// A key that must be there.
+    /// A required key.
     pub(super) const fn required(
         name: &'static str,
         kind: ArgumentKind,
@@ -55,7 +55,7 @@ impl MotionKey {
         }
     }
 
-    /// A key that need not be there.
+    /// An optional key.
     pub(super) const fn optional(
         name: &'static str,
         kind: ArgumentKind,
@@ -67,7 +67,7 @@ impl MotionKey {
         }
     }
 
-    /// The key with other names.
+    /// The key with aliases.
     pub(super) const fn also(self, aliases: &'static [&'static str]) -> MotionKey {
         MotionKey { aliases, ..self }
     }

@@ -99,10 +99,10 @@ impl Scheduler {
     /// Why nothing can continue.
     pub(super) fn describe_deadlock(&self, image: &Image) -> String {
         let mut lines =
-            vec!["Nothing can go on: all that runs waits for what nobody will do.".to_owned()];
+            vec!["Nothing can continue: everything waits for what will never happen.".to_owned()];
         for task in self.tasks(image) {
             let reason = match task.status {
-                Status::Suspended => Some("somebody to wake it up".to_owned()),
+                Status::Suspended => Some("a call of WAKE-UP".to_owned()),
                 _ => task.waits_for,
             };
             if let Some(reason) = reason {
@@ -161,7 +161,7 @@ fn describe(image: &Image, live: &Live) -> Option<String> {
             None => "a task".to_owned(),
         },
         Wait::Death(task) => format!("the end of the task {}", task.get().name),
-        Wait::WakeUp => "somebody to wake it up".to_owned(),
+        Wait::WakeUp => "a call of WAKE-UP".to_owned(),
         Wait::Debugger => "a decision".to_owned(),
     })
 }

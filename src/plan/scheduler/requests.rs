@@ -171,7 +171,7 @@ impl Scheduler {
         match self.slot_of(&task) {
             None if task.get().status().is_dead() => Some(Answer::Decide(group)),
             None => Some(Answer::Raise(Raise::simple(format!(
-                "The task {} has not begun: nobody runs it.",
+                "The task {} has not begun: nothing runs it.",
                 task.get().name
             )))),
             Some(target) => {

@@ -59,8 +59,7 @@ impl Session {
             .snapshots
             .has_changed_since_form(&self.host.simulation)
         {
-            let label =
-                "[REWIND-FORM] Take the world back to before the form, and evaluate it again.";
+            let label = "[REWIND-FORM] Restore the world to before the form and evaluate it again.";
             choices.push((Choice::RewindForm, label.to_owned()));
         }
         choices.push((
@@ -69,10 +68,10 @@ impl Session {
         ));
         let level = self.console.levels.len();
         if level > 1 {
-            let label = format!("[ABORT-LEVEL] Back to level {}.", level - 1);
+            let label = format!("[ABORT-LEVEL] Return to level {}.", level - 1);
             choices.push((Choice::AbortLevel, label));
         }
-        choices.push((Choice::Abort, "[ABORT] Back to the top.".to_owned()));
+        choices.push((Choice::Abort, "[ABORT] Return to the top level.".to_owned()));
         choices
     }
 

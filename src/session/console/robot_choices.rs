@@ -67,7 +67,7 @@ impl Session {
                 if self.host.person.snapshots.has_motion_snapshot(first) {
                     let choice = again(action, &action.designator, Some(first));
                     let label = format!(
-                        "[BEFORE] Take the world back to before {}, and retry it.",
+                        "[BEFORE] Restore the world to before {} and retry it.",
                         action.shown
                     );
                     choices.push((choice, label));

@@ -125,8 +125,8 @@ impl Drop for Viewing {
     fn drop(&mut self) {
         self.0.viewers.fetch_sub(1, Ordering::Relaxed);
         let Some(pace) = &self.0.pace else { return };
-        // A user who reloads the page comes back at once. A pause that nobody sees and nobody
-        // can end ends by itself.
+        // A user who reloads the page comes back at once. A pause that no viewer can see or end
+        // ends by itself.
         thread::sleep(GONE);
         if self.0.viewers.load(Ordering::Relaxed) == 0 {
             pace.set_paused(false);
