@@ -52,8 +52,8 @@ pub(crate) enum Request {
 pub(crate) enum GroupKind {
     /// All must succeed.
     All,
-    /// The first to succeed decides; a failure fails.
+    /// The first to succeed decides; any failure fails the group.
     First,
-    /// The first to succeed decides; only failure of all fails.
+    /// The first to succeed decides; the group fails only if all fail.
     Any,
 }

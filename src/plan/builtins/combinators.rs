@@ -168,7 +168,8 @@ fn partial_order(machine: &mut Machine<'_>, mut args: Vec<Value>) -> Result<Step
 
 /// A cycle among the orderings, in words, if there is one.
 fn circle(edges: &[(TaskRef, TaskRef)]) -> Option<String> {
-    // Repeatedly removes tasks that wait for no other; if no ordering remains, there is no cycle.
+    // Repeatedly remove the orderings whose earlier task waits for none: if no ordering remains,
+    // there is no cycle.
     let mut left: Vec<&(TaskRef, TaskRef)> = edges.iter().collect();
     loop {
         let before = left.len();

@@ -10,8 +10,8 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::packages;
 
-/// Defines the condition classes. The failures of the plan language must have been defined;
-/// otherwise errors take their place.
+/// Defines the condition classes. If the failures of the plan language have not been defined,
+/// errors take their place.
 pub(crate) fn define(image: &mut Image) {
     let error = packages::symbol(image, "CRAM-DESIGNATORS", "DESIGNATOR-ERROR");
     let slots = ["DESIGNATOR", "REASON", "SUGGESTION"].map(|name| slot(image, name));

@@ -1,4 +1,4 @@
-//! Designators at work: each test evaluates text and compares what is printed.
+//! Tests of designators: each evaluates a text and compares what is printed.
 
 use super::MotionRequest;
 use super::schema::{self, Key, Kind, Text, TypeRow};

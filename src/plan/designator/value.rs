@@ -60,7 +60,7 @@ impl Class {
         }
     }
 
-    /// The class of that name, in any case of letters; `-DESIGNATOR` may follow.
+    /// The class with that name, ignoring case; `-DESIGNATOR` may follow.
     pub(crate) fn named(name: &str) -> Option<Class> {
         let name = name.to_uppercase();
         Class::ALL
@@ -314,7 +314,7 @@ impl Foreign for Designator {
     }
 }
 
-/// Keywords without their colon, everything else as it prints.
+/// Keywords without their colon, everything else as printed.
 fn bare(context: &dyn PrintContext, value: &Value, escape: bool) -> String {
     match value {
         Value::Symbol(sym) if context.is_keyword(*sym) => context.name(*sym).to_owned(),

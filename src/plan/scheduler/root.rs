@@ -204,8 +204,8 @@ impl Scheduler {
         }
     }
 
-    /// Nothing can continue: buries dying tasks; if there are none, reports the deadlock to the
-    /// root.
+    /// Nothing can continue: buries dying tasks, or else reports the last stop again, or else the
+    /// deadlock to the root.
     fn stuck(&mut self, image: &mut Image, host: &mut dyn Host, root: Slot) {
         if self.bury(image, host) || self.tell_stop_again() {
             return;
