@@ -32,7 +32,7 @@ pub(super) struct Compiler<'a> {
     functions: Vec<FunctionContext>,
     current: usize,
     stack_base: usize,
-    /// The place of the innermost form with one.
+    /// The place of the innermost enclosing form that has one.
     pub(crate) place: Place,
 }
 
@@ -100,7 +100,7 @@ impl<'a> Compiler<'a> {
         self.function().dynamic.borrow().len()
     }
 
-    /// Must leaving for `depth` run cleanup code?
+    /// Would an exit to `depth` run cleanup forms?
     pub(crate) fn crosses_cleanup(&self, depth: usize) -> bool {
         let dynamic = self.function().dynamic.borrow();
         dynamic
@@ -109,7 +109,7 @@ impl<'a> Compiler<'a> {
             .any(|k| *k == DynamicKind::Unwind)
     }
 
-    /// Analyses something inside a dynamic entry.
+    /// Analyses something inside `count` dynamic entries of a kind.
     pub(crate) fn inside<R>(
         &mut self,
         kind: DynamicKind,
@@ -126,12 +126,12 @@ impl<'a> Compiler<'a> {
         result
     }
 
-    /// Notes that a dynamic entry is open from here on.
+    /// Records that a dynamic entry is open from here on.
     pub(crate) fn open_dynamic(&self, kind: DynamicKind) {
         self.function().dynamic.borrow_mut().push(kind);
     }
 
-    /// Notes that only the outermost `depth` dynamic entries are still open.
+    /// Records that only the outermost `depth` dynamic entries are still open.
     pub(crate) fn close_dynamic(&self, depth: usize) {
         self.function().dynamic.borrow_mut().truncate(depth);
     }
@@ -148,7 +148,7 @@ impl<'a> Compiler<'a> {
         })
     }
 
-    /// Notes a reference to a variable from the current function.
+    /// Records a reference to a variable from the current function.
     pub(crate) fn refer(&self, var: &Rc<Var>) {
         var.used.set(true);
         if var.owner == self.current {
@@ -169,7 +169,7 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// Is the name bound dynamically wherever it is bound?
+    /// Is every binding of the name dynamic?
     pub(crate) fn is_special(&self, name: Sym) -> bool {
         self.image.symbol(name).kind == VariableKind::Special
     }
@@ -253,7 +253,7 @@ impl<'a> Compiler<'a> {
         Ok(Node::Global(name, self.place))
     }
 
-    /// Notes the reference to a variable that nothing binds so far.
+    /// Takes a note of a reference to a variable that has no binding so far.
     fn note_variable(&mut self, name: Sym, scope: &Scope) {
         if self.image.notes.is_none() {
             return;
@@ -261,7 +261,7 @@ impl<'a> Compiler<'a> {
         let image = &*self.image;
         let bound: Vec<Sym> = scope.variables().collect();
         let wanted = image.name(name);
-        // Among one or two letters everything is near.
+        // Any two names of one or two letters are close to each other.
         let is_long = wanted.chars().count() > 2;
         let names = bound.iter().map(|sym| image.name(*sym));
         let near = closest_name(wanted, names).filter(|_| is_long);
@@ -350,7 +350,7 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// Notes a form with an operator of the language that defines something.
+    /// Takes a note of a form with an operator of the language that defines something.
     fn note_definition(&mut self, operator: Sym, form: &Value) {
         if self.image.notes.is_some() && self.image.name(operator).starts_with("DEF") {
             let place = self.place;
@@ -391,7 +391,7 @@ impl<'a> Compiler<'a> {
         })
     }
 
-    /// Binds a name: the binding, and the scope in which it is visible.
+    /// Binds a name; returns the binding and the scope in which it is visible.
     pub(crate) fn bind(
         &mut self,
         name: Sym,

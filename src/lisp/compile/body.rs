@@ -13,7 +13,6 @@ use crate::lisp::value::symbol::Sym;
 
 /// A body without its declarations and documentation.
 pub(super) struct Body {
-    /// The forms.
     pub(crate) forms: Value,
     /// Names declared special.
     pub(crate) specials: Vec<Sym>,
@@ -21,7 +20,7 @@ pub(super) struct Body {
     pub(crate) doc: Option<Rc<str>>,
 }
 
-/// Takes declarations, and a documentation string if one may stand there, off a body.
+/// Splits the declarations, and a documentation string if one is allowed, from a body.
 pub(super) fn parse_body(body: &Value, allow_doc: bool) -> Body {
     let mut forms = body.clone();
     let mut specials = Vec::new();
@@ -71,8 +70,8 @@ impl Compiler<'_> {
         self.analyze_progn(&body.forms, &scope)
     }
 
-    /// Analyses `(lambda-list body…)` as a function. With a block name, the body stands in
-    /// a block of that name.
+    /// Analyses `(lambda-list body…)` as a function. With a block name, the body is inside a block
+    /// of that name.
     pub(crate) fn analyze_lambda(
         &mut self,
         name: Value,

@@ -1,5 +1,5 @@
-//! The conditionals and loops that programs are full of: every expansion counts when a file
-//! is loaded. The others are Lisp, in `library/control.lisp`.
+//! The conditionals and loops that programs use most, in Rust because each expansion takes time
+//! when a file is loaded. The others are in Lisp, in `library/control.lisp`.
 
 use crate::lisp::image::Image;
 use crate::lisp::print;

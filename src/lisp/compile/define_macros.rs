@@ -1,4 +1,4 @@
-//! The defining macros that the library in Lisp is made with, and `define-setf-expander`.
+//! The defining macros that the Lisp library itself is written with, and `define-setf-expander`.
 //! The others are in `library/definitions.lisp`.
 
 use crate::lisp::image::Image;
@@ -76,7 +76,7 @@ pub(super) fn defvar(image: &mut Image, form: &Value) -> Expansion {
     if rest.is_nil() {
         return Ok(form![known::DEFINE_VARIABLE, quote(name)]);
     }
-    // The value is computed only if the variable has none.
+    // The value is computed only if the variable is unbound.
     Ok(form![
         known::PROGN,
         form![

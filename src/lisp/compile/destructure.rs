@@ -7,7 +7,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
-/// Bindings for `let*` that take a list apart.
+/// Bindings for `let*` that destructure a list.
 struct Bindings<'a> {
     image: &'a mut Image,
     list: Vec<Value>,
@@ -28,7 +28,7 @@ impl Bindings<'_> {
         self.image.gensym(prefix).into()
     }
 
-    /// Binds a name or, through a variable, the names of a pattern.
+    /// Binds a name or, through a temporary variable, the names of a pattern.
     fn bind_pattern(&mut self, pattern: &Value, form: Value) -> Result<(), Box<Raise>> {
         match pattern {
             Value::Symbol(known::NIL) => {

@@ -15,7 +15,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
-/// What the context of a form wants of its values.
+/// Which values of a form its context uses.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Want {
     /// Nothing.
@@ -91,7 +91,7 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
     }))
 }
 
-/// Operations instead of calls of functions with so many arguments.
+/// The operation that replaces a call of the function with `count` arguments, if there is one.
 fn inline_operation(name: Sym, count: usize) -> Option<Op> {
     Some(match (name, count) {
         (known::CAR | known::FIRST, 1) => Op::Car,
@@ -222,7 +222,7 @@ impl Emitter<'_> {
         Ok(())
     }
 
-    /// Makes the value on top the value of a binding. It stays on the stack.
+    /// Binds the variable of a binding to the value on top, which stays on the stack.
     fn bind_top(&mut self, binding: &Binding) {
         let slot = self.height - 1;
         match binding {
@@ -241,7 +241,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// Notes for the debugger that a variable's scope begins here.
+    /// Records for the debugger that a variable's scope begins here.
     fn note_local(&mut self, slot: u32, name: Sym) {
         self.locals.push(Local {
             slot,
@@ -251,7 +251,7 @@ impl Emitter<'_> {
         });
     }
 
-    /// The scopes of the variables above `height` end here.
+    /// Ends the scopes of the variables above `height` here.
     fn end_locals(&mut self, height: u32) {
         let here = self.here();
         let above = self.locals.iter_mut().rev();
@@ -275,7 +275,7 @@ impl Emitter<'_> {
                 Op::Local(slot)
             }
         } else {
-            // The analysis lists every variable of an outer function that is referred to.
+            // The analysis lists every variable of an outer function that the code refers to.
             let i = self.free_index(var).unwrap_or(u32::MAX);
             if boxed { Op::FreeBox(i) } else { Op::Free(i) }
         };
@@ -298,7 +298,7 @@ impl Emitter<'_> {
         self.height -= 1;
     }
 
-    /// Emits a form. Afterwards the stack holds one value more, or none for `Effect`.
+    /// Emits a form. Afterwards the stack holds one more value, or no more for `Effect`.
     fn emit(&mut self, node: &Node, want: Want) -> Compiled<()> {
         match node {
             Node::Const(value) => self.emit_constant(value, want)?,
@@ -455,7 +455,8 @@ impl Emitter<'_> {
         Ok(())
     }
 
-    /// Emits the body of a catch: one dynamic entry, which the body's normal end drops.
+    /// Emits the body of a catch inside one dynamic entry, which is dropped when the body ends
+    /// normally.
     fn inside_dynamic(&mut self, body: &Node, want: Want) -> Compiled<()> {
         self.dynamic += 1;
         self.emit(body, at_least_one(want))?;
@@ -477,7 +478,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// After a jump, the code that follows counts on a value that never comes.
+    /// After a jump, counts the value that the unreachable code after it expects on the stack.
     fn pretend_value(&mut self, want: Want) {
         if want != Want::Effect {
             self.height += 1;
@@ -595,8 +596,7 @@ impl Emitter<'_> {
         Ok(())
     }
 
-    /// Drops the values above `height` but for the result, and the dynamic entries above
-    /// `dynamic`.
+    /// Drops the values above `height` except the result, and the dynamic entries above `dynamic`.
     fn close(&mut self, height: u32, dynamic: u32, want: Want) {
         self.end_locals(height);
         if self.dynamic > dynamic {
@@ -742,8 +742,8 @@ impl Emitter<'_> {
         arg_count(args.len())
     }
 
-    /// Emits the arguments of a call that is one operation, and returns that; the stack
-    /// will hold its result.
+    /// Emits the arguments of a call that is compiled to one operation, and returns that operation;
+    /// the height already counts its result.
     fn emit_inline(&mut self, name: Sym, args: &[Node]) -> Compiled<Option<Op>> {
         let Some(op) = inline_operation(name, args.len()) else {
             return Ok(None);

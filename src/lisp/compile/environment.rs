@@ -1,4 +1,4 @@
-//! Environments: what a macro function learns of the scope of its call.
+//! Environments: what a macro function can find out about the scope of its call.
 
 use super::scope::{FunctionMeaning, Scope, VariableMeaning};
 use crate::lisp::evaluator::nested;
@@ -29,9 +29,9 @@ impl Foreign for Environment {
     }
 }
 
-/// Expands a form that an environment's local macros or functions are about: the expansion,
-/// or `Some(None)` if the name is that of a local function or variable. `None` if the
-/// environment does not know the name.
+/// Expands a form with the local definitions of an environment: the expansion for a local macro,
+/// `Some(None)` if the name is that of a local function or variable, `None` if the environment does
+/// not know the name.
 pub(super) fn expand_locally(
     image: &mut Image,
     form: &Value,

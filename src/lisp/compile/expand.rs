@@ -8,12 +8,12 @@ use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::FunctionCell;
 
-/// Expands a form once with global macros; `None` if it is no macro call.
+/// Expands a form once with global macros; `None` if it is not a macro call.
 pub(crate) fn macroexpand_1(image: &mut Image, form: &Value) -> Result<Option<Value>, Box<Raise>> {
     macroexpand_1_in(image, form, &Value::NIL)
 }
 
-/// Expands a form once with the macros of an environment, as a macro function gets it.
+/// Expands a form once with the macros of an environment, as passed to a macro function.
 pub(crate) fn macroexpand_1_in(
     image: &mut Image,
     form: &Value,
@@ -47,12 +47,13 @@ pub(crate) fn macroexpand_1_in(
     }
 }
 
-/// Expands a form until it is no macro call; was it one?
+/// Expands a form until it is not a macro call; also returns whether it was one.
 pub(crate) fn macroexpand(image: &mut Image, form: &Value) -> Result<(Value, bool), Box<Raise>> {
     macroexpand_in(image, form, &Value::NIL)
 }
 
-/// Expands a form until it is no macro call, with the macros of an environment; was it one?
+/// Expands a form until it is not a macro call, with the macros of an environment; also returns
+/// whether it was one.
 pub(crate) fn macroexpand_in(
     image: &mut Image,
     form: &Value,

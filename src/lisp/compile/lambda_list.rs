@@ -10,7 +10,7 @@ use crate::lisp::value::symbol::Sym;
 /// An optional parameter.
 #[derive(Clone)]
 pub(crate) struct Optional {
-    /// Its name, or a pattern in a destructuring lambda list.
+    /// Its name, or the pattern in a destructuring lambda list.
     pub(crate) pattern: Value,
     /// The form of its default.
     pub(crate) default: Value,
@@ -23,11 +23,9 @@ pub(crate) struct Optional {
 pub(crate) struct Key {
     /// The keyword (or other symbol) that names it in a call.
     pub(crate) keyword: Sym,
-    /// The parameter.
     pub(crate) parameter: Optional,
 }
 
-/// A lambda list.
 #[derive(Clone, Default)]
 pub(crate) struct LambdaList {
     /// `&whole`.

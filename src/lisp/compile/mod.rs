@@ -1,8 +1,8 @@
 //! From forms to code: macro expansion, special forms, resolution of names, emission.
 //!
-//! Compilation happens in two passes. The first turns a form into [`node::Node`]s: every
-//! name is resolved, every macro expanded, and it is known which variables are captured by
-//! inner functions and which are assigned. The second emits code.
+//! Compilation happens in two passes. The first turns a form into [`node::Node`]s: it resolves
+//! every name, expands every macro, and finds out which variables are captured by inner functions
+//! and which are assigned. The second emits code.
 
 mod analyze;
 mod body;
@@ -39,7 +39,7 @@ pub(crate) fn compile_form(image: &mut Image, form: &Value) -> Result<Rc<Code>, 
 /// Compiles a `lambda` expression into a function without free variables.
 pub(crate) fn compile_lambda(image: &mut Image, form: &Value) -> Result<Rc<Function>, Box<Raise>> {
     let code = compile_form(image, form)?;
-    // The code of `(lambda …)` at top level makes exactly that one closure.
+    // The code of a `(lambda …)` at top level makes exactly that one closure.
     match code.inner.first() {
         Some((inner, _)) => Ok(Rc::new(Function::closure(inner.clone(), Vec::new()))),
         None => Err(Raise::program("a lambda expression was expected")),

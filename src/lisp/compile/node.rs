@@ -1,4 +1,4 @@
-//! The program between reading and code: names resolved, macros expanded.
+//! The program between the reader and the code: names resolved, macros expanded.
 
 use std::rc::Rc;
 
@@ -54,7 +54,6 @@ pub(crate) struct LambdaNode {
     pub(crate) slots: Vec<Rc<Var>>,
     /// Defaults and auxiliary variables.
     pub(crate) prologue: Vec<Prologue>,
-    /// The body.
     pub(crate) body: Node,
     /// Free variables, in the order of the closure's captures.
     pub(crate) free: Vec<Rc<Var>>,
@@ -82,19 +81,17 @@ pub(crate) enum Node {
     Function(Sym, Place),
     /// The function `(setf name)` as a value.
     SetfFunction(Sym, Place),
-    /// `if`.
     If(Box<Node>, Box<Node>, Box<Node>),
     /// `or` of two.
     Or(Box<Node>, Box<Node>),
-    /// `progn`.
     Progn(Vec<Node>),
-    /// Bindings made in order after all (or, sequentially, each) initial value is known.
+    /// Bindings, made in order once all initial values are known or, if sequential, each after its
+    /// own.
     Let {
         /// Variables with initial values.
         bindings: Vec<(Binding, Node)>,
         /// Is each binding visible to the following initial values?
         sequential: bool,
-        /// The body.
         body: Box<Node>,
     },
     /// Variables bound to the values of a form.
@@ -103,16 +100,13 @@ pub(crate) enum Node {
         bindings: Vec<Binding>,
         /// The form.
         values: Box<Node>,
-        /// The body.
         body: Box<Node>,
     },
     /// Local functions, which may call each other.
     Labels(Vec<(Rc<Var>, Node)>, Box<Node>),
-    /// A call.
     Call(Target, Vec<Node>, Place),
     /// A function expression.
     Lambda(Rc<LambdaNode>),
-    /// A block.
     Block(Rc<Block>, Box<Node>),
     /// An exit from a block in the same function.
     LocalReturn(Rc<Block>, Box<Node>),
@@ -124,15 +118,11 @@ pub(crate) enum Node {
     LocalGo(Rc<Tagbody>, usize),
     /// A jump by unwinding.
     DynamicGo(Rc<Tagbody>, usize),
-    /// `catch`.
     Catch(Box<Node>, Box<Node>),
-    /// `unwind-protect`.
     UnwindProtect(Box<Node>, Box<Node>),
-    /// `multiple-value-call`.
     MultipleValueCall(Box<Node>, Vec<Node>, Place),
-    /// `multiple-value-prog1`; the flag tells it from `prog1`, which gives one value.
+    /// `multiple-value-prog1`; the flag distinguishes it from `prog1`, which returns one value.
     Prog1(Box<Node>, Vec<Node>, bool),
-    /// `progv`.
     Progv(Box<Node>, Box<Node>, Box<Node>),
     /// Handlers: a list of type specifiers and the functions, around a body.
     Handlers(Value, Vec<Node>, Box<Node>),

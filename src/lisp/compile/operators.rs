@@ -1,5 +1,5 @@
-//! The macros of the language that are not chapters of their own, and what the manual says
-//! of the special operators.
+//! The macros of the language that have no file of their own, and the manual's entries for the
+//! special operators.
 
 use super::{control_macros, define_macros, destructure, quasiquote, setf};
 use crate::lisp::builtin::{Expander, Operator};

@@ -5,7 +5,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
-/// The form that builds the template of `(quasiquote template)`.
+/// The form that `(quasiquote template)` expands into.
 pub(crate) fn expand_quasiquote(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
     let template = form.cdr_or_nil().car_or_nil();
     template_form(image, &template, 1)
@@ -23,7 +23,7 @@ fn template_form(image: &mut Image, template: &Value, depth: usize) -> Result<Va
     }
 }
 
-/// Neighbours in a template of a list.
+/// A run of neighbouring items in a list template.
 enum Part {
     /// Forms of single elements.
     Elements(Vec<Value>),
@@ -57,7 +57,7 @@ fn list_form(image: &mut Image, template: &Value, depth: usize) -> Result<Value,
         let next = cons.cdr();
         rest = next;
     };
-    // What comes last is not copied.
+    // The last part is not copied.
     while let Some(part) = parts.pop() {
         tail = Some(match (part, tail) {
             (Part::Elements(elements), None) => constant_or_list(elements),
@@ -69,7 +69,7 @@ fn list_form(image: &mut Image, template: &Value, depth: usize) -> Result<Value,
     Ok(tail.unwrap_or(Value::NIL))
 }
 
-/// The form of a list of elements that goes on with a tail.
+/// The form for a list of the elements followed by a tail.
 fn in_front(mut elements: Vec<Value>, tail: Value) -> Value {
     let name = match elements.len() {
         1 => known::CONS,
@@ -93,8 +93,8 @@ fn quoted_constant(form: &Value) -> Option<Value> {
     (cons.car().as_symbol() == Some(known::QUOTE)).then(|| cons.cdr().car_or_nil())
 }
 
-/// The form of `,form` at this depth; inside a nested backquote, the template that
-/// rebuilds the comma.
+/// The form for `,form` at this depth; inside a nested backquote, the template that rebuilds the
+/// comma.
 fn unquoted(image: &mut Image, item: &Value, depth: usize) -> Result<Option<Value>, Box<Raise>> {
     let Some(cons) = item.as_cons() else {
         return Ok(None);
@@ -113,7 +113,7 @@ fn unquoted(image: &mut Image, item: &Value, depth: usize) -> Result<Option<Valu
     }
 }
 
-/// The form of a list to splice in, if the item is `,@form` or one inside a deeper comma.
+/// The form for a list to splice in, if the item is `,@form` or one inside a deeper comma.
 fn splice(image: &mut Image, item: &Value, depth: usize) -> Result<Option<Value>, Box<Raise>> {
     let Some(cons) = item.as_cons() else {
         return Ok(None);

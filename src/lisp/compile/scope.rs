@@ -1,5 +1,4 @@
-//! What names mean at a point of a program: lexical variables, functions, macros, blocks
-//! and tags.
+//! What names mean at a point in a program: lexical variables, functions, macros, blocks and tags.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -10,7 +9,6 @@ use crate::lisp::value::symbol::Sym;
 
 /// A lexical variable (or local function, or identity of a block).
 pub(crate) struct Var {
-    /// Its name.
     pub(crate) name: Sym,
     /// The function that binds it.
     pub(crate) owner: usize,
@@ -20,7 +18,7 @@ pub(crate) struct Var {
     pub(crate) assigned: Cell<bool>,
     /// Its slot in the owner's frame, once code is emitted.
     pub(crate) slot: Cell<u32>,
-    /// Has the program read it?
+    /// Does the program read it?
     pub(crate) used: Cell<bool>,
 }
 
@@ -56,13 +54,11 @@ pub(crate) enum FunctionMeaning {
 pub(crate) enum DynamicKind {
     /// A binding, handlers, restarts or catch: undone by dropping it.
     Plain,
-    /// Cleanup code that must run.
+    /// Cleanup forms that must run.
     Unwind,
 }
 
-/// A block.
 pub(crate) struct Block {
-    /// Its name.
     pub(crate) name: Sym,
     /// The function it is in.
     pub(crate) owner: usize,
@@ -76,7 +72,6 @@ pub(crate) struct Block {
     pub(crate) used: Cell<bool>,
 }
 
-/// A tagbody.
 pub(crate) struct Tagbody {
     /// The tags: symbols or integers.
     pub(crate) tags: Vec<Value>,
@@ -94,7 +89,7 @@ pub(crate) struct Tagbody {
 pub(crate) enum Entry {
     /// A name in variable position.
     Variable(Sym, VariableMeaning),
-    /// A name in function position; the flag tells `(setf name)` from `name`.
+    /// A name in function position; the flag distinguishes `(setf name)` from `name`.
     Function(Sym, bool, FunctionMeaning),
     /// A block.
     Block(Rc<Block>),

@@ -9,8 +9,8 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
-/// A place taken apart: evaluate `values` into `temps` in order, bind `stores` to the new
-/// values, evaluate `setter`; `getter` reads the place.
+/// A setf expansion: evaluate `values` into `temps` in order, bind `stores` to the new values, then
+/// evaluate `setter`; `getter` reads the place.
 pub(crate) struct Expansion {
     /// Variables for the place's subforms.
     pub(crate) temps: Vec<Value>,
@@ -24,7 +24,7 @@ pub(crate) struct Expansion {
     pub(crate) getter: Value,
 }
 
-/// Takes a place apart.
+/// The setf expansion of a place.
 pub(crate) fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
     let cons = match place {
         Value::Symbol(_) => {
@@ -170,7 +170,7 @@ fn values_expansion(image: &mut Image, places: &[Value]) -> Result<Expansion, Bo
     Ok(all)
 }
 
-/// `(getf place indicator [default])`: stores a new property list in the inner place.
+/// `(getf place indicator [default])`: its setter stores a new property list in the inner place.
 fn nested_expansion(
     image: &mut Image,
     args: &[Value],
@@ -393,9 +393,8 @@ fn pairs(expanded: &Expansion) -> impl Iterator<Item = Value> + '_ {
         .map(|(t, v)| Value::list([t.clone(), v.clone()]))
 }
 
-/// A form that replaces a place's value by a function of it: `new_value` gets the form that
-/// reads the place and returns the form of the new value. `before` are evaluated first,
-/// with their variables bound.
+/// A form that replaces a place's value by a function of it: `new_value` maps the form that reads
+/// the place to the form for the new value. The variables in `before` are bound first.
 pub(crate) fn modify(
     image: &mut Image,
     place: &Value,
@@ -436,8 +435,8 @@ fn incremented(image: &mut Image, form: &Value, operator: Sym) -> Result<Value, 
         let var = gensym(image, "DELTA");
         (vec![(var.clone(), delta)], var)
     };
-    // `(incf place delta)` evaluates the place's subforms before the delta; with the delta
-    // in a variable of its own the difference shows only if those have effects on it.
+    // `(incf place delta)` should evaluate the place's subforms before the delta. Binding the delta
+    // to a variable first makes a difference only if the subforms have effects on it.
     modify(image, &place, before, |_, getter| {
         Value::list([operator.into(), getter, delta])
     })

@@ -1,4 +1,4 @@
-//! The special operators: those forms that the compiler translates itself.
+//! The special operators: the forms that the compiler translates itself.
 
 use std::rc::Rc;
 
@@ -113,7 +113,7 @@ fn lambda(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
     Ok(Node::Lambda(node))
 }
 
-/// `(named-lambda name lambda-list body…)`: a function with a name and a block of it.
+/// `(named-lambda name lambda-list body…)`: a function with a name and a block of that name.
 fn named_lambda(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
     let name = rest.car_or_nil();
     let rest = rest.cdr_or_nil();
@@ -122,7 +122,7 @@ fn named_lambda(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<N
     Ok(Node::Lambda(node))
 }
 
-/// The block that a function's body stands in: of its name, or of `name` in `(setf name)`.
+/// The name of the block around a function's body: the function's own, or `name` for `(setf name)`.
 fn block_name(name: &Value) -> Option<Sym> {
     match name {
         Value::Symbol(sym) => Some(*sym),
@@ -358,7 +358,7 @@ fn unwind_protect(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled
     let body = c.inside(DynamicKind::Unwind, 1, |c| {
         c.analyze(&rest.car_or_nil(), scope)
     })?;
-    // Leaving cleanup code early abandons the exit that it interrupted: by unwinding.
+    // An exit from the cleanup forms abandons the exit that they interrupted, so it has to unwind.
     let cleanup = c.inside(DynamicKind::Unwind, 1, |c| {
         c.analyze_progn(&rest.cdr_or_nil(), scope)
     })?;
@@ -409,7 +409,8 @@ fn multiple_value_bind(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Com
     })
 }
 
-/// A local function definition: name, is it `(setf name)`, lambda list, body.
+/// A local function definition: its name as written, the symbol in it, whether it is `(setf name)`,
+/// the lambda list and the body.
 fn local_function(c: &Compiler<'_>, spec: &Value) -> Compiled<(Value, Sym, bool, Value, Value)> {
     let name = spec.car_or_nil();
     let rest = spec.cdr_or_nil();
@@ -517,7 +518,7 @@ fn progv(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
     let symbols = c.analyze(&rest.car_or_nil(), scope)?;
     let rest = rest.cdr_or_nil();
     let values = c.analyze(&rest.car_or_nil(), scope)?;
-    // How many bindings there are is known at run time only: leave by unwinding.
+    // The number of bindings is known only at run time, so exits have to unwind.
     let body = c.inside(DynamicKind::Unwind, 1, |c| {
         c.analyze_progn(&rest.cdr_or_nil(), scope)
     })?;
