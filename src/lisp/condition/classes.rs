@@ -30,8 +30,8 @@ const fn entry(
     }
 }
 
-/// All standard conditions, and those of the implementation that have a name of their own:
-/// such a name ends in that of the standard condition which people handle it by.
+/// All standard conditions, and those that only this implementation has: the name of each of the
+/// latter ends in the name of the standard condition by which programs handle it.
 const TABLE: &[Entry] = &[
     entry("CONDITION", &["T"], &["REPORT"]),
     entry("WARNING", &["CONDITION"], &[]),
@@ -173,7 +173,7 @@ fn slot(image: &mut Image, name: &str) -> SlotDefinition {
         Some(name) => (name, None),
         None => (name, Some(Initform::Value(Value::NIL))),
     };
-    // A name that `COMMON-LISP` has already, such as STREAM, is that symbol.
+    // A name that `COMMON-LISP` already has, such as STREAM, is that symbol.
     let sym = match image.packages.find_symbol(PackageTable::CL, name) {
         Some((sym, _)) => sym,
         None => image.export_symbol(PackageTable::SYSTEM, name),

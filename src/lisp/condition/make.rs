@@ -11,18 +11,17 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
-/// A condition object some of whose slots still wait for their initial values.
+/// A condition object with slots that are still waiting for their initial values.
 pub(crate) struct Draft {
-    /// The condition.
     pub(crate) condition: Rc<Instance>,
-    /// Positions of slots whose value is that of the function.
+    /// Positions of those slots, each with the function that computes its value.
     pub(crate) pending: Vec<(usize, Rc<Function>)>,
 }
 
 /// The condition that an error in Rust code stands for.
 ///
-/// An explicit report is kept in the condition, so that it is found again; a
-/// `SIMPLE-CONDITION` also gets it as its format control.
+/// An explicit report is kept in the condition, so that it can be found again; a `SIMPLE-CONDITION`
+/// also gets it as its format control.
 pub(crate) fn make(image: &Image, raise: &Raise) -> Result<Value, Box<Raise>> {
     let (class, text, initargs) = match raise {
         Raise::Condition { condition, .. } => return Ok(condition.clone()),
@@ -76,7 +75,7 @@ pub(crate) fn make_condition(
     Ok(Value::Instance(draft(image, class, initargs)?.condition))
 }
 
-/// The text that a condition brings along itself: that of an error in Rust code.
+/// The report that is stored in the condition itself: that of an error in Rust code.
 #[cfg(test)]
 pub(crate) fn report(condition: &Value) -> Option<String> {
     match condition {
@@ -96,7 +95,7 @@ fn condition_class(image: &Image, name: Sym) -> Result<Rc<Class>, Box<Raise>> {
     }
 }
 
-/// The first value that is given wins; then default initargs; then initforms.
+/// Fills slots from initargs (the first of several wins), then default initargs, then initforms.
 fn fill(class: &Rc<Class>, initargs: &[(Sym, Value)]) -> Draft {
     let condition = Rc::new(Instance::new(class.clone()));
     let mut pending = Vec::new();

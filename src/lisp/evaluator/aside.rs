@@ -1,6 +1,6 @@
-//! Evaluation on top of a fiber that has stopped at a condition: a debugger's. The fiber's
-//! bindings and restarts are in force, its handlers are not. When the evaluation has ended,
-//! the fiber stands as before.
+//! Evaluation for a debugger, on top of a fiber that has stopped at a condition. The fiber's
+//! bindings and restarts are in force, its handlers are not. When the evaluation has ended, the
+//! fiber is as it was before.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -15,7 +15,7 @@ use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
-/// How an evaluation on top of a stopped fiber stands.
+/// The state of an evaluation on top of a stopped fiber.
 #[derive(Clone, Default)]
 pub(crate) enum AsideState {
     /// It is under way.
@@ -25,7 +25,7 @@ pub(crate) enum AsideState {
     Returned(Vec<Value>),
     /// It was ended by [`Aside::leave`].
     Ended,
-    /// It left the stopped fiber's place by a non-local exit: a restart.
+    /// It left the stopped fiber by a non-local exit: a restart.
     Left,
 }
 
@@ -57,7 +57,6 @@ impl Aside {
         }
     }
 
-    /// How it stands.
     pub(crate) fn state(&self) -> AsideState {
         self.state.borrow().clone()
     }
@@ -67,8 +66,8 @@ impl Aside {
         self.tag.clone()
     }
 
-    /// The function that calls another one aside, on a fiber that has stopped at
-    /// `condition`. It must be called once.
+    /// A function that calls another one aside, on a fiber that has stopped at `condition`. It must
+    /// be called once.
     pub(crate) fn call(&self, condition: Value, function: Value, args: Vec<Value>) -> Value {
         let state = self.state.clone();
         let call = move |machine: &mut Machine<'_>, _| {
@@ -86,7 +85,7 @@ impl Aside {
         Value::Function(Function::made_control(known::EVAL, (0, Some(0)), call))
     }
 
-    /// The function that ends the evaluation from further in, wherever it is.
+    /// A function that ends the evaluation from within, at any depth.
     pub(crate) fn leave(&self) -> Value {
         let (state, tag) = (self.state.clone(), self.tag.clone());
         let call = move |machine: &mut Machine<'_>, _| {
@@ -103,7 +102,7 @@ impl Default for Aside {
     }
 }
 
-/// The way back to the debugger.
+/// Records how the evaluation ended.
 struct Back(Rc<RefCell<AsideState>>);
 
 impl Back {
@@ -116,7 +115,7 @@ impl Back {
 }
 
 impl Drop for Back {
-    /// Dropped before the evaluation has returned: something has left it.
+    /// Dropped before the evaluation has returned: a non-local exit has left it.
     fn drop(&mut self) {
         let mut state = self.0.borrow_mut();
         if matches!(*state, AsideState::Running) {

@@ -1,5 +1,5 @@
-//! The frames of a fiber that stands still, as a debugger shows them: who was called with
-//! what, and the variables that were in force.
+//! The stack frames of a suspended fiber, as a debugger shows them: what was called with which
+//! arguments, and the variables in scope.
 
 use std::rc::Rc;
 
@@ -10,7 +10,7 @@ use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::Annotation;
 use crate::lisp::vm::fiber::{Fiber, Frame, FrameKind};
 
-/// A frame as people see it.
+/// A stack frame as the user sees it.
 pub(crate) struct FrameView {
     /// Its index in the fiber, outermost first.
     pub(crate) index: usize,
@@ -18,22 +18,21 @@ pub(crate) struct FrameView {
     pub(crate) name: Value,
     /// The parameters that are known, in order.
     pub(crate) arguments: Vec<Value>,
-    /// The place in the source of what it was doing.
+    /// The source place that it was executing.
     pub(crate) place: Place,
-    /// What the layer that made the call says of it.
+    /// What the layer that made the call says about it.
     pub(crate) annotation: Option<Rc<Annotation>>,
 }
 
 /// A variable of a frame.
 pub(crate) struct Variable {
-    /// Its name.
     pub(crate) name: Sym,
     /// Its value; unbound for a parameter that was not supplied.
     pub(crate) value: Value,
     place: VariablePlace,
 }
 
-/// Where a variable lies.
+/// Where a variable is stored.
 #[derive(Clone)]
 pub(crate) enum VariablePlace {
     /// On the value stack, counted from its bottom.
@@ -45,7 +44,7 @@ pub(crate) enum VariablePlace {
 }
 
 impl Variable {
-    /// Where it lies.
+    /// Where it is stored.
     pub(crate) fn place(&self) -> VariablePlace {
         self.place.clone()
     }
@@ -115,7 +114,7 @@ impl Fiber {
         }
     }
 
-    /// The variables in whose scope a frame is, each name once: the innermost.
+    /// The variables in scope in a frame; of several with one name, the innermost.
     pub(crate) fn variables(&self, frame: usize) -> Vec<Variable> {
         let Some(frame) = self.frames.get(frame) else {
             return Vec::new();

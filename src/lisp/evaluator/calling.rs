@@ -15,13 +15,13 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::fiber::{Dynamic, Frame, FrameKind};
 use crate::lisp::vm::machine::Machine;
 
-/// Calls that may be open at once.
+/// The most calls that may be open at once.
 const MOST_FRAMES: usize = 1_000_000;
-/// Calls beyond that limit for the handlers of the error that it causes.
+/// Calls allowed beyond that limit for the handlers of the error that it causes.
 const SPARE_FRAMES: usize = 10_000;
 
 impl Machine<'_> {
-    /// Calls a function, or the function of a symbol, with arguments in a vector.
+    /// Calls a function, or the function of a symbol, with its arguments in a vector.
     pub(super) fn call_value(&mut self, function: Value, args: Vec<Value>, multi: bool) -> Next {
         let function = match self.image.coerce_to_function(&function) {
             Ok(f) => f,
@@ -163,8 +163,8 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Calls a function whose arguments are the topmost `count` values; the call's result
-    /// takes the place of everything from `cut`.
+    /// Calls a function whose arguments are the topmost `count` values; the result replaces
+    /// everything from `cut` up.
     pub(super) fn call_on_stack(
         &mut self,
         function: Rc<Function>,

@@ -29,7 +29,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Pops a list of values and one of symbols and binds those.
+    /// Pops a list of values and a list of symbols, and binds the symbols.
     pub(super) fn progv(&mut self) -> Result<(), Box<Raise>> {
         let values = self.pop();
         let symbols = self.pop();
@@ -51,7 +51,7 @@ impl Machine<'_> {
         self.drop_dynamic(mark.unwrap_or(0));
     }
 
-    /// Undoes so many dynamic entries.
+    /// Undoes the innermost `count` dynamic entries.
     pub(super) fn pop_dynamic(&mut self, count: u32) {
         let length = self.fiber.dynamic.len() - count as usize;
         self.drop_dynamic(length);
@@ -94,7 +94,7 @@ impl Machine<'_> {
         });
     }
 
-    /// Protects what follows by the cleanup code at the target.
+    /// Protects what follows with the cleanup code at the target.
     pub(super) fn enter_unwind(&mut self, target: u32) {
         self.fiber.dynamic.push(Dynamic::Unwind {
             frame: self.fiber.frames.len() - 1,
@@ -103,13 +103,13 @@ impl Machine<'_> {
         });
     }
 
-    /// Leaves the protected part normally: pushes that no exit is under way.
+    /// Leaves the protected form normally: pushes the mark that no exit is pending.
     pub(super) fn leave_unwind(&mut self) {
         self.fiber.dynamic.pop();
         self.fiber.stack.push(Value::Int(0));
     }
 
-    /// Pops so many handler functions and establishes them with the types in a constant.
+    /// Pops `count` handler functions and establishes them with the types in a constant.
     pub(super) fn enter_handlers(&mut self, code: &Code, types: u32, count: u16) {
         let start = self.fiber.stack.len() - usize::from(count);
         let handlers: Rc<[Handler]> = code.constants[types as usize]

@@ -9,7 +9,7 @@ use crate::lisp::vm::fiber::{Frame, FrameKind};
 use crate::lisp::vm::machine::{Event, Machine};
 use crate::lisp::vm::step::Step;
 
-/// How the machine goes on.
+/// What the machine does next.
 pub(super) enum Next {
     /// Run the code of the topmost frame.
     Run,
@@ -19,18 +19,18 @@ pub(super) enum Next {
     Stop(Event),
 }
 
-/// Operations between two looks at the interrupt flag.
+/// The number of operations between two polls of the interrupt flag.
 pub(super) const INTERRUPT_INTERVAL: u32 = 4096;
 
 impl Machine<'_> {
-    /// Starts a call in a fiber that does nothing yet, and runs it.
+    /// Starts a call in an idle fiber and runs it.
     pub(crate) fn start(&mut self, function: Value, args: Vec<Value>) -> Event {
         self.fiber.enter(self.image);
         let next = self.call_value(function, args, true);
         self.go_on(next)
     }
 
-    /// Gives the answer to a request, or a value in place of a failed call, and goes on.
+    /// Resumes the fiber with the answer to its request, or with a value in place of a failed call.
     pub(crate) fn resume(&mut self, value: Value) -> Event {
         self.fiber.enter(self.image);
         let value = if self.fiber.wants_all {
@@ -41,7 +41,7 @@ impl Machine<'_> {
         self.go_on(Next::Deliver(value))
     }
 
-    /// Raises an error where a request was made, and goes on.
+    /// Resumes the fiber by raising an error where it made its request.
     pub(crate) fn resume_with_error(&mut self, raise: Box<Raise>) -> Event {
         self.fiber.enter(self.image);
         if let Raise::Condition { condition, .. } = &*raise {
@@ -52,8 +52,8 @@ impl Machine<'_> {
         self.go_on(next)
     }
 
-    /// Goes on with a call on top of whatever the fiber does; its value is the answer to
-    /// the request, or stands in place of the failed call.
+    /// Resumes the fiber with a call on top of its stack, whose value is the answer to the request
+    /// or replaces the failed call.
     pub(crate) fn resume_with_call(&mut self, function: Value, args: Vec<Value>) -> Event {
         self.fiber.enter(self.image);
         let multi = self.fiber.wants_all;
@@ -61,7 +61,7 @@ impl Machine<'_> {
         self.go_on(next)
     }
 
-    /// Leaves a frame and all above it, running cleanup code, and goes on with a call in its
+    /// Leaves a frame and all above it, running cleanup code, and continues with a call in its
     /// place.
     pub(crate) fn replace_frame(
         &mut self,
@@ -75,7 +75,7 @@ impl Machine<'_> {
         self.go_on(next)
     }
 
-    /// Goes on after an interrupt.
+    /// Continues after an interrupt.
     pub(crate) fn run(&mut self) -> Event {
         self.fiber.enter(self.image);
         let undelivered = self.fiber.undelivered.take();
@@ -93,7 +93,7 @@ impl Machine<'_> {
     fn go_on(&mut self, mut next: Next) -> Event {
         let mut budget = INTERRUPT_INTERVAL;
         loop {
-            // Code that calls builtins that call code is here more often than it jumps back.
+            // Code that calls builtins that call code passes here more often than it jumps back.
             budget -= 1;
             if budget == 0 {
                 next = self.or_interrupt(next, budget);
@@ -140,7 +140,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Does what a control builtin said.
+    /// Carries out the step that a control builtin returned.
     pub(super) fn take_step(&mut self, step: Step, multi: bool) -> Next {
         match step {
             Step::Return(value) => Next::Deliver(if multi { value } else { value.primary() }),
@@ -182,7 +182,7 @@ impl Machine<'_> {
         });
     }
 
-    /// What to do next, which is to stop if the budget is used up and there is an interrupt.
+    /// The next step, which is to stop if the budget is used up and an interrupt is pending.
     pub(super) fn or_interrupt(&mut self, next: Next, budget: u32) -> Next {
         if budget > 0 || matches!(next, Next::Stop(_)) || !self.is_interrupted() {
             return next;
@@ -207,7 +207,7 @@ impl Machine<'_> {
         }
     }
 
-    /// The place in the source of the call that is being carried out, innermost known first.
+    /// The source place of the call being executed: that of the innermost frame that has one.
     pub(crate) fn place(&self) -> Place {
         self.fiber
             .frames

@@ -1,4 +1,4 @@
-//! Does a condition fit a handler's type?
+//! Does a condition match a handler's type?
 
 use crate::lisp::evaluator::nested;
 use crate::lisp::image::Image;
@@ -7,7 +7,6 @@ use crate::lisp::types::typep_with;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 
-/// Is the condition of the type?
 pub(crate) fn is_of_type(
     image: &mut Image,
     condition: &Value,

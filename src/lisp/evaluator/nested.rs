@@ -1,4 +1,5 @@
-//! Calls outside any plan, to the end: of macro functions and the like, which cannot wait.
+//! Calls outside any plan, such as those of macro functions, which run to completion and cannot
+//! wait.
 
 use std::sync::atomic::Ordering;
 
@@ -9,10 +10,10 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::fiber::Fiber;
 use crate::lisp::vm::machine::{Event, Machine};
 
-/// Nested runs of macro functions.
+/// The deepest nesting of macro function runs.
 const MOST_NESTED: usize = 64;
 
-/// Calls a function to the end; the primary value.
+/// Calls a function and runs it to completion; returns the primary value.
 pub(crate) fn call_nested(
     image: &mut Image,
     function: Value,
@@ -21,7 +22,7 @@ pub(crate) fn call_nested(
     run_nested(image, function, args).map(Value::primary)
 }
 
-/// Like [`call_nested`], with all values.
+/// Like [`call_nested`], but returns all values.
 pub(crate) fn call_nested_values(
     image: &mut Image,
     function: Value,

@@ -1,4 +1,4 @@
-//! The calls that are open in a fiber, as they are told to people.
+//! The calls that are open in a fiber, as shown to the user.
 
 use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::source::Place;
@@ -6,11 +6,11 @@ use crate::lisp::value::function::Body;
 use crate::lisp::vm::fiber::FrameKind;
 use crate::lisp::vm::machine::Machine;
 
-/// Frames that are looked at.
+/// The most frames that are examined.
 const MOST_FRAMES: usize = 256;
 
 impl Machine<'_> {
-    /// The open calls that people can be told about, innermost first.
+    /// The open calls that can be shown to the user, innermost first.
     pub(super) fn calls(&self) -> Vec<OpenCall> {
         let frames = self.fiber.frames.iter().rev().take(MOST_FRAMES);
         frames

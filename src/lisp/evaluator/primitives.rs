@@ -10,20 +10,20 @@ use crate::lisp::vm::machine::Machine;
 type Binary = fn(&Value, &Value) -> Result<Value, Box<Raise>>;
 
 impl Machine<'_> {
-    /// Takes the top.
+    /// Pops the top value.
     #[inline(always)]
     pub(super) fn pop(&mut self) -> Value {
         self.fiber.stack.pop().unwrap_or_default()
     }
 
-    /// Drops so many from the top.
+    /// Drops the topmost `count` values.
     #[inline(always)]
     pub(super) fn drop_values(&mut self, count: u32) {
         let height = self.fiber.stack.len() - count as usize;
         self.fiber.stack.truncate(height);
     }
 
-    /// Drops so many below the top.
+    /// Drops `count` values below the top.
     #[inline(always)]
     pub(super) fn slide(&mut self, count: u32) {
         let top = self.pop();
@@ -38,7 +38,7 @@ impl Machine<'_> {
         self.fiber.stack.push(top);
     }
 
-    /// Pops the values of a call and pushes exactly so many of them.
+    /// Pops the values of a call and pushes exactly `count` of them.
     pub(super) fn spread(&mut self, count: u32) {
         let count = count as usize;
         match self.pop() {
@@ -59,14 +59,14 @@ impl Machine<'_> {
         }
     }
 
-    /// Puts the result of a function in place of the top.
+    /// Replaces the top with the result of a function.
     #[inline(always)]
     pub(super) fn map_top(&mut self, function: impl FnOnce(Value) -> Value) {
         let value = function(self.pop());
         self.fiber.stack.push(value);
     }
 
-    /// Puts the result of a function in place of the two topmost.
+    /// Replaces the two topmost values with the result of a function.
     #[inline(always)]
     pub(super) fn join_top(&mut self, function: impl FnOnce(Value, Value) -> Value) {
         let b = self.pop();
@@ -74,7 +74,7 @@ impl Machine<'_> {
         self.fiber.stack.push(function(a, b));
     }
 
-    /// The car of the top in its place.
+    /// Replaces the top with its car.
     #[inline(always)]
     pub(super) fn car(&mut self) -> Result<(), Box<Raise>> {
         let value = match self.pop() {
@@ -86,7 +86,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// The cdr of the top in its place.
+    /// Replaces the top with its cdr.
     #[inline(always)]
     pub(super) fn cdr(&mut self) -> Result<(), Box<Raise>> {
         let value = match self.pop() {
@@ -98,7 +98,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// The result of an operation on numbers in place of the two topmost.
+    /// Replaces the two topmost values with the result of an operation on numbers.
     #[inline(always)]
     pub(super) fn arithmetic(&mut self, operation: Binary) -> Result<(), Box<Raise>> {
         let b = self.pop();
@@ -121,7 +121,7 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// The answer to a comparison of the two topmost in their place.
+    /// Replaces the two topmost values with the result of comparing them.
     #[inline(always)]
     pub(super) fn compare(
         &mut self,

@@ -1,4 +1,4 @@
-//! Restarts: named ways to go on that a condition's handler, or a person, may choose.
+//! Restarts: named ways to continue, which a condition's handler or the user may choose.
 
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
@@ -9,7 +9,6 @@ use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::fiber::{Dynamic, Frame, FrameKind};
 use crate::lisp::vm::machine::Machine;
 
-/// A restart.
 pub(crate) struct Restart {
     /// Its name; `NIL` for an anonymous one.
     pub(crate) name: Sym,
@@ -38,7 +37,7 @@ impl Foreign for Restart {
     }
 }
 
-/// The tag under which a failed operation gets the value that it lacked.
+/// The tag of the catch at which a failed operation receives the value that it lacked.
 struct FailedOperation;
 
 impl Foreign for FailedOperation {
@@ -52,8 +51,8 @@ impl Foreign for FailedOperation {
 }
 
 impl Machine<'_> {
-    /// Establishes the restarts of an error about an unbound variable or an undefined
-    /// function: they give the value that the failed operation lacks.
+    /// Establishes the restarts of an error about an unbound variable or an undefined function:
+    /// they supply the value that the failed operation lacks.
     pub(super) fn offer_restarts(&mut self, raise: &Raise) {
         let Raise::Make {
             class, initargs, ..

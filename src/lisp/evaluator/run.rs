@@ -1,8 +1,8 @@
-//! The loop that runs the code of the topmost frame, one operation after the other.
+//! The loop that executes the code of the topmost frame, one operation after the other.
 //!
-//! What an operation does is in a function of its group, inlined here; the loop itself knows
-//! where code goes on. An operation either falls through to the next one, moves the program
-//! counter, leaves for another frame of code, or leaves the loop.
+//! The functions that carry out operations are grouped in files of their own and inlined here; the
+//! loop itself controls where execution continues. An operation either falls through to the next
+//! one, moves the program counter, switches to another frame of code, or leaves the loop.
 
 use super::entry::{INTERRUPT_INTERVAL, Next};
 use super::variables::unbox;
@@ -15,9 +15,9 @@ use crate::lisp::value::symbol::{FunctionCell, Sym};
 use crate::lisp::vm::fiber::{Frame, FrameKind};
 use crate::lisp::vm::machine::{Event, Machine};
 
-/// Where a call goes on.
+/// Where execution continues after a call.
 enum Called {
-    /// Behind it: its value is on the stack.
+    /// At the next operation: the call's value is on the stack.
     Here,
     /// In the topmost frame, which has changed.
     Frame,
@@ -51,7 +51,7 @@ impl Machine<'_> {
                     }
                 };
             }
-            // Goes on in the topmost frame, or outside the loop.
+            // Continues in the topmost frame, or outside the loop.
             macro_rules! leave {
                 ($next:expr) => {
                     match $next {
@@ -282,7 +282,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Calls the function below so many results with all their values.
+    /// Calls the function below the topmost `count` results with all their values.
     fn call_with_values(&mut self, count: usize, multi: bool) -> Next {
         let start = self.fiber.stack.len() - count;
         let results = self.fiber.stack.drain(start..);
@@ -291,7 +291,7 @@ impl Machine<'_> {
         self.call_value(called, args, multi)
     }
 
-    /// Returns the top from the topmost frame.
+    /// Returns the top value from the topmost frame.
     #[inline(always)]
     fn return_value(&mut self) -> Next {
         let value = self.pop();

@@ -40,7 +40,7 @@ impl Machine<'_> {
         }
     }
 
-    /// A condition could not be made or matched: the reason is the condition then.
+    /// Stops, with the reason as the condition, because a condition could not be made or matched.
     fn raise_again(&mut self, raise: &Raise) -> Next {
         let text = match raise {
             Raise::Make { report, .. } => report.clone(),
@@ -52,7 +52,7 @@ impl Machine<'_> {
         )))
     }
 
-    /// Remembers where a condition was signalled, unless that is known.
+    /// Remembers where a condition was signalled, unless that is already known.
     pub(crate) fn note_place(&mut self, condition: &Value, place: Place) {
         if place.is_some() && !self.image.knows_condition_calls(condition) {
             let mut calls = self.calls();
@@ -79,7 +79,7 @@ impl Machine<'_> {
         compute(self, "SIGNAL", search)
     }
 
-    /// Ends the masking of handlers that the innermost dynamic entry is.
+    /// Drops the innermost dynamic entry if it masks handlers.
     pub(super) fn unmask_handlers(&mut self) {
         if matches!(self.fiber.dynamic.last(), Some(Dynamic::HandlerMask(_))) {
             self.fiber.dynamic.pop();
@@ -122,8 +122,8 @@ impl Computation for Search {
 }
 
 impl Search {
-    /// The next handler that takes conditions of this type. The handlers from its own on
-    /// inwards are masked for its call.
+    /// The next handler whose type the condition matches. During its call, it and all handlers
+    /// inside it are masked.
     fn next(&mut self, machine: &mut Machine<'_>) -> Result<Option<Value>, Box<Raise>> {
         loop {
             let handlers = if self.tried > 0 {

@@ -31,7 +31,7 @@ impl Machine<'_> {
         }
     }
 
-    /// `throw`: the step that leaves the innermost catch of the tag with a value.
+    /// `throw`: the step that leaves the innermost catch with this tag, with a value.
     pub(crate) fn throw(&mut self, tag: &Value, value: Value) -> Result<Step, Box<Raise>> {
         let found = self
             .fiber
@@ -164,7 +164,7 @@ impl Machine<'_> {
         self.fiber.stack.truncate(height);
     }
 
-    /// Goes on with the exit that cleanup code, now at its end, interrupted.
+    /// Continues the exit that the cleanup code, now at its end, interrupted.
     pub(super) fn continue_unwinding(&mut self) -> Next {
         match self.fiber.pending.pop() {
             Some(pending) => self.unwind(pending.target, pending.value),

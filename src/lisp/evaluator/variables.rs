@@ -108,7 +108,7 @@ impl Machine<'_> {
         }
     }
 
-    /// Pushes a closure of the inner code of that number.
+    /// Pushes a closure over the inner code number `i`.
     pub(super) fn closure(&mut self, code: &Code, i: usize, base: usize, captured: &[Value]) {
         let (inner, captures) = &code.inner[i];
         let values = captures
@@ -123,7 +123,7 @@ impl Machine<'_> {
     }
 }
 
-/// What a box holds; anything else is itself.
+/// The contents of a box; any other value is returned unchanged.
 #[inline(always)]
 pub(super) fn unbox(value: &Value) -> Value {
     match value {

@@ -9,7 +9,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
-/// The function that a function designator means, if it means one.
+/// The function that a function designator denotes, if it denotes one.
 pub(crate) fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option<&'a Rc<Function>> {
     match designator {
         Value::Function(function) => Some(function),
@@ -38,7 +38,7 @@ pub(crate) fn callable(image: &Image, designator: &Value) -> Result<Value, Box<R
     }
 }
 
-/// The builtin that a function value is, by name.
+/// The name of the builtin, if a function value is one.
 pub(crate) fn builtin_name(function: &Value) -> Option<Sym> {
     match function {
         Value::Function(f) => match &f.body {

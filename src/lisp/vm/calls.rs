@@ -1,4 +1,4 @@
-//! How Rust code calls Lisp functions and goes on afterwards.
+//! How Rust code calls Lisp functions and continues afterwards.
 //!
 //! A builtin that calls functions, waits or asks for something is an asynchronous Rust
 //! function that awaits each of these. The Rust compiler turns it into a state machine,
@@ -25,7 +25,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::raise::Raise;
 
-/// How many calls of pure builtins are answered in a row before the machine gets a turn, so
+/// The most calls of pure builtins that are answered in a row before the machine gets a turn, so
 /// that endless ones can be interrupted.
 const DIRECT_CALLS: u32 = 1000;
 
@@ -57,12 +57,12 @@ impl Args {
     }
 }
 
-/// What a layer above the language says of a call while it is open, for those who look at
-/// the stack.
+/// What a layer above the language says about a call while it is open, for code that inspects the
+/// stack.
 pub(crate) struct Annotation {
     /// What the call is about; shown as its argument.
     pub(crate) subject: Value,
-    /// What else that layer wants to find with the frame.
+    /// Whatever else that layer wants to keep with the frame.
     pub(crate) note: Box<dyn Any>,
 }
 
@@ -74,7 +74,7 @@ enum Errand {
         args: Args,
         manner: Manner,
     },
-    /// The answer to a request of whoever runs the fiber.
+    /// The answer to a request to the code that runs the fiber.
     Request(Box<dyn Any>),
     /// Work on the machine.
     Work(Rc<dyn Work>),
@@ -98,37 +98,37 @@ struct Exchange {
     answer: Cell<Option<Value>>,
 }
 
-/// What an asynchronous builtin calls functions with.
+/// The means by which an asynchronous builtin calls functions.
 pub(crate) struct Calls(Rc<Exchange>);
 
 impl Calls {
-    /// Calls a function with one argument; the primary value.
+    /// Calls a function with one argument, for the primary value.
     pub(crate) fn call1(&self, function: &Value, a: Value) -> Awaited<'_> {
         self.call(function, Args::One([a]))
     }
 
-    /// Calls a function with two arguments; the primary value.
+    /// Calls a function with two arguments, for the primary value.
     pub(crate) fn call2(&self, function: &Value, a: Value, b: Value) -> Awaited<'_> {
         self.call(function, Args::Two([a, b]))
     }
 
-    /// Calls a function; the primary value.
+    /// Calls a function, for the primary value.
     pub(crate) fn call(&self, function: &Value, args: Args) -> Awaited<'_> {
         self.call_in(function, args, Manner::Plain)
     }
 
-    /// Calls a function, even a pure builtin, on top of a frame of the caller; the primary
-    /// value. Dynamic entries that the caller makes for the call need that.
+    /// Calls a function, even a pure builtin, on top of a frame of the caller, for the primary
+    /// value. Dynamic entries that the caller makes for the call need that frame.
     pub(crate) fn call_in_frame(&self, function: &Value, args: Vec<Value>) -> Awaited<'_> {
         self.call_in(function, Args::Many(args), Manner::Framed)
     }
 
-    /// Calls a function; all values (`Value::Multiple` unless exactly one).
+    /// Calls a function, for all values (`Value::Multiple` unless exactly one).
     pub(crate) fn call_for_values(&self, function: &Value, args: Vec<Value>) -> Awaited<'_> {
         self.call_in(function, Args::Many(args), Manner::Values)
     }
 
-    /// Calls a function with something to be said of the call; the primary value.
+    /// Calls a function with an annotation of the call, for the primary value.
     pub(crate) fn call_about(
         &self,
         annotation: Annotation,
@@ -148,7 +148,7 @@ impl Calls {
         })
     }
 
-    /// Makes a request to whoever runs the fiber; all values of the answer.
+    /// Makes a request to the code that runs the fiber, for all values of the answer.
     pub(crate) fn request(&self, request: impl Any) -> Awaited<'_> {
         self.awaited(Errand::Request(Box::new(request)))
     }
@@ -160,7 +160,7 @@ impl Calls {
         }
     }
 
-    /// Lets a closure work on the machine.
+    /// Runs a closure on the machine.
     pub(crate) fn with<R, F>(&self, work: F) -> Working<'_, R, F>
     where
         R: 'static,
@@ -239,9 +239,8 @@ where
     }
 }
 
-/// Runs an asynchronous builtin until it ends or needs the machine for a call. `name` is
-/// shown in backtraces. The builtin ends with a value, or with a step to be taken in its
-/// place.
+/// Runs an asynchronous builtin until it ends or needs the machine for a call. `name` is shown in
+/// backtraces. The builtin ends with a value, or with a step that replaces it.
 pub(crate) fn run<F, T>(
     machine: &mut Machine<'_>,
     name: &'static str,
@@ -264,14 +263,14 @@ where
     Box::new(suspended).advance(machine, None)
 }
 
-/// A builtin that waits.
+/// A builtin that is waiting.
 pub(crate) struct Suspended {
     name: &'static str,
     rest: Rest,
     annotation: Option<Rc<Annotation>>,
 }
 
-/// What is left of a builtin.
+/// The rest of a builtin.
 enum Rest {
     /// An asynchronous function.
     Function {
@@ -283,7 +282,7 @@ enum Rest {
 }
 
 impl Suspended {
-    /// A builtin that a computation is the rest of.
+    /// A builtin whose rest is a computation.
     pub(super) fn in_computation(name: &'static str, computation: Box<dyn Remainder>) -> Self {
         Self {
             name,
@@ -312,7 +311,7 @@ impl Suspended {
             if let Poll::Ready(outcome) = future.as_mut().poll(&mut context) {
                 return outcome;
             }
-            // A builtin awaits nothing but errands, so one is there.
+            // A builtin awaits nothing but errands, so there is one.
             match exchange.errand.take() {
                 Some(Errand::Work(work)) => work.perform(machine),
                 Some(Errand::Call {
@@ -348,7 +347,7 @@ impl Suspended {
         }
     }
 
-    /// Goes on with a computation that has come so far.
+    /// Continues a computation that has progressed this far.
     pub(super) fn go_on_computing(
         mut self: Box<Self>,
         machine: &mut Machine<'_>,
@@ -378,7 +377,7 @@ impl Suspended {
         }
     }
 
-    /// Goes on with the value.
+    /// Continues with the value that it was waiting for.
     pub(crate) fn resume(
         self: Box<Self>,
         machine: &mut Machine<'_>,
@@ -392,7 +391,7 @@ impl Suspended {
         self.name
     }
 
-    /// What is said of the call that is open.
+    /// The annotation of the open call.
     pub(crate) fn annotation(&self) -> Option<&Rc<Annotation>> {
         self.annotation.as_ref()
     }

@@ -6,13 +6,12 @@ use super::step::Step;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 
-/// How far a computation has come.
+/// How far a computation has progressed.
 pub(crate) enum Progress<T> {
     /// It has ended.
     Done(T),
     /// It needs the primary value of a call.
     Call {
-        /// The function.
         function: Value,
         /// The arguments.
         args: Vec<Value>,
@@ -28,7 +27,7 @@ pub(crate) trait Computation: 'static {
     /// entries made for the call.
     const NEEDS_FRAME: bool = false;
 
-    /// Goes on as far as possible. `answer` is the value of the call that it stopped at.
+    /// Continues as far as possible. `answer` is the value of the call that it stopped at.
     fn advance(
         &mut self,
         machine: &mut Machine<'_>,
@@ -42,7 +41,7 @@ impl Calls {
         &self,
         computation: C,
     ) -> Result<C::Output, Box<Raise>> {
-        // Boxed, since it goes to the machine and back for every call.
+        // Boxed, since it moves to the machine and back for every call.
         let mut computation = Box::new(computation);
         let mut answer = None;
         loop {

@@ -10,7 +10,7 @@ use crate::lisp::value::symbol::Sym;
 
 /// A call that has not returned.
 pub(crate) struct Frame {
-    /// What is to go on when a callee returns.
+    /// What continues when a callee returns.
     pub(crate) kind: FrameKind,
     /// Where the frame's values start on the stack.
     pub(crate) base: usize,
@@ -31,7 +31,7 @@ pub(crate) enum FrameKind {
         /// The next operation.
         pc: usize,
     },
-    /// A builtin that waits for a value.
+    /// A builtin that is waiting for a value.
     Native {
         /// The rest of the builtin.
         then: Box<Suspended>,
@@ -62,7 +62,7 @@ pub(crate) enum Dynamic {
         frame: usize,
         /// Height of the stack outside it.
         height: usize,
-        /// Where the code goes on.
+        /// Where the code continues.
         target: u32,
         /// Does its context want all values?
         multi: bool,
@@ -80,13 +80,12 @@ pub(crate) enum Dynamic {
     },
     /// A catch.
     Catch {
-        /// The tag.
         tag: Value,
         /// Its frame's index.
         frame: usize,
         /// Height of the stack outside it.
         height: usize,
-        /// Where the code goes on.
+        /// Where the code continues.
         target: u32,
         /// Does its context want all values?
         multi: bool,
@@ -108,23 +107,22 @@ pub(crate) enum Dynamic {
     Restarts(Value),
 }
 
-/// Where an unwinding goes.
+/// The destination of an unwinding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Target {
     /// Out of the block or catch at this dynamic index.
     Exit(usize),
     /// To a tag of the tagbody at this dynamic index.
     Tag(usize, u32),
-    /// Out of the frame of this index; the value, a function and its arguments in a list,
-    /// is called in its place.
+    /// Out of the frame with this index. The value, a list of a function and its arguments, is then
+    /// called in place of the frame.
     Frame(usize),
     /// Out of everything.
     Everything,
 }
 
-/// An unwinding that waits for cleanup code.
+/// An unwinding that waits for cleanup code to finish.
 pub(crate) struct Pending {
-    /// Where it goes.
     pub(crate) target: Target,
     /// The value it carries.
     pub(crate) value: Value,
@@ -141,9 +139,9 @@ pub(crate) struct Fiber {
     pub(crate) frames: Vec<Frame>,
     /// The dynamic entries, innermost last.
     pub(crate) dynamic: Vec<Dynamic>,
-    /// Unwindings that wait for cleanup code, innermost last.
+    /// Unwindings that wait for cleanup code to finish, innermost last.
     pub(crate) pending: Vec<Pending>,
-    /// Does whoever made the request that waits want all values of the answer?
+    /// Does the pending request want all values of the answer?
     pub(crate) wants_all: bool,
     /// A value that was on its way to the innermost frame when an interrupt came.
     pub(crate) undelivered: Option<Value>,
@@ -174,7 +172,8 @@ impl Fiber {
         }
     }
 
-    /// Binds a special variable for the rest of the fiber's life; before it first runs.
+    /// Binds a special variable for the rest of the fiber's life; to be called before it first
+    /// runs.
     pub(crate) fn bind(&mut self, sym: Sym, value: Value) {
         self.dynamic.push(Dynamic::Bind(sym, value));
     }

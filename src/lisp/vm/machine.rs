@@ -1,8 +1,8 @@
 //! The machine: one fiber running on one image.
 //!
-//! Calls of Lisp functions never recurse on the Rust stack. The machine stops when the
-//! fiber is done, when a builtin makes a request to whoever runs the fiber, when a
-//! condition has found no handler (the stack is still there), or on an interrupt.
+//! Calls of Lisp functions never recurse on the Rust stack. The machine stops when the fiber is
+//! done, when a builtin makes a request to the code that runs the fiber, when a condition has found
+//! no handler (the stack is still there), or on an interrupt.
 
 use std::any::Any;
 
@@ -12,9 +12,7 @@ use crate::lisp::value::Value;
 
 /// A fiber that runs on an image.
 pub(crate) struct Machine<'a> {
-    /// The image.
     pub(crate) image: &'a mut Image,
-    /// The fiber.
     pub(crate) fiber: &'a mut Fiber,
 }
 
@@ -22,12 +20,12 @@ pub(crate) struct Machine<'a> {
 pub(crate) enum Event {
     /// The fiber's function returned (`Value::Multiple` unless exactly one value).
     Done(Value),
-    /// A builtin made a request; `resume` with the answer.
+    /// A builtin made a request; `resume` takes the answer.
     Request(Box<dyn Any>),
     /// A condition was signalled by `error` and no handler took it. The fiber can be
     /// resumed with a value in place of the failed call, or unwound.
     Unhandled(Value),
-    /// The interrupt flag was set; `run` goes on.
+    /// The interrupt flag was set; `run` continues.
     Interrupted,
     /// An unwinding of everything has ended.
     Unwound,

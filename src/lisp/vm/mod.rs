@@ -1,5 +1,5 @@
-//! What runs Lisp, as data: the machine with its fiber, and the steps that builtins tell it
-//! to take. [`super::evaluator`] takes them.
+//! The data of what runs Lisp: the machine with its fiber, and the steps that builtins ask it to
+//! take. [`super::evaluator`] carries them out.
 
 pub(crate) mod callable;
 pub(crate) mod calls;

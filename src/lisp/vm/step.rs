@@ -12,25 +12,23 @@ pub(crate) enum Step {
     Return(Value),
     /// Call a function (or a symbol that names one) and hand its value to `then`.
     Call {
-        /// The function.
         function: Value,
         /// The arguments.
         args: Vec<Value>,
         /// Does `then` get all values (`Value::Multiple` unless exactly one), or the primary
         /// one?
         all: bool,
-        /// What goes on afterwards.
+        /// What continues afterwards.
         then: Box<Suspended>,
     },
     /// Call a function in place of this builtin.
     TailCall {
-        /// The function.
         function: Value,
         /// The arguments.
         args: Vec<Value>,
     },
-    /// Suspend the fiber with a request to whoever runs it; the answer is the value that
-    /// the fiber is resumed with.
+    /// Suspend the fiber with a request to the code that runs it; the answer is the value that the
+    /// fiber is resumed with.
     Request(Box<dyn Any>),
     /// Like `Request`; the answer goes to `then`.
     RequestThen(Box<dyn Any>, Box<Suspended>),
