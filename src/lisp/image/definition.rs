@@ -1,4 +1,4 @@
-//! A definition in a file of the library: where it is, and what its text says of it.
+//! A definition in a file of the library: where it is, and what its text says about it.
 
 use std::rc::Rc;
 use std::sync::OnceLock;
@@ -13,7 +13,6 @@ use crate::lisp::value::symbol::Sym;
 pub(crate) struct File {
     /// Its path in the source of the program.
     pub(crate) name: &'static str,
-    /// Its text.
     pub(crate) text: &'static str,
 }
 
@@ -32,11 +31,10 @@ pub(crate) enum Kind {
 
 /// A form at top level of a file of the library.
 pub(crate) struct Definition {
-    /// The file.
     pub(crate) file: &'static File,
-    /// The bytes of the file that it covers; blanks and comments may follow it there.
+    /// Its first byte in the file.
     pub(crate) start: usize,
-    /// The byte behind it.
+    /// The byte after it; blanks and comments that follow it are included.
     pub(crate) end: usize,
     /// The line on which it begins, from one.
     pub(crate) line: usize,
@@ -51,7 +49,7 @@ pub(crate) struct Definition {
     signature: OnceLock<Signature>,
 }
 
-/// Compiles a definition, which is to be the function of a name.
+/// Compiles a definition into the function of a name.
 pub(crate) type Compile =
     fn(&mut Image, &'static Definition, Sym) -> Result<Rc<Function>, Box<Raise>>;
 
@@ -67,7 +65,7 @@ pub(crate) struct Installed {
 }
 
 impl Image {
-    /// The function of a definition, compiled if that has not happened.
+    /// The function of a definition; compiles it unless that has already happened.
     pub(crate) fn force(&mut self, deferred: &Deferred) -> Result<Rc<Function>, Box<Raise>> {
         if let Some(function) = deferred.function.get() {
             return Ok(function.clone());
@@ -81,7 +79,7 @@ impl Image {
     }
 }
 
-/// What the text of a definition says to people.
+/// What the text of a definition tells the user.
 #[derive(Default, Debug)]
 pub(crate) struct Signature {
     /// The lambda list, without its parentheses.
@@ -92,7 +90,7 @@ pub(crate) struct Signature {
     pub(crate) examples: Vec<String>,
 }
 
-/// The line of a docstring after which its examples stand.
+/// The line of a docstring that introduces its examples.
 const EXAMPLES: &str = "Examples:";
 
 impl Definition {
@@ -111,17 +109,17 @@ impl Definition {
         }
     }
 
-    /// The text, from its opening parenthesis on.
+    /// The text, starting with its opening parenthesis.
     pub(crate) fn text(&self) -> &'static str {
         self.file.text.get(self.start..self.end).unwrap_or("")
     }
 
-    /// File and line, as people write them.
+    /// The location in the form `file:line`.
     pub(crate) fn location(&self) -> String {
         format!("{}:{}", self.file.name, self.line)
     }
 
-    /// Is it of use to the library alone?
+    /// Is it a helper for the library only?
     pub(crate) fn is_helper(&self) -> bool {
         self.name.starts_with('%')
     }
@@ -132,7 +130,7 @@ impl Definition {
     }
 }
 
-/// Reads what stands behind the name of a definition.
+/// Reads what follows the name of a definition.
 fn read_signature(text: &str) -> Signature {
     let mut rest = text.strip_prefix('(').unwrap_or(text);
     let operator = take_item(&mut rest);
@@ -175,7 +173,7 @@ fn on_one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Takes a token, a string or a list, and the blanks before it, off a text.
+/// Splits a token, a string or a list off the front of a text, with the blanks before it.
 pub(crate) fn take_item<'a>(rest: &mut &'a str) -> &'a str {
     let text = rest.trim_start();
     let mut depth = 0_usize;

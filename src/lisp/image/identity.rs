@@ -1,7 +1,7 @@
 //! Made-up addresses: `{1001000003}`.
 //!
-//! Objects that cannot be read back are told apart by a number that they get when they
-//! are first printed. Real addresses would differ from run to run.
+//! Objects that cannot be read back are distinguished by a number that they get when they are first
+//! printed. Real addresses would differ from run to run.
 
 use std::collections::HashMap;
 use std::rc::{Rc, Weak};
@@ -17,10 +17,10 @@ use crate::lisp::value::stream::Stream;
 
 /// The first number.
 const FIRST: u64 = 0x10_0100_0000;
-/// Distance of two numbers.
+/// The distance between consecutive numbers.
 const STEP: u64 = 0x40;
-/// Numbers of dead objects are forgotten when this many objects have one, and when that
-/// many more have.
+/// The numbers of dead objects are forgotten when this many objects have one, and then whenever the
+/// count has doubled since.
 const SWEEP_FROM: usize = 1024;
 
 enum Held {
@@ -66,14 +66,14 @@ fn address<T>(object: &Rc<T>) -> usize {
     Rc::as_ptr(object).cast::<()>() as usize
 }
 
-/// The numbers that objects of an image have got.
+/// The numbers assigned to objects of an image.
 #[derive(Default)]
 pub(crate) struct Identities {
     /// By address; an address may have been used again, so the object is held weakly.
     entries: HashMap<usize, (u64, Held)>,
     given: u64,
     sweep_at: usize,
-    /// Whether objects without a number get none now.
+    /// Do objects without a number stay without one for now?
     is_aside: bool,
 }
 
@@ -109,8 +109,8 @@ pub(crate) fn identity(image: &Image, value: &Value) -> String {
     }
 }
 
-/// Prints something that is shown beside the session, such as a completion: objects get no
-/// numbers by that, so that the session prints the same whoever looks on.
+/// Prints something that is shown beside the session, such as a completion. Objects get no numbers
+/// from that, so that the session's own output does not depend on it.
 pub(crate) fn aside<T>(image: &Image, print: impl FnOnce() -> T) -> T {
     let was_aside = std::mem::replace(&mut image.printed.borrow_mut().is_aside, true);
     let printed = print();

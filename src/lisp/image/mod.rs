@@ -1,4 +1,4 @@
-//! One Lisp image: everything that global names mean.
+//! One Lisp image: the meanings of all global names.
 
 pub(crate) mod definition;
 pub(crate) mod identity;
@@ -35,7 +35,6 @@ use super::value::package::{Access, PackageId, PackageTable};
 use super::value::raise::Raise;
 use super::value::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
 
-/// An image.
 pub(crate) struct Image {
     /// All symbols.
     pub(crate) symbols: SymbolTable,
@@ -47,7 +46,7 @@ pub(crate) struct Image {
     pub(crate) types: IndexMap<Sym, Rc<Function>>,
     /// Source texts and places.
     pub(crate) sources: Sources,
-    /// Text written to standard output that nobody has taken yet.
+    /// Text written to standard output that has not been taken yet.
     pub(crate) output: Output,
     /// Seed and state of `random`.
     pub(crate) random: rand_pcg::Pcg64,
@@ -55,23 +54,23 @@ pub(crate) struct Image {
     pub(crate) setf_expanders: IndexMap<Sym, SetfExpander>,
     /// Set from outside to interrupt the machine.
     pub(crate) interrupt: Arc<AtomicBool>,
-    /// How often has the flag been looked at? Counts the same in every run, so that an
-    /// interrupt can be repeated.
+    /// Counts the polls of the flag. The count is the same in every run, so that an interrupt can
+    /// be repeated.
     pub(crate) polls: Polls,
     /// Bytes of the Rust stack that the compiler may use for nested forms.
     pub(crate) stack_budget: usize,
-    /// What the compiler notices, while somebody wants to know.
+    /// What the compiler notices; `None` unless notes are wanted.
     pub(crate) notes: Option<Vec<Note>>,
-    /// Runs of macro functions inside each other.
+    /// How deeply runs of macro functions are nested.
     pub(crate) nesting: usize,
     signalled: Signalled,
     identities: i64,
-    /// What the tables say of functions, macros and special operators, by name: calls, help,
+    /// What the tables say about functions, macros and special operators, by name: calls, help,
     /// completion, the manual and the test of the examples read this one table.
     pub(crate) entries: IndexMap<Sym, Entry>,
     /// The part of the language that is written in Lisp.
     pub(crate) library: Installed,
-    /// Where the reader puts symbols that the current package does not know, if not there.
+    /// The package that receives symbols unknown to the current package, if not that package.
     pub(crate) new_symbols: Option<PackageId>,
     /// The Rust functions of builtins, by number.
     pub(super) natives: Vec<BuiltinCall>,
@@ -81,10 +80,9 @@ pub(crate) struct Image {
     extensions: Vec<Rc<dyn Any>>,
 }
 
-/// The stream of the random generator: any constant does.
+/// The stream of the random generator: any constant will do.
 const STREAM: u128 = 0xa02b_dbf7_bb3c_0a7a;
-/// Bytes of the Rust stack that the compiler may use unless told otherwise: a test's
-/// thread has two megabytes.
+/// Bytes of the Rust stack that the compiler may use by default: a test's thread has two megabytes.
 const STACK_BUDGET: usize = 1 << 20;
 
 impl Image {
@@ -129,7 +127,7 @@ impl Image {
         self.polls.look(&self.interrupt)
     }
 
-    /// Was the interrupt flag set? It is not afterwards.
+    /// Was the interrupt flag set? Clears it.
     pub(crate) fn take_interrupt(&self) -> bool {
         let was = self.is_interrupted();
         if was {
@@ -151,7 +149,7 @@ impl Image {
         self.random = rand_pcg::Pcg64::new(u128::from(seed), STREAM);
     }
 
-    /// Keeps a value of a layer above the language, in place of one of the same type.
+    /// Keeps a value of a layer above the language, replacing any value of the same type.
     pub(crate) fn extend<T: 'static>(&mut self, value: T) -> Rc<T> {
         let value = Rc::new(value);
         self.extensions.retain(|kept| !kept.is::<T>());
@@ -166,7 +164,7 @@ impl Image {
             .find_map(|kept| kept.clone().downcast().ok())
     }
 
-    /// The symbol that the reader means by a name without a prefix.
+    /// The symbol that a name without a prefix is read as.
     pub(crate) fn intern_read(&mut self, name: &str) -> Sym {
         let current = self.current_package();
         let package = match self.new_symbols {
@@ -176,13 +174,13 @@ impl Image {
         self.intern(package, name)
     }
 
-    /// A number that no block or tagbody had before.
+    /// A number that no block or tagbody has had before.
     pub(crate) fn fresh_identity(&mut self) -> i64 {
         self.identities += 1;
         self.identities
     }
 
-    /// The function that a function or a symbol designates.
+    /// The function that a function object or a symbol designates.
     pub(crate) fn coerce_to_function(
         &self,
         designator: &Value,
@@ -230,7 +228,7 @@ impl Image {
         self.symbols.get_mut(sym).value = value;
     }
 
-    /// The symbol `name` of a package, made if need be.
+    /// The symbol `name` of a package, created if necessary.
     pub(crate) fn intern(&mut self, package: PackageId, name: &str) -> Sym {
         self.packages.intern(&mut self.symbols, package, name)
     }
@@ -268,7 +266,7 @@ impl Image {
             .is_some_and(|(found, _)| found == sym)
     }
 
-    /// How the symbol stands in its home package.
+    /// How the symbol is accessible in its home package.
     pub(crate) fn home_access(&self, sym: Sym) -> Option<Access> {
         let data = self.symbols.get(sym);
         self.packages
@@ -304,7 +302,7 @@ impl Image {
         }
     }
 
-    /// Makes a symbol's bindings dynamic and gives it a value.
+    /// Makes a symbol a special variable and gives it a value.
     pub(crate) fn define_special(&mut self, sym: Sym, value: Value) {
         let data = self.symbols.get_mut(sym);
         data.kind = VariableKind::Special;
@@ -328,7 +326,7 @@ impl Image {
         }
     }
 
-    /// Installs the functions of a table as what `setf` calls for the places of those
+    /// Installs the functions of a table as the functions that `setf` calls for places with those
     /// names; the new value is their first argument.
     pub(crate) fn install_setf(&mut self, package: PackageId, table: &'static [Builtin]) {
         for setter in table {
@@ -347,7 +345,7 @@ impl Image {
         }
     }
 
-    /// The macro written in Rust or special operator of a name.
+    /// The macro written in Rust, or the special operator, with this name.
     pub(crate) fn operator(&self, name: Sym) -> Option<&'static Operator> {
         match self.entries.get(&name)? {
             Entry::Operator(operator) => Some(operator),
@@ -355,7 +353,7 @@ impl Image {
         }
     }
 
-    /// What the tables say of a name, unless a program has given it another meaning.
+    /// What the tables say about a name, unless a program has given it another meaning.
     pub(crate) fn entry(&self, name: Sym) -> Option<Entry> {
         let entry = *self.entries.get(&name)?;
         let is_current = match (&self.symbol(name).function, entry) {

@@ -1,6 +1,6 @@
-//! What the compiler notices about a program beside what it needs for its code: the
-//! material of checks. Notes are taken only while [`Image::notes`] is there, and never
-//! change what is compiled.
+//! What the compiler notices about a program beyond what it needs to generate code: the material
+//! for checks. Notes are taken only while [`Image::notes`] is set, and never change what is
+//! compiled.
 //!
 //! [`Image::notes`]: crate::lisp::image::Image::notes
 
@@ -20,15 +20,15 @@ pub(crate) struct Note {
 /// What was noticed.
 #[derive(Clone)]
 pub(crate) enum NoteKind {
-    /// A global function is called with so many arguments, or only named.
+    /// A global function is called with this many arguments or, without a number, only named.
     Function(Sym, Option<usize>),
-    /// A name is read as a global variable, and the bound name that is nearest to it.
+    /// A name is read as a global variable; the second name is the closest bound one.
     Variable(Sym, Option<Sym>),
     /// A global variable is assigned.
     Assigned(Sym),
     /// A form whose operator defines something.
     Definition(Value),
-    /// A mistake in a form, for people, and the name that is wrong.
+    /// A mistake in a form, described for the user, and the name that is wrong.
     Mistake {
         /// The wrong name in upper case.
         name: String,

@@ -24,7 +24,7 @@ impl Output {
         }
     }
 
-    /// Notes that what is written next stands at the start of a line.
+    /// Records that what is written next starts a line.
     pub(crate) fn begin_line(&mut self) {
         self.column = 0;
     }

@@ -1,10 +1,10 @@
-//! Counting how often the interrupt flag is looked at. The count depends on the program
-//! alone, so it tells where an interrupt came, and where to repeat it.
+//! Counting the polls of the interrupt flag. The count depends only on the program, so it tells
+//! when an interrupt came and when to repeat it.
 
 use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A count of looks at the interrupt flag.
+/// A count of polls of the interrupt flag.
 #[derive(Debug, Default)]
 pub(crate) struct Polls {
     count: Cell<u64>,
@@ -13,26 +13,26 @@ pub(crate) struct Polls {
 }
 
 impl Polls {
-    /// Begins a new count. At the given look, if any, the flag will be found set.
+    /// Begins a new count. At the given poll, if any, the flag will be found set.
     pub(crate) fn begin(&self, due_at: Option<u64>) {
         self.count.set(0);
         self.seen_at.set(None);
         self.due_at.set(due_at);
     }
 
-    /// The first look at which the flag was set.
+    /// The first poll at which the flag was set.
     pub(crate) fn seen_at(&self) -> Option<u64> {
         self.seen_at.get()
     }
 
-    /// The flag has been seen set since the last look: as if it had been set then.
+    /// Something else has found the flag set since the last poll: as if that poll had.
     pub(crate) fn seen_since_last(&self) {
         if self.seen_at.get().is_none() {
             self.seen_at.set(Some(self.count.get()));
         }
     }
 
-    /// Looks at the flag.
+    /// Polls the flag.
     pub(super) fn look(&self, flag: &AtomicBool) -> bool {
         let count = self.count.get() + 1;
         self.count.set(count);

@@ -1,10 +1,9 @@
-//! How `setf` treats an operator, as a program has said.
+//! How `setf` treats an operator, as defined by a program.
 
 use crate::lisp::value::Value;
 use crate::lisp::value::symbol::Sym;
 
-/// How `setf` of a form with a certain operator is carried out, where no function
-/// `(setf name)` does it.
+/// How `setf` of a form with a certain operator is expanded if there is no function `(setf name)`.
 #[derive(Clone)]
 pub(crate) enum SetfExpander {
     /// `(defsetf access update)`: the update function takes the arguments, then the value.

@@ -1,4 +1,4 @@
-//! Where the conditions that were signalled last came from.
+//! Where the most recently signalled conditions came from.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -8,13 +8,13 @@ use super::Image;
 use super::open_call::OpenCall;
 use crate::lisp::value::Value;
 
-/// Conditions whose calls are remembered.
+/// The number of conditions whose calls are remembered.
 const REMEMBERED: usize = 64;
 
-/// Calls that are remembered of one condition.
+/// The most calls that are remembered for one condition.
 const MOST_CALLS: usize = 512;
 
-/// The calls in which the conditions signalled last were signalled.
+/// The calls in which the most recent conditions were signalled.
 #[derive(Default)]
 pub(super) struct Signalled {
     /// Newest last; conditions that share their calls have one list.
@@ -38,7 +38,7 @@ impl Signalled {
 }
 
 impl Image {
-    /// Whether it is known where a condition was signalled.
+    /// Is it known where a condition was signalled?
     pub(crate) fn knows_condition_calls(&self, condition: &Value) -> bool {
         self.signalled.calls(condition).is_some()
     }
@@ -56,7 +56,7 @@ impl Image {
         self.signalled.remember(condition, calls);
     }
 
-    /// Adds the calls of the code that a condition has come to from a task of its own.
+    /// Adds the calls of the code to which a condition has come from another task.
     pub(crate) fn add_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
         if let Some(inner) = self.signalled.calls(condition) {
             let mut inner = inner.borrow_mut();
@@ -65,8 +65,8 @@ impl Image {
         }
     }
 
-    /// A condition goes on in another one, its envelope: what is known of its calls, and what
-    /// becomes known later, holds for both.
+    /// Another condition, the envelope, carries this one on: what is known about its calls, and
+    /// what becomes known later, holds for both.
     pub(crate) fn share_condition_calls(&mut self, condition: &Value, envelope: &Value) {
         if let Some(calls) = self.signalled.calls(condition).cloned() {
             self.signalled.remember(envelope, calls);

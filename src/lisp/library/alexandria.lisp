@@ -109,7 +109,7 @@
   Examples:
   (alexandria:iota 3) => (0 1 2)
   (alexandria:iota 3 :start 1 :step 2) => (1 3 5)"
-  ;; The numbers have one type even if only the step is a float.
+  ;; All numbers have one type, even if only the step is a float.
   (let ((number (+ start (- step step))))
     (map-into (make-list n)
               (lambda () (prog1 number (incf number step))))))

@@ -1,5 +1,5 @@
 ;;; Conditions: chapter 9 of the standard. SIGNAL, ERROR, HANDLER-BIND and the restarts
-;;; themselves are Rust.
+;;; themselves are written in Rust.
 
 (in-package :common-lisp)
 

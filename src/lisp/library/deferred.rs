@@ -1,8 +1,8 @@
 //! Reading and compiling a definition of the library when it is first needed.
 //!
-//! It holds that nothing people see depends on whether that has happened: reading happens
-//! with the standard settings of the reader, leaves no symbol in a package that people look
-//! into, and takes no number from the counter of `gensym`.
+//! Nothing that users see depends on whether that has happened: reading uses the standard settings
+//! of the reader, leaves no symbol in a package that users look into, and takes no number from the
+//! counter of `gensym`.
 
 use std::rc::Rc;
 
@@ -18,8 +18,8 @@ use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
-/// Lets a definition define its name, takes the function, and gives the name back what it
-/// meant: it may have been defined anew in the meantime.
+/// Evaluates a definition, takes the function that it defines, and restores the meaning of its
+/// name, which a program may have redefined in the meantime.
 pub(super) fn compile(
     image: &mut Image,
     definition: &'static Definition,
@@ -45,8 +45,8 @@ pub(super) fn compile(
     function.ok_or_else(|| Raise::undefined_function(name.into()))
 }
 
-/// Settings that the reader, the compiler and macros depend on, with the value that a
-/// definition is read with; none if it keeps its value and gets it back afterwards.
+/// Settings that the reader, the compiler and macros depend on, with the values for reading a
+/// definition; a setting without a value keeps its own, which is restored afterwards.
 fn settings(package: Value) -> [(Sym, Option<Value>); 6] {
     [
         (known::V_PACKAGE, Some(package)),
@@ -87,7 +87,7 @@ pub(super) fn evaluate(
     evaluated
 }
 
-/// Reads a definition. Symbols that its package does not know are those of `SYSTEM`.
+/// Reads a definition. Symbols that its package does not have belong to `SYSTEM`.
 fn read(image: &mut Image, definition: &'static Definition) -> Result<Value, Box<Raise>> {
     let mut reader = match definition.kind {
         Kind::Function | Kind::Setter => {

@@ -1,4 +1,4 @@
-;;; Definitions: what DEFUN, DEFMACRO, DEFVAR and DEFPARAMETER leave.
+;;; Definitions: everything but DEFUN, DEFMACRO, DEFVAR and DEFPARAMETER.
 
 (in-package :common-lisp)
 

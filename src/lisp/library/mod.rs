@@ -1,9 +1,9 @@
 //! The part of the language that is written in Lisp itself.
 //!
-//! To add a definition, write it into a file of `library/` (the files are in the order of
-//! the standard's chapters), beginning in the first column: only such forms are seen. Its
-//! docstring says one or two sentences; after a line `Examples:` each line is an example
-//! `FORM => VALUES`, which the manual shows and a test runs:
+//! To add a definition, write it into a file of `library/` (the files are in the order of the
+//! standard's chapters), beginning in the first column: only such forms are found. Its docstring
+//! has one or two sentences; after a line `Examples:` each line is an example `FORM => VALUES`,
+//! which the manual shows and a test runs:
 //!
 //! ```lisp
 //! (defmacro unless (test &body body)
@@ -19,14 +19,14 @@
 //! - A definition's name is exported from the file's package, or from the one that it is
 //!   written with (`alexandria:if-let`). A name that begins with `%` is a helper: it belongs
 //!   to `SYSTEM`, and the manual leaves it out.
-//! - Symbols that the file's package does not know are those of `SYSTEM`, so that reading
-//!   a definition leaves nothing behind in packages that people look into. Symbols of other
-//!   packages are written with their prefix.
+//! - Symbols that the file's package does not have belong to `SYSTEM`, so that reading a definition
+//!   leaves nothing behind in packages that users look into. Symbols of other packages are written
+//!   with their prefix.
 //! - `defun`, `defmacro` and `define-modify-macro` cost nothing until the first call, which
 //!   reads and compiles the definition ([`deferred`]). Any other form is evaluated whenever
 //!   an image is made, after the definitions of all files are known.
-//! - Macros are compiled without places, so that what they expand into has the place of the
-//!   user's form; functions have places, which error messages pass over for the caller's.
+//! - Macros are compiled without places, so that what they expand into has the place of the user's
+//!   form; functions have places, but error messages give the caller's place instead.
 //!
 //! An error in a definition fails the test that compiles all of them
 //! (`tests/language/library.rs`).
@@ -59,7 +59,7 @@ pub(crate) struct Library {
     pub(crate) forms: Vec<Definition>,
 }
 
-/// One file of the list of a layer.
+/// One file in the list of a layer.
 macro_rules! library_file {
     ($folder:literal, $name:literal) => {
         $crate::lisp::library::definition::File {
@@ -118,7 +118,7 @@ pub(crate) fn install(image: &mut Image, library: &'static Library) {
     }
 }
 
-/// Writes that a form of the library fails, where the user sees it before anything else.
+/// Reports that a form of the library has failed, where the user sees it before anything else.
 fn tell_failure(image: &mut Image, form: &Definition, raise: &Raise) {
     let report = match condition::make(image, raise) {
         Ok(condition) => print::to_string(image, &condition, false),
@@ -149,7 +149,7 @@ fn install_definition(image: &mut Image, definition: &'static Definition) {
     image.entries.insert(name, Entry::Library(definition));
 }
 
-/// The symbol that a definition is about, exported from its package.
+/// The symbol that a definition defines, exported from its package.
 fn symbol(image: &mut Image, definition: &Definition) -> Option<Sym> {
     let package = match definition.is_helper() {
         true => PackageTable::SYSTEM,
@@ -164,7 +164,7 @@ pub(crate) fn definition_of(image: &Image, function: &Function) -> Option<&'stat
     image.library.definitions.get(number).copied()
 }
 
-/// The value of a special variable for the time that the library is read.
+/// The value of `*package*` while a form of this package is read.
 fn standard_value(image: &Image, package: &str) -> Value {
     match image.packages.find(package) {
         Some(id) => Value::Package(id),

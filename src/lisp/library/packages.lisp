@@ -1,4 +1,4 @@
-;;; Packages: chapter 11 of the standard. IN-PACKAGE is Rust.
+;;; Packages: chapter 11 of the standard. IN-PACKAGE is written in Rust.
 
 (in-package :common-lisp)
 

@@ -1,5 +1,5 @@
-;;; Places: chapter 5.1 of the standard. SETF, INCF, PUSH and POP are Rust: programs are
-;;; full of them.
+;;; Places: chapter 5.1 of the standard. SETF, INCF, PUSH and POP are written in Rust, since
+;;; programs use them so often.
 
 (in-package :common-lisp)
 

@@ -1,5 +1,5 @@
-;;;; Lists as sets. The functions whose names begin with N may reuse their arguments but
-;;;; do not.
+;;;; Lists as sets. The functions whose names begin with N are allowed to reuse their arguments
+;;;; but do not.
 
 (in-package :common-lisp)
 
