@@ -51,7 +51,7 @@ impl Adding {
     }
 }
 
-/// Reads what follows the form of an accumulation, and writes the form that adds.
+/// Reads what follows the form of an accumulation, and builds the form that adds.
 pub(crate) fn parse(
     parser: &mut Parser<'_>,
     plan: &mut Plan,
@@ -176,7 +176,7 @@ fn add(parser: &mut Parser<'_>, to: &Accumulator, adding: Adding, form: Value) -
     let extend = support::system(parser.image, extend);
     let extended = call(extend, [tail.clone(), form]);
     match to.into {
-        // The user may look at the list at any time.
+        // The user may read the list at any time.
         Some(_) => call(
             known::SETQ,
             [

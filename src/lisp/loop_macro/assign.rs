@@ -1,4 +1,4 @@
-//! Variables of clauses: single ones, and trees that take a list apart.
+//! Variables of clauses: single ones, and trees that destructure a list.
 
 use super::parser::Parser;
 use super::plan::{Assignment, Plan};
@@ -6,7 +6,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
-/// Trees of variables may be this large.
+/// The most variables in a tree.
 const MAX_VARIABLES: usize = 10_000;
 
 /// Reads a variable or tree of variables, and a type if one follows.
@@ -42,7 +42,7 @@ pub(crate) fn variable(
     Ok((tree, variable_type(parser, clause)?))
 }
 
-/// Reads a type: after `of-type`, or one of the simple types that stand alone.
+/// Reads a type: after `of-type`, or one of the simple types that may stand alone.
 pub(crate) fn variable_type(
     parser: &mut Parser<'_>,
     clause: &str,
@@ -56,7 +56,7 @@ pub(crate) fn variable_type(
     Ok(None)
 }
 
-/// What a variable holds that no value was given for.
+/// The value of a variable that was not given one.
 pub(crate) fn default_value(of_type: Option<&Value>) -> Value {
     match of_type {
         Some(Value::Symbol(
@@ -94,7 +94,7 @@ fn leaves(tree: &Value) -> Result<Vec<Value>, Box<Raise>> {
     Ok(found)
 }
 
-/// Each variable of a tree with the form that takes its value out of a variable.
+/// Each variable of a tree, with the form that extracts its value from a variable.
 pub(crate) fn parts(tree: &Value, whole: &Value) -> Vec<Assignment> {
     let mut found = Vec::new();
     let mut pending = vec![(tree.clone(), whole.clone())];

@@ -1,4 +1,4 @@
-//! The clauses of a loop one after the other.
+//! The clauses of a loop, one after the other.
 
 use super::accumulation::{self, Adding};
 use super::assign;
@@ -37,13 +37,13 @@ const CLAUSES: &[&str] = &[
     "FINALLY",
 ];
 
-/// Words that begin what may stand after a condition.
+/// Words that begin what may follow a condition.
 const CONDITIONAL: &[&str] = &[
     "DO", "COLLECT", "APPEND", "NCONC", "SUM", "COUNT", "MAXIMIZE", "MINIMIZE", "WHEN", "IF",
     "UNLESS", "RETURN",
 ];
 
-/// Conditions may be nested this deep.
+/// The deepest nesting of conditions.
 const MAX_NESTING: usize = 200;
 
 fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Value {
@@ -167,8 +167,8 @@ fn returning(plan: &Plan, value: Value) -> Value {
     call(known::RETURN_FROM, [plan.name.clone(), value])
 }
 
-/// The clauses that may stand after a condition; the form that carries them out. `it` is
-/// the variable that holds the condition's value.
+/// Reads the clauses that may follow a condition, and returns the form that carries them out. `it`
+/// is the variable that holds the condition's value.
 fn selectable(
     parser: &mut Parser<'_>,
     plan: &mut Plan,

@@ -1,4 +1,4 @@
-//! Writing a loop's plan as a form.
+//! Turning a loop's plan into a form.
 
 use super::assign;
 use super::plan::{Accumulator, Assignment, Building, Plan, Step};
@@ -120,7 +120,7 @@ fn ends(tests: &[Value], plan: &Plan, forms: &mut Vec<Value>) {
     }
 }
 
-/// Assigns variables at once, and then takes apart what goes to trees of variables.
+/// Assigns variables in parallel, and then destructures the values of trees of variables.
 fn assignments(image: &mut Image, plan: &mut Plan, sets: Vec<Assignment>, forms: &mut Vec<Value>) {
     let mut pairs = Vec::new();
     let mut parts = Vec::new();

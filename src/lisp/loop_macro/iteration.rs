@@ -36,7 +36,7 @@ fn call(function: impl Into<Value>, args: impl IntoIterator<Item = Value>) -> Va
     Value::cons(function.into(), Value::list(args))
 }
 
-/// Reads a `for` clause, after the word itself, and those that `and` joins to it.
+/// Reads a `for` clause, after that word, and the clauses that `and` joins to it.
 pub(crate) fn parse(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<(), Box<Raise>> {
     let mut joined = one(parser, plan)?;
     while parser.accept(&["AND"]) {
@@ -73,7 +73,7 @@ fn one(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<Clause, Box<Raise>> {
     }
 }
 
-/// The user's variables bound to nothing yet.
+/// The user's variables, bound to `NIL` until they get values.
 fn unset(tree: &Value) -> Vec<Assignment> {
     assign::parts(tree, &Value::NIL)
         .into_iter()
@@ -81,7 +81,7 @@ fn unset(tree: &Value) -> Vec<Assignment> {
         .collect()
 }
 
-/// The form that steps from a list to what comes next, after an optional `by`.
+/// The form that steps along a list, by the function after an optional `by`.
 fn list_step(
     parser: &mut Parser<'_>,
     list: &Value,
@@ -123,7 +123,7 @@ fn in_list(parser: &mut Parser<'_>, tree: Value) -> Result<Clause, Box<Raise>> {
 fn on_list(parser: &mut Parser<'_>, tree: Value) -> Result<Clause, Box<Raise>> {
     let form = parser.form("ON")?;
     if matches!(&tree, Value::Symbol(sym) if *sym != known::NIL) {
-        // The variable itself goes down the list.
+        // The variable itself steps along the list.
         let mut bindings = vec![(tree.clone(), form)];
         let advance = list_step(parser, &tree, &mut bindings)?;
         let test = call(known::ATOM, [tree.clone()]);
@@ -190,7 +190,7 @@ fn equals(parser: &mut Parser<'_>, tree: Value) -> Result<Clause, Box<Raise>> {
     })
 }
 
-/// Which way a number goes.
+/// The direction in which a number steps.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Direction {
     Up,
@@ -243,7 +243,7 @@ fn counting(parser: &mut Parser<'_>, variable: Value) -> Result<Clause, Box<Rais
                 "{word} in LOOP says again where the number begins, ends or how it steps."
             )));
         }
-        // Forms are evaluated in the order in which they stand.
+        // Forms are evaluated in the order in which they are written.
         match word.as_str() {
             "FROM" | "UPFROM" | "DOWNFROM" => bindings.push((variable.clone(), form)),
             "BY" => by = Some(step_size(parser, form, &mut bindings)?),
@@ -291,7 +291,7 @@ fn counting(parser: &mut Parser<'_>, variable: Value) -> Result<Clause, Box<Rais
     })
 }
 
-/// A form that is evaluated once: itself if it is a number, else a variable.
+/// A form that is evaluated once: the form itself if it is a number, else a variable.
 fn once(parser: &mut Parser<'_>, form: Value, name: &str, bindings: &mut Vec<Assignment>) -> Value {
     if is_number(&form) {
         return form;
@@ -322,7 +322,7 @@ fn step_size(
     Ok(once(parser, checked, "BY", bindings))
 }
 
-/// What a `being` clause goes through.
+/// What a `being` clause can iterate over.
 const PATHS: &[&str] = &[
     "HASH-KEY",
     "HASH-KEYS",

@@ -1,8 +1,8 @@
 //! The macro `loop`: simple loops, and the loops that are written in clauses.
 //!
-//! A clause loop is read into a [`plan::Plan`] (variables, steps, body, results) and
-//! written as one form: a named block around `let` forms around a `tagbody`. The words of
-//! clauses are compared by name, whatever their package.
+//! A clause loop is read into a [`plan::Plan`] (variables, steps, body, results) and then turned
+//! into one form: a named block around `let` forms around a `tagbody`. The words of clauses are
+//! compared by name, whatever their package.
 
 mod accumulation;
 mod assign;
@@ -39,7 +39,7 @@ fn expand(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
     Ok(expansion)
 }
 
-/// A loop without clauses: the forms again and again.
+/// A loop without clauses: repeats the forms for ever.
 fn simple(image: &mut Image, forms: Vec<Value>) -> Value {
     let tag: Value = image.gensym("AGAIN").into();
     let again = Value::list([known::GO.into(), tag.clone()]);
@@ -57,7 +57,7 @@ fn stray_finish(_: &mut Image, _: &Value) -> Result<Value, Box<Raise>> {
     ))
 }
 
-/// The macro and its companion.
+/// `loop` and `loop-finish`.
 pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "LOOP",

@@ -6,7 +6,7 @@ use crate::lisp::reader::nearest;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 
-/// The forms of a loop and how far they are read.
+/// The forms of a loop, and how many have been read.
 pub(crate) struct Parser<'a> {
     /// The image: names of symbols, fresh variables.
     pub(crate) image: &'a mut Image,
@@ -24,7 +24,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Is everything read?
+    /// Have all forms been read?
     pub(crate) fn is_at_end(&self) -> bool {
         self.position >= self.forms.len()
     }
@@ -92,7 +92,7 @@ impl<'a> Parser<'a> {
         print::to_string(self.image, form, true)
     }
 
-    /// The error that the next form is none of the words that may stand here.
+    /// The error for a next form that is none of the words allowed here.
     pub(crate) fn unexpected(&self, after: &str, words: &[&str]) -> Box<Raise> {
         let expected = match words.split_last() {
             Some((last, [])) => (*last).to_owned(),

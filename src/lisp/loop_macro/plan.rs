@@ -1,13 +1,12 @@
-//! What a clause loop does, as its clauses say it.
+//! What a clause loop does, according to its clauses.
 
 use crate::lisp::value::Value;
 
 /// A variable, or a tree of variables, and the form whose value it gets.
 pub(crate) type Assignment = (Value, Value);
 
-/// What happens when the variables of some `for` clauses take their next values: tests
-/// that end the loop, assignments, tests, assignments. Each set of assignments is made at
-/// once.
+/// What happens when the variables of some `for` clauses take their next values: tests that end the
+/// loop, assignments, tests, assignments. Each set of assignments is made in parallel.
 #[derive(Clone, Default)]
 pub(crate) struct Step {
     /// Forms that end the loop when they are true, before anything is assigned.
@@ -49,7 +48,7 @@ pub(crate) struct Accumulator {
     pub(crate) building: Building,
     /// The variable that holds the result: `into`, or a hidden one.
     pub(crate) variable: Value,
-    /// For lists, the pair in front of the list, which hides in a variable of its own.
+    /// For lists, the pair in front of the list, which is in a hidden variable.
     pub(crate) front: Value,
     /// For lists, the variable that holds the last pair; else a scratch variable.
     pub(crate) tail: Value,
@@ -60,7 +59,7 @@ pub(crate) struct Accumulator {
 pub(crate) struct Plan {
     /// The name of the block.
     pub(crate) name: Value,
-    /// Bindings, group by group; those of a group are made at once.
+    /// Bindings, group by group; those of a group are made in parallel.
     pub(crate) bindings: Vec<Vec<Assignment>>,
     /// Hidden variables that start as `NIL`.
     pub(crate) scratch: Vec<Value>,
@@ -70,7 +69,6 @@ pub(crate) struct Plan {
     pub(crate) next: Vec<Step>,
     /// Forms before everything else.
     pub(crate) initially: Vec<Value>,
-    /// The body.
     pub(crate) body: Vec<Value>,
     /// Forms after the last iteration.
     pub(crate) finally: Vec<Value>,

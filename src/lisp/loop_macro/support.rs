@@ -1,4 +1,4 @@
-//! What loops call when they run.
+//! Functions that loops call when they run.
 
 use std::rc::Rc;
 
@@ -87,7 +87,7 @@ fn vector_length(_: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-/// What loops call; in `SYSTEM`.
+/// Functions that loops call, in package `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "EXTEND-LIST",
