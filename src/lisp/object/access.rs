@@ -14,18 +14,18 @@ use crate::lisp::vm::step::Step;
 /// What is done with a slot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Access {
-    /// Its value is read.
+    /// The value is read.
     Read,
     /// A value is stored.
     Write,
-    /// It is asked whether there is a value.
+    /// The slot is tested for a value.
     IsBound,
-    /// The value is taken away.
+    /// The value is removed.
     MakeUnbound,
 }
 
 impl Access {
-    /// The operation as `slot-missing` gets it.
+    /// The operation as `slot-missing` receives it.
     fn symbol(self) -> Sym {
         match self {
             Access::Read => known::SLOT_VALUE,
@@ -79,7 +79,7 @@ pub(crate) fn set_slot_value(
     }
 }
 
-/// Has the slot a value?
+/// Does the slot have a value?
 pub(crate) fn slot_boundp(
     machine: &mut Machine<'_>,
     object: &Value,
@@ -99,7 +99,7 @@ pub(crate) fn slot_boundp(
     }
 }
 
-/// Takes a slot's value away; returns the instance.
+/// Makes a slot unbound; returns the instance.
 pub(crate) fn slot_makunbound(
     machine: &mut Machine<'_>,
     object: &Value,
@@ -118,7 +118,7 @@ pub(crate) fn slot_makunbound(
     }
 }
 
-/// The slot's value as a call of `slot-unbound` gives it.
+/// The value of an unbound slot, which a call of `slot-unbound` supplies.
 fn unbound(image: &Image, object: &Value, slot: Sym) -> Result<Step, Box<Raise>> {
     let class = Value::Class(super::class_of(image, object));
     match extended_function(image, known::SLOT_UNBOUND) {
@@ -130,7 +130,7 @@ fn unbound(image: &Image, object: &Value, slot: Sym) -> Result<Step, Box<Raise>>
     }
 }
 
-/// The error that a slot has no value.
+/// The error for a slot without a value.
 pub(crate) fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
     Box::new(Raise::Make {
         place: crate::lisp::source::Place::NONE,
@@ -160,7 +160,7 @@ fn missing(
     Err(missing_slot(image, object, slot, access, value.as_ref()))
 }
 
-/// The error that there is no such slot.
+/// The error for a slot that the object does not have.
 pub(crate) fn missing_slot(
     image: &Image,
     object: &Value,

@@ -1,4 +1,4 @@
-//! The classes of values that are no instances, and the roots of all others.
+//! The classes of values that are not instances, and the roots of all others.
 
 use crate::lisp::image::Image;
 use crate::lisp::value::class::ClassKind;
@@ -8,8 +8,8 @@ use super::define::ClassDefinition;
 
 use ClassKind::{Builtin, Standard, Structure};
 
-/// Name, kind and direct superclasses; superclasses stand before their subclasses. A name
-/// that begins with `%` belongs to the package `SYSTEM` (without the sign).
+/// Name, kind and direct superclasses; superclasses come before their subclasses. A name that
+/// begins with `%` belongs to the package `SYSTEM` (without the sign).
 const TABLE: &[(&str, ClassKind, &[&str])] = &[
     ("T", Builtin, &[]),
     ("STANDARD-OBJECT", Standard, &["T"]),

@@ -27,12 +27,12 @@ pub(crate) fn class_of(image: &Image, value: &Value) -> Rc<Class> {
     let name = builtin_class_name(image, value);
     match image.class(name).or_else(|| image.class(known::T)) {
         Some(class) => class.clone(),
-        // Only in an image whose standard classes are not defined yet.
+        // Happens only in an image whose standard classes are not defined yet.
         None => Rc::new(Class::new(known::T, ClassKind::Builtin)),
     }
 }
 
-/// The name of the class of a value that is no instance. A foreign value names its own.
+/// The name of the class of a value that is not an instance. A foreign value names its own.
 pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
     match value {
         Value::Symbol(known::NIL) => known::NULL,
@@ -74,7 +74,7 @@ pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
             _ => known::STREAM,
         },
         Value::Foreign(foreign) => foreign.object().type_symbol(),
-        // Internal values; user code never holds them.
+        // Internal values, which user code never has.
         Value::Cell(_) | Value::Multiple(_) | Value::Unbound => known::T,
     }
 }

@@ -39,7 +39,7 @@ pub(crate) fn combination_named(image: &Image, name: &Value) -> Result<Combinati
             is_identity: *is_identity,
         });
     }
-    // A program's own are kept on the property list of their names: (operator . identity).
+    // A program's own combinations are on the property lists of their names: (operator . identity).
     let plist: Vec<Value> = image.symbol(sym).plist.iter_list().collect();
     let kept = plist
         .chunks_exact(2)

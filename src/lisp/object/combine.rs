@@ -13,7 +13,7 @@ use crate::lisp::vm::calls::{Args, run as run_calls};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
-/// How far a call has come.
+/// How far a call has progressed.
 #[derive(Clone, Copy)]
 pub(crate) enum Stage {
     /// At the around method of this number.
@@ -22,10 +22,10 @@ pub(crate) enum Stage {
     Primary(usize),
 }
 
-/// The begin of a call.
+/// The start of a call.
 pub(crate) const START: Stage = Stage::Around(0);
 
-/// Runs a call from a stage on.
+/// Runs a call from the given stage.
 pub(crate) fn run(
     machine: &mut Machine<'_>,
     effective: &Rc<Effective>,
@@ -43,7 +43,7 @@ pub(crate) fn run(
         Shape::Single(method) | Shape::Read(_, method) | Shape::Write(_, method) => {
             return Ok(invoke(effective, method, None, args));
         }
-        // Callers deal with it.
+        // The callers handle this case.
         Shape::NotApplicable => return Err(nothing_to_run()),
     };
     match stage {
@@ -70,19 +70,19 @@ pub(crate) fn run(
     }
 }
 
-/// The error that `call-next-method` has nothing to call.
+/// The error for `call-next-method` without a next method.
 pub(crate) fn no_next_method(image: &Image, name: &Value) -> Box<Raise> {
     let shown = crate::lisp::print::qualified(image, name);
     let report = format!("There is no next method for the generic function {shown}.");
     Raise::new(known::NO_NEXT_METHOD_ERROR, report).with(known::K_METHOD, name.clone())
 }
 
-/// The error that an effective method has no method to run, which callers rule out.
+/// The error for an effective method without methods to run, which the callers rule out.
 fn nothing_to_run() -> Box<Raise> {
     Raise::new(known::NO_NEXT_METHOD_ERROR, "There is no next method.")
 }
 
-/// The call of one method; `next` is the stage that `call-next-method` goes on with.
+/// The call of one method; `next` is the stage at which `call-next-method` continues.
 fn invoke(
     effective: &Rc<Effective>,
     method: &Rc<Method>,

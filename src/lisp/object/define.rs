@@ -11,11 +11,10 @@ use crate::lisp::value::symbol::Sym;
 
 /// What a definition says about a class.
 pub(crate) struct ClassDefinition {
-    /// The name.
     pub(crate) name: Sym,
     /// What its instances are.
     pub(crate) kind: ClassKind,
-    /// Direct superclasses in order; those of the kind are added when there is none.
+    /// Direct superclasses in order; the root of the kind is added when there are none.
     pub(crate) superclasses: Vec<Sym>,
     /// Slots of this class itself.
     pub(crate) slots: Vec<SlotDefinition>,
@@ -90,8 +89,8 @@ impl Image {
         )))
     }
 
-    /// The classes of the superclass names. A standard class that is not defined yet is
-    /// stood in for until it is; without any superclass the root of the kind is it.
+    /// The classes with the superclass names, undefined ones among them as placeholders. Without
+    /// superclasses, the root of the kind is the only one.
     fn superclasses(&mut self, definition: &ClassDefinition) -> Vec<Rc<Class>> {
         let mut supers = Vec::new();
         for name in &definition.superclasses {
@@ -116,7 +115,7 @@ impl Image {
     }
 }
 
-/// The error that there is no class of a name.
+/// The error for a name that is not the name of a class.
 pub(crate) fn no_class(image: &Image, name: Sym) -> Box<Raise> {
     let shown = crate::lisp::print::qualified(image, &name.into());
     let report = format!("There is no class named {shown}.");
@@ -135,7 +134,7 @@ fn depends_on(class: &Rc<Class>, other: &Rc<Class>) -> bool {
     false
 }
 
-/// Gives a class its direct superclasses and tells them so.
+/// Links a class and its direct superclasses to each other.
 fn relink(class: &Rc<Class>, supers: Vec<Rc<Class>>) {
     for old in class.direct_superclasses.borrow().iter() {
         old.direct_subclasses
@@ -195,7 +194,7 @@ fn effective_slots(order: &[Rc<Class>], class: &Rc<Class>) -> Vec<SlotDefinition
     slots
 }
 
-/// What a more specific definition of a slot changes.
+/// Applies to a slot what a more specific definition of it changes.
 fn override_slot(slot: &mut SlotDefinition, specific: &SlotDefinition) {
     for initarg in &specific.initargs {
         if !slot.initargs.contains(initarg) {

@@ -90,8 +90,8 @@ fn split_lambda_list(
     Ok((Value::list(plain), specializers))
 }
 
-/// The function of a method: it takes the function that calls the next method, if its body
-/// asks for that, and accepts any keyword, because the generic function checks them.
+/// The function of a method: it takes the function that calls the next method, if its body uses
+/// that, and accepts any keyword, because the generic function checks them.
 fn method_function(
     image: &mut Image,
     name: &Value,
@@ -158,8 +158,8 @@ fn with_other_keys(lambda_list: &Value) -> Value {
     Value::list(all)
 }
 
-/// May the body call the next method? So it may if it names the operator, or uses a macro
-/// of the program, which may expand into that.
+/// May the body call the next method? It may if it names the operator, or uses a macro of the
+/// program, which may expand into a call.
 fn asks_for_next(image: &Image, forms: &Value) -> bool {
     any_part(forms, |part| match part {
         Value::Symbol(known::CALL_NEXT_METHOD | known::NEXT_METHOD_P) => true,
@@ -329,7 +329,7 @@ pub(crate) fn ensure_generic_function(
     Ok(Value::Function(function))
 }
 
-/// Notes that a method was made by the `defgeneric` of its function itself.
+/// Records that a method was made by the `defgeneric` of its own generic function.
 pub(crate) fn own_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     if let Some(object) = args
         .first()

@@ -182,7 +182,7 @@ fn check_keys(image: &Image, keys: &[crate::lisp::Sym], args: &[Value]) -> Resul
     Ok(())
 }
 
-/// Asks the user's `no-applicable-method`, or says that there is no method.
+/// Calls the user's `no-applicable-method`, or returns the error that no method applies.
 fn no_applicable_method(
     image: &Image,
     function: &Rc<Function>,
@@ -206,7 +206,7 @@ fn no_applicable_method(
     ))
 }
 
-/// The error that no method of a generic function applies.
+/// The error for a call to which no method of a generic function applies.
 pub(crate) fn no_applicable_method_error(
     image: &Image,
     function: Value,

@@ -106,7 +106,7 @@ fn accepted_keys(generic: &GenericFunction, methods: &[Rc<Method>]) -> (Option<V
         match &parameters.keys {
             _ if parameters.allows_other_keys => return (None, from),
             Some(names) => keys.extend(names),
-            // `&rest` without `&key` takes whatever comes.
+            // `&rest` without `&key` accepts any keywords.
             None if parameters.has_rest => return (None, from),
             None => {}
         }

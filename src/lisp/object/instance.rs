@@ -65,7 +65,7 @@ fn with_default_initargs(class: &Class, mut initargs: Vec<Value>) -> WithDefault
     (initargs, pending)
 }
 
-/// Makes an instance and has it initialised.
+/// Makes an instance and initialises it.
 fn make(
     machine: &mut Machine<'_>,
     class: Rc<Class>,
@@ -119,7 +119,7 @@ pub(crate) fn designated_class(image: &Image, designator: &Value) -> Result<Rc<C
     }
 }
 
-/// Like [`designated_class`], and instances of the class can be made.
+/// Like [`designated_class`], but an error if the class cannot be instantiated.
 pub(crate) fn instantiable_class(
     image: &Image,
     designator: &Value,
@@ -207,7 +207,7 @@ fn allows_other_keys(initargs: &[Value]) -> bool {
         .is_some_and(|pair| pair[1].is_true())
 }
 
-/// The keywords that the program's methods of the functions accept; none if any will do.
+/// The keywords that the program's methods of the functions accept; none if any are accepted.
 fn method_keys(image: &Image, object: &Value, functions: &[Sym]) -> Option<Vec<Sym>> {
     let mut keys = Vec::new();
     for function in functions {

@@ -16,8 +16,8 @@ use crate::lisp::value::parameters::Parameters;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 
-/// Functions of the standard that a program may add methods to. They are plain functions
-/// until it does: then the plain function becomes the method for everything.
+/// Functions of the standard that a program may add methods to. They are plain functions until it
+/// does: then the plain function becomes the default method.
 const EXTENSIBLE: &[Sym] = &[
     known::INITIALIZE_INSTANCE,
     known::SHARED_INITIALIZE,
@@ -64,7 +64,7 @@ impl Foreign for MethodObject {
     }
 }
 
-/// The value that stands for a method: always the same one while somebody holds it.
+/// The value that stands for a method: always the same one as long as it is referenced.
 pub(crate) fn method_value(method: &Rc<Method>) -> Value {
     if let Some(object) = method.object.borrow().upgrade() {
         return Value::Foreign(object);
@@ -85,7 +85,7 @@ fn set_named_function(image: &mut Image, name: &Value, function: Rc<Function>) {
     }
 }
 
-/// The generic function of a name, made with these parameters if there is none.
+/// The generic function with this name, made with these parameters if there is none.
 pub(crate) fn ensure_generic(
     image: &mut Image,
     name: &Value,
@@ -115,7 +115,7 @@ pub(crate) fn ensure_generic(
         },
         None => {
             let mut parameters = parameters.clone();
-            // The first method's own keywords do not bind the methods to come.
+            // The first method's own keywords do not restrict later methods.
             parameters.keys = parameters.keys.map(|_| Vec::new());
             new_generic(name, parameters)
         }
@@ -130,7 +130,7 @@ fn new_generic(name: &Value, parameters: Parameters) -> Rc<Function> {
     })
 }
 
-/// A generic function whose method for everything is a plain function.
+/// A generic function whose default method is a plain function.
 fn extended(
     image: &Image,
     name: &Value,
@@ -159,7 +159,7 @@ fn extended(
     })
 }
 
-/// A method for everything.
+/// A method without specializers that calls a plain function.
 fn plain_method(name: &Value, parameters: Parameters, function: Rc<Function>) -> Method {
     Method {
         name: name.clone(),
@@ -186,11 +186,9 @@ fn names_ordinary_function(image: &Image, name: &Value) -> Box<Raise> {
 pub(crate) struct MethodDefinition {
     /// The name of the generic function.
     pub(crate) name: Value,
-    /// Qualifiers.
     pub(crate) qualifiers: Vec<Sym>,
     /// One per required parameter.
     pub(crate) specializers: Vec<Specializer>,
-    /// The parameters.
     pub(crate) parameters: Parameters,
     /// The method function.
     pub(crate) function: Rc<Function>,
@@ -202,7 +200,7 @@ pub(crate) struct MethodDefinition {
     pub(crate) doc: Option<Rc<str>>,
 }
 
-/// Adds a method to the generic function of its name, made if there is none.
+/// Adds a method to the generic function of its name, which is made if there is none.
 pub(crate) fn define_method(
     image: &mut Image,
     definition: MethodDefinition,
@@ -242,7 +240,6 @@ pub(crate) fn add_method(
     Ok(())
 }
 
-/// Removes a method.
 pub(crate) fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
     generic
         .methods
@@ -251,7 +248,7 @@ pub(crate) fn remove_method(generic: &GenericFunction, method: &Rc<Method>) {
     changed(generic);
 }
 
-/// Forgets what calls have decided so far.
+/// Clears the dispatch cache.
 pub(crate) fn changed(generic: &GenericFunction) {
     let dispatch = Dispatch::for_methods(&generic.methods.borrow());
     *generic.dispatch.borrow_mut() = dispatch;
@@ -266,7 +263,7 @@ fn is_same(a: &Method, b: &Method) -> bool {
             .all(|(a, b)| a.is_same(b))
 }
 
-/// Must a method and its generic function agree on what they are called with?
+/// Checks that a method and its generic function agree about their arguments.
 fn check_congruent(
     image: &Image,
     function: &Rc<Function>,

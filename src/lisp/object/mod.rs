@@ -1,7 +1,7 @@
 //! The object system: classes, instances, generic functions and their methods.
 //!
-//! Holds true: a class keeps its identity over redefinitions; an instance is brought up to
-//! date before anything reads it; a call of a generic function never calls Lisp from Rust.
+//! Invariants: a class keeps its identity over redefinitions; an instance is brought up to date
+//! before anything reads it; a call of a generic function never calls Lisp from Rust.
 
 pub(crate) mod access;
 pub(crate) mod builtin_classes;

@@ -1,4 +1,4 @@
-//! Slot descriptions of `defclass` and `define-condition`, and what becomes of them.
+//! Slot descriptions of `defclass` and `define-condition`, and what they evaluate to.
 
 use std::rc::Rc;
 
@@ -11,7 +11,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::Sym;
 
-/// A slot description taken apart.
+/// A parsed slot description.
 struct Description {
     name: Sym,
     initargs: Vec<Value>,
@@ -33,7 +33,7 @@ pub(crate) struct DefinedSlot {
     pub(crate) writers: Vec<Value>,
 }
 
-/// The form that evaluates to the value which [`evaluated_slot`] reads.
+/// The form whose value [`evaluated_slot`] reads.
 pub(crate) fn slot_form(
     image: &Image,
     description: &Value,

@@ -6,7 +6,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
-/// An image as sessions start with.
+/// An image like the one that sessions start with.
 pub(crate) fn image() -> Image {
     Image::new()
 }
@@ -51,7 +51,7 @@ pub(crate) fn assert_value(image: &mut Image, text: &str, expected: &str) {
     assert!(is_same, "{text} => {}, not {expected}", shown.join(" ; "));
 }
 
-/// The class of the condition that a text ends in.
+/// The class of the condition in which evaluating a text ends.
 pub(crate) fn error_class(image: &mut Image, text: &str) -> String {
     match eval_values(image, text) {
         Ok(_) => "no error".to_owned(),

@@ -67,7 +67,7 @@ fn call_then(
     })
 }
 
-/// Lays out the slots of an instance as its class has them now.
+/// Lays out the slots of an instance as its class defines them now.
 fn migrate(instance: &Instance) -> Change {
     let class = instance.class();
     let old_names = old_layout(&class, instance.generation.get());

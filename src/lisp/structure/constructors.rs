@@ -23,7 +23,7 @@ pub(crate) fn constructor_form(
     form![known::DEFUN, constructor.name, lambda_list, make(values),]
 }
 
-/// `(&key (slot default)…)`. The variables are fresh symbols: a default form sees no slot.
+/// `(&key (slot default)…)`. The variables are fresh symbols, so that no default form sees a slot.
 fn by_keywords(image: &mut Image, slots: &[StructureSlot]) -> (Value, Vec<Value>) {
     let mut parameters = vec![Value::Symbol(known::L_KEY)];
     let mut values = Vec::new();
@@ -46,8 +46,8 @@ enum Section {
     Aux,
 }
 
-/// A lambda list by order of arguments: optional and keyword parameters without a default
-/// take that of the slot of the same name; slots that are no parameter take theirs.
+/// A lambda list by order of arguments: optional and keyword parameters without a default take that
+/// of the slot of the same name; slots that are not parameters take their own.
 fn by_order(
     image: &mut Image,
     lambda_list: &Value,

@@ -12,7 +12,6 @@ use crate::lisp::value::symbol::Sym;
 
 /// One constructor.
 pub(crate) struct Constructor {
-    /// Its name.
     pub(crate) name: Sym,
     /// Its lambda list; keywords for all slots if none.
     pub(crate) lambda_list: Option<Value>,
@@ -29,13 +28,10 @@ pub(crate) enum Representation {
     Vector,
 }
 
-/// A structure definition.
 pub(crate) struct StructureDefinition {
-    /// The name.
     pub(crate) name: Sym,
     /// The prefix of the accessors.
     pub(crate) conc_name: String,
-    /// The constructors.
     pub(crate) constructors: Vec<Constructor>,
     /// The function that copies a structure.
     pub(crate) copier: Option<Sym>,
