@@ -1,4 +1,4 @@
-//! Values without parts that are printed, and objects that cannot be read back.
+//! Values that are printed without parts, and objects that cannot be read back.
 
 use num_bigint::BigInt;
 
@@ -14,7 +14,7 @@ use crate::lisp::value::class::{Class, ClassKind};
 use crate::lisp::value::function::{Body, Deferred, Function, Native};
 use crate::lisp::value::hash_table::HashTest;
 
-/// A value that is no list, vector, array, structure or condition report.
+/// A value that is not a list, vector, array, structure or condition report.
 pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String {
     match value {
         Value::Symbol(sym) => symbol::symbol(image, *sym, settings),
@@ -131,7 +131,7 @@ fn quote(text: &str, out: &mut String) {
     out.push('"');
 }
 
-/// A symbol with its package's name, whatever package is current; not for `COMMON-LISP`.
+/// A class, which cannot be read back: its metaclass, and its name with the package.
 fn class(image: &Image, class: &Class) -> String {
     let kind = match class.kind {
         ClassKind::Builtin => "BUILT-IN-CLASS",

@@ -10,7 +10,6 @@ use crate::lisp::value::Value;
 /// A call that writes a text to a stream.
 #[derive(Clone)]
 pub(crate) struct Call {
-    /// The function.
     pub(crate) function: Value,
     /// Arguments before the stream.
     pub(crate) before: Vec<Value>,
@@ -40,7 +39,7 @@ impl Calls {
         }
     }
 
-    /// Calls are possible, and these texts came of the first ones.
+    /// Calls are possible, and these are the texts of the first ones.
     pub(crate) fn with_texts(texts: impl IntoIterator<Item = String>) -> Calls {
         Calls {
             texts: texts.into_iter().collect(),
@@ -49,7 +48,7 @@ impl Calls {
         }
     }
 
-    /// The text of the next call; without one, the call is noted and the text is empty.
+    /// The text of the next call; if that is missing, the call is recorded and the text is empty.
     /// `None` if calls are not possible.
     pub(crate) fn text(&mut self, call: impl FnOnce() -> Call) -> Option<String> {
         if self.is_pure {

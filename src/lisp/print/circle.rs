@@ -52,7 +52,7 @@ fn parts(value: &Value, out: &mut Vec<Value>) {
     }
 }
 
-/// Is the value a tree of moderate size, so that it surely is not circular?
+/// Is the value a tree of moderate size, and therefore certainly not circular?
 fn is_small_tree(value: &Value) -> bool {
     let mut pending = vec![value.clone()];
     let mut budget = QUICK;

@@ -35,9 +35,9 @@ pub(super) enum Kind {
 
 pub(super) struct Op {
     pub(super) kind: Kind,
-    /// Byte of the text before which it stands.
+    /// Byte of the text that it precedes.
     pub(super) byte: usize,
-    /// Character of the text before which it stands.
+    /// Character of the text that it precedes.
     pub(super) position: usize,
     /// Number of blocks around it.
     pub(super) depth: usize,
@@ -57,7 +57,7 @@ pub(crate) struct Document {
     open: Vec<usize>,
     /// Indices of newlines and starts whose section has not ended.
     sections: Vec<usize>,
-    /// Are layout instructions kept? Without them it is a plain text.
+    /// Are layout instructions kept? Without them this is plain text.
     is_pretty: bool,
 }
 

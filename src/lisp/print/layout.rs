@@ -15,7 +15,7 @@ struct Layout<'d> {
     document: &'d Document,
     settings: &'d Settings,
     out: String,
-    /// Bytes of the text that are out.
+    /// Bytes of the text that have been written.
     written: usize,
     /// Column of a position: the position plus this.
     shift: i64,
@@ -25,7 +25,7 @@ struct Layout<'d> {
     next_forced: Vec<usize>,
 }
 
-/// Breaks a document into lines; the first line has so many characters already.
+/// Breaks a document into lines; the first line already has `column` characters.
 pub(super) fn lay_out(document: Document, settings: &Settings, column: usize) -> String {
     let is_flat = column + document.characters() <= settings.right_margin
         && !document
@@ -62,7 +62,7 @@ pub(super) fn lay_out(document: Document, settings: &Settings, column: usize) ->
     layout.run()
 }
 
-/// Texts are shorter than the largest signed number.
+/// No text is longer than the largest signed number.
 fn signed(n: usize) -> i64 {
     i64::try_from(n).unwrap_or(i64::MAX / 4)
 }
@@ -132,7 +132,7 @@ impl Layout<'_> {
         self.column(position) <= self.settings.right_margin
     }
 
-    /// Is the innermost block so near to the right margin that it is printed tightly?
+    /// Is the innermost block so near the right margin that it is printed in miser style?
     fn is_squeezed(&self) -> bool {
         let start = self.blocks.last().map_or(0, |b| b.start_column);
         self.settings
@@ -166,7 +166,7 @@ impl Layout<'_> {
         self.write_up_to(op.byte);
         if newline != Newline::Literal {
             let kept = self.out.trim_end_matches(' ').len();
-            // The blank of the character `#\ ` is no blank between values.
+            // The blank in the character `#\ ` does not separate values.
             let is_character = self.out.get(..kept).is_some_and(|t| t.ends_with("#\\"));
             self.out
                 .truncate(kept + usize::from(is_character && kept < self.out.len()));

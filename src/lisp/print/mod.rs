@@ -1,9 +1,9 @@
-//! The printer: from values to text that the reader reads back, or that people read.
+//! The printer: from values to text, for the reader to read back or for users to read.
 //!
-//! Printing is pure: it never runs Lisp code. An object that a program prints itself (a
-//! method of `print-object`, the report of a condition class) is noted in [`Calls`]; the
-//! builtins that print make those calls first and print again with the texts.
-//! Nesting costs no Rust stack, and circular structures are recognised.
+//! Printing is pure: it never runs Lisp code. An object that a program prints itself (a method of
+//! `print-object`, the report of a condition class) is recorded in [`Calls`]; the builtins that
+//! print make those calls first and print again with the texts. Nesting uses no Rust stack, and
+//! circular structures are recognised.
 
 mod atom;
 mod calls;
@@ -41,7 +41,7 @@ pub(crate) fn to_string(image: &Image, value: &Value, escape: bool) -> String {
     write(image, value, &settings, 0, &mut Calls::none())
 }
 
-/// A value under given settings, where the line has already so many characters.
+/// A value under given settings, where the line already has `column` characters.
 pub(crate) fn write(
     image: &Image,
     value: &Value,
@@ -52,8 +52,8 @@ pub(crate) fn write(
     printer::Printer::new(image, settings, calls).print(value, column)
 }
 
-/// Like [`write()`], but a method of `print-object` for the value itself is not heard: what
-/// the method for everything prints.
+/// Like [`write()`], but ignores a method of `print-object` for the value itself, as the default
+/// method does.
 pub(crate) fn write_default(
     image: &Image,
     value: &Value,

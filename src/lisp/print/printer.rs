@@ -33,7 +33,7 @@ pub(super) struct Printer<'a> {
 }
 
 enum Task {
-    /// Print a value that is so many lists and vectors deep.
+    /// Print a value at this depth of lists and vectors.
     Value(Value, Style, usize),
     /// Print the rest of a list.
     Rest(Rest),
@@ -96,7 +96,7 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// The value itself is printed as if it had no `print-object` method.
+    /// Prints the value itself as if it had no `print-object` method.
     pub(super) fn without_own_method(self) -> Printer<'a> {
         Printer {
             skips_method: true,
@@ -104,7 +104,7 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// The value's text, where the line has already so many characters.
+    /// The value's text, where the line already has `column` characters.
     pub(super) fn print(mut self, value: &Value, column: usize) -> String {
         self.run(value);
         if self.settings.pretty {
@@ -179,7 +179,7 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// Is something at this depth left out? Then `#` stands for it.
+    /// Is something at this depth left out? Then `#` is printed in its place.
     fn is_too_deep(&mut self, depth: usize) -> bool {
         let is_too_deep = self.settings.level.is_some_and(|level| depth >= level);
         if is_too_deep {
@@ -197,7 +197,7 @@ impl<'a> Printer<'a> {
             Style::List(shape) if self.settings.pretty => Form::Shape(shape),
             _ if self.settings.pretty => shape::form(self.image, &list),
             _ => match shape::prefix(&list) {
-                // Backquotes have no other text than their sign.
+                // Backquotes are always printed with their prefix.
                 Some(prefix) if !matches!(prefix, "'" | "#'") => Form::Prefix(prefix),
                 _ => Form::Shape(&shape::FILL),
             },
@@ -232,7 +232,7 @@ impl<'a> Printer<'a> {
         }));
     }
 
-    /// Writes what stands before an element; returns how the element is printed.
+    /// Writes what precedes an element; returns how the element is printed.
     fn before(&mut self, rest: &mut Rest, element: &Value) -> Style {
         let Some(position) = rest.index.checked_sub(1) else {
             return match rest.layout {
@@ -282,7 +282,7 @@ impl<'a> Printer<'a> {
         step.style
     }
 
-    /// The first argument stands beside the macro's name, others below it, then the body.
+    /// The first argument follows the macro's name on its line, others are below it, then the body.
     fn before_macro_argument(&mut self, position: usize, count: usize) {
         self.document.text(" ");
         if position == 0 && count > 0 {
@@ -517,7 +517,7 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// The text that the program's own printer makes of an instance, if it has one.
+    /// The text that the program's own printing function makes of an instance, if it has one.
     fn text_by_program(&mut self, value: &Value, instance: &Instance) -> Option<String> {
         let escape = self.settings.escape;
         let call = |function: Value| Call {

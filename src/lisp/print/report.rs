@@ -1,4 +1,4 @@
-//! What conditions say.
+//! The reports of conditions.
 
 use std::rc::Rc;
 
@@ -20,7 +20,7 @@ pub(crate) fn function(instance: &Instance) -> Option<Rc<Function>> {
     })
 }
 
-/// A slot of the condition, by the name that the standard conditions have.
+/// A slot of the condition, by its name in the standard conditions.
 fn slot(image: &Image, instance: &Instance, name: &str) -> Option<Value> {
     let class = instance.class();
     let sym = class
@@ -32,7 +32,7 @@ fn slot(image: &Image, instance: &Instance, name: &str) -> Option<Value> {
     instance.slot(sym).filter(|value| !value.is_unbound())
 }
 
-/// The report of a condition as far as no Lisp code says it.
+/// The report of a condition, as far as it needs no Lisp code.
 pub(crate) fn report(image: &Image, condition: &Value) -> String {
     let Value::Instance(instance) = condition else {
         return to_string(image, condition, false);
@@ -58,7 +58,7 @@ pub(crate) fn report(image: &Image, condition: &Value) -> String {
     format!("Condition {} was signalled.", qualified(image, class.name))
 }
 
-/// A symbol with its package, as `prin1` shows it where nothing is accessible.
+/// A symbol with its package, as `prin1` shows it where no symbol is accessible.
 fn qualified(image: &Image, sym: Sym) -> String {
     crate::lisp::print::qualified(image, &sym.into())
 }

@@ -24,7 +24,7 @@ pub(super) enum Layout {
     ParameterBreak,
 }
 
-/// One element of a list: what stands before it, and how it is printed if it is a list.
+/// One element of a list: what precedes it, and how it is printed if it is a list.
 pub(super) struct Step {
     pub(super) before: &'static [Layout],
     pub(super) style: Style,
@@ -33,7 +33,7 @@ pub(super) struct Step {
 /// How a value is printed.
 #[derive(Clone, Copy)]
 pub(super) enum Style {
-    /// As its operator wants it.
+    /// As its operator requires.
     Auto,
     /// As a list of that shape; `NIL` as `()`.
     List(&'static Shape),
@@ -53,7 +53,7 @@ pub(super) struct Shape {
 #[derive(Clone, Copy)]
 pub(super) enum Form {
     Shape(&'static Shape),
-    /// A macro whose body begins after so many arguments.
+    /// A macro whose body begins after this many arguments.
     Macro(usize),
     /// `'x`, `#'x`, `` `x ``, `,x`, `,@x`: the text before the only argument.
     Prefix(&'static str),
@@ -301,7 +301,7 @@ pub(super) fn prefix(list: &Value) -> Option<&'static str> {
     only_argument(list).then_some(prefix)
 }
 
-/// Does the list print with a prefix that the dotted tail of a list must show too?
+/// Does the list print with a prefix that the dotted tail of a list must show, too?
 pub(super) fn is_backquote_part(list: &Value) -> bool {
     matches!(
         list.car_or_nil().as_symbol(),
@@ -351,7 +351,7 @@ fn arguments_before_body(image: &Image, operator: Sym) -> Option<usize> {
     body_position(image.entry(operator)?.lambda_list())
 }
 
-/// How many parameters stand before `&body` in a lambda list, if it has that.
+/// How many parameters precede `&body` in a lambda list, if it has that.
 fn body_position(lambda_list: &str) -> Option<usize> {
     let mut depth = 0_usize;
     let mut count = 0;

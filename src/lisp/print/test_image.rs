@@ -2,7 +2,7 @@
 
 use crate::lisp::image::Image;
 
-/// An image as sessions start with, in `COMMON-LISP-USER`.
+/// An image like the one that sessions start with, in `COMMON-LISP-USER`.
 pub(crate) fn image() -> Image {
     Image::new()
 }

@@ -1,4 +1,4 @@
-//! Texts of values that the reader reads.
+//! Printing values that the reader has read.
 
 use super::test_image;
 use super::*;
@@ -19,7 +19,7 @@ fn printed(image: &mut Image, text: &str, escape: bool) -> String {
     }
 }
 
-/// Texts that print as they are.
+/// Texts that print unchanged.
 #[test]
 fn the_reader_s_notation_prints_back() {
     let mut image = test_image::image();

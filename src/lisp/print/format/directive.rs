@@ -2,7 +2,7 @@
 
 use super::error::{FormatError, Problem};
 
-/// Most levels of directives inside each other.
+/// The deepest nesting of directives.
 const MAX_DEPTH: usize = 100;
 
 /// A part of a control string.
@@ -31,7 +31,7 @@ pub(super) struct Directive {
     pub(super) colon: bool,
     pub(super) at: bool,
     pub(super) parameters: Vec<Parameter>,
-    /// Which character of the control string its letter is.
+    /// The index of its letter in the control string.
     pub(super) position: usize,
     /// What it encloses, split at `~;`.
     pub(super) clauses: Vec<Clause>,
@@ -94,7 +94,7 @@ fn bracket_name(letter: char) -> &'static str {
     }
 }
 
-/// The letters of directives that enclose nothing, with their most parameters.
+/// The most parameters of a directive that encloses nothing, by its letter.
 fn most_parameters(letter: char) -> Option<usize> {
     Some(match letter {
         'A' | 'S' | 'D' | 'B' | 'O' | 'X' | '$' => 4,

@@ -13,7 +13,7 @@ pub(crate) struct FormatError {
     pub(crate) problem: Problem,
     /// The control string.
     pub(crate) control: String,
-    /// Which character of it.
+    /// The index of the character in question.
     pub(crate) position: usize,
 }
 
@@ -35,7 +35,7 @@ pub(crate) enum Problem {
     /// `~;` outside `~[` and `~<`.
     #[error("~; directive not contained within either ~[...~] or ~<...~>.")]
     StrayClause,
-    /// Directives inside each other, too deep.
+    /// Directives nested too deeply.
     #[error("Directives are nested more than {0} deep.")]
     TooDeep(usize),
     /// Too few arguments.
@@ -52,7 +52,7 @@ pub(crate) enum Problem {
     /// A parameter that a directive does not have.
     #[error("Too many parameters: at most {most} expected, {given} given")]
     TooManyParameters {
-        /// Most parameters.
+        /// The most parameters that it has.
         most: usize,
         /// Parameters given.
         given: usize,

@@ -15,7 +15,7 @@ pub(super) struct Digits {
     pub(super) point: i64,
 }
 
-/// Most places after the point that are computed.
+/// The most places after the point that are computed.
 const MAX_PLACES: i64 = 100_000;
 
 /// The shortest digits that are read back as the same float.
@@ -37,7 +37,7 @@ pub(super) fn shortest(value: &Value) -> Digits {
     }
 }
 
-/// The digits up to so many places after the decimal point (before it, if negative).
+/// The digits rounded to `places` places after the decimal point (before it if negative).
 pub(super) fn rounded(value: &Value, places: i64) -> Digits {
     let places = places.clamp(-MAX_PLACES, MAX_PLACES);
     let x = match value {
@@ -80,7 +80,7 @@ pub(super) fn rounded(value: &Value, places: i64) -> Digits {
     }
 }
 
-/// The digits up to so many significant ones.
+/// The digits rounded to `count` significant ones.
 pub(super) fn significant(value: &Value, count: i64) -> Digits {
     let digits = shortest(value);
     let length = i64::try_from(digits.digits.len()).unwrap_or(0);
@@ -91,8 +91,8 @@ pub(super) fn significant(value: &Value, count: i64) -> Digits {
 }
 
 impl Digits {
-    /// The digits with a decimal point, `places` of them after it (zeros are added; all
-    /// there are if none is given), with at least the point.
+    /// The digits with a decimal point: `places` of them after it, with zeros added, or all there
+    /// are if no number is given. The point is always there.
     pub(super) fn with_point(&self, places: Option<i64>) -> String {
         let length = i64::try_from(self.digits.len()).unwrap_or(0);
         let digit = |i: i64| {

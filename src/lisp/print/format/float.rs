@@ -23,7 +23,7 @@ pub(super) struct FloatStyle {
     pub(super) sign: bool,
 }
 
-/// Widest field that is filled.
+/// The widest field that is filled.
 const MAX_WIDTH: i64 = 100_000;
 
 fn is_negative(value: &Value) -> bool {
@@ -97,7 +97,7 @@ pub(super) fn fixed(value: &Value, style: &FloatStyle) -> String {
     let mut body = body;
     let mut left = room.map(|room| room - count(&body));
     let no_places = style.places == Some(0);
-    // The zero before the point goes if there is no room for it.
+    // The zero before the point is dropped if there is no room for it.
     if body.starts_with('.') && (left.is_none_or(|left| left > 0) || body == ".") {
         body.insert(0, '0');
         left = left.map(|left| left - 1);

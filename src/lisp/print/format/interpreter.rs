@@ -1,7 +1,6 @@
-//! Carries out directives.
+//! Carrying out directives.
 //!
-//! Directives inside each other recurse, as deep as the parser allows; `~?` has a limit of
-//! its own.
+//! Nested directives recurse, as deep as the parser allows; `~?` has a limit of its own.
 
 use std::rc::Rc;
 
@@ -29,10 +28,10 @@ use crate::lisp::value::symbol::Sym;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Widest padding, and most repetitions of a character.
+/// The widest padding, and the most repetitions of a character.
 const MAX_WIDTH: i64 = 1_000_000;
 
-/// Most controls that `~?` and `~{~}` run inside each other.
+/// The deepest nesting of controls that `~?` and `~{~}` run.
 const MAX_NESTED_CONTROLS: usize = 50;
 
 /// How a sequence of pieces ended.
@@ -249,7 +248,7 @@ impl Interpreter<'_> {
         Ok(Flow::Through)
     }
 
-    /// Prints a value where the text stands.
+    /// Prints a value at the end of the text.
     fn write(&mut self, value: &Value, settings: &Settings) {
         if let Some(document) = self.output.document() {
             let printer = Printer::new(self.image, settings, self.calls);
@@ -414,7 +413,7 @@ impl Interpreter<'_> {
         Ok(())
     }
 
-    /// What is no number prints as by `princ`, at the right of its field.
+    /// Prints a value that is not a number as by `princ`, right-aligned in its field.
     fn padded_left(&mut self, value: &Value, width: i64) {
         let settings = self.settings.clone().with_escape(false);
         let text = self.text_of(value, &settings);
@@ -499,7 +498,7 @@ impl Interpreter<'_> {
         let step = width_of(&given, 1)?.unwrap_or(1);
         let column = self.output.column();
         let blanks = if d.at {
-            // So many blanks, then up to a multiple of the step.
+            // This many blanks, then up to a multiple of the step.
             let after = column + target;
             let missing = match step {
                 0 | 1 => 0,
@@ -617,7 +616,7 @@ impl Interpreter<'_> {
                 break;
             }
             if !d.colon && items.left() > 0 && items.next <= before && most.is_none() {
-                // A body that takes no argument would go on for ever.
+                // A body that uses no argument would be repeated for ever.
                 return Err(c.error(
                     d,
                     Problem::Clauses("The iteration uses no argument, so it would never end."),
@@ -728,7 +727,7 @@ impl Interpreter<'_> {
         let mut overflow = None;
         for (i, clause) in d.clauses.iter().enumerate() {
             let (text, flow) = self.captured(c, &clause.pieces, args)?;
-            // A segment that `~^` cuts off is left out, and those after it.
+            // A segment that `~^` cuts off is left out, and so are those after it.
             if flow != Flow::Through {
                 break;
             }
@@ -816,7 +815,7 @@ impl Interpreter<'_> {
         } else {
             let value = self.next(c, d, args)?;
             if !value.is_list() {
-                // What is no list prints as it is.
+                // A value that is not a list prints as it is.
                 let settings = self.settings.clone();
                 self.write(&value, &settings);
                 return Ok(Flow::Through);
@@ -974,7 +973,7 @@ fn char_of(given: &[Option<Given>], index: usize) -> Result<Option<char>> {
     }
 }
 
-/// The first letter of every word, or of the first word only, as a capital; others small.
+/// The first letter of every word, or of the first word only, as a capital; others in lower case.
 fn capitalized(text: &str, every_word: bool) -> String {
     let mut in_word = false;
     let mut is_first = true;

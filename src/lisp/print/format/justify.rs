@@ -55,7 +55,7 @@ impl Justification {
         result
     }
 
-    /// A single text stands at the right unless the padding is to be after it.
+    /// A single text is right-aligned unless the padding is to be after it.
     fn pads_before(&self, texts: usize) -> bool {
         self.before || texts == 1 && !self.after
     }

@@ -1,7 +1,7 @@
 //! `format`: control strings, parsed once, and what their directives write.
 //!
-//! Pure like the printer: calls of Lisp functions (`~/name/`, objects that a program
-//! prints itself) are noted in [`Calls`] and made by the builtin.
+//! Pure like the printer: calls of Lisp functions (`~/name/`, objects that a program prints itself)
+//! are recorded in [`Calls`] and made by the builtin.
 
 mod directive;
 mod english;
@@ -42,7 +42,7 @@ impl Control {
         })
     }
 
-    /// What the control string makes of the arguments, where the line has already so many
+    /// The text that the control string makes of the arguments, where the line already has `column`
     /// characters.
     pub(crate) fn run(
         &self,
@@ -55,7 +55,7 @@ impl Control {
     }
 }
 
-/// What a control string makes of the arguments; objects that need Lisp code print in
+/// The text that a control string makes of the arguments; objects that need Lisp code print in
 /// their default form.
 pub(crate) fn format_to_string(
     image: &Image,

@@ -58,7 +58,7 @@ impl Output {
         begins
     }
 
-    /// Breaks the document into lines and goes on with plain text.
+    /// Breaks the document into lines and continues with plain text.
     pub(super) fn end_document(&mut self, settings: &Settings) {
         if let Some(document) = self.document.take() {
             let text = if settings.pretty {
