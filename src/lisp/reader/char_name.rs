@@ -1,4 +1,4 @@
-//! Names of characters, as `#\Newline` and `char-name` have them.
+//! Names of characters, as used by `#\Newline` and `char-name`.
 
 /// Names of the control characters and of space and delete, the printed one first.
 const NAMES: &[(u32, &[&str])] = &[
@@ -197,7 +197,7 @@ pub(crate) fn char_name(c: char) -> Option<String> {
     (c.is_control()).then(|| format!("U{code:X}"))
 }
 
-/// The character of a name of more than one character; letters without case.
+/// The character with this name of more than one character, whatever the case of its letters.
 pub(crate) fn char_named(name: &str) -> Option<char> {
     let is_name = |known: &&str| known.eq_ignore_ascii_case(name);
     if let Some((code, _)) = NAMES.iter().find(|(_, names)| names.iter().any(is_name)) {

@@ -1,4 +1,4 @@
-//! Is a text a whole number of forms? The prompt asks this to know whether to read on.
+//! Does a text consist of whole forms? The prompt asks this to know whether to read on.
 
 use super::lexer::{Lexer, TokenKind};
 
@@ -46,7 +46,7 @@ pub(crate) fn is_complete(text: &str) -> Completeness {
             TokenKind::Open => open.push(Open::List { at }),
             TokenKind::Dispatch { letter: '(', .. } => open.push(Open::List { at }),
             TokenKind::Close => {
-                // A quote before the parenthesis is an error for the parser to tell.
+                // A quote right before the parenthesis is an error, which the parser reports.
                 while matches!(open.last(), Some(Open::Prefix { .. })) {
                     open.pop();
                 }

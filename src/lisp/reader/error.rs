@@ -39,7 +39,6 @@ pub(crate) enum ReadErrorKind {
     /// `foo:bar`, but there is no package `FOO`.
     #[error("Package {name} does not exist.{}", did_you_mean(nearest.as_deref()))]
     NoPackage {
-        /// The name.
         name: String,
         /// A similar name that exists.
         nearest: Option<String>,
@@ -115,7 +114,6 @@ pub(crate) enum ReadErrorKind {
     /// `#'` and the like with an unexpected or missing number.
     #[error("#{letter} needs a number before the letter: {reason}")]
     DispatchArgument {
-        /// The letter.
         letter: char,
         /// What the number must be.
         reason: &'static str,
@@ -123,28 +121,25 @@ pub(crate) enum ReadErrorKind {
     /// A character name that does not exist.
     #[error("unrecognized character name: {0}")]
     UnknownCharacter(String),
-    /// A token of digits that is no number in the radix.
+    /// A token of digits that is not a number in the radix.
     #[error("#{letter} value is not a rational: \"{token}\" (radix {radix})")]
     NotRational {
         /// The letter after `#`.
         letter: char,
-        /// The token.
         token: String,
-        /// The radix.
         radix: u32,
     },
     /// A ratio with the denominator zero.
     #[error("failed to build a number from {0}: division by zero")]
     ZeroDenominator(String),
-    /// A float that no float of that format can hold.
+    /// A float outside the range of its format.
     #[error("floating-point-{direction} reading {token}")]
     FloatRange {
-        /// The token.
         token: String,
         /// `overflow` or `underflow`.
         direction: &'static str,
     },
-    /// `#*` with something else than bits, or with too many.
+    /// `#*` with something other than bits, or with too many.
     #[error("illegal bit vector: {0}")]
     BadBits(String),
     /// More elements than the number before `#(` says.
@@ -170,7 +165,7 @@ pub(crate) enum ReadErrorKind {
         /// Number of dimensions.
         rank: u32,
     },
-    /// `#S` of something that is no structure.
+    /// `#S` of something that is not a structure.
     #[error("#S: {0}")]
     BadStructure(String),
     /// A feature expression that means nothing.
@@ -179,19 +174,18 @@ pub(crate) enum ReadErrorKind {
     /// `#.` while `*read-eval*` is false.
     #[error("can't read #. while *READ-EVAL* is NIL")]
     ReadEvalDisabled,
-    /// `#.` where nothing can evaluate.
+    /// `#.` where evaluation is not possible.
     #[error("#. cannot be evaluated here")]
     CannotEvaluate,
     /// `#n=` of a label that is taken, or `#n#` of one that does not exist.
     #[error("{0}")]
     BadLabel(String),
-    /// `#C` of something else than two real numbers.
+    /// `#C` of something other than two real numbers.
     #[error("#C: {0}")]
     BadComplex(&'static str),
     /// A quotation mark of a word processor.
     #[error("{mark} is a typographic quotation mark; Lisp text uses {instead}")]
     SmartQuote {
-        /// The mark.
         mark: char,
         /// What to write.
         instead: &'static str,

@@ -5,7 +5,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 
-/// Nesting beyond this is no feature expression that anybody means.
+/// A feature expression nested more deeply than this is a mistake.
 const MAX_DEPTH: usize = 64;
 
 /// Does the feature expression hold with the current `*features*`?

@@ -58,7 +58,8 @@ pub(crate) struct Token {
     pub(crate) start: usize,
     /// Byte after the last one.
     pub(crate) end: usize,
-    /// Is its end there? False for a string, a comment or a `|name` that the text breaks off.
+    /// Is it complete? False for a string, a comment or a `|name` that the end of the text cuts
+    /// off.
     pub(crate) is_closed: bool,
 }
 
@@ -71,7 +72,7 @@ pub(crate) struct Lexer<'t> {
     terminators: &'t [char],
 }
 
-/// Is the character blank space between tokens? Pasted text may hold exotic ones.
+/// Is the character blank space between tokens? Pasted text may contain exotic ones.
 pub(crate) fn is_blank(c: char) -> bool {
     c.is_whitespace() || matches!(c, '\u{200B}' | '\u{FEFF}')
 }
@@ -87,7 +88,7 @@ impl<'t> Lexer<'t> {
         Lexer::at(text, 0)
     }
 
-    /// A lexer at a byte of a text; at the end if that is no character boundary.
+    /// A lexer at a byte of a text; at the end if that is not a character boundary.
     pub(crate) fn at(text: &'t str, position: usize) -> Lexer<'t> {
         let position = if text.is_char_boundary(position) {
             position
@@ -109,7 +110,7 @@ impl<'t> Lexer<'t> {
         }
     }
 
-    /// The byte where the next token is looked for.
+    /// The byte at which the search for the next token starts.
     pub(crate) fn position(&self) -> usize {
         self.position
     }
@@ -171,7 +172,7 @@ impl<'t> Lexer<'t> {
         true
     }
 
-    /// Moves behind the next `end` that no backslash precedes; false if there is none.
+    /// Moves past the next `end` that no backslash precedes; false if there is none.
     fn skip_to(&mut self, end: char) -> bool {
         while let Some(c) = self.bump() {
             if c == '\\' {

@@ -105,7 +105,7 @@ fn bits(length: Option<u32>, body: &str) -> Result<Value, ReadErrorKind> {
     })))
 }
 
-/// A vector; with a length, the last element is repeated up to that.
+/// A vector; if a length is given, the last element is repeated to reach it.
 pub(crate) fn vector(
     items: Vec<Value>,
     length: Option<u32>,
@@ -181,7 +181,7 @@ pub(crate) fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind>
     })))
 }
 
-/// What `#S(…)` comes to.
+/// The result of reading `#S(…)`.
 pub(crate) enum Structure {
     /// The structure itself.
     Made(Value),

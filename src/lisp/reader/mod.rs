@@ -1,9 +1,9 @@
 //! From text to forms: source texts with positions, the lexer of Common Lisp tokens, and
 //! the parser.
 //!
-//! Reading is linear in the length of the text and uses no Rust stack for nesting. The
-//! reader interns symbols and registers places; it never evaluates: `#.` hands its form to
-//! the caller and goes on with the value.
+//! Reading is linear in the length of the text and uses no Rust stack for nesting. The reader
+//! interns symbols and registers places; it never evaluates: `#.` hands its form to the caller and
+//! continues with the value.
 
 pub(crate) mod char_name;
 mod completeness;

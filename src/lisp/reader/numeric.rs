@@ -9,7 +9,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::symbol::Sym;
 
-/// The number that a token without escapes means; `None` if it is a symbol.
+/// The number that a token without escapes denotes; `None` if it is a symbol.
 ///
 /// `radix` is `*read-base*`, `float_format` is `*read-default-float-format*`.
 pub(crate) fn parse_number(
@@ -32,7 +32,7 @@ pub(crate) fn parse_number(
     parse_float(token, float_format)
 }
 
-/// The integer or ratio that a token means in a radix.
+/// The integer or ratio that a token denotes in a radix.
 pub(crate) fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, ReadErrorKind>> {
     let Some((numerator, denominator)) = token.split_once('/') else {
         return parse_integer(token, radix).map(Ok);
@@ -48,7 +48,7 @@ pub(crate) fn parse_rational(token: &str, radix: u32) -> Option<Result<Value, Re
     )
 }
 
-/// The integer that a token means in a radix: an optional sign and digits.
+/// The integer that a token denotes in a radix: an optional sign and digits.
 pub(crate) fn parse_integer(token: &str, radix: u32) -> Option<Value> {
     let digits = token.strip_prefix(['+', '-']).unwrap_or(token);
     if digits.is_empty() || !digits.chars().all(|c| c.is_digit(radix)) {

@@ -17,14 +17,14 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::{Sym, VariableKind};
 
-/// What a reader has come to.
+/// The result of reading.
 #[derive(Clone)]
 pub(crate) enum Outcome {
-    /// A whole form, and where it stands.
+    /// A whole form, and its place.
     Form(Value, Place),
     /// No further form.
     End,
-    /// The form after `#.`, to be evaluated; reading goes on after [`Reader::supply`].
+    /// The form after `#.`, to be evaluated; reading continues after [`Reader::supply`].
     Evaluate(Value),
 }
 
@@ -37,7 +37,7 @@ pub(crate) struct Reader {
     source: Option<SourceId>,
     position: usize,
     frames: Vec<Frame>,
-    /// Elements of all unfinished lists; each frame knows where its own begin.
+    /// Elements of all unfinished lists; each frame stores where its own begin.
     values: Vec<Value>,
     labels: Labels,
     /// How many backquotes, less commas, enclose the position.
@@ -153,7 +153,7 @@ impl Reader {
         }
     }
 
-    /// Goes on at a byte of the text.
+    /// Continues at a byte of the text.
     pub(crate) fn at(self, position: usize) -> Reader {
         Reader { position, ..self }
     }
@@ -207,8 +207,8 @@ impl Reader {
         }
     }
 
-    /// Reads up to the end of the next form, or to something that must be evaluated.
-    /// After an error the reader stands behind the wrong text, outside all forms.
+    /// Reads up to the end of the next form, or to something that must be evaluated. After an error
+    /// the reader is positioned after the wrong text, outside all forms.
     pub(crate) fn next(&mut self, image: &mut Image) -> Result<Outcome, ReadError> {
         let text = self.text.clone();
         let readtable = image.special(known::V_READTABLE).clone();
@@ -330,7 +330,7 @@ impl Reader {
         Err(self.fail(image, kind, start, end))
     }
 
-    /// Takes a token in; returns when there is something to tell the caller.
+    /// Processes a token; returns an outcome if there is one for the caller.
     fn token(
         &mut self,
         image: &mut Image,
@@ -548,7 +548,7 @@ impl Reader {
         self.deliver(image, value, start.min(opened_at), end)
     }
 
-    /// Hands a finished value to the form that it belongs to, which may finish that too.
+    /// Passes a finished value to the form that it belongs to, which may finish that form, too.
     fn deliver(
         &mut self,
         image: &mut Image,

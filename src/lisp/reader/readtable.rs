@@ -1,4 +1,4 @@
-//! Characters that a program gives a meaning to: `set-macro-character`.
+//! Characters to which a program gives a meaning: `set-macro-character`.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -8,10 +8,10 @@ use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 
-/// What a program has changed of the standard syntax.
+/// A program's changes to the standard syntax.
 #[derive(Default, Clone)]
 pub(crate) struct Readtable {
-    /// Functions of stream and character, with whether the character may stand inside a
+    /// Functions of stream and character, with whether the character may appear inside a
     /// token.
     pub(crate) macros: RefCell<BTreeMap<char, (Value, bool)>>,
     /// Functions of stream, sub-character and number, by dispatching character and

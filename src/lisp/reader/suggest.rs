@@ -1,7 +1,7 @@
 //! "Did you mean …?": the name nearest to one that does not exist.
 
-/// The candidate with the smallest edit distance to `name` (letters without case), if that
-/// is at most a third of its length; of several, the first.
+/// The candidate with the smallest edit distance to `name` (ignoring case), if that is at most a
+/// third of its length; of several, the first.
 pub(crate) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
@@ -43,7 +43,7 @@ fn edit_distance(a: &[char], b: &[char]) -> usize {
         before_last = last;
         last = row;
     }
-    // The row has an entry for each prefix of `b`, so never none.
+    // The row has an entry for each prefix of `b`, so it is never empty.
     last.last().copied().unwrap_or(0)
 }
 

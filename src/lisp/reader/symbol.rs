@@ -8,13 +8,13 @@ use crate::lisp::value::symbol::Sym;
 
 /// A token split at its package marker, escapes resolved and letters upcased.
 pub(crate) struct Name {
-    /// What stands before the marker; none without a marker.
+    /// The text before the marker; `None` without a marker.
     pub(crate) package: Option<String>,
-    /// What stands behind the marker.
+    /// The text after the marker.
     pub(crate) name: String,
     /// Is the marker `::`?
     pub(crate) is_internal: bool,
-    /// Was any character escaped? Then the token is no number.
+    /// Was any character escaped? Then the token is not a number.
     pub(crate) is_escaped: bool,
 }
 
@@ -86,7 +86,7 @@ pub(crate) fn split(token: &str) -> Result<Name, ReadErrorKind> {
     Ok(result)
 }
 
-/// The symbol that a split token means.
+/// The symbol that a split token denotes.
 pub(crate) fn resolve(image: &mut Image, name: &Name) -> Result<Sym, ReadErrorKind> {
     let Some(package_name) = &name.package else {
         return Ok(image.intern_read(&name.name));

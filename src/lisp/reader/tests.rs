@@ -1,4 +1,4 @@
-//! Forms of texts, told by their structure.
+//! Forms read from texts, compared by their structure.
 
 use super::*;
 use crate::lisp::image::Image;
