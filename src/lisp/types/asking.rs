@@ -26,8 +26,8 @@ pub(crate) fn run(
     compute(machine, name, asking)
 }
 
-/// An operation with the answers to the calls that it has asked for so far. It starts anew
-/// with each of them.
+/// An operation with the answers to the calls that it has asked for so far. It starts again after
+/// each answer.
 struct Asking {
     operation: Operation,
     args: Vec<Value>,

@@ -33,13 +33,13 @@ pub(crate) fn coerce(
         None => None,
     };
     match converted {
-        // A range or another restriction holds for the result.
+        // The result must satisfy a range or another restriction.
         Some(result) if typep_with(image, &result, &specifier, answers)? => Ok(result),
         _ => Err(cannot(image, value, &specifier).into()),
     }
 }
 
-/// Expands a type that `deftype` defines, down to one that it does not.
+/// Expands a type defined by `deftype`, down to one that is not.
 fn expand(image: &Image, specifier: &Value, answers: &mut Answers) -> Result<Value, Stop> {
     let mut specifier = specifier.clone();
     loop {

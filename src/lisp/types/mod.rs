@@ -1,8 +1,8 @@
 //! Type specifiers: reading them, testing values, comparing types, converting.
 //!
-//! `satisfies` and `deftype` call Lisp functions. Rust code never does: an operation that
-//! needs the value of a call stops with the call (`Stop::Call`) and is begun again with
-//! the answer; answers are kept in order, so nothing is called twice.
+//! `satisfies` and `deftype` call Lisp functions. Rust code never does: an operation that needs the
+//! value of a call stops with the call (`Stop::Call`) and is started again with the answer; answers
+//! are kept in order, so nothing is called twice.
 
 pub(crate) mod asking;
 pub(crate) mod coerce;
@@ -23,7 +23,7 @@ use std::cmp::Ordering;
 
 use super::value::Value;
 
-/// Compares two real numbers; none if one is no real number, or not a number at all.
+/// Compares two values; `None` unless both are real numbers, and neither is a NaN.
 pub(crate) fn compare(a: &Value, b: &Value) -> Option<Ordering> {
     crate::lisp::value::number::compare(a, b).ok().flatten()
 }

@@ -229,7 +229,7 @@ fn is_star(value: &Value) -> bool {
     value.as_symbol() == Some(known::TIMES)
 }
 
-/// The element type that an array made for elements of a type really has.
+/// The actual element type of an array that is made for elements of a type.
 pub(crate) fn upgraded(image: &Image, element: &Value) -> Sym {
     sequence_types::upgraded(image, element)
 }

@@ -9,10 +9,9 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::Kind;
 use crate::lisp::value::symbol::Sym;
 
-/// A kind of sequence, and the length if the type says one.
+/// A kind of sequence, and its length if the type specifies one.
 #[derive(Clone)]
 pub(crate) struct SequenceType {
-    /// The kind.
     pub(crate) kind: Kind,
     /// The length, with the type specifier as the user wrote it.
     length: Option<usize>,
@@ -20,7 +19,7 @@ pub(crate) struct SequenceType {
 }
 
 impl SequenceType {
-    /// What a type specifier means, if it names a kind of sequence.
+    /// The sequence type that a type specifier denotes, if it names a kind of sequence.
     pub(crate) fn of(image: &Image, specifier: &Value) -> Option<SequenceType> {
         let mut parts = specifier.iter_list();
         let (name, first, second) = match specifier {
@@ -58,7 +57,7 @@ impl SequenceType {
         })
     }
 
-    /// What a type specifier means; an error if it is no kind of sequence.
+    /// The sequence type that a type specifier denotes; an error if it is not a kind of sequence.
     pub(crate) fn new(image: &Image, specifier: &Value) -> Result<SequenceType, Box<Raise>> {
         SequenceType::of(image, specifier).ok_or_else(|| {
             Raise::new(
@@ -103,7 +102,7 @@ pub(crate) fn vector_kind(image: &Image, element_type: &Value) -> Kind {
     }
 }
 
-/// The element type that an array made for elements of a type really has.
+/// The actual element type of an array that is made for elements of a type.
 pub(crate) fn upgraded(image: &Image, element_type: &Value) -> Sym {
     match element_type {
         Value::Symbol(known::CHARACTER | known::BASE_CHAR | known::STANDARD_CHAR) => {

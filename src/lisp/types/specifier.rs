@@ -84,14 +84,13 @@ pub(crate) enum CharacterKind {
 
 /// Why an operation on types stops early.
 pub(crate) enum Stop {
-    /// A function must be called; the operation is begun again with its value.
+    /// A function must be called; the operation is started again with its value.
     Call {
-        /// The function.
         function: Value,
         /// The arguments.
         args: Vec<Value>,
     },
-    /// A name of no type, with the error that tells so.
+    /// A name that is not a type, with the error that says so.
     UnknownType(Box<Raise>),
     /// Another error.
     Raise(Box<Raise>),
@@ -111,7 +110,7 @@ pub(crate) struct Answers {
 }
 
 impl Answers {
-    /// Adds the value of the call that the operation stopped at, and begins anew.
+    /// Adds the value of the call that the operation stopped at, and starts again.
     pub(crate) fn add(&mut self, value: Value) {
         self.given.push(value);
         self.used = 0;

@@ -8,14 +8,14 @@ use super::test::contains;
 use crate::lisp::image::Image;
 use crate::lisp::value::known;
 
-/// An answer that may be out of reach.
+/// An answer, which may be unknown.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Verdict {
     /// Certainly.
     Yes,
     /// Certainly not.
     No,
-    /// It cannot be told.
+    /// Undecided.
     Unknown,
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn is_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
     }
 }
 
-/// For types that are no combinations.
+/// The same for types that are not combinations.
 fn is_atomic_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
     Verdict::from_bool(match (a, b) {
         (Type::Class(x), Type::Class(y)) => x.is_subclass_of(y.name),

@@ -11,13 +11,13 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
-/// Whether a value is of a type, as far as it can be told without calling a function.
+/// Whether a value is of a type, as far as can be decided without calling a function.
 pub(crate) enum TypeCheck {
     /// It is.
     Yes,
     /// It is not.
     No,
-    /// The value of a call is needed first; [`typep_with`] makes it.
+    /// The value of a call is needed first; [`typep_with`] asks for that call.
     NeedsCall,
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn typep_with(
     contains(image, &parsed, value, answers)
 }
 
-/// The most usual types, told without reading the specifier.
+/// The most common types, tested without parsing the specifier.
 fn quickly(image: &Image, value: &Value, name: Sym) -> Option<bool> {
     Some(match name {
         known::T => true,

@@ -34,7 +34,7 @@ pub(crate) fn type_of(image: &Image, value: &Value) -> Value {
     }
 }
 
-/// Integers that are no bits: `(INTEGER 0 4611686018427387903)`, negative ones `FIXNUM`.
+/// Integers other than bits: `(INTEGER 0 4611686018427387903)`, negative ones `FIXNUM`.
 fn integer_type(image: &Image, value: &Value) -> Value {
     match value {
         Value::Int(0..=LARGEST_FIXNUM) => Value::list([

@@ -71,7 +71,7 @@ pub(crate) struct StructureSlot {
     pub(crate) initform: Value,
     /// The declared type, `T` if none.
     pub(crate) slot_type: Value,
-    /// May the slot not be assigned?
+    /// Is assignment to the slot forbidden?
     pub(crate) read_only: bool,
 }
 
@@ -84,9 +84,7 @@ pub(crate) struct StructureLayout {
     pub(crate) conc_name: Rc<str>,
 }
 
-/// A class.
 pub(crate) struct Class {
-    /// The name.
     pub(crate) name: Sym,
     /// What its instances are.
     pub(crate) kind: ClassKind,
@@ -158,7 +156,6 @@ impl Class {
 
 /// An instance of a standard class, a structure or a condition.
 pub(crate) struct Instance {
-    /// Its class.
     pub(crate) class: RefCell<Rc<Class>>,
     /// Slot values in the order of the class's slots; `Unbound` where none.
     pub(crate) slots: RefCell<Vec<Value>>,
@@ -239,7 +236,7 @@ thread_local! {
 }
 
 /// A chain of a million instances is freed without recursion: while an instance's slots are
-/// dropped, those of the instances that go with it only join a queue.
+/// dropped, those of the instances that are dropped with it only join a queue.
 impl Drop for Instance {
     fn drop(&mut self) {
         let slots = self.slots.take();

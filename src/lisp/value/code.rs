@@ -10,7 +10,7 @@ use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::symbol::Sym;
 
-/// One operation. "Push" and "pop" speak of the value stack.
+/// One operation. "Push" and "pop" refer to the value stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Op {
     /// Push a constant.
@@ -47,37 +47,37 @@ pub(crate) enum Op {
     Closure(u32),
     /// Drop the top.
     Pop,
-    /// Drop so many from the top.
+    /// Drop this many values from the top.
     Drop(u32),
-    /// Drop so many below the top.
+    /// Drop this many values below the top.
     Slide(u32),
     /// Push the top again.
     Dup,
-    /// Go on elsewhere.
+    /// Continue at the operation with this index.
     Jump(u32),
-    /// Pop; go on elsewhere if it was `NIL`.
+    /// Pop; jump if it was `NIL`.
     JumpIfNil(u32),
-    /// Pop; go on elsewhere unless it was `NIL`.
+    /// Pop; jump unless it was `NIL`.
     JumpIfTrue(u32),
-    /// Go on elsewhere if the top is true, else pop it.
+    /// Jump if the top is true, else pop it.
     JumpIfTrueOrPop(u32),
-    /// Go on elsewhere if a parameter was supplied.
+    /// Jump if a parameter was supplied.
     JumpIfSupplied(u32, u32),
     /// Push whether a parameter was supplied.
     Supplied(u32),
-    /// Call a symbol's function with so many arguments for one value.
+    /// Call a symbol's function with this many arguments for one value.
     Call(Sym, u16),
-    /// Call a symbol's function with so many arguments for all values.
+    /// Call a symbol's function with this many arguments for all values.
     CallMulti(Sym, u16),
-    /// Call the function below so many arguments for one value.
+    /// Call the function below this many arguments for one value.
     CallValue(u16),
-    /// Call the function below so many arguments for all values.
+    /// Call the function below this many arguments for all values.
     CallValueMulti(u16),
-    /// Call the function below so many results with all their values.
+    /// Call the function below this many results with all their values.
     MultipleValueCall(u16, bool),
     /// Return the top.
     Return,
-    /// Pop the values of a call and push exactly so many of them.
+    /// Pop the values of a call and push exactly this many of them.
     Spread(u32),
     /// Car of the top.
     Car,
@@ -111,20 +111,20 @@ pub(crate) enum Op {
     Consp,
     /// Pop a value and bind a special variable to it.
     BindSpecial(Sym),
-    /// Pop a list of values and one of symbols and bind those; pushes nothing.
+    /// Pop a list of values and a list of symbols, and bind the symbols; pushes nothing.
     Progv,
-    /// Undo so many dynamic entries.
+    /// Undo this many dynamic entries.
     PopDynamic(u32),
     /// Undo the dynamic entries beyond the innermost `progv` mark, and the mark.
     EndProgv,
     /// Enter a block that closures may leave: push its identity as a local.
     EnterBlock {
-        /// Where a return goes on.
+        /// Where execution continues after a return.
         target: u32,
         /// Does the block want all values?
         multi: bool,
     },
-    /// Pop value and identity and leave that block with the value.
+    /// Pop a value and an identity, and leave that block with the value.
     ReturnFrom,
     /// Enter a tagbody that closures may jump into: push its identity as a local. The
     /// operand is the number of its table of tags.
@@ -133,18 +133,18 @@ pub(crate) enum Op {
     Go(u32),
     /// Pop a tag and establish a catch.
     EnterCatch {
-        /// Where a throw goes on.
+        /// Where execution continues after a throw.
         target: u32,
         /// Does the catch want all values?
         multi: bool,
     },
-    /// Protect what follows: on any exit run the code at the target.
+    /// Protect what follows: on any exit, run the code at the target.
     EnterUnwind(u32),
-    /// Leave the protected part normally: its value is on top.
+    /// Leave the protected form normally: its value is on top.
     LeaveUnwind,
-    /// End of cleanup code: go on with the exit that ran it, or with the value.
+    /// End of cleanup code: continue the exit that ran it, or continue with the value.
     EndCleanup,
-    /// Pop so many handler functions and establish them with the types in a constant.
+    /// Pop this many handler functions and establish them with the types in a constant.
     EnterHandlers(u32, u16),
     /// Pop a list of restarts and establish them.
     EnterRestarts,
@@ -189,16 +189,15 @@ impl Parameters {
     }
 }
 
-/// A local variable: where its value lies, and for which operations that is so.
+/// A local variable: where its value is stored, and for which operations that holds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Local {
     /// Its slot, counted from the frame's base.
     pub(crate) slot: u32,
-    /// Its name.
     pub(crate) name: Sym,
     /// The first operation in its scope.
     pub(crate) from: u32,
-    /// The first operation behind its scope.
+    /// The first operation after its scope.
     pub(crate) to: u32,
 }
 
@@ -206,19 +205,17 @@ pub(crate) struct Local {
 pub(crate) struct Code {
     /// Name: a symbol, `(setf name)`, `(lambda …)` or `NIL`.
     pub(crate) name: Value,
-    /// The parameters.
     pub(crate) parameters: Parameters,
     /// The operations.
     pub(crate) ops: Vec<Op>,
-    /// Constants.
     pub(crate) constants: Vec<Value>,
     /// Code of the closures made here, with their captures.
     pub(crate) inner: Vec<(Rc<Code>, Vec<Capture>)>,
-    /// For each tagbody that closures jump into: where its tags are.
+    /// For each tagbody that closures jump into: the positions of its tags.
     pub(crate) tags: Vec<Vec<u32>>,
     /// Places of calls: (first operation, place), in ascending order.
     pub(crate) places: Vec<(u32, Place)>,
-    /// Local variables, for the debugger, as bound.
+    /// Local variables, for the debugger, in the order of binding.
     pub(crate) locals: Vec<Local>,
     /// Names of the free variables, in the order of the closure's captures.
     pub(crate) free: Vec<Sym>,

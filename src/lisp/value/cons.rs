@@ -15,7 +15,7 @@ pub(crate) struct Cons {
 }
 
 impl Cons {
-    /// A pair that no source text stands behind.
+    /// A pair without a place in a source.
     #[inline]
     pub(crate) fn new(car: Value, cdr: Value) -> Cons {
         Cons {
@@ -49,20 +49,20 @@ impl Cons {
         self.cdr.set(value);
     }
 
-    /// Where the list that starts with this pair stands in the source.
+    /// The place in the source of the list that starts with this pair.
     pub(crate) fn place(&self) -> Place {
         self.place.get()
     }
 
-    /// Records where the list that starts with this pair stands in the source.
+    /// Records the place in the source of the list that starts with this pair.
     pub(crate) fn set_place(&self, place: Place) {
         self.place.set(place);
     }
 }
 
 impl Drop for Cons {
-    /// Frees long lists and deep trees with a loop: one level of the Rust stack whatever
-    /// the structure's depth.
+    /// Frees long lists and deep trees with a loop: one level of the Rust stack, whatever the
+    /// structure's depth.
     fn drop(&mut self) {
         let mut pending = Vec::new();
         collect_unshared(self, &mut pending);

@@ -1,4 +1,4 @@
-//! What a generic function remembers of its calls: the effective method of each key.
+//! The dispatch cache of a generic function: the effective method for each key.
 
 use std::rc::Rc;
 
@@ -39,12 +39,11 @@ pub(crate) enum Shape {
         primary: Vec<Rc<Method>>,
         /// `:after` methods in the order in which they run: most specific last.
         after: Vec<Rc<Method>>,
-        /// The combination.
         combination: Combination,
     },
 }
 
-/// Where the slot of an accessor lies in instances of the class at hand.
+/// Where an accessor's slot is stored in instances of the class in question.
 pub(crate) enum SlotPlace {
     /// At this position of the instance.
     Local(usize),
@@ -52,9 +51,9 @@ pub(crate) enum SlotPlace {
     Shared(Rc<Slot>),
 }
 
-/// Calls whose key has more parts than this are not remembered.
+/// Calls whose key has more parts than this are not cached.
 pub(crate) const MAX_PARTS: usize = 4;
-/// A generic function that has met more keys than this forgets them all.
+/// A cache with more keys than this is cleared.
 pub(crate) const MAX_ENTRIES: usize = 256;
 
 /// What one argument contributes to a key: a class by its address and generation, or a
@@ -68,13 +67,12 @@ pub(crate) const NO_PART: Part = (0, 0);
 
 /// An argument that decides which methods apply.
 pub(crate) struct Position {
-    /// Its index.
     pub(crate) index: usize,
     /// The values that `eql` specializers name.
     pub(crate) eql_values: Vec<Value>,
 }
 
-/// Which arguments decide, and what they decided so far.
+/// Which arguments decide, and the effective methods found so far.
 #[derive(Default)]
 pub(crate) struct Dispatch {
     /// The arguments that decide.
@@ -119,7 +117,7 @@ impl Dispatch {
         }
     }
 
-    /// The remembered effective method; it moves towards the front.
+    /// The cached effective method, which is moved towards the front.
     #[inline]
     pub(crate) fn find(&mut self, key: &Key) -> Option<Rc<Effective>> {
         let found = self.entries.iter().position(|(k, _)| k == key)?;

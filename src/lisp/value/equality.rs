@@ -12,8 +12,8 @@ pub(crate) fn equal(a: &Value, b: &Value) -> bool {
     same(a, b, false)
 }
 
-/// `equalp`: like `equal`, but numbers by value, letters without case, arrays, structures
-/// and hash tables by their elements.
+/// `equalp`: like `equal`, but numbers by value, letters ignoring case, arrays, structures and hash
+/// tables by their elements.
 pub(crate) fn equalp(a: &Value, b: &Value) -> bool {
     same(a, b, true)
 }
@@ -105,7 +105,7 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
 
 /// Feeds a key into a hasher so that keys that are equal under `test` hash alike.
 pub(crate) fn hash<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
-    // Keys of deep structure are told apart by their first few leaves only.
+    // Deep keys are distinguished by their first few leaves only.
     let mut budget = 64;
     let mut pending = vec![value.clone()];
     while let Some(value) = pending.pop() {

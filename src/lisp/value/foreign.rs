@@ -1,11 +1,11 @@
-//! Values that layers above the language bring along: tasks, fluents, designators, poses.
+//! Values that layers above the language define: tasks, fluents, designators, poses.
 
 use std::any::Any;
 
 use super::Value;
 use super::symbol::Sym;
 
-/// What a value may ask for while it prints. The image answers.
+/// What a value may need to know while it prints. The image implements it.
 pub(crate) trait PrintContext {
     /// A symbol's name.
     fn name(&self, sym: Sym) -> &str;

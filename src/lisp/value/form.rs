@@ -1,11 +1,11 @@
-//! Building forms: the kit of every macro that is written in Rust.
+//! Building forms: the tools of every macro that is written in Rust.
 
 use std::rc::Rc;
 
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 
-/// A list of the items; after a semicolon, a tail that the list ends in.
+/// A list of the items; after a semicolon, the tail in which the list ends.
 macro_rules! form {
     ($($item:expr),* $(,)?) => {
         $crate::lisp::value::Value::list([$($crate::lisp::value::Value::from($item)),*])
@@ -24,7 +24,7 @@ pub(crate) fn quoted(value: impl Into<Value>) -> Value {
     form![known::QUOTE, value.into()]
 }
 
-/// The forms as one: a single form is itself.
+/// The forms as one form: a single form unchanged, others in a `progn`.
 pub(crate) fn progn(forms: Value) -> Value {
     match &forms {
         Value::Cons(cons) if cons.cdr().is_nil() => cons.car(),
@@ -47,11 +47,10 @@ pub(crate) struct Body {
     pub(crate) declarations: Vec<Value>,
     /// The documentation string.
     pub(crate) doc: Option<Rc<str>>,
-    /// The forms.
     pub(crate) forms: Value,
 }
 
-/// Takes the declarations and the documentation string off a body.
+/// Splits the declarations and the documentation string from a body.
 pub(crate) fn split_body(body: &Value) -> Body {
     let mut split = Body {
         declarations: Vec::new(),
@@ -73,12 +72,12 @@ pub(crate) fn split_body(body: &Value) -> Body {
     split
 }
 
-/// The text of an optional documentation string as a form.
+/// The form for an optional documentation string.
 pub(crate) fn doc_form(doc: Option<&Rc<str>>) -> Value {
     doc.map_or(Value::NIL, |doc| Value::string(doc.as_ref()))
 }
 
-/// Does a form's value not depend on when or where it is evaluated? Then that value.
+/// The value of a form that has the same value wherever and whenever it is evaluated.
 pub(crate) fn constant_value(form: &Value) -> Option<Value> {
     match form {
         Value::Symbol(known::NIL | known::T) => Some(form.clone()),

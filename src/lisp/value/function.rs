@@ -34,7 +34,6 @@ pub(crate) enum Body {
 
 /// A function that is compiled when it is first called.
 pub(crate) struct Deferred {
-    /// Its name.
     pub(crate) name: Sym,
     /// The number of its definition among those of the image.
     pub(crate) number: usize,
@@ -55,7 +54,6 @@ impl Deferred {
 
 /// A function written in Rust.
 pub(crate) struct Native {
-    /// Its name.
     pub(crate) name: Sym,
     /// Fewest arguments.
     pub(crate) min: u16,
@@ -74,7 +72,7 @@ pub(crate) enum NativeBody {
 }
 
 impl Native {
-    /// Does it take so many arguments?
+    /// Does it accept `count` arguments?
     #[inline]
     pub(crate) fn accepts(&self, count: usize) -> bool {
         count >= usize::from(self.min) && self.max.is_none_or(|max| count <= usize::from(max))

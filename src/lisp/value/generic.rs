@@ -65,7 +65,6 @@ pub(crate) enum Accessor {
     Writer(Sym),
 }
 
-/// A method.
 pub(crate) struct Method {
     /// The name of its generic function: a symbol, or the list `(setf name)`.
     pub(crate) name: Value,
@@ -86,11 +85,10 @@ pub(crate) struct Method {
     pub(crate) is_builtin: bool,
     /// Documentation.
     pub(crate) doc: Option<Rc<str>>,
-    /// The value that stands for the method, while somebody holds it.
+    /// The value that stands for the method, as long as it is referenced.
     pub(crate) object: RefCell<Weak<ForeignBox>>,
 }
 
-/// A generic function.
 pub(crate) struct GenericFunction {
     /// Its name: a symbol, or the list `(setf name)`.
     pub(crate) name: Value,
@@ -108,7 +106,7 @@ pub(crate) struct GenericFunction {
     pub(crate) combination: Cell<Combination>,
     /// Does the combination run the most specific method last?
     pub(crate) most_specific_last: Cell<bool>,
-    /// Which arguments decide, and what they decided so far.
+    /// Which arguments decide, and the effective methods found so far.
     pub(crate) dispatch: RefCell<Dispatch>,
 }
 

@@ -49,11 +49,10 @@ impl Hash for HashKey {
     }
 }
 
-/// A hash table.
 pub(crate) struct HashTable {
     /// How keys are compared.
     pub(crate) test: HashTest,
-    /// Where each key's entry stands.
+    /// The position of each key's entry.
     index: RefCell<HashMap<HashKey, usize>>,
     /// Entries in order of insertion; removed ones leave a gap.
     entries: RefCell<Vec<Option<(Value, Value)>>>,
@@ -79,8 +78,7 @@ impl HashTable {
         }
     }
 
-    // A table that is a key of itself may be looked at, as such, while it changes; it then
-    // appears empty.
+    // A table that is a key of itself may be inspected while it changes; it then appears empty.
 
     /// Number of entries.
     pub(crate) fn len(&self) -> usize {
@@ -112,7 +110,7 @@ impl HashTable {
         }
     }
 
-    /// Removes a key, keeping the order of the others; was it there?
+    /// Removes a key, keeping the order of the others; returns whether it was there.
     pub(crate) fn remove(&self, key: &Value) -> bool {
         let mut index = self.index.borrow_mut();
         let Some(place) = index.remove(&self.key(key)) else {

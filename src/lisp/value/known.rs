@@ -64,7 +64,7 @@ known! {
         // Declarations
         SPECIAL = "SPECIAL", IGNORE = "IGNORE", IGNORABLE = "IGNORABLE", OTHERWISE = "OTHERWISE",
         DYNAMIC_EXTENT = "DYNAMIC-EXTENT", INLINE = "INLINE", NOTINLINE = "NOTINLINE", OPTIMIZE = "OPTIMIZE", TYPE = "TYPE", FTYPE = "FTYPE", DECLARATION = "DECLARATION",
-        // Functions that the compiler or the machine treats itself
+        // Functions that the compiler or the machine treats specially
         CAR = "CAR", CDR = "CDR", CONS = "CONS", LIST = "LIST", LIST_STAR = "LIST*", APPEND = "APPEND",
         EQ = "EQ", EQL = "EQL", EQUAL = "EQUAL", EQUALP = "EQUALP", NULL = "NULL", FUNCALL = "FUNCALL",
         APPLY = "APPLY", PLUS = "+", MINUS = "-", TIMES = "*", DIVIDE = "/", LESS = "<", GREATER = ">",

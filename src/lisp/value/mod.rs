@@ -226,8 +226,8 @@ impl Value {
         self.is_nil() || matches!(self, Value::Cons(_))
     }
 
-    /// Identity: the same object. Numbers and characters are identical when `eql`, except
-    /// that bignums, ratios and floats are compared by `eql` alone.
+    /// Identity: the same object. Numbers and characters are identical when `eql`, except that
+    /// bignums, ratios and floats are compared only by `eql`.
     pub(crate) fn is_eq(&self, other: &Value) -> bool {
         match (self, other) {
             (Value::Symbol(a), Value::Symbol(b)) => a == b,
@@ -275,7 +275,7 @@ impl Value {
         }
     }
 
-    /// The elements of a proper list, or `None` if the list is dotted or no list.
+    /// The elements of a proper list, or `None` if the value is a dotted list or not a list.
     pub(crate) fn list_to_vec(&self) -> Option<Vec<Value>> {
         let mut iter = self.iter_list();
         let items: Vec<Value> = iter.by_ref().collect();
@@ -290,21 +290,21 @@ impl Value {
         }
     }
 
-    /// Car of a pair; `NIL` of anything else.
+    /// The car of a pair; `NIL` for anything else.
     pub(crate) fn car_or_nil(&self) -> Value {
         self.as_cons().map_or(Value::NIL, |c| c.car())
     }
 
-    /// Cdr of a pair; `NIL` of anything else.
+    /// The cdr of a pair; `NIL` for anything else.
     pub(crate) fn cdr_or_nil(&self) -> Value {
         self.as_cons().map_or(Value::NIL, |c| c.cdr())
     }
 }
 
-/// Notices that a walk along a list goes round in a circle, after a few rounds (Brent's
+/// Detects that a walk along a list is going round in a circle, after a few rounds (Brent's
 /// algorithm).
 pub(crate) struct Rounds {
-    /// A pair visited before: the list is circular when it comes again.
+    /// A pair visited before: the list is circular if it is met again.
     mark: Option<Value>,
     steps: usize,
     next_mark: usize,
@@ -321,7 +321,7 @@ impl Default for Rounds {
 }
 
 impl Rounds {
-    /// To be asked for each pair of the list in turn.
+    /// Is the list circular? Must be called for each pair of the list in turn.
     pub(crate) fn is_closed_by(&mut self, pair: &Value) -> bool {
         if self.mark.as_ref().is_some_and(|mark| mark.is_eq(pair)) {
             return true;

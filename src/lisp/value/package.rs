@@ -23,7 +23,6 @@ pub(crate) enum Access {
 /// One package.
 #[derive(Default)]
 pub(crate) struct Package {
-    /// The name.
     pub(crate) name: Rc<str>,
     /// Other names.
     pub(crate) nicknames: Vec<Rc<str>>,
@@ -49,7 +48,7 @@ impl PackageTable {
     pub(crate) const CL: PackageId = PackageId(0);
     /// `KEYWORD`.
     pub(crate) const KEYWORD: PackageId = PackageId(1);
-    /// `SYSTEM`: what the implementation itself needs names for.
+    /// `SYSTEM`: names that the implementation itself needs.
     pub(crate) const SYSTEM: PackageId = PackageId(3);
     /// `COMMON-LISP-USER`.
     pub(crate) const USER: PackageId = PackageId(2);
@@ -96,7 +95,7 @@ impl PackageTable {
         &self.packages[usize::from(id.0)]
     }
 
-    /// The package, to be changed.
+    /// The package, mutably.
     pub(crate) fn get_mut(&mut self, id: PackageId) -> &mut Package {
         &mut self.packages[usize::from(id.0)]
     }
@@ -128,8 +127,8 @@ impl PackageTable {
         })
     }
 
-    /// The symbol accessible under a name, made and made present if there is none.
-    /// A new symbol in `KEYWORD` is exported and is its own value.
+    /// The symbol accessible under a name; if there is none, a new one is made present. A new
+    /// symbol in `KEYWORD` is exported and is its own value.
     pub(crate) fn intern(
         &mut self,
         symbols: &mut SymbolTable,
@@ -184,7 +183,7 @@ impl PackageTable {
         }
     }
 
-    /// Takes a package out of those that another uses.
+    /// Removes a package from those that another uses.
     pub(crate) fn unuse_package(&mut self, package: PackageId, used: PackageId) {
         self.get_mut(package).uses.retain(|id| *id != used);
     }
@@ -199,7 +198,7 @@ impl PackageTable {
         }
     }
 
-    /// Takes a symbol out of a package; was it present?
+    /// Removes a symbol from a package; returns whether it was present.
     pub(crate) fn unintern(
         &mut self,
         symbols: &mut SymbolTable,

@@ -10,20 +10,18 @@ use crate::lisp::source::Place;
 pub(crate) enum Raise {
     /// A condition object that exists already.
     Condition {
-        /// The condition.
         condition: Value,
-        /// Where the form is that a macro could not expand, if it was signalled by a macro.
+        /// The place of the form that a macro could not expand, if a macro signalled it.
         place: Place,
     },
     /// A condition still to be made.
     Make {
-        /// Its class.
         class: Sym,
         /// The report; none if the class's own report says it.
         report: Option<String>,
         /// Values of its slots, by slot initarg keyword.
         initargs: Vec<(Sym, Value)>,
-        /// Where the error is in the source, if a form and not a call is wrong.
+        /// The place of the error in the source, if a form and not a call is wrong.
         place: Place,
     },
 }

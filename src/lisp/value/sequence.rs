@@ -10,10 +10,9 @@ use crate::lisp::value::string::LispString;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::value::{Rounds, Value};
 
-/// A sequence.
 #[derive(Clone)]
 pub(crate) enum Sequence {
-    /// A list, possibly dotted or circular, which is found out while walking it.
+    /// A list, possibly dotted or circular, which is discovered while walking it.
     List(Value),
     /// A one-dimensional array.
     Vector(Rc<Vector>),
@@ -22,7 +21,7 @@ pub(crate) enum Sequence {
 }
 
 impl Sequence {
-    /// The sequence that a value is.
+    /// A value as a sequence.
     pub(crate) fn of(value: &Value) -> Result<Sequence, Box<Raise>> {
         match value {
             Value::Symbol(known::NIL) | Value::Cons(_) => Ok(Sequence::List(value.clone())),
@@ -32,7 +31,7 @@ impl Sequence {
         }
     }
 
-    /// The value that the sequence is.
+    /// The sequence as a value.
     pub(crate) fn value(&self) -> Value {
         match self {
             Sequence::List(list) => list.clone(),
@@ -206,7 +205,7 @@ pub(crate) fn element(vector: &Vector, value: Value) -> Result<Value, Box<Raise>
     checked_element(vector.element_type, value)
 }
 
-/// Checks that a value may stand in an array of an element type.
+/// Checks that a value may be stored in an array of an element type.
 pub(crate) fn checked_element(element_type: Sym, value: Value) -> Result<Value, Box<Raise>> {
     let fits = match element_type {
         known::BIT => matches!(value, Value::Int(0 | 1)),
@@ -223,7 +222,7 @@ pub(crate) fn checked_element(element_type: Sym, value: Value) -> Result<Value, 
     }
 }
 
-/// The character that a value is.
+/// A value as a character.
 pub(crate) fn character(value: &Value) -> Result<char, Box<Raise>> {
     match value {
         Value::Char(c) => Ok(*c),
@@ -231,7 +230,7 @@ pub(crate) fn character(value: &Value) -> Result<char, Box<Raise>> {
     }
 }
 
-/// The text of characters.
+/// The text made of characters.
 pub(crate) fn text_of(items: &[Value]) -> Result<String, Box<Raise>> {
     items.iter().map(character).collect()
 }
@@ -443,7 +442,7 @@ impl ListWalk {
     }
 }
 
-/// A list has no end where it needs one.
+/// The error for a circular list that should end.
 pub(crate) fn circular(list: &Value) -> Box<Raise> {
     Raise::new(known::TYPE_ERROR, "The list is circular.")
         .with(known::K_DATUM, list.clone())

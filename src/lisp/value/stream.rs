@@ -11,18 +11,17 @@ use super::raise::Raise;
 use super::string::LispString;
 use super::symbol::Sym;
 
-/// How deep streams may be made of other streams.
+/// The deepest nesting of streams that are made of other streams.
 pub(crate) const MAX_NESTING: u32 = 100;
 
-/// A stream.
 pub(crate) struct Stream {
-    /// What stands behind it.
+    /// Where its characters come from or go to.
     pub(crate) kind: RefCell<StreamKind>,
     /// How many levels of other streams it is made of.
     pub(crate) nesting: u32,
 }
 
-/// What stands behind a stream.
+/// Where a stream's characters come from or go to.
 pub(crate) enum StreamKind {
     /// The image's standard output.
     StandardOutput,
@@ -38,9 +37,8 @@ pub(crate) enum StreamKind {
         /// The string.
         string: Rc<LispString>,
     },
-    /// Gives the characters of a text: a string, or the contents of a file.
+    /// Yields the characters of a text: a string, or the contents of a file.
     StringInput {
-        /// The text.
         text: Rc<str>,
         /// Byte offset of the next character.
         position: usize,
@@ -61,9 +59,9 @@ pub(crate) enum StreamKind {
     },
     /// Reads several streams one after the other.
     Concatenated {
-        /// The streams that are not used up, the next one first.
+        /// The streams that are not exhausted, the next one first.
         inputs: Vec<Rc<Stream>>,
-        /// A character given back.
+        /// A character that was put back.
         unread: Option<char>,
     },
     /// Reads one stream and writes another.
@@ -72,9 +70,9 @@ pub(crate) enum StreamKind {
         input: Rc<Stream>,
         /// Where characters go to.
         output: Rc<Stream>,
-        /// Is what was read written too?
+        /// Is what is read written, too?
         echo: bool,
-        /// A character given back, which is not echoed again.
+        /// A character that was put back; it is not echoed again.
         unread: Option<char>,
     },
     /// Stands for the stream that is the value of a variable.
@@ -110,7 +108,7 @@ impl Stream {
         })
     }
 
-    /// A stream that gives the characters of a text.
+    /// A stream that yields the characters of a text.
     pub(crate) fn from_text(text: impl Into<Rc<str>>) -> Stream {
         Stream::new(StreamKind::StringInput {
             text: text.into(),
@@ -125,7 +123,7 @@ impl Stream {
         })
     }
 
-    /// Takes the text that a string output stream has collected; none of another kind.
+    /// Takes the text that a string output stream has collected; `None` for other kinds.
     pub(crate) fn take_text(&self) -> Option<String> {
         match &mut *self.kind.borrow_mut() {
             StreamKind::StringOutput { text } => Some(std::mem::take(text)),

@@ -10,7 +10,7 @@ pub(crate) struct LispString {
     text: RefCell<String>,
     /// Number of characters.
     length: Cell<usize>,
-    /// A position and its byte offset, where the last character was looked up.
+    /// A position and its byte offset: those of the last lookup.
     cursor: Cell<(usize, usize)>,
     /// Does the string have a fill pointer, that is, can characters be pushed?
     pub(crate) has_fill_pointer: Cell<bool>,
@@ -36,7 +36,7 @@ impl LispString {
         }
     }
 
-    /// A string with a fill pointer behind the text and room for `capacity` characters.
+    /// A string with a fill pointer at the end of the text and room for `capacity` characters.
     pub(crate) fn with_fill_pointer(text: String, capacity: usize, adjustable: bool) -> LispString {
         let string = LispString::new(text);
         string.has_fill_pointer.set(true);
@@ -156,8 +156,8 @@ impl LispString {
         Some(c)
     }
 
-    /// Moves the fill pointer; characters behind it come back when it returns. False if
-    /// there is not so much room.
+    /// Moves the fill pointer; characters beyond it reappear when it moves back up. False if there
+    /// is not enough room.
     pub(crate) fn set_fill_pointer(&self, count: usize) -> bool {
         if count > self.capacity() {
             return false;

@@ -54,7 +54,6 @@ pub(crate) enum VariableKind {
 /// What an image knows about a symbol.
 #[derive(Default)]
 pub(crate) struct SymbolData {
-    /// The name.
     pub(crate) name: Rc<str>,
     /// The home package; none if uninterned.
     pub(crate) package: Option<PackageId>,
@@ -105,7 +104,7 @@ impl SymbolTable {
         &self.entries[sym.0 as usize]
     }
 
-    /// The symbol's data, to be changed.
+    /// The symbol's data, mutably.
     #[inline]
     pub(crate) fn get_mut(&mut self, sym: Sym) -> &mut SymbolData {
         &mut self.entries[sym.0 as usize]

@@ -53,7 +53,7 @@ fn pair(
     }
 }
 
-/// A double result, unless finite operands led out of the format.
+/// A double result; an error if it is not finite although the operands are.
 #[inline]
 fn double(result: f64, operation: Sym, a: &Value, b: &Value) -> NumberResult {
     if result.is_finite() {

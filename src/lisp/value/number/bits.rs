@@ -1,4 +1,4 @@
-//! Integers as rows of bits in two's complement.
+//! Integers as sequences of bits in two's complement.
 
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -10,7 +10,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
-/// `(byte size position)`: a stretch of bits.
+/// `(byte size position)`: a run of bits.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct ByteSpecifier {
     /// Number of bits.

@@ -11,7 +11,7 @@ use super::error::{NumberResult, not_a_number, not_an_integer, not_real};
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 
-/// Integers up to this magnitude are double floats exactly.
+/// Integers up to this magnitude are exact as double floats.
 const EXACT_IN_DOUBLE: u64 = 1 << 53;
 
 /// The order of two real numbers; `None` if one is not a number (NaN).
@@ -136,12 +136,12 @@ pub(crate) fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     }
 }
 
-/// The larger of two numbers, as it is; of equal ones the first.
+/// The larger of two numbers, unconverted; the first if they are equal.
 pub(crate) fn maximum(a: &Value, b: &Value) -> NumberResult {
     Ok(if less(a, b)? { b.clone() } else { a.clone() })
 }
 
-/// The smaller of two numbers, as it is; of equal ones the first.
+/// The smaller of two numbers, unconverted; the first if they are equal.
 pub(crate) fn minimum(a: &Value, b: &Value) -> NumberResult {
     Ok(if less(b, a)? { b.clone() } else { a.clone() })
 }

@@ -1,8 +1,8 @@
 //! Complex numbers: what square roots and logarithms of negative numbers are.
 //!
-//! Rare in plans, so they are not a kind of value of their own but a foreign one; real
-//! arithmetic never looks here unless an operand is no real number. A complex number has
-//! two rational parts, the imaginary one not zero, or two floats of one type.
+//! Rare in plans, so they are not a kind of value of their own but a foreign one; real arithmetic
+//! never comes here unless an operand is not real. A complex number has two rational parts, the
+//! imaginary one not zero, or two floats of one type.
 
 use std::f64::consts::PI;
 
@@ -140,7 +140,7 @@ pub(crate) fn conjugate(value: &Value) -> NumberResult {
     }
 }
 
-/// Are two numbers equal of which at least one is complex?
+/// Are two numbers equal, at least one of which is complex?
 pub(crate) fn equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     let ((a_re, a_im), (b_re, b_im)) = (parts(a)?, parts(b)?);
     Ok(number_equal(&a_re, &b_re)? && number_equal(&a_im, &b_im)?)
@@ -232,7 +232,7 @@ fn is_exact(value: &Value) -> bool {
     }
 }
 
-/// A real base as a double if the exponent is one.
+/// A real base, converted to a double if the exponent is made of doubles.
 fn as_contagious(base: &Value, exponent: &Value) -> NumberResult {
     let exponent_re = real_part(exponent)?;
     if is_real(base) && matches!(exponent_re, Value::Double(_)) {

@@ -39,7 +39,7 @@ pub(crate) fn ratio(numerator: BigInt, denominator: BigInt) -> Option<Value> {
     })))
 }
 
-/// The integer as a big one; `None` if it is no integer.
+/// The integer as a big one; `None` if the value is not an integer.
 pub(crate) fn to_big(value: &Value) -> Option<BigInt> {
     match value {
         Value::Int(n) => Some(BigInt::from(*n)),
@@ -68,8 +68,8 @@ pub(crate) fn is_integer(value: &Value) -> bool {
     matches!(value, Value::Int(_) | Value::Big(_))
 }
 
-/// The number as the nearest double float; infinite beyond the largest one; `None` if it
-/// is no real number.
+/// The number as the nearest double float; infinite beyond the largest one; `None` if it is not a
+/// real number.
 pub(crate) fn to_f64(value: &Value) -> Option<f64> {
     match value {
         Value::Int(n) => Some(*n as f64),
@@ -86,8 +86,8 @@ pub(crate) fn to_f64(value: &Value) -> Option<f64> {
     }
 }
 
-/// The number as the nearest single float; infinite beyond the largest one; `None` if it
-/// is no real number.
+/// The number as the nearest single float; infinite beyond the largest one; `None` if it is not a
+/// real number.
 pub(crate) fn to_f32(value: &Value) -> Option<f32> {
     match value {
         Value::Int(n) => Some(*n as f32),
@@ -102,8 +102,8 @@ pub(crate) fn to_f32(value: &Value) -> Option<f32> {
     }
 }
 
-/// The fraction rounded to a mantissa of so many bits (ties to even), with no bit below
-/// two to the power of `lowest`.
+/// The fraction rounded to a mantissa of `bits` bits (ties to even), with no bit below two to the
+/// power of `lowest`.
 fn fraction_to_f64(numerator: &BigInt, denominator: &BigInt, bits: u32, lowest: i64) -> f64 {
     let magnitude = numerator.abs();
     // Lengths of numbers that fit in memory fit 63 bits.

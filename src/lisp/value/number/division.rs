@@ -96,7 +96,7 @@ fn divide_small(x: i64, y: i64, rounding: Rounding) -> (Value, Value) {
     (Value::Int(quotient), Value::Int(rest))
 }
 
-/// The divisor is not zero.
+/// The integer quotient. The divisor must not be zero.
 fn divide_big(numerator: BigInt, divisor: BigInt, rounding: Rounding) -> BigInt {
     match rounding {
         Rounding::Floor => numerator.div_floor(&divisor),
@@ -184,7 +184,7 @@ fn divide_floats(a: &Value, b: &Value, rounding: Rounding) -> Result<(Value, Val
     Ok((integer_of(quotient), rest))
 }
 
-/// The integer that a float without fraction is.
+/// A float without a fraction, as an integer.
 fn integer_of(x: f64) -> Value {
     // Two to the power of 63 and more do not fit.
     if x.abs() < 9.2e18 {

@@ -8,25 +8,25 @@ use crate::lisp::value::symbol::Sym;
 /// The result of an operation on numbers.
 pub(crate) type NumberResult = Result<Value, Box<Raise>>;
 
-/// `datum` is no number.
+/// `datum` is not a number.
 #[cold]
 pub(crate) fn not_a_number(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::NUMBER)
 }
 
-/// `datum` is no real number.
+/// `datum` is not a real number.
 #[cold]
 pub(crate) fn not_real(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::REAL)
 }
 
-/// `datum` is no integer.
+/// `datum` is not an integer.
 #[cold]
 pub(crate) fn not_an_integer(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::INTEGER)
 }
 
-/// `datum` is no float.
+/// `datum` is not a float.
 #[cold]
 pub(crate) fn not_a_float(datum: &Value) -> Box<Raise> {
     Raise::type_error(datum, known::FLOAT)
@@ -65,7 +65,7 @@ pub(crate) fn invalid(operation: Sym, operands: &[&Value]) -> Box<Raise> {
     arithmetic(known::FLOATING_POINT_INVALID_OPERATION, operation, operands)
 }
 
-/// A function outside the real numbers for which it is defined here.
+/// A function applied outside the real numbers for which it is defined here.
 #[cold]
 pub(crate) fn complex_result(operation: Sym, operand: &Value) -> Box<Raise> {
     arithmetic(

@@ -31,8 +31,8 @@ impl Foreign for RandomState {
     }
 }
 
-/// `(make-random-state state)`: a generator that goes on as another one would (`NIL` is
-/// the image's), or, for `T`, as no other does.
+/// `(make-random-state state)`: a generator that continues as another one would (for `NIL`, the
+/// image's) or, for `T`, unlike any other.
 pub(crate) fn make_random_state(default: &mut Pcg64, state: &Value) -> NumberResult {
     let copy = match (state, state.as_foreign::<RandomState>()) {
         (Value::Symbol(known::NIL), _) => default.clone(),
