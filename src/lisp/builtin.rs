@@ -1,6 +1,5 @@
-//! The table entry of a builtin: everything that is known about it in one place. Calls,
-//! help, completion, the reference manual and the tests of the examples read the same
-//! tables.
+//! The table entry of a builtin: everything that is known about it, in one place. Calls, help,
+//! completion, the reference manual and the tests of the examples read the same tables.
 
 use std::rc::Rc;
 
@@ -98,7 +97,7 @@ pub(crate) fn arity(lambda_list: &str) -> (u16, Option<u16>) {
     (min, Some(min + optional))
 }
 
-/// Expands a macro call: maps the whole form to the form that takes its place.
+/// Expands a macro call: maps the whole form to its expansion.
 pub(crate) type Expander = fn(&mut Image, &Value) -> Result<Value, Box<Raise>>;
 
 /// A macro written in Rust, or a special operator.
@@ -115,7 +114,7 @@ pub(crate) struct Operator {
     pub(crate) expand: Option<Expander>,
 }
 
-/// What the tables say of a name: a function or an operator written in Rust, or a definition
+/// What the tables say about a name: a function or an operator written in Rust, or a definition
 /// written in Lisp.
 #[derive(Clone, Copy)]
 pub(crate) enum Entry {
@@ -128,7 +127,7 @@ pub(crate) enum Entry {
 }
 
 impl Entry {
-    /// What it is.
+    /// What kind of thing it is.
     pub(crate) fn kind(self) -> &'static str {
         match self {
             Entry::Builtin(_) => "function",

@@ -11,7 +11,7 @@ use super::value::package::PackageTable;
 use super::value::symbol::Sym;
 
 impl Image {
-    /// An image as sessions start with, in `COMMON-LISP-USER`.
+    /// The image that sessions start with, in `COMMON-LISP-USER`.
     pub(crate) fn new() -> Image {
         let mut image = Image::bare();
         image.define_constant(known::NIL, Value::NIL);

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-/// Handle of a stretch of source text; [`Sources`] resolves it.
+/// Handle of a span of source text; [`Sources`] resolves it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub(crate) struct Place(pub(crate) u32);
 
@@ -32,7 +32,7 @@ pub(crate) struct Source {
     line_starts: Vec<u32>,
 }
 
-/// A place for people: lines and columns count from one, columns in characters.
+/// A source location for display: lines and columns count from one, columns in characters.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Location {
     /// Name of the source.
@@ -164,7 +164,7 @@ impl Sources {
     }
 }
 
-/// Texts and tables beyond four gigabytes are not addressed; the place is then at the end.
+/// An offset as stored; offsets beyond four gigabytes become the largest one.
 fn offset(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }

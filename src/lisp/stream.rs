@@ -1,7 +1,7 @@
 //! Reading and writing streams.
 //!
-//! All text that a program writes goes through [`write()`]; nothing else prints. Reading at
-//! the end gives `None`; who reads decides whether that is an error.
+//! All text that a program writes goes through [`write()`]; nothing else prints. Reading at the end
+//! gives `None`; the caller decides whether that is an error.
 
 use std::cell::RefCell;
 use std::io::Write as _;
@@ -42,14 +42,13 @@ pub(crate) fn install(image: &mut Image) {
     }
 }
 
-/// The stream that a designator for an output stream means: `NIL` is
-/// `*standard-output*`, `T` is `*terminal-io*`.
+/// The output stream that a designator denotes: `NIL` is `*standard-output*`, `T` is
+/// `*terminal-io*`.
 pub(crate) fn output_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, designator, known::V_STANDARD_OUTPUT)
 }
 
-/// The stream that a designator for an input stream means: `NIL` is `*standard-input*`,
-/// `T` is `*terminal-io*`.
+/// The input stream that a designator denotes: `NIL` is `*standard-input*`, `T` is `*terminal-io*`.
 pub(crate) fn input_stream(image: &Image, designator: &Value) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, designator, known::V_STANDARD_INPUT)
 }
@@ -60,7 +59,7 @@ fn designated(image: &Image, designator: &Value, default: Sym) -> Result<Rc<Stre
         Value::Symbol(known::T) => image.special(known::V_TERMINAL_IO),
         other => other,
     };
-    // A synonym stream stands for a variable's value, which may be another one.
+    // A synonym stream stands for a variable's value, which may itself be a synonym stream.
     for _ in 0..MAX_NESTING {
         let Value::Stream(stream) = value else {
             return Err(Raise::type_error(value, known::STREAM));
@@ -81,12 +80,12 @@ fn endless_synonym(stream: &Value) -> Box<Raise> {
     .with(known::K_STREAM, stream.clone())
 }
 
-/// The stream that a stream stands for: the value of a synonym's variable, else itself.
+/// The value of the variable for a synonym stream; any other stream unchanged.
 fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, &Value::Stream(stream.clone()), known::NIL)
 }
 
-/// Writes a text to the stream that a designator means.
+/// Writes a text to the stream that a designator denotes.
 pub(crate) fn write(image: &mut Image, designator: &Value, text: &str) -> Result<(), Box<Raise>> {
     let stream = output_stream(image, designator)?;
     write_to(image, &stream, text, 0)
@@ -144,7 +143,7 @@ fn column_after(text: &str, before: usize) -> usize {
     }
 }
 
-/// Number of characters on the current line of an output stream, where that is known.
+/// Number of characters on the current line of an output stream, if that is known.
 pub(crate) fn column(image: &Image, designator: &Value) -> Result<Option<usize>, Box<Raise>> {
     let mut stream = output_stream(image, designator)?;
     for _ in 0..=MAX_NESTING {
@@ -168,7 +167,7 @@ pub(crate) fn column(image: &Image, designator: &Value) -> Result<Option<usize>,
     Ok(None)
 }
 
-/// Starts a new line unless the stream is at the start of one; was a newline written?
+/// Starts a new line unless the stream is at the start of one; returns whether it did.
 pub(crate) fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, Box<Raise>> {
     let needed = column(image, designator)?.is_none_or(|column| column > 0);
     if needed {
@@ -177,7 +176,7 @@ pub(crate) fn fresh_line(image: &mut Image, designator: &Value) -> Result<bool, 
     Ok(needed)
 }
 
-/// Reads a character; none at the end.
+/// Reads a character; `None` at the end.
 pub(crate) fn read_char(image: &mut Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
     let c = peek_char(image, designator)?;
     if let Some(c) = c {
@@ -186,7 +185,7 @@ pub(crate) fn read_char(image: &mut Image, designator: &Value) -> Result<Option<
     Ok(c)
 }
 
-/// Looks at the next character without reading it; none at the end.
+/// Returns the next character without reading it; `None` at the end.
 pub(crate) fn peek_char(image: &Image, designator: &Value) -> Result<Option<char>, Box<Raise>> {
     let stream = input_stream(image, designator)?;
     peek_at(image, &stream, 0)
@@ -221,8 +220,8 @@ fn peek_at(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<Option<char
     Ok(None)
 }
 
-/// The text that an input stream has still to give, as a text and the byte offset where
-/// the rest begins. [`advance`] tells the stream how much of it was read.
+/// The unread text of an input stream: a text and the byte offset at which the unread part begins.
+/// [`advance`] records how much of it was read.
 pub(crate) fn rest(image: &Image, designator: &Value) -> Result<(Rc<str>, usize), Box<Raise>> {
     let stream = input_stream(image, designator)?;
     if let StreamKind::StringInput { text, position } = &*stream.kind.borrow() {
@@ -265,7 +264,7 @@ fn rest_of(
         .try_for_each(|input| rest_of(image, input, collected, depth + 1))
 }
 
-/// Counts `bytes` bytes of the text that [`rest`] gave as read.
+/// Marks `bytes` bytes of the text from [`rest`] as read.
 pub(crate) fn advance(
     image: &mut Image,
     designator: &Value,
@@ -275,7 +274,7 @@ pub(crate) fn advance(
     advance_in(image, &stream, bytes, 0).map(drop)
 }
 
-/// Returns the part of `bytes` that the stream could not give.
+/// Returns the part of `bytes` that goes beyond the stream's text.
 fn advance_in(
     image: &mut Image,
     stream: &Rc<Stream>,
@@ -331,7 +330,7 @@ fn advance_in(
     Ok(left)
 }
 
-/// Lets a concatenated stream forget the parts that are at their end.
+/// Drops the exhausted parts of a concatenated stream.
 fn drop_used_up(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<(), Box<Raise>> {
     let inputs = match &*stream.kind.borrow() {
         StreamKind::Concatenated { inputs, .. } => inputs.clone(),
@@ -350,7 +349,7 @@ fn drop_used_up(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<(), Bo
     Ok(())
 }
 
-/// Gives the character back that was read last.
+/// Puts back the character that was read last.
 pub(crate) fn unread_char(
     image: &mut Image,
     designator: &Value,
@@ -388,7 +387,7 @@ pub(crate) fn unread_char(
     Err(endless_synonym(&Value::Stream(stream)))
 }
 
-/// Writes out what a file stream holds back.
+/// Flushes the buffer of a file stream.
 pub(crate) fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
     match &mut *stream.kind.borrow_mut() {
         StreamKind::FileOutput { file, .. } => file
@@ -398,7 +397,7 @@ pub(crate) fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
     }
 }
 
-/// Closes a stream; was it open?
+/// Closes a stream; returns whether it was open.
 pub(crate) fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
     flush(stream)?;
     let mut kind = stream.kind.borrow_mut();

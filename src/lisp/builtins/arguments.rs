@@ -75,7 +75,7 @@ fn check_arguments(image: &mut Image, args: &[Value]) -> Result<Value> {
     ))
 }
 
-/// A lambda list for people. The parameters of the library's macros belong to `SYSTEM`.
+/// A lambda list for the user to read. The parameters of the library's macros belong to `SYSTEM`.
 fn lambda_list_text(image: &mut Image, context: &Value, lambda_list: &Value) -> String {
     let entry = context.as_symbol().and_then(|name| image.entry(name));
     if !matches!(entry, Some(Entry::Library(_))) {

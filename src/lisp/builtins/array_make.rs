@@ -79,7 +79,7 @@ impl Options {
         })
     }
 
-    /// The fill pointer of a vector of a size, if it is to have one.
+    /// The fill pointer for a vector of this size, if it is to have one.
     pub(crate) fn fill_pointer(&self, size: usize) -> Result<Option<usize>, Box<Raise>> {
         match &self.fill_pointer {
             None | Some(Value::Symbol(known::NIL)) => Ok(None),
@@ -97,7 +97,7 @@ impl Options {
     }
 }
 
-/// The dimensions that an argument says: an integer or a list of integers.
+/// The dimensions given by an argument: an integer or a list of integers.
 pub(crate) fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
     let shape: Vec<usize> = if value.is_list() {
         list_items(value)?
@@ -144,7 +144,7 @@ pub(crate) fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, B
     Ok(level)
 }
 
-/// What elements hold that nothing was said about.
+/// The element that arrays of this element type hold by default.
 pub(crate) fn filler(element_type: Sym) -> Value {
     match element_type {
         known::CHARACTER => default_element(Kind::Str),
@@ -152,7 +152,7 @@ pub(crate) fn filler(element_type: Sym) -> Value {
     }
 }
 
-/// A vector or string of items.
+/// A vector or string made of items.
 pub(crate) fn vector(
     element_type: Sym,
     items: Vec<Value>,

@@ -247,7 +247,7 @@ fn vectorp(_: &mut Image, args: &[Value]) -> Outcome {
     )))
 }
 
-/// Is this a vector without fill pointer that holds anything?
+/// Is this a vector without a fill pointer whose elements may be anything?
 fn is_simple_vector(value: &Value) -> bool {
     matches!(value, Value::Vector(v) if v.element_type == known::T) && !is_adjustable(value)
 }

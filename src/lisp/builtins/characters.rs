@@ -22,12 +22,12 @@ fn name_of(c: char) -> String {
         .unwrap_or_else(|| format!("U{:X}", u32::from(c)))
 }
 
-/// The character of a name, in any case.
+/// The character with this name, in any case.
 fn named(name: &str) -> Option<char> {
     char_named(name).or_else(|| ('!'..='~').find(|c| name_of(*c).eq_ignore_ascii_case(name)))
 }
 
-/// Unicode names of the printing ASCII characters that are no letters, from `!` on.
+/// Unicode names of the printing ASCII characters that are not letters, from `!` on.
 const ASCII: &[&str] = &[
     "EXCLAMATION_MARK",
     "QUOTATION_MARK",
@@ -86,7 +86,7 @@ fn letter_name(c: char) -> Option<String> {
 pub(crate) fn upcase(c: char) -> char {
     let mut upper = c.to_uppercase();
     match (upper.next(), upper.next()) {
-        // A letter has an upper case only if it comes back as itself.
+        // A letter has an upper case only if that one's lower case is the letter itself.
         (Some(u), None) if single_lower(u) == Some(c) => u,
         _ => c,
     }
@@ -124,7 +124,7 @@ fn radix(value: Option<&Value>) -> Result<u32, Box<Raise>> {
     }
 }
 
-/// The character that a designator means: a character, or a string or symbol of length one.
+/// The character that a designator denotes: a character, or a string or symbol of length one.
 fn designated(image: &Image, value: &Value) -> Result<char, Box<Raise>> {
     let only = |text: &str| {
         let mut chars = text.chars();

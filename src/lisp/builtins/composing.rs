@@ -1,6 +1,6 @@
-//! Texts that depend on Lisp code: objects that a program prints itself, functions that
-//! format calls. Such a text is composed purely as often as needed, until all calls that
-//! it depends on have been made.
+//! Texts that depend on Lisp code: objects that a program prints itself, functions that `format`
+//! calls. Such a text is composed, purely, as often as needed until all calls that it depends on
+//! have been made.
 
 use std::rc::Rc;
 
@@ -15,8 +15,8 @@ use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
-/// Composes a text and hands it on, after the calls that it needs. `compose` takes the texts
-/// of calls and notes those that are missing.
+/// Composes a text, making the calls that it needs, and passes it on. `compose` receives the texts
+/// of calls and records those that are missing.
 pub(super) fn compose(
     machine: &mut Machine<'_>,
     name: &'static str,
@@ -52,7 +52,7 @@ pub(super) fn compose(
     })
 }
 
-/// Makes a call; the text that it writes.
+/// Makes a call; returns the text that it writes.
 async fn text_of(calls: &Calls, call: Call) -> String {
     let stream = Rc::new(Stream::to_text());
     if let Some(escape) = call.escape {
@@ -70,7 +70,7 @@ async fn text_of(calls: &Calls, call: Call) -> String {
     stream.take_text().unwrap_or_default()
 }
 
-/// Binds `*print-escape*` until the call returns. If the call is left otherwise, the
+/// Binds `*print-escape*` until the call returns. If the call is left by a non-local exit, the
 /// machine undoes the binding.
 fn bind_escape(machine: &mut Machine<'_>, escape: bool) {
     let place = &mut machine.image.symbols.get_mut(known::V_PRINT_ESCAPE).value;

@@ -9,7 +9,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::callable::{builtin_name, callable};
 use crate::lisp::vm::calls::Calls;
 
-/// A function that is applied to elements before they are looked at; none is the identity.
+/// A function that is applied to elements before they are tested; none is the identity.
 #[derive(Clone)]
 pub(crate) struct Key(Option<Value>);
 
@@ -24,7 +24,7 @@ impl Key {
         Ok(Key((!identity).then_some(function)))
     }
 
-    /// What is looked at for an element.
+    /// The value that is tested for an element.
     pub(crate) async fn of(&self, calls: &Calls, element: Value) -> Value {
         match &self.0 {
             None => element,
@@ -74,7 +74,7 @@ impl Test {
         }
     }
 
-    /// Do two values match? The function gets them in this order.
+    /// Do two values match? The function receives them in this order.
     pub(crate) async fn matches(&self, calls: &Calls, a: &Value, b: &Value) -> bool {
         match self {
             Test::Eq => a.is_eq(b),

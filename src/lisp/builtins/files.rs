@@ -21,7 +21,7 @@ fn path(value: &Value) -> Result<String, Box<Raise>> {
     Ok(string(value)?.text())
 }
 
-/// A file error; the system's own words differ from one platform to the next.
+/// A file error; it does not quote the system's own words, which differ between platforms.
 fn file_error(doing: &str, path: &str, error: &Error) -> Box<Raise> {
     let reason = match error.kind() {
         ErrorKind::NotFound => "there is no such file or directory".to_owned(),

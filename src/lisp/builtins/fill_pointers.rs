@@ -76,8 +76,7 @@ fn vector_push_extend(_: &mut Image, args: &[Value]) -> Outcome {
     push(&args[0], &args[1], Some(extension.max(1)))
 }
 
-/// Adds an element; the index where it went, or `NIL` if there is no room and the vector
-/// must not grow.
+/// Adds an element; returns its index, or `NIL` if there is no room and the vector must not grow.
 fn push(value: &Value, vector: &Value, extension: Option<usize>) -> Outcome {
     let pointer = pointer_of(vector)?;
     match vector {

@@ -127,7 +127,7 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
 fn expand_formatter(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
     let control = form.cdr_or_nil().car_or_nil();
     if let Some(text) = control.as_text() {
-        // A wrong control string is told now, not when the function is called.
+        // A wrong control string is reported now, not when the function is called.
         Control::parse(&text)?;
     }
     let target: Value = image.gensym("STREAM").into();

@@ -19,7 +19,7 @@ use crate::lisp::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// The hash table that a value is.
+/// A value as a hash table.
 pub(crate) fn table(value: &Value) -> Result<&Rc<HashTable>, Box<Raise>> {
     match value {
         Value::Hash(table) => Ok(table),
@@ -135,7 +135,7 @@ fn sxhash(image: &mut Image, args: &[Value]) -> Outcome {
         }
     };
     let mut pending = vec![args[0].clone()];
-    // Deep structures are told apart by their first few leaves only.
+    // Deep structures are distinguished by their first few leaves only.
     for _ in 0..64 {
         let Some(value) = pending.pop() else { break };
         match &value {
@@ -171,7 +171,7 @@ fn hash_iterator(_: &mut Image, args: &[Value]) -> Outcome {
     ))
 }
 
-/// Takes the next entry of an iterator: `T` and its parts, or `NIL`.
+/// Advances an iterator: returns `T` and the parts of the next entry, or `NIL`.
 fn iterator_next(_: &mut Image, args: &[Value]) -> Outcome {
     let Value::Cons(state) = &args[0] else {
         return Err(Raise::type_error(&args[0], known::CONS));

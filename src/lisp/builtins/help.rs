@@ -1,7 +1,7 @@
 //! Help at the prompt: `describe`, `apropos`, `apropos-list`.
 //!
-//! What is told of builtins and operators comes from their tables, of definitions of the
-//! user from what their code remembers. Nothing here runs code of the user.
+//! What is said about builtins and operators comes from their tables, what is said about the user's
+//! definitions from their code. Nothing here runs the user's code.
 
 use super::packages;
 use super::strings::designated;
@@ -61,7 +61,7 @@ fn describe(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::values(Vec::new()))
 }
 
-/// A value as it is read back.
+/// A value in readable form.
 fn shown(image: &Image, value: &Value) -> String {
     print::to_string(image, value, true)
 }
@@ -400,7 +400,7 @@ fn apropos(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::values(Vec::new()))
 }
 
-/// What a symbol means, in a word each.
+/// What a symbol means, one word for each meaning.
 fn meanings(image: &Image, sym: Sym) -> Vec<&'static str> {
     let data = image.symbol(sym);
     let function = match &data.function {

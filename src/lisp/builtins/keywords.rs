@@ -48,8 +48,7 @@ pub(crate) fn parse<const N: usize>(
     }
 }
 
-/// The optional arguments of a builtin by position: the value, none if it is not given or
-/// `NIL`.
+/// An optional argument of a builtin by position: its value, or `None` if it is not given or `NIL`.
 pub(crate) fn optional(args: &[Value], index: usize) -> Option<&Value> {
     args.get(index).filter(|value| value.is_true())
 }

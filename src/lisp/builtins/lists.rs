@@ -87,7 +87,7 @@ pub(crate) fn nconc_all(lists: &[Value]) -> Outcome {
     Ok(result)
 }
 
-/// Turns the links of a proper list round, in front of `tail`.
+/// Reverses the links of a proper list, in front of `tail`.
 pub(crate) fn nreverse_onto(list: &Value, tail: Value) -> Outcome {
     let mut conses = sequence::conses(list)?;
     conses.reverse();
@@ -124,15 +124,15 @@ fn copy_list(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(builder.finish_with(iter.rest))
 }
 
-/// Pairs that a tree may have before it is taken for a circular one.
+/// The number of pairs beyond which a tree is assumed to be circular.
 const MOST_PAIRS: usize = 10_000_000;
 
-/// Counts the pairs of a tree that is walked.
+/// Counts the pairs of a tree during a walk.
 #[derive(Default)]
 struct PairCount(usize);
 
 impl PairCount {
-    /// One more pair; an error if there are so many that the tree must be circular.
+    /// Counts one more pair; an error if there are so many that the tree must be circular.
     fn add_one(&mut self) -> Result<(), Box<Raise>> {
         self.0 += 1;
         if self.0 <= MOST_PAIRS {

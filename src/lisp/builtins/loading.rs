@@ -23,11 +23,11 @@ pub(crate) static TABLE: &[Builtin] = &[control(
     load,
 )];
 
-/// Evaluates all forms of a text, which places call by a name.
+/// Evaluates all forms of a text; places refer to the text as `name`.
 pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
     let source = machine.image.sources.add(name, text);
     let mut reader = Reader::new(machine.image, source);
-    // The file may choose its package; the caller's is in force again afterwards.
+    // The file may change the current package; the caller's is restored afterwards.
     let package = machine.image.special(known::V_PACKAGE).clone();
     machine
         .fiber

@@ -14,7 +14,7 @@ use crate::lisp::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// What a mapping function hands out and what it makes of the results.
+/// What a mapping function passes on, and what it makes of the results.
 #[derive(Clone, Copy)]
 struct Mode {
     /// Call with the tails of the lists instead of their elements.
@@ -53,7 +53,7 @@ fn next_args(lists: &mut [Value], tails: bool) -> Result<Option<Args>, Box<Raise
     }
 }
 
-/// Takes the first element, or the whole, of a list and leaves its rest.
+/// Takes the first element of a list, or the whole list, and advances to its rest.
 fn step(list: &mut Value, tails: bool) -> Result<Option<Value>, Box<Raise>> {
     let (item, rest) = match &*list {
         Value::Cons(cons) if tails => (list.clone(), cons.cdr()),

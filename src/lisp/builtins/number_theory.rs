@@ -1,4 +1,4 @@
-//! Integers as numbers and as rows of bits; exact fractions; the parts of floats.
+//! Integers as numbers and as sequences of bits; exact fractions; the parts of floats.
 
 use super::keywords;
 use crate::lisp::builtin::{Builtin, pure};

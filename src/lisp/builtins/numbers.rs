@@ -335,7 +335,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 
 fn fold(args: &[Value], start: Value, operate: fn(&Value, &Value) -> Outcome) -> Outcome {
     match args {
-        // The start is checked against the only number, so that it is a number.
+        // Combining the only argument with the start checks that it is a number.
         [only] => operate(&start, only),
         [] => Ok(start),
         _ => reduce(args, operate),
@@ -483,7 +483,7 @@ pub(crate) fn define_constants(image: &mut Image) {
             "LEAST-NEGATIVE-NORMALIZED-LONG-FLOAT",
             Value::Double(-f64::MIN_POSITIVE),
         ),
-        // The smallest floats that change one when added to it, or taken from it.
+        // The smallest floats that change one when added to it or subtracted from it.
         (
             "SINGLE-FLOAT-EPSILON",
             Value::Single(f32::from_bits(0x3380_0001)),

@@ -1,4 +1,4 @@
-//! Builtins for printing objects in a form of one's own.
+//! Builtins for programs that print objects in a form of their own.
 
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;

@@ -1,4 +1,4 @@
-//! What `defpackage`, `do-symbols` and their kin call.
+//! What `defpackage`, `do-symbols` and related macros call.
 
 use super::packages::{
     accessible, designated, import_one, make, one_or_more, package_error, shadow_one, status,

@@ -22,7 +22,7 @@ pub(crate) fn package_error(report: impl Into<String>, package: &Value) -> Box<R
     Raise::new(known::SIMPLE_PACKAGE_ERROR, report).with(known::K_PACKAGE, package.clone())
 }
 
-/// The package that a designator means, if there is one.
+/// The package that a designator denotes, if there is one.
 pub(crate) fn find(image: &Image, designator: &Value) -> Result<Option<PackageId>, Box<Raise>> {
     match designator {
         Value::Package(id) => Ok(Some(*id)),
@@ -32,7 +32,7 @@ pub(crate) fn find(image: &Image, designator: &Value) -> Result<Option<PackageId
     }
 }
 
-/// The package that a designator means.
+/// The package that a designator denotes.
 pub(crate) fn designated(image: &Image, designator: &Value) -> Result<PackageId, Box<Raise>> {
     match find(image, designator)? {
         Some(id) if !image.packages.is_deleted(id) => Ok(id),
@@ -49,7 +49,7 @@ pub(crate) fn designated(image: &Image, designator: &Value) -> Result<PackageId,
     }
 }
 
-/// The package that an optional argument means, by default the current one.
+/// The package that an optional argument denotes, by default the current one.
 pub(crate) fn or_current(
     image: &Image,
     designator: Option<&Value>,
@@ -70,7 +70,7 @@ pub(crate) fn status(access: Option<Access>) -> Value {
     }
 }
 
-/// The items of a list, or the one item that is not a list.
+/// The items of a list; a single item that is not a list counts as one.
 pub(crate) fn one_or_more(value: &Value) -> Result<Vec<Value>, Box<Raise>> {
     if value.is_list() {
         list_items(value)
@@ -349,7 +349,7 @@ fn import(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::T)
 }
 
-/// The symbols of a designator for a list of symbols; `NIL` is no symbol but the empty list.
+/// The symbols of a designator for a list of symbols; `NIL` is the empty list, not a symbol.
 fn symbols(value: &Value) -> Result<Vec<Sym>, Box<Raise>> {
     one_or_more(value)?.iter().map(symbol).collect()
 }

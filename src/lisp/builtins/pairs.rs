@@ -28,8 +28,8 @@ fn cdr_of(list: &Value) -> Outcome {
     }
 }
 
-/// Follows a path of cars (0) and cdrs (1), given as the letters of a `c…r` name in order
-/// behind a leading 1; the last letter goes first.
+/// Follows a path of cars (0) and cdrs (1), given as the letters of a `c…r` name in order after a
+/// leading 1; the last letter is applied first.
 fn follow(path: u32, list: &Value) -> Outcome {
     let mut value = list.clone();
     let mut path = path;
@@ -48,9 +48,9 @@ fn cxr<const PATH: u32>(_: &mut Image, args: &[Value]) -> Outcome {
     follow(PATH, &args[0])
 }
 
-/// Sets what the path leads to; the arguments are the new value and the list.
+/// Sets the place at the end of a path; the arguments are the new value and the list.
 fn set_cxr<const PATH: u32>(_: &mut Image, args: &[Value]) -> Outcome {
-    // All letters but the first one lead to the pair that is changed.
+    // All letters but the first lead to the pair that is changed.
     let length = 31 - PATH.leading_zeros();
     let first = PATH >> (length - 1) & 1;
     let before = PATH & !(0b11 << (length - 1)) | 1 << (length - 1);

@@ -149,7 +149,7 @@ fn stream_argument(args: &[Value], index: usize) -> Value {
     args.get(index).cloned().unwrap_or(Value::NIL)
 }
 
-/// The column of a stream, zero where that is not known.
+/// The column of a stream, zero if that is not known.
 fn column(image: &Image, stream: &Value) -> Result<usize, Box<Raise>> {
     Ok(stream::column(image, stream)?.unwrap_or(0))
 }
@@ -318,7 +318,7 @@ fn to_string(
     )
 }
 
-/// What the method for everything does: the object's default form.
+/// What the default method does: prints the object's default form.
 fn print_object(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let settings = Settings::of(machine.image);
     let target = args[1].clone();

@@ -53,7 +53,7 @@ fn put(plist: &Value, indicator: &Value, value: &Value) -> Outcome {
     ))
 }
 
-/// Takes an indicator out of a property list: the list afterwards, and whether it was there.
+/// Removes an indicator from a property list; returns the list and whether it was there.
 fn remove(plist: &Value, indicator: &Value) -> Result<(Value, bool), Box<Raise>> {
     let mut before: Option<Value> = None;
     let mut rest = plist.clone();
@@ -107,7 +107,7 @@ fn get_properties(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::values(vec![Value::NIL; 3]))
 }
 
-/// The symbol that a value is.
+/// A value as a symbol.
 pub(crate) fn symbol(value: &Value) -> Result<Sym, Box<Raise>> {
     value
         .as_symbol()
@@ -185,7 +185,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// What `setf` and `remf` of `getf` are made of; in `SYSTEM`.
+/// What `setf` and `remf` of `getf` expand into; in `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "PUTF",

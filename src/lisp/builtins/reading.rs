@@ -130,7 +130,7 @@ struct Reading {
 
 /// What happens with the form.
 enum After {
-    /// It is the value; the stream goes on behind it.
+    /// It is the value; the stream continues after it.
     Stream(FromStream),
     /// It is the first value; the second is the position.
     String {
@@ -209,7 +209,7 @@ impl Computation for Reading {
 }
 
 impl Reading {
-    /// Takes what the reader has read; nothing if it is to read on.
+    /// Takes what the reader has read; returns nothing if reading must continue.
     fn take(
         &mut self,
         image: &mut Image,
@@ -326,7 +326,7 @@ fn read(
 ) -> Result<Step, Box<Raise>> {
     let designator = args.first().cloned().unwrap_or(Value::NIL);
     let stream = Value::Stream(stream::input_stream(machine.image, &designator)?);
-    // Inside another reading, the blank after the form belongs to that.
+    // In a recursive call, the blank after the form is left to the outer read.
     let is_recursive = args.get(3).is_some_and(Value::is_true);
     let then = After::Stream(FromStream {
         eof: Eof::of(args.get(1..).unwrap_or(&[]), stream.clone()),
@@ -398,7 +398,7 @@ fn upper(c: char) -> char {
     c.to_ascii_uppercase()
 }
 
-/// Looks into the readtable of an argument, or the current one.
+/// Accesses the readtable of an argument, or the current one.
 fn with_readtable<R>(
     image: &Image,
     argument: Option<&Value>,

@@ -58,7 +58,7 @@ fn set_subseq(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
-/// Writes items over a part of a sequence, as many as both have.
+/// Overwrites a part of a sequence with items, as far as both reach.
 fn overwrite(target: &Sequence, bounds: Bounds, items: Vec<Value>) -> Result<(), Box<Raise>> {
     let end = bounds.end_of(target.len()?);
     let room = end.saturating_sub(bounds.start).min(items.len());
@@ -169,7 +169,7 @@ fn make_sequence(image: &mut Image, args: &[Value]) -> Outcome {
     result.make(vec![element; count])
 }
 
-/// What a sequence holds that was made without elements.
+/// The default element of a sequence that is made without elements.
 pub(crate) fn default_element(kind: Kind) -> Value {
     match kind {
         Kind::List => Value::NIL,

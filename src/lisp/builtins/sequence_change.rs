@@ -15,13 +15,13 @@ use crate::lisp::vm::step::Step;
 
 /// What happens to the elements that satisfy a condition.
 enum Change {
-    /// They are taken out; with `true` of the sequence itself.
+    /// They are removed: from the sequence itself if `in_place`.
     Remove { in_place: bool },
-    /// They are replaced; with `true` in the sequence itself.
+    /// They are replaced: in the sequence itself if `in_place`.
     Replace { new: Value, in_place: bool },
 }
 
-/// How the elements are told that are to change.
+/// How the elements to change are chosen.
 #[derive(Clone, Copy)]
 enum By {
     Item,

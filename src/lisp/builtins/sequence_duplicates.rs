@@ -47,7 +47,7 @@ impl Duplicates {
     }
 }
 
-/// Which keys come again later, or, from the end, came before.
+/// Which keys occur again later or, from the end, have occurred before.
 fn hashed_duplicates(keys: &[Value], test: HashTest, from_end: bool) -> Vec<bool> {
     #[expect(
         clippy::mutable_key_type,
@@ -132,7 +132,7 @@ fn delete_duplicates(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step
 
 const LAMBDA_LIST: &str = "sequence &key key start end from-end test test-not";
 
-/// Taking duplicates out.
+/// Removing duplicates.
 pub(crate) static TABLE: &[Builtin] = &[
     control(
         "REMOVE-DUPLICATES",

@@ -13,7 +13,7 @@ use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
-/// What is wanted of the elements that satisfy a condition.
+/// What to find out about the elements that satisfy a condition.
 #[derive(Clone, Copy)]
 enum Goal {
     Element,
@@ -21,7 +21,7 @@ enum Goal {
     Count,
 }
 
-/// The arguments of a function that looks at a part of a sequence.
+/// The arguments of a function that searches a part of a sequence.
 struct Search {
     sequence: Sequence,
     bounds: Bounds,

@@ -99,7 +99,7 @@ fn map_into(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
     })
 }
 
-/// When a walk over elements is decided, and what comes out.
+/// When a walk over elements is decided, and its result.
 #[derive(Clone, Copy)]
 enum Quantifier {
     Every,

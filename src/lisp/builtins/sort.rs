@@ -13,7 +13,7 @@ use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
-/// An item with what it is compared by.
+/// An item with the value by which it is compared.
 #[derive(Clone)]
 struct Keyed<T> {
     key: Value,
@@ -69,8 +69,8 @@ async fn merge_runs<T: Clone>(
     merged.extend_from_slice(right);
 }
 
-/// Sorts by `<` or `>` when all keys are small integers or all are doubles that compare;
-/// did it?
+/// Sorts by `<` or `>` if all keys are small integers, or all are doubles that can be compared;
+/// returns whether it did.
 fn sort_numbers<T>(before: &Value, items: &mut [Keyed<T>]) -> bool {
     let descending = match builtin_name(before) {
         Some(known::LESS) => false,

@@ -1,7 +1,7 @@
 //! The 978 names that the package `COMMON-LISP` exports (ANSI Common Lisp, section 1.9).
 //!
-//! Names that nothing stands behind here are symbols all the same, so that programs which
-//! use them as symbols read alike everywhere.
+//! Names without a meaning here are symbols, too, so that programs that use them as symbols read
+//! the same everywhere.
 
 use crate::lisp::image::Image;
 use crate::lisp::value::package::PackageTable;

@@ -145,7 +145,7 @@ fn close(image: &mut Image, args: &[Value]) -> Outcome {
     stream::close(stream_of(&args[0])?).map(Value::bool)
 }
 
-/// Lets a file stream write what it holds back.
+/// Flushes the buffer of a file stream.
 fn finish_output(image: &mut Image, args: &[Value]) -> Outcome {
     let target = args.first().unwrap_or(&Value::NIL);
     let stream = stream::output_stream(image, target)?;
@@ -158,7 +158,7 @@ fn clear_input(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::NIL)
 }
 
-/// What reading at the end gives: the end-of-file value, or an error.
+/// The result of reading at the end: the end-of-file value, or an error.
 pub(crate) fn at_end(
     image: &Image,
     stream: Option<&Value>,
@@ -185,8 +185,8 @@ fn read_char(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-/// `(peek-char type stream eof-error-p eof-value)`: `T` skips blanks, a character skips up
-/// to it.
+/// `(peek-char type stream eof-error-p eof-value)`: `T` skips blanks, a character skips everything
+/// before it.
 fn peek_char(image: &mut Image, args: &[Value]) -> Outcome {
     let source = args.get(1).unwrap_or(&Value::NIL);
     while let Some(c) = stream::peek_char(image, source)? {
@@ -257,7 +257,7 @@ fn write_sequence(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
-/// How far a stream has come, in characters.
+/// The position in a stream: in characters, or in bytes for a stream that writes a file.
 fn file_position(_: &mut Image, args: &[Value]) -> Outcome {
     let stream = stream_of(&args[0])?;
     match (&mut *stream.kind.borrow_mut(), args.get(1)) {
@@ -297,7 +297,7 @@ fn stream_list(streams: &[Rc<Stream>]) -> Value {
     Value::list(streams.iter().cloned().map(Value::Stream))
 }
 
-/// What a combined stream is made of, as a list.
+/// The parts of a combined stream, as a list.
 fn components(value: &Value) -> Result<Value, Box<Raise>> {
     match &*stream_of(value)?.kind.borrow() {
         StreamKind::Broadcast { targets } => Ok(stream_list(targets)),

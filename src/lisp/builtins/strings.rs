@@ -16,7 +16,7 @@ use crate::lisp::value::string::LispString;
 
 type Outcome = Result<Value, Box<Raise>>;
 
-/// The text that a string designator means: a string, a symbol's name or a character.
+/// The text that a string designator denotes: a string, a symbol's name or a character.
 pub(crate) fn designated(image: &Image, value: &Value) -> Result<String, Box<Raise>> {
     match value {
         Value::Str(s) => Ok(s.text()),
@@ -34,7 +34,7 @@ pub(crate) fn designated(image: &Image, value: &Value) -> Result<String, Box<Rai
     }
 }
 
-/// The string that a value is.
+/// A value as a string.
 pub(crate) fn string(value: &Value) -> Result<&Rc<LispString>, Box<Raise>> {
     match value {
         Value::Str(s) => Ok(s),

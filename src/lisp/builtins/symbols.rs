@@ -130,8 +130,8 @@ fn makunbound(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(args[0].clone())
 }
 
-/// Does a form always have the same value: a constant, a quoted object, or what evaluates
-/// to itself?
+/// Does a form always have the same value: is it a constant, a quoted object, or something that
+/// evaluates to itself?
 fn constantp(image: &mut Image, args: &[Value]) -> Outcome {
     let constant = match &args[0] {
         Value::Symbol(sym) => image.symbol(*sym).kind == VariableKind::Constant,

@@ -90,7 +90,7 @@ fn subtypep_operation(
     };
     let verdict = match (known(&args[0])?, known(&args[1])?) {
         (Some(a), Some(b)) => is_subset(image, &a, &b),
-        // Nothing can be told of a type that is not defined.
+        // Nothing is known about a type that is not defined.
         _ => Verdict::Unknown,
     };
     Ok(Value::values(vec![
