@@ -57,7 +57,6 @@ pub(crate) fn stop_at(
                 ..Opened::default()
             },
             inputs_before: entry,
-            ..ReplOptions::default()
         },
     )?;
     Ok(Status::Left(status))

@@ -214,7 +214,7 @@ pub(crate) async fn reference(calls: &Calls, designator: &Value) -> Result<Value
     }
 }
 
-/// Like [`reference`], but with a plan failure if there is no solution; its text is the message, if
+/// Like [`reference()`], but with a plan failure if there is no solution; its text is the message, if
 /// there is one, instead of the reason.
 pub(crate) async fn try_reference(
     calls: &Calls,

@@ -33,7 +33,7 @@ pub(crate) struct Recording {
 ///
 /// Damage that makes the library for MCAP files panic is an error, too.
 pub(crate) fn read_recording(bytes: &[u8], to: &History) -> Result<Recording, RecordingError> {
-    let read = AssertUnwindSafe(|| read_messages(&*decompressed(bytes)?, to));
+    let read = AssertUnwindSafe(|| read_messages(&decompressed(bytes)?, to));
     catch_unwind(read).unwrap_or_else(|payload| {
         let text = payload.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| payload.downcast_ref::<&str>().copied());
