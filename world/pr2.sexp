@@ -34,13 +34,14 @@
 ; palm) into those of the tool (x forward).
 ; Joints of a posture: shoulder pan, shoulder lift, upper arm roll, elbow flex, forearm
 ; roll, wrist flex, wrist roll. The parking posture is within the hard limits, but exceeds
-; the soft limits of elbow and wrist by up to 0.03 rad.
+; the soft limits of elbow and wrist by up to 0.03 rad. The maker allows an arm :payload (kg).
 (arm left
      :base torso_lift_link
      :wrist l_wrist_roll_link
      :tool l_gripper_tool_frame
      :tool-offset 0.2
      :tool-axes ((0 1 0) (0 0 1) (1 0 0))
+     :payload 1.8
      :start tucked
      :postures
      ((park 1.9652919379395388 -0.26499816732737785 1.3837617139225473 -2.1224566064321584
@@ -60,6 +61,7 @@
      :tool r_gripper_tool_frame
      :tool-offset 0.2
      :tool-axes ((0 1 0) (0 0 1) (1 0 0))
+     :payload 1.8
      :start tucked
      :postures
      ((park -1.712587449591307 -0.2567290370386635 -1.4633501125737374 -2.1221670650093913
@@ -76,12 +78,14 @@
 ; Grippers. One joint moves both fingers. The faces of the pads are :pad-face away from the
 ; tip frames, towards each other. :left-finger and :right-finger close from the left and the
 ; right. For an opening in metres, CRAM sets the joint to :joint-per-metre times the opening.
+; :effort is the greatest force of a finger (N), also the greatest that CRAM asks for.
 (gripper left
          :palm l_gripper_palm_link
          :joint l_gripper_l_finger_joint
          :tip-joint l_gripper_l_finger_tip_joint
          :pad-face 0.0158
          :joint-per-metre 5
+         :effort 100
          :left-finger (l_gripper_l_finger_link l_gripper_l_finger_tip_link)
          :right-finger (l_gripper_r_finger_link l_gripper_r_finger_tip_link))
 (gripper right
@@ -90,6 +94,7 @@
          :tip-joint r_gripper_l_finger_tip_joint
          :pad-face 0.0158
          :joint-per-metre 5
+         :effort 100
          :left-finger (r_gripper_l_finger_link r_gripper_l_finger_tip_link)
          :right-finger (r_gripper_r_finger_link r_gripper_r_finger_tip_link))
 

@@ -48,6 +48,8 @@ pub(crate) type Drive = Job<BaseMotion>;
 pub(crate) struct BaseMotion {
     goal: BasePlace,
     follower: Option<TrajectoryFollower>,
+    /// The world's step when the base began to move.
+    began: Option<u64>,
     /// Torso and arm joints in the last tick, and for how long (s) they have not changed.
     posture: Vec<f64>,
     steady: f64,
@@ -70,6 +72,7 @@ impl Drive {
         Self::begin(BaseMotion {
             goal: [t.x, t.y, pose::yaw(goal)],
             follower: None,
+            began: None,
             posture: Vec::new(),
             steady: 0.0,
             ticks: 0,
@@ -192,10 +195,9 @@ impl BaseMotion {
         if follower.is_at_end() {
             return Some(MotionStatus::Done(MotionOutcome::Arrived));
         }
-        if let Some(stuck) = guard::stuck_object(world, |_| true) {
-            return Some(MotionStatus::failed(MotionFailure::HeldObjectStuck(
-                Box::new(stuck),
-            )));
+        let began = *self.began.get_or_insert(world.steps());
+        if let Some(failure) = guard::trouble_with_held(world, began, |_| true) {
+            return Some(MotionStatus::failed(failure));
         }
         if follower.is_stopped()
             && self.ahead_is_sure

@@ -9,13 +9,11 @@ use super::touching::TouchingPairs;
 use super::trajectory::Trajectory;
 use crate::spatial::{Pose, pose, trig};
 use crate::world::{
-    AllowedPairs, BodyName, CollisionChecker, CollisionHit, RobotConfiguration, World,
+    AllowedPairs, BodyName, CollisionChecker, CollisionHit, MapArea, RobotConfiguration, World,
 };
 
 /// How far (m) the robot's links extend beyond their frames.
 const LINK_EXTENT: f64 = 0.15;
-/// Width (m) of the floor that is searched around robot, goal and furniture.
-const AREA_BORDER: f64 = 1.0;
 /// Displacements (m) tried to get out of a contact: spacing and number of steps.
 const WAY_OUT: (f64, u32) = (0.01, 12);
 /// Clearance (m) at which the robot counts as out of a contact.
@@ -154,7 +152,11 @@ pub(crate) fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace
     let base = world.robot_configuration().base;
     let t = base.translation;
     let start = [t.x, t.y, pose::yaw(&base)];
-    let area = floor_area(world, &start, &goal);
+    let map = world.models().map;
+    if !map.contains([goal[0], goal[1]]) {
+        return Err(MotionFailure::GoalOffMap { goal, map });
+    }
+    let area = floor_area(&map, &start);
     let mut checker = BaseChecker::new(world);
     let reach = checker.reach();
     let away = checker.way_out(&start);
@@ -168,7 +170,9 @@ pub(crate) fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace
             MotionFailure::DriveStartOccupied { hit: hit.0.into() }
         }
         BasePathFailure::GoalOccupied(hit) => {
-            let mut places = nearby(&goal).into_iter();
+            let mut places = nearby(&goal)
+                .into_iter()
+                .filter(|p| map.contains([p[0], p[1]]));
             let nearest_free = places.find(|place| checker.blocked(place, 0.0).is_none());
             MotionFailure::GoalOccupied {
                 goal,
@@ -207,25 +211,12 @@ fn nearby(goal: &BasePlace) -> Vec<BasePlace> {
     places
 }
 
-/// The part of the floor that contains the robot, its goal and all furniture.
-fn floor_area(world: &World, start: &BasePlace, goal: &BasePlace) -> FloorArea {
-    let links = world.models().kitchen.links();
-    let furniture = links
-        .filter(|(_, link)| !link.collisions.is_empty())
-        .map(|(id, _)| {
-            let t = world.furniture_pose(id).translation;
-            [t.x, t.y]
-        });
-    let ends = [[start[0], start[1]], [goal[0], goal[1]]];
-    let mut area = FloorArea {
-        min: [f64::MAX; 2],
-        max: [f64::MIN; 2],
-    };
-    for p in furniture.chain(ends) {
-        for (i, v) in p.into_iter().enumerate() {
-            area.min[i] = area.min[i].min(v - AREA_BORDER);
-            area.max[i] = area.max[i].max(v + AREA_BORDER);
-        }
+/// The part of the floor that is searched: the map, and the way back to it for a robot that was
+/// put elsewhere.
+fn floor_area(map: &MapArea, start: &BasePlace) -> FloorArea {
+    let [x, y, _] = *start;
+    FloorArea {
+        min: [map.min[0].min(x), map.min[1].min(y)],
+        max: [map.max[0].max(x), map.max[1].max(y)],
     }
-    area
 }

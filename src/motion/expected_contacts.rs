@@ -10,9 +10,9 @@ use crate::world::{AllowedPairs, BodyName, World};
 pub(crate) enum CollisionMode {
     /// Nothing.
     AvoidAll,
-    /// The hand may touch objects, and what it holds may stand on something.
+    /// The hand may touch its object, and what it holds may stand on something.
     AllowHand,
-    /// The hand may touch objects, and what it holds may be pressed against anything, as far
+    /// The hand may touch its object, and what it holds may be pressed against anything, as far
     /// as the guard permits. Arms and hands never pass through furniture.
     AllowAll,
 }
@@ -27,11 +27,13 @@ pub(super) struct ExpectedContacts {
 }
 
 impl ExpectedContacts {
-    /// The pairs for a motion of the hands.
+    /// The pairs for a motion of the hands, which may touch the target; any object if none is
+    /// named.
     pub(super) fn of(
         world: &World,
         hands: impl Iterator<Item = Side>,
         mode: CollisionMode,
+        target: Option<&str>,
     ) -> Self {
         let mut all = Self::default();
         if mode == CollisionMode::AvoidAll {
@@ -43,7 +45,8 @@ impl ExpectedContacts {
             .collect();
         for side in hands {
             let hand = hand_names(world, side);
-            for object in &objects {
+            let is_target = |o: &&BodyName| target.is_none_or(|name| o.object() == Some(name));
+            for object in objects.iter().filter(is_target) {
                 all.allowed = all.allowed.and_all(hand.iter().cloned(), object);
             }
             for held in held_objects(world, side).into_iter().map(BodyName::Object) {

@@ -9,11 +9,12 @@ use thiserror::Error;
 
 use super::base_path::BasePlace;
 use super::guard::StuckObject;
+use super::payload::Overload;
 use super::process_module::ProcessModule;
 use super::unreachable::{UnreachablePose, UnreachableReason};
 use crate::perception::Visibility;
 use crate::robot::{LimitViolation, Side};
-use crate::world::{BodyName, CollisionHit};
+use crate::world::{BodyName, CollisionHit, MapArea, Slip, StandTrial};
 
 /// Why a motion did not reach its goal.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -27,6 +28,17 @@ pub(crate) enum MotionFailure {
         hit: Box<CollisionHit>,
         /// The nearest pose with the same heading where the robot fits in its present posture.
         nearest_free: Option<BasePlace>,
+    },
+    /// The goal of the base is not on the map.
+    #[error(
+        "the robot cannot stand at {}: that is beyond the map, which covers {map}",
+        place(.goal)
+    )]
+    GoalOffMap {
+        /// Goal of the base, in the map frame.
+        goal: BasePlace,
+        /// The map.
+        map: MapArea,
     },
     /// No path leads to the goal.
     #[error(
@@ -208,6 +220,71 @@ pub(crate) enum MotionFailure {
         .0.object, list(" against ", &.0.against), .0.lag * 1e3, .0.force
     )]
     HeldObjectStuck(Box<StuckObject>),
+    /// A held object has slipped out of the hand.
+    #[error(
+        "{} has slipped out of the {} hand: the two were torn apart with {:.1} N, and the fingers \
+         hold up to {:.1} N", .0.object, .0.side, .0.force, .0.strength
+    )]
+    HeldObjectSlipped(Box<Slip>),
+    /// A held object is more than the arm can carry.
+    #[error("{0}")]
+    TooHeavy(Box<Overload>),
+    /// An object is not held by the hand that was said to hold it.
+    #[error(
+        "{object} is not between the fingers of the {side} hand, which press on it with {:.1} and \
+         {:.1} N: grip it first", .forces[0], .forces[1]
+    )]
+    NotBetweenFingers {
+        /// The hand.
+        side: Side,
+        /// The object.
+        object: String,
+        /// The force (N) of each finger on it.
+        forces: [f64; 2],
+    },
+    /// The fingers cannot press like that.
+    #[error(
+        "the {side} gripper cannot press with {effort} N: its fingers press with more than 0 and \
+         up to {greatest} N"
+    )]
+    GripEffort {
+        /// The hand.
+        side: Side,
+        /// The force that was wanted (N).
+        effort: f64,
+        /// The greatest force (N).
+        greatest: f64,
+    },
+    /// Nothing would carry an object where it is to be put down.
+    #[error(
+        "nothing carries {object} at ({:.3} {:.3} {:.3}) or within {:.0} cm below it: {}",
+        .place[0], .place[1], .place[2], .depth * 100.0, next_below(.below)
+    )]
+    NothingBelow {
+        /// Name of the object, which stays in the hand.
+        object: String,
+        /// Where it was to be (m), in the map frame.
+        place: [f64; 3],
+        /// How far below (m) a support would do.
+        depth: f64,
+        /// What is below at all, and how far (m) the object would fall.
+        below: Option<(f64, BodyName)>,
+    },
+    /// An object would not stay where it is to be put down.
+    #[error(
+        "{object} would not stand at ({:.3} {:.3} {:.3}): let go there, it would move by {:.1} cm \
+         and tip by {:.0} degrees, {}",
+        .place[0], .place[1], .place[2], .trial.moved * 100.0, .trial.tilt.to_degrees(),
+        onto(.trial.support.as_ref())
+    )]
+    WouldNotStand {
+        /// Name of the object, which stays in the hand.
+        object: String,
+        /// Where it was to be (m), in the map frame.
+        place: [f64; 3],
+        /// What would happen.
+        trial: Box<StandTrial>,
+    },
     /// The hand holds nothing.
     #[error("the {side} hand holds nothing")]
     HoldsNothing {
@@ -262,7 +339,9 @@ impl MotionFailure {
     /// Name of CRAM's failure class, by which handlers catch this failure.
     pub(crate) fn class_name(&self) -> &'static str {
         match self {
-            Self::GoalOccupied { .. } | Self::Enclosed { .. } => "NAVIGATION-POSE-UNREACHABLE",
+            Self::GoalOccupied { .. } | Self::GoalOffMap { .. } | Self::Enclosed { .. } => {
+                "NAVIGATION-POSE-UNREACHABLE"
+            }
             Self::DriveStartOccupied { .. } | Self::DriveBlocked { .. } => {
                 "NAVIGATION-GOAL-NOT-REACHED"
             }
@@ -270,8 +349,13 @@ impl MotionFailure {
             Self::TorsoBlocked { .. } => "TORSO-GOAL-UNREACHABLE",
             Self::NeckLimit { .. } | Self::NeckBlocked { .. } => "PTU-GOAL-NOT-REACHED",
             Self::ObjectNotFound { .. } => "PERCEPTION-OBJECT-NOT-FOUND",
-            Self::NothingGripped { .. } | Self::WrongObject { .. } => "GRIPPER-CLOSED-COMPLETELY",
-            Self::GripperLimit { .. } | Self::FingersBlocked { .. } => "GRIPPER-GOAL-NOT-REACHED",
+            Self::NothingGripped { .. }
+            | Self::WrongObject { .. }
+            | Self::NotBetweenFingers { .. }
+            | Self::HeldObjectSlipped(_) => "GRIPPER-CLOSED-COMPLETELY",
+            Self::GripperLimit { .. } | Self::FingersBlocked { .. } | Self::GripEffort { .. } => {
+                "GRIPPER-GOAL-NOT-REACHED"
+            }
             Self::PoseUnreachable(_) | Self::TorsoConflict { .. } => {
                 "MANIPULATION-POSE-UNREACHABLE"
             }
@@ -283,6 +367,9 @@ impl MotionFailure {
             | Self::ArmBlocked { .. }
             | Self::HandGoalMissed { .. }
             | Self::HeldObjectStuck(_)
+            | Self::TooHeavy(_)
+            | Self::NothingBelow { .. }
+            | Self::WouldNotStand { .. }
             | Self::HoldsNothing { .. } => "MANIPULATION-GOAL-NOT-REACHED",
             Self::NotFinite { module } => match module {
                 ProcessModule::Navigation => "NAVIGATION-POSE-UNREACHABLE",
@@ -296,6 +383,17 @@ impl MotionFailure {
             Self::UnknownName(_) => "LOW-LEVEL-FAILURE",
         }
     }
+}
+
+fn next_below(below: &Option<(f64, BodyName)>) -> String {
+    match below {
+        Some((gap, body)) => format!("{body} is {:.1} cm below", gap * 100.0),
+        None => "there is nothing below".to_owned(),
+    }
+}
+
+fn onto(support: Option<&BodyName>) -> String {
+    support.map_or_else(|| "and fall".to_owned(), |body| format!("onto {body}"))
 }
 
 fn place(&[x, y, yaw]: &BasePlace) -> String {

@@ -3,12 +3,13 @@
 use super::failure::MotionFailure;
 use super::guard;
 use super::hand::{gripper_of, hand_may_touch_objects, pressing};
+use super::hold::{held_objects, press};
 use super::job::{MotionOutcome, MotionStatus};
 use super::joint_follower::with_joints;
 use super::speeds;
 use crate::robot::Side;
-use crate::world::World;
 use crate::world::physics::STEP_SECONDS;
+use crate::world::{BodyName, World};
 
 /// How long (s) the fingers may press on different things before that counts as a failure.
 const UNEQUAL: f64 = 0.25;
@@ -18,16 +19,19 @@ const UNEQUAL: f64 = 0.25;
 pub(crate) struct Grip {
     side: Side,
     object: Option<String>,
+    /// The force (N) of each finger; as much as possible if none is given.
+    effort: Option<f64>,
     /// How long (s) they have pressed on different things.
     unequal: f64,
 }
 
 impl Grip {
     /// Grips with one hand.
-    pub(super) fn new(side: Side, object: Option<String>) -> Self {
+    pub(super) fn new(side: Side, object: Option<String>, effort: Option<f64>) -> Self {
         Self {
             side,
             object,
+            effort,
             unequal: 0.0,
         }
     }
@@ -35,20 +39,25 @@ impl Grip {
     /// Closes both fingers, which one joint moves, by one step.
     pub(super) fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
         let side = self.side;
+        let greatest = gripper_of(world, side).effort;
+        let effort = self.effort.unwrap_or(greatest);
+        // NaN is no effort either.
+        if !(effort > 0.0 && effort <= greatest) {
+            return Some(MotionStatus::failed(MotionFailure::GripEffort {
+                side,
+                effort,
+                greatest,
+            }));
+        }
         let wanted = &self.object;
+        if let Some(held) = held_objects(world, side).into_iter().next() {
+            return Some(self.gripped(world, held, effort));
+        }
         let pressing = pressing(world, side);
         if let [Some(left), Some(right)] = &pressing {
             if left.body == right.body {
                 let held = left.body.object().unwrap_or_default().to_owned();
-                let right_one = wanted.as_ref().is_none_or(|w| *w == held);
-                return Some(match (right_one, wanted) {
-                    (false, Some(wanted)) => MotionStatus::failed(MotionFailure::WrongObject {
-                        side,
-                        wanted: wanted.clone(),
-                        held: left.body.clone(),
-                    }),
-                    _ => MotionStatus::Done(MotionOutcome::Gripped { object: held }),
-                });
+                return Some(self.gripped(world, held, effort));
             }
             self.unequal += STEP_SECONDS;
             if self.unequal > UNEQUAL {
@@ -76,5 +85,21 @@ impl Grip {
         }
         world.set_robot_configuration(&next);
         None
+    }
+
+    /// Both fingers press on an object: they hold it, if it is the right one.
+    fn gripped(&self, world: &mut World, held: String, effort: f64) -> MotionStatus {
+        let side = self.side;
+        if let Some(wanted) = self.object.as_ref().filter(|wanted| **wanted != held) {
+            return MotionStatus::failed(MotionFailure::WrongObject {
+                side,
+                wanted: wanted.clone(),
+                held: BodyName::Object(held),
+            });
+        }
+        match press(world, side, &held, effort) {
+            Ok(()) => MotionStatus::Done(MotionOutcome::Gripped { object: held }),
+            Err(failure) => MotionStatus::failed(failure),
+        }
     }
 }

@@ -3,6 +3,7 @@
 use super::failure::MotionFailure;
 use super::grip::Grip;
 use super::hand::{gripper_of, hand_may_touch_objects, pressing};
+use super::hold::{held_objects, press};
 use super::job::{
     Activity, Job, MotionOutcome, MotionStatus, ProcessModule, Progress, check_finite,
 };
@@ -12,7 +13,7 @@ use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use super::speeds;
 use super::trajectory::{Corners, Trajectory};
 use crate::robot::{LinkId, Side};
-use crate::world::{CollisionHit, World};
+use crate::world::{AllowedPairs, BodyName, CollisionHit, World};
 
 /// A goal farther outside the limits than this (rad) is a failure.
 const CROPPED: f64 = 1e-4;
@@ -30,6 +31,8 @@ pub(crate) enum GripperCommand {
     Grip {
         /// Name of the object, if another one would be wrong.
         object: Option<String>,
+        /// The force (N) of each finger; as much as possible if none is given.
+        effort: Option<f64>,
     },
 }
 
@@ -51,14 +54,22 @@ pub(crate) enum Fingers {
 pub(crate) struct FingerGoal {
     side: Side,
     command: GripperCommand,
+    /// Whether the fingers close, which is known once the motion is planned.
+    is_closing: bool,
 }
 
 impl MoveGripper {
     /// Carries out the command with one hand.
     pub(crate) fn new(side: Side, command: GripperCommand) -> Self {
         Self::begin(match command {
-            GripperCommand::Grip { object } => Fingers::Grip(Grip::new(side, object)),
-            command => Fingers::Move(JointMotion::to(FingerGoal { side, command })),
+            GripperCommand::Grip { object, effort } => {
+                Fingers::Grip(Grip::new(side, object, effort))
+            }
+            command => Fingers::Move(JointMotion::to(FingerGoal {
+                side,
+                command,
+                is_closing: false,
+            })),
         })
     }
 }
@@ -68,7 +79,15 @@ impl Activity for Fingers {
 
     fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
         match self {
-            Self::Move(fingers) => fingers.step(world),
+            Self::Move(fingers) => {
+                let end = fingers.step(world);
+                if matches!(end, Some(MotionStatus::Done(_)))
+                    && let Err(failure) = fingers.goal().hold(world)
+                {
+                    return Some(MotionStatus::failed(failure));
+                }
+                end
+            }
             Self::Grip(grip) => grip.step(world),
         }
     }
@@ -95,9 +114,27 @@ impl FingerGoal {
         }
     }
 
-    fn is_closing(&self, world: &World) -> bool {
-        let joint = gripper_of(world, self.side).joint;
-        world.robot_configuration().joints.get(joint) > self.position(world)
+    /// What both fingers press on, if they press.
+    fn between(&self, world: &World) -> Option<[BodyName; 2]> {
+        let [left, right] = pressing(world, self.side);
+        Some([left?.body, right?.body])
+    }
+}
+
+impl FingerGoal {
+    /// Fingers that have closed on an object hold it, whatever they were to do.
+    fn hold(&self, world: &mut World) -> Result<(), MotionFailure> {
+        let side = self.side;
+        if !self.is_closing || !held_objects(world, side).is_empty() {
+            return Ok(());
+        }
+        match self.between(world) {
+            Some([left, right]) if left == right => {
+                let effort = gripper_of(world, side).effort;
+                press(world, side, left.object().unwrap_or_default(), effort)
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -126,7 +163,13 @@ impl JointGoal for FingerGoal {
         ];
         let limits = speeds::limits_of(&world.models().description, &joints);
         let trajectory = Trajectory::new(&path, &limits, Corners::Round);
-        let allowed = hand_may_touch_objects(world, self.side);
+        self.is_closing = path[0] > path[1];
+        // Closing fingers may meet what is between them; opening ones push nothing away.
+        let allowed = if self.is_closing {
+            hand_may_touch_objects(world, self.side)
+        } else {
+            AllowedPairs::none()
+        };
         Ok(JointFollower::new(joints, trajectory, allowed))
     }
 
@@ -136,8 +179,9 @@ impl JointGoal for FingerGoal {
 
     /// Closing fingers have arrived when something is between them.
     fn met(&self, world: &World, _: f64) -> Option<MotionOutcome> {
-        let is_held = || pressing(world, self.side).iter().any(Option::is_some);
-        (self.is_closing(world) && is_held()).then_some(MotionOutcome::Arrived)
+        let holds = || !held_objects(world, self.side).is_empty();
+        let meets = self.is_closing && (holds() || self.between(world).is_some());
+        meets.then_some(MotionOutcome::Arrived)
     }
 
     fn arrived(&mut self, world: &mut World) -> Arrival {

@@ -7,7 +7,9 @@
 //! separate them or slide along are still taken, or the robot could never get away; but no
 //! step may exceed [`GREATEST_DEPTH`].
 
-use crate::robot::LinkId;
+use super::failure::MotionFailure;
+use super::payload::overload;
+use crate::robot::{LinkId, Side};
 use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
 
 /// Overlap (m) that a step may cause: much less than the 2 mm that are never exceeded, to
@@ -49,6 +51,24 @@ pub(super) fn obstacle(
         .find(is_deeper)
 }
 
+/// What is wrong with objects in the hands on the links for which `is_hand`, if anything: one has
+/// slipped away since that step of the world, is too heavy, or is stuck.
+pub(super) fn trouble_with_held(
+    world: &World,
+    since: u64,
+    is_hand: impl Fn(LinkId) -> bool,
+) -> Option<MotionFailure> {
+    let palm = |side: Side| world.models().description.arm(side).gripper.palm;
+    if let Some(slip) = world.slip_since(since, |side| is_hand(palm(side))) {
+        return Some(MotionFailure::HeldObjectSlipped(Box::new(slip.clone())));
+    }
+    if let Some(overload) = overload(world, &is_hand) {
+        return Some(MotionFailure::TooHeavy(Box::new(overload)));
+    }
+    let stuck = stuck_object(world, is_hand)?;
+    Some(MotionFailure::HeldObjectStuck(Box::new(stuck)))
+}
+
 /// A held object that does not follow the hand as it should.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct StuckObject {
@@ -63,7 +83,7 @@ pub(crate) struct StuckObject {
 }
 
 /// The first object held by one of the links that lags or is pressed too much.
-pub(super) fn stuck_object(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Option<StuckObject> {
+fn stuck_object(world: &World, is_hand: impl Fn(LinkId) -> bool) -> Option<StuckObject> {
     let held = world
         .objects()
         .filter(|o| o.attachment().is_some_and(|a| is_hand(a.link)));

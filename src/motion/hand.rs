@@ -27,6 +27,14 @@ pub(super) fn gripper_of(world: &World, side: Side) -> &Gripper {
     &world.models().description.arm(side).gripper
 }
 
+/// The force (N) with which each finger of a hand presses on the object.
+pub(super) fn pressing_on(world: &World, side: Side, object: &str) -> [f64; 2] {
+    world.finger_contacts(side).map(|forces| {
+        let own = forces.iter().filter(|f| f.body.object() == Some(object));
+        own.fold(0.0, |sum, f| sum + f.force)
+    })
+}
+
 /// What each finger of a hand presses on.
 pub(super) fn pressing(world: &World, side: Side) -> [Option<ContactForce>; 2] {
     let contacts = world.finger_contacts(side);

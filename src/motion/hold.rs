@@ -1,22 +1,45 @@
-//! Taking hold of an object between the fingers, and letting go of it.
+//! Taking hold of an object between the fingers, and waiting until it rests again.
 
 use super::failure::MotionFailure;
+use super::hand::{GRIP_FORCE, gripper_of, pressing_on};
 use super::job::{Activity, Job, MotionOutcome, MotionStatus, ProcessModule, Progress};
 use crate::robot::Side;
-use crate::world::World;
 use crate::world::physics::STEP_SECONDS;
+use crate::world::{World, WorldError};
 
 /// Number of steps without motion that count as rest.
 const QUIET: u32 = 24;
 /// Longest time (s) that an object has to come to rest.
 const SETTLE: f64 = 2.0;
 
-/// Welds the object softly to the palm of the hand at its current pose.
-pub(crate) fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), MotionFailure> {
-    let palm = world.models().description.arm(side).gripper.palm;
+/// Makes the fingers of a hand hold the object on which both press, each with the effort (N).
+pub(super) fn press(
+    world: &mut World,
+    side: Side,
+    object: &str,
+    effort: f64,
+) -> Result<(), MotionFailure> {
     world
-        .attach(object, palm)
+        .hold(object, side, effort)
         .map_err(|e| MotionFailure::UnknownName(e.to_string()))
+}
+
+/// Makes sure that the hand holds the object: that its fingers do already, or that both press on
+/// it.
+pub(crate) fn take_hold(world: &mut World, side: Side, object: &str) -> Result<(), MotionFailure> {
+    if held_objects(world, side).iter().any(|held| held == object) {
+        return Ok(());
+    }
+    let forces = pressing_on(world, side, object);
+    if forces.iter().any(|force| *force <= GRIP_FORCE) {
+        return Err(MotionFailure::NotBetweenFingers {
+            side,
+            object: object.to_owned(),
+            forces,
+        });
+    }
+    let effort = gripper_of(world, side).effort;
+    press(world, side, object, effort)
 }
 
 /// Names of the objects that the hand holds.
@@ -28,7 +51,8 @@ pub(crate) fn held_objects(world: &World, side: Side) -> Vec<String> {
     held.map(|o| o.name().to_owned()).collect()
 }
 
-/// Lets go of an object and waits until everything is at rest.
+/// Lets go of an object, if the fingers have not done so already, and waits until everything is
+/// at rest.
 pub(crate) type LetGo = Job<Release>;
 
 /// Releasing an object.
@@ -63,11 +87,15 @@ impl Release {
             .clone()
             .or(held)
             .ok_or(MotionFailure::HoldsNothing { side })?;
-        match world.detach(&name) {
-            Ok(Some(_)) => Ok(name),
-            Ok(None) => Err(MotionFailure::HoldsNothing { side }),
-            Err(error) => Err(MotionFailure::UnknownName(error.to_string())),
+        let unknown = |error: WorldError| MotionFailure::UnknownName(error.to_string());
+        let is_held = world.object(&name).map_err(unknown)?.attachment().is_some();
+        let is_held_here = held_objects(world, side).contains(&name);
+        if is_held && !is_held_here {
+            return Err(MotionFailure::HoldsNothing { side });
         }
+        // Fingers that have opened let go of it already.
+        world.detach(&name).map_err(unknown)?;
+        Ok(name)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Moving a set of joints along a trajectory, one guarded step at a time.
 
-use super::guard::{self, StuckObject};
+use super::failure::MotionFailure;
+use super::guard;
 use super::job::{PlannedTrajectory, TrajectoryAxes};
 use super::standstill::StandstillTimer;
 use super::trajectory::Trajectory;
@@ -22,8 +23,8 @@ pub(super) enum FollowStep {
         /// How long (s) the whole robot has not moved.
         still: f64,
     },
-    /// A held object does not follow the hand.
-    Stuck(StuckObject),
+    /// A held object does not follow the hand, is too heavy, or has slipped away.
+    Trouble(Box<MotionFailure>),
 }
 
 /// Joints that follow a trajectory. Axes of the trajectory beyond the joints only limit its
@@ -34,6 +35,8 @@ pub(crate) struct JointFollower {
     follower: TrajectoryFollower,
     allowed: AllowedPairs,
     standstill: StandstillTimer,
+    /// The world's step when the joints began to move.
+    began: Option<u64>,
 }
 
 impl JointFollower {
@@ -44,6 +47,7 @@ impl JointFollower {
             follower,
             allowed,
             standstill: StandstillTimer::default(),
+            began: None,
         }
     }
 
@@ -65,8 +69,9 @@ impl JointFollower {
         world: &mut World,
         is_hand: impl Fn(LinkId) -> bool,
     ) -> FollowStep {
-        if let Some(stuck) = guard::stuck_object(world, is_hand) {
-            return FollowStep::Stuck(stuck);
+        let began = *self.began.get_or_insert(world.steps());
+        if let Some(failure) = guard::trouble_with_held(world, began, is_hand) {
+            return FollowStep::Trouble(Box::new(failure));
         }
         if self.follower.is_at_end() {
             return FollowStep::Arrived;

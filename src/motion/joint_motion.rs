@@ -79,6 +79,16 @@ impl<G: JointGoal> JointMotion<G> {
         }
     }
 
+    /// The goal.
+    pub(super) fn goal(&self) -> &G {
+        &self.goal
+    }
+
+    /// The goal, to complete it before the motion starts.
+    pub(super) fn goal_mut(&mut self) -> &mut G {
+        &mut self.goal
+    }
+
     /// Plans. What is in the way while the robot is still moving may be gone later.
     fn try_plan(&mut self, world: &World) -> Result<(), MotionFailure> {
         match self.replanning.next(world, G::BLOCKED_TIMEOUT) {
@@ -130,9 +140,7 @@ impl<G: JointGoal> JointMotion<G> {
                 let failure = self.goal.blocked(world, hit);
                 self.plan_anew(failure)?;
             }
-            FollowStep::Stuck(stuck) => {
-                return Err(MotionFailure::HeldObjectStuck(Box::new(stuck)));
-            }
+            FollowStep::Trouble(failure) => return Err(*failure),
             FollowStep::Arrived => match self.goal.arrived(world) {
                 Arrival::Done(outcome) => return Ok(Some(outcome)),
                 Arrival::Failed(failure) => return Err(failure),

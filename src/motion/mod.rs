@@ -27,6 +27,7 @@ pub(crate) mod look;
 pub(crate) mod move_joints;
 pub(crate) mod move_tcp;
 pub(crate) mod move_torso;
+pub(crate) mod payload;
 mod planning_group;
 mod pose_goal;
 mod process_module;

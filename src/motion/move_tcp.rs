@@ -43,6 +43,8 @@ pub(crate) struct HandGoal {
     poses: [Option<PoseGoal>; 2],
     path: TcpPath,
     mode: CollisionMode,
+    /// Name of the only object that the hands may touch; any if there is none.
+    target: Option<String>,
 }
 
 impl MoveTcp {
@@ -57,7 +59,15 @@ impl MoveTcp {
             poses: [left, right],
             path,
             mode,
+            target: None,
         }))
+    }
+
+    /// The motion with hands that may touch only the target, where they may touch any object.
+    #[must_use]
+    pub(crate) fn touching_only(mut self, target: Option<String>) -> Self {
+        self.activity.goal_mut().target = target;
+        self
     }
 }
 
@@ -84,7 +94,7 @@ impl JointGoal for HandGoal {
             check_finite(Self::MODULE, &numbers_of(goal))?;
         }
         let sides = goals.iter().map(|(side, _)| *side);
-        let contacts = ExpectedContacts::of(world, sides, self.mode);
+        let contacts = ExpectedContacts::of(world, sides, self.mode, self.target.as_deref());
         let mut task = PoseGoalTask {
             world,
             goals,

@@ -1,8 +1,9 @@
 //! Putting a held object down.
 //!
 //! The hand moves slowly and straight to the goal, and stops as soon as something carries the
-//! object: before the goal if the surface is higher, below the goal if it is lower. Without
-//! any surface within reach below the goal it ends at the goal.
+//! object: before the goal if the surface is higher, below the goal if it is lower. If nothing
+//! within reach below the goal would carry the object, or if it would not stand there, the hand
+//! does not even begin, and keeps the object.
 
 use super::cartesian_path::tcp_in_base;
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
@@ -13,12 +14,12 @@ use super::joint_follower::JointFollower;
 use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use super::move_tcp::{PoseGoal, in_base};
 use super::pose_goal::PoseGoalTask;
-use super::put_plan::PutPlan;
+use super::put_plan::{PutPlan, nothing_below};
 use crate::robot::{LinkId, Side};
 use crate::world::{BodyName, CollisionHit, World};
 
 /// How far (m) below the goal to look for a surface.
-const DEPTH: f64 = 0.10;
+const DEPTH: f64 = 0.05;
 /// Force (N) above which something counts as carrying the object.
 const CARRIED: f64 = 0.5;
 /// The fraction of the trajectory during which the surface the object stood on is ignored.
@@ -82,17 +83,17 @@ impl JointGoal for PutGoal {
         let goal = in_base(self.pose, &world.robot_configuration().base);
         check_finite(Self::MODULE, &numbers_of(&goal))?;
         let goals = vec![(side, goal)];
-        let contacts = ExpectedContacts::of(world, [side].into_iter(), CollisionMode::AllowAll);
+        let contacts =
+            ExpectedContacts::of(world, [side].into_iter(), CollisionMode::AllowAll, None);
         let task = PoseGoalTask {
             world,
             goals,
             contacts,
         };
-        let object = BodyName::Object(self.object.clone());
         PutPlan {
             task,
             side,
-            object,
+            object: &self.object,
             depth: DEPTH,
         }
         .plan()
@@ -107,8 +108,12 @@ impl JointGoal for PutGoal {
         Some(self.outcome(world, Some(support)))
     }
 
+    /// What was to carry the object is not there, or the path has been a detour.
     fn arrived(&mut self, world: &mut World) -> Arrival {
-        Arrival::Done(self.outcome(world, None))
+        match nothing_below(world, &self.object, DEPTH) {
+            Ok(failure) => Arrival::Failed(failure),
+            Err(error) => Arrival::Failed(MotionFailure::UnknownName(error.to_string())),
+        }
     }
 
     fn blocked(&self, _: &World, hit: CollisionHit) -> MotionFailure {

@@ -1,19 +1,25 @@
 //! Planning how to put a held object down: where it meets a surface, and a path there.
 
-use super::cartesian_path::{CartesianEnd, CartesianLine, CartesianPath, CartesianTask};
+use super::cartesian_path::{
+    CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base,
+};
 use super::configuration_checker::ConfigurationChecker;
+use super::failure::MotionFailure;
 use super::joint_follower::{JointFollower, with_joints};
 use super::planning_group::PlanningGroup;
 use super::pose_goal::{PoseGoalTask, REASON_STEP};
 use super::speeds;
 use crate::robot::Side;
 use crate::spatial::{Pose, pose};
-use crate::world::{AllowedPairs, BodyName};
+use crate::world::{AllowedPairs, World, WorldError};
 
 /// How far (m) the hand may continue below the point where the object meets something.
 const PRESS: f64 = 0.004;
 /// Steps of bisection of that point, starting from one centimetre between two configurations.
 const REFINEMENTS: u32 = 6;
+/// How far (m) and how much (rad, 10 degrees) an object may move after it has been let go.
+const GREATEST_MOTION: f64 = 0.02;
+const GREATEST_TILT: f64 = 0.1745;
 /// How many final configurations at one height are tried.
 const CONFIGURATIONS: usize = 6;
 
@@ -23,18 +29,25 @@ pub(super) struct PutPlan<'a> {
     pub(super) task: PoseGoalTask<'a>,
     pub(super) side: Side,
     /// Name of the held object.
-    pub(super) object: BodyName,
+    pub(super) object: &'a str,
     /// How far (m) below the goal to look for a surface.
     pub(super) depth: f64,
 }
 
 impl PutPlan<'_> {
-    /// The path to where the object meets something, or to the goal if it meets nothing.
-    pub(super) fn plan(mut self) -> Result<JointFollower, super::failure::MotionFailure> {
+    /// The path to where the object meets something on which it will stand.
+    pub(super) fn plan(mut self) -> Result<JointFollower, MotionFailure> {
         let Some(&(side, goal)) = self.task.goals.first() else {
             return self.task.plan_free();
         };
-        let contact = self.contact();
+        let contact = match self.contact() {
+            Meeting::At(contact) => Some(contact),
+            Meeting::Nothing => return Err(self.nothing_below_goal(&goal)),
+            Meeting::Unknown => None,
+        };
+        if let Some(contact) = &contact {
+            self.check_stand(contact)?;
+        }
         self.task.goals = vec![(side, contact.unwrap_or(goal))];
         for height in self.task.heights(REASON_STEP) {
             if let Some(follow) = self.plan_at(height, contact.is_some()) {
@@ -42,6 +55,39 @@ impl PutPlan<'_> {
             }
         }
         self.task.plan_free()
+    }
+
+    /// Where the object will be, in the map frame, when the tool is at the pose in the frame of
+    /// the base.
+    fn object_at(&self, tool: &Pose) -> Result<Pose, WorldError> {
+        let world = self.task.world;
+        let base = world.robot_configuration().base;
+        let grip =
+            (base * tcp_in_base(world, self.side)).inverse() * world.object_pose(self.object)?;
+        Ok(base * tool * grip)
+    }
+
+    fn nothing_below_goal(&self, goal: &Pose) -> MotionFailure {
+        let at = |pose| nothing_below_at(self.task.world, self.object, &pose, self.depth);
+        let failure = self.object_at(goal).and_then(at);
+        failure.unwrap_or_else(|error| MotionFailure::UnknownName(error.to_string()))
+    }
+
+    /// An error if the object would not stay where it meets something.
+    fn check_stand(&self, contact: &Pose) -> Result<(), MotionFailure> {
+        let world = self.task.world;
+        let unknown = |error: WorldError| MotionFailure::UnknownName(error.to_string());
+        let place = self.object_at(contact).map_err(unknown)?;
+        let trial = world.stand_trial(self.object, &place).map_err(unknown)?;
+        if trial.moved <= GREATEST_MOTION && trial.tilt <= GREATEST_TILT {
+            return Ok(());
+        }
+        let t = place.translation;
+        Err(MotionFailure::WouldNotStand {
+            object: self.object.to_owned(),
+            place: [t.x, t.y, t.z],
+            trial: Box::new(trial),
+        })
     }
 
     fn plan_at(&self, height: f64, presses: bool) -> Option<JointFollower> {
@@ -81,25 +127,26 @@ impl PutPlan<'_> {
 
     /// The pose of the hand at which the object first meets something, whatever the arm
     /// itself would touch on the way.
-    fn contact(&self) -> Option<Pose> {
+    fn contact(&self) -> Meeting {
         for height in self.task.heights(REASON_STEP) {
             let group = self.task.group(height);
             let start = group.now(self.task.world);
             let mut task = self.task.line_task(height, &group);
             let (path, met) = task.follow(&start, None, None);
             let to_goal = self.contact_on(&task, &path, &group, &start);
-            if to_goal.is_some() {
-                return to_goal;
+            if let Some(pose) = to_goal {
+                return Meeting::At(pose);
             }
             if !matches!(met, CartesianEnd::Complete) {
                 continue;
             }
             lower(&mut task, self.depth);
-            let reached = path.points.last()?.clone();
+            let reached = path.points.last().cloned().unwrap_or_default();
             let (down, _) = task.follow(&reached, None, None);
-            return self.contact_on(&task, &down, &group, &reached);
+            let below = self.contact_on(&task, &down, &group, &reached);
+            return below.map_or(Meeting::Nothing, Meeting::At);
         }
-        None
+        Meeting::Unknown
     }
 
     /// The first contact of the object on the path, refined between two configurations.
@@ -118,7 +165,7 @@ impl PutPlan<'_> {
             checker
                 .all_hits(&there, &none, 0.0)
                 .iter()
-                .any(|hit| hit.moving == self.object)
+                .any(|hit| hit.moving.object() == Some(self.object))
         };
         // At the start the object may be standing on something.
         let met =
@@ -137,6 +184,41 @@ impl PutPlan<'_> {
         let line = task.lines.iter().find(|line| line.side == self.side)?;
         Some(pose::between(&line.from, &line.to, touching))
     }
+}
+
+/// Where a held object meets something on its way to the goal and down from there.
+enum Meeting {
+    /// With the tool at this pose in the frame of the base.
+    At(Pose),
+    /// Nowhere.
+    Nothing,
+    /// The arm cannot follow the way.
+    Unknown,
+}
+
+/// The failure to put down the object where it is now, with nothing below within the depth (m).
+pub(super) fn nothing_below(
+    world: &World,
+    object: &str,
+    depth: f64,
+) -> Result<MotionFailure, WorldError> {
+    let pose = world.object_pose(object)?;
+    nothing_below_at(world, object, &pose, depth)
+}
+
+fn nothing_below_at(
+    world: &World,
+    object: &str,
+    pose: &Pose,
+    depth: f64,
+) -> Result<MotionFailure, WorldError> {
+    let t = pose.translation;
+    Ok(MotionFailure::NothingBelow {
+        object: object.to_owned(),
+        place: [t.x, t.y, t.z],
+        depth,
+        below: world.below(object, pose)?,
+    })
 }
 
 /// Extends the lines straight down from where they end.

@@ -12,10 +12,11 @@ use crate::robot::Side;
 use crate::spatial::Pose;
 use crate::world::{AllowedPairs, CollisionHit, World};
 
-/// Whether the base could be at the pose (m, m, rad) with torso and arms as they are,
-/// without collision.
+/// Whether the base could be at the pose (m, m, rad) with torso and arms as they are: on the
+/// map, without collision.
 pub(crate) fn can_stand(world: &World, place: &BasePlace) -> bool {
-    BaseChecker::new(world).blocked(place, 0.0).is_none()
+    let [x, y, _] = *place;
+    world.models().map.contains([x, y]) && BaseChecker::new(world).blocked(place, 0.0).is_none()
 }
 
 /// What the robot would touch with its base at the pose (m, m, rad) and torso and arms as
@@ -27,9 +28,16 @@ pub(crate) fn touching_at(world: &World, place: &BasePlace) -> Vec<CollisionHit>
 }
 
 /// Whether the tool of a hand could be at the pose in the frame of the base, at any height
-/// of the torso, while the robot touches nothing but what the mode permits.
-pub(crate) fn can_reach(world: &World, side: Side, tool: &Pose, mode: CollisionMode) -> bool {
-    let contacts = ExpectedContacts::of(world, [side].into_iter(), mode);
+/// of the torso, while the robot touches nothing but what the mode permits, and of objects only
+/// the target, if one is named.
+pub(crate) fn can_reach(
+    world: &World,
+    side: Side,
+    tool: &Pose,
+    mode: CollisionMode,
+    target: Option<&str>,
+) -> bool {
+    let contacts = ExpectedContacts::of(world, [side].into_iter(), mode, target);
     let task = PoseGoalTask {
         world,
         goals: vec![(side, *tool)],

@@ -102,6 +102,8 @@ pub(crate) struct Arm {
     pub(crate) postures: Vec<(String, ArmPositions)>,
     /// The posture after start-up.
     pub(crate) start: ArmPositions,
+    /// Greatest mass (kg) that the arm's maker allows it to carry, if known.
+    pub(crate) payload: Option<f64>,
     /// The gripper.
     pub(crate) gripper: Gripper,
 }
@@ -154,6 +156,8 @@ pub(crate) struct Gripper {
     pub(crate) fingers: [Vec<LinkId>; 2],
     /// Joint position (rad) per metre of opening that CRAM asks for.
     pub(crate) joint_per_metre: f64,
+    /// Greatest force (N) with which each finger presses.
+    pub(crate) effort: f64,
     /// From a finger's joint to its tip, along the closed finger and across it (m).
     pub(super) tip: [f64; 2],
     /// From the middle of the palm to a finger's joint, minus from the tip to the face of

@@ -47,6 +47,7 @@ const RECORDS: &[(&str, &[&str])] = &[
             "tool-offset",
             "tool-axes",
             "start",
+            "payload",
             "postures",
         ],
     ),
@@ -58,6 +59,7 @@ const RECORDS: &[(&str, &[&str])] = &[
             "tip-joint",
             "pad-face",
             "joint-per-metre",
+            "effort",
             "left-finger",
             "right-finger",
         ],
@@ -68,6 +70,10 @@ const RECORDS: &[(&str, &[&str])] = &[
     ("wheels", &[]),
     ("idle-joints", &[]),
 ];
+
+/// Greatest force (N) of fingers whose description does not give it: little, so that nothing is
+/// held here that a robot would drop.
+const UNKNOWN_EFFORT: f64 = 20.0;
 
 impl RobotDescription {
     /// Reads a description of the robot with that tree; `file_name` is used only in errors.
@@ -292,6 +298,7 @@ impl<'a> Reader<'a> {
             tool_offset: record.required("tool-offset")?.number()?,
             tool_axes: rotation(record.required("tool-axes")?)?,
             start: *start,
+            payload: optional_positive(&record, "payload")?,
             kinematics,
             postures,
             gripper: self.gripper(side)?,
@@ -342,6 +349,7 @@ impl<'a> Reader<'a> {
                 self.links(&record.required("right-finger")?.list()?)?,
             ],
             joint_per_metre: record.required("joint-per-metre")?.positive()?,
+            effort: optional_positive(&record, "effort")?.unwrap_or(UNKNOWN_EFFORT),
             tip: [tip.x, tip.y.abs()],
             pad: finger.y.abs() - record.required("pad-face")?.number()?,
         })
@@ -373,6 +381,10 @@ impl<'a> Reader<'a> {
         }
         Ok(speeds)
     }
+}
+
+fn optional_positive(record: &Record<'_>, key: &str) -> Result<Option<f64>, DataError> {
+    record.optional(key).map(|node| node.positive()).transpose()
 }
 
 fn speed(record: &Record<'_>, velocity: &str, acceleration: &str) -> Result<Speed, DataError> {

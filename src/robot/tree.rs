@@ -99,6 +99,8 @@ pub(crate) struct Joint {
     pub(crate) soft_limits: Option<Limits>,
     /// Maximum speed (rad/s or m/s) given by the URDF.
     pub(crate) max_velocity: Option<f64>,
+    /// Maximum torque (Nm) or force (N) given by the URDF.
+    pub(crate) max_effort: Option<f64>,
     /// Set when the joint follows another one.
     pub(crate) mimic: Option<Mimic>,
 }
@@ -152,6 +154,7 @@ pub(super) struct JointPart {
     pub(crate) limits: Option<Limits>,
     pub(crate) soft_limits: Option<Limits>,
     pub(crate) max_velocity: Option<f64>,
+    pub(crate) max_effort: Option<f64>,
     /// Index of the joint that is followed, multiplier, offset.
     pub(crate) mimic: Option<(usize, f64, f64)>,
 }
@@ -311,6 +314,7 @@ impl KinematicTree {
                 limits: part.limits,
                 soft_limits: part.soft_limits,
                 max_velocity: part.max_velocity,
+                max_effort: part.max_effort,
                 mimic,
             });
         }

@@ -291,6 +291,7 @@ fn joint_part(
         limits,
         soft_limits,
         max_velocity: Some(joint.limit.velocity).filter(|v| *v > 0.0),
+        max_effort: Some(joint.limit.effort).filter(|v| *v > 0.0),
         mimic,
     })
 }

@@ -2,6 +2,7 @@
 
 use super::body_name::BodyName;
 use super::error::WorldError;
+use super::object::Object;
 use super::part_key::PartKey;
 use super::physics::{BodyHandle, RawContact};
 use super::scene::World;
@@ -46,6 +47,15 @@ impl World {
                 }
             });
         Ok(sum)
+    }
+
+    /// Whether the object presses on anything but the robot.
+    pub(super) fn touches_others(&self, object: &Object) -> bool {
+        let mut touches = false;
+        self.physics.visit_contacts(object.body, |contact| {
+            touches |= !matches!(PartKey::from_code(contact.other), PartKey::Robot(_));
+        });
+        touches
     }
 
     /// What carries or stops the object, except the robot.

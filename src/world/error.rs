@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::map_area::MapArea;
+
 /// A change that cannot be made; the world is left as it was.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub(crate) enum WorldError {
@@ -20,6 +22,19 @@ pub(crate) enum WorldError {
         name: String,
         /// The most similar type.
         closest: Option<String>,
+    },
+    /// An object of that name is of another type.
+    #[error(
+        "{name} is a {type_name}, and does not become a {wanted}: remove it first, or choose \
+         another name"
+    )]
+    OtherType {
+        /// Name of the object.
+        name: String,
+        /// Its type.
+        type_name: String,
+        /// The requested type.
+        wanted: String,
     },
     /// The kitchen has no movable joint with that name.
     #[error("the kitchen has no moving joint {name}{}", suggestion(.closest))]
@@ -44,6 +59,21 @@ pub(crate) enum WorldError {
         name: String,
         /// The number.
         value: f64,
+    },
+    /// A place is too far away.
+    #[error(
+        "{name} cannot be at ({} {} {}): the world ends {border} m from the map, which covers \
+         {map}, and {border} m above and below the floor", .place[0], .place[1], .place[2]
+    )]
+    BeyondTheWorld {
+        /// The thing that was to be there.
+        name: String,
+        /// The place (m), in the map frame.
+        place: [f64; 3],
+        /// The map.
+        map: MapArea,
+        /// How far from the map the world extends (m).
+        border: f64,
     },
 }
 

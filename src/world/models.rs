@@ -3,8 +3,10 @@
 
 use super::body_name::BodyName;
 use super::link_geometry::TreeGeometry;
+use super::map_area::MapArea;
 use super::object_library::{OBJECTS, ObjectLibrary};
 use super::part_key::PartKey;
+use super::physics::Surface;
 use crate::robot::description::Arm;
 use crate::robot::{
     KITCHEN_URDF, KinematicTree, LinkId, PR2_DESCRIPTION, PR2_URDF, RobotDescription, Side,
@@ -25,6 +27,8 @@ pub(crate) struct Models {
     pub(crate) objects: ObjectLibrary,
     pub(crate) robot_geometry: TreeGeometry,
     pub(crate) kitchen_geometry: TreeGeometry,
+    /// The floor that the robot can drive on.
+    pub(crate) map: MapArea,
     /// Pairs of indices into the robot's solid links that must not touch.
     pub(crate) self_pairs: Vec<(usize, usize)>,
     /// The hand that each link of the robot belongs to, if any.
@@ -75,6 +79,7 @@ impl Models {
         let idle = &description.idle_joints;
         let robot_geometry = TreeGeometry::new(&robot, |joint| idle.contains(&joint));
         let kitchen_geometry = TreeGeometry::new(&kitchen, |_| false);
+        let map = MapArea::new(&kitchen, &kitchen_geometry);
         let links = &robot_geometry.solid_links;
         let mut self_pairs = Vec::new();
         for (a, one) in links.iter().enumerate() {
@@ -115,6 +120,7 @@ impl Models {
             objects,
             robot_geometry,
             kitchen_geometry,
+            map,
             self_pairs,
             hand_of,
             footing,
@@ -139,6 +145,27 @@ impl Models {
             (Some(Some(x)), Some(Some(y))) => x == y,
             _ => false,
         }
+    }
+
+    /// What the link is to the physics engine: part of a hand, a gripping surface, or neither.
+    pub(crate) fn surface_of(&self, link: LinkId) -> Surface {
+        let group = |link: LinkId| self.robot_geometry.group_of.get(link.index());
+        for arm in &self.description.arms {
+            let gripper = &arm.gripper;
+            if gripper
+                .fingers
+                .iter()
+                .flatten()
+                .any(|finger| *finger == link)
+            {
+                return Surface::Pad(arm.side.index());
+            }
+            let hand = self.hand_of.get(link.index()).copied().flatten();
+            if hand == Some(arm.side) || group(link) == group(gripper.palm) {
+                return Surface::Hand(arm.side.index());
+            }
+        }
+        Surface::Plain
     }
 
     /// The relation of the part to the floor; held objects may reach for it.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use parry3d_f64::bounding_volume::Aabb;
 
+use super::holding::Hold;
 use super::part_key::PartKey;
 use super::physics::{BodyHandle, WeldHandle};
 use super::solid::Solid;
@@ -18,6 +19,8 @@ pub(crate) struct Attachment {
     /// Pose of the object in the link's frame when it was attached.
     pub(crate) at: Pose,
     pub(crate) weld: WeldHandle,
+    /// How fingers hold the object; `None` if it is merely fixed to the link.
+    pub(crate) hold: Option<Hold>,
 }
 
 /// An object of the world.
@@ -26,6 +29,8 @@ pub(crate) struct Object {
     pub(crate) name: String,
     pub(crate) type_name: String,
     pub(crate) color: [f32; 4],
+    pub(crate) mass: f64,
+    pub(crate) friction: f64,
     pub(crate) shapes: Arc<[PlacedShape]>,
     pub(crate) solids: Arc<[Solid]>,
     pub(crate) bounds: Aabb,
@@ -50,6 +55,11 @@ impl Object {
         self.color
     }
 
+    /// Mass (kg).
+    pub(crate) fn mass(&self) -> f64 {
+        self.mass
+    }
+
     /// Shapes, in the object's own frame.
     pub(crate) fn shapes(&self) -> &[PlacedShape] {
         &self.shapes
@@ -58,6 +68,11 @@ impl Object {
     /// The attachment, if a link carries the object.
     pub(crate) fn attachment(&self) -> Option<&Attachment> {
         self.attachment.as_ref()
+    }
+
+    /// How fingers hold the object, if they do.
+    pub(crate) fn hold(&self) -> Option<&Hold> {
+        self.attachment.as_ref()?.hold.as_ref()
     }
 
     /// The key of its parts.

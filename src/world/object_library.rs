@@ -14,6 +14,9 @@ use crate::spatial::{PlacedShape, Shape};
 /// The text of the built-in library, `world/objects.sexp`.
 pub(crate) const OBJECTS: &str = include_str!("../../world/objects.sexp");
 
+/// Coefficient of friction of things that give none.
+pub(crate) const FRICTION: f64 = 0.6;
+
 /// One kind of object.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ObjectType {
@@ -23,6 +26,8 @@ pub(crate) struct ObjectType {
     pub(crate) shapes: Vec<PlacedShape>,
     /// Mass (kg).
     pub(crate) mass: f64,
+    /// Coefficient of friction.
+    pub(crate) friction: f64,
     /// Linear colour, red green blue alpha in 0..1.
     pub(crate) color: [f32; 4],
 }
@@ -41,7 +46,7 @@ pub(crate) struct ObjectLibrary {
 const RECORDS: &[(&str, &[&str])] = &[
     ("available", &[]),
     ("kinds", &[]),
-    ("object", &["mass", "color", "shapes"]),
+    ("object", &["mass", "friction", "color", "shapes"]),
 ];
 
 impl ObjectLibrary {
@@ -141,6 +146,10 @@ impl ObjectLibrary {
             name: name.clone(),
             shapes: solids,
             mass: record.required("mass")?.positive()?,
+            friction: match record.optional("friction") {
+                Some(node) => node.positive()?,
+                None => FRICTION,
+            },
             color: record.required("color")?.color()?,
         };
         match self.objects.insert(name, object) {

@@ -18,8 +18,8 @@
 use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{
     CCDSolver, CoefficientCombineRule, FixedJointBuilder, FrictionModel, ImpulseJointHandle,
-    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBodyBuilder,
-    RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
+    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBodyActivation,
+    RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 use rapier3d_f64::geometry::{
     BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, ContactPair, Group,
@@ -29,6 +29,7 @@ use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::PhysicsPipeline;
 
 use super::hash::Hasher;
+use super::object_library::FRICTION;
 use super::solid::{Solid, from_parry, from_parry_vector, to_parry};
 use crate::spatial::Pose;
 
@@ -40,9 +41,6 @@ pub(crate) const GRAVITY: f64 = 9.81;
 
 /// Number of parts into which the solver divides a step.
 const SOLVER_ITERATIONS: usize = 4;
-
-/// Friction of furniture, objects and the robot's body.
-const FRICTION: f64 = 0.6;
 
 /// Friction of gripping surfaces; there the larger of the two coefficients counts.
 const GRIP_FRICTION: f64 = 1.0;
@@ -58,6 +56,7 @@ const ANGULAR_DAMPING: f64 = 1.0;
 const FURNITURE: Group = Group::GROUP_1;
 const OBJECT: Group = Group::GROUP_2;
 const ROBOT: Group = Group::GROUP_3;
+const HANDS: [Group; 2] = [Group::GROUP_4, Group::GROUP_5];
 
 /// A body of the engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +79,31 @@ pub(crate) enum BodyKind {
     Object {
         /// Mass (kg).
         mass: f64,
+        /// Coefficient of friction.
+        friction: f64,
     },
+}
+
+/// How much of the robot is solid for an object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Robot {
+    /// All of it.
+    Whole,
+    /// All but the hand with that number, 0 or 1.
+    WithoutHand(usize),
+    /// Nothing.
+    Absent,
+}
+
+/// What a part of a body is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Surface {
+    /// Anything but a hand.
+    Plain,
+    /// Part of the hand with that number, 0 or 1.
+    Hand(usize),
+    /// A gripping surface of that hand.
+    Pad(usize),
 }
 
 /// A contact of a body that carries load.
@@ -157,19 +180,19 @@ impl Physics {
     pub(crate) fn add_floor(&mut self, key: u64) {
         let floor = ColliderBuilder::new(SharedShape::halfspace(Vector::Z))
             .friction(FRICTION)
-            .collision_groups(groups(BodyKind::Static))
+            .collision_groups(groups(BodyKind::Static, Surface::Plain))
             .user_data(u128::from(key));
         self.sets.colliders.insert(floor);
     }
 
-    /// Adds a body made of the solids, each with the key of its part and whether it grips.
+    /// Adds a body made of the solids, each with the key of its part and what it is.
     ///
     /// The mass of an object is spread over its solids by volume.
     pub(crate) fn add_body(
         &mut self,
         kind: BodyKind,
         pose: &Pose,
-        parts: &[(Solid, u64, bool)],
+        parts: &[(Solid, u64, Surface)],
     ) -> BodyHandle {
         let builder = match kind {
             BodyKind::Static => RigidBodyBuilder::fixed(),
@@ -180,19 +203,21 @@ impl Physics {
         };
         let handle = self.sets.bodies.insert(builder.pose(to_parry(pose)));
         let volume: f64 = parts.iter().map(|(solid, ..)| solid.volume).sum();
-        for (solid, key, grips) in parts {
-            let (friction, rule) = if *grips {
-                (GRIP_FRICTION, CoefficientCombineRule::Max)
-            } else {
-                (FRICTION, CoefficientCombineRule::Average)
+        for (solid, key, surface) in parts {
+            let (friction, rule) = match (surface, kind) {
+                (Surface::Pad(_), _) => (GRIP_FRICTION, CoefficientCombineRule::Max),
+                (_, BodyKind::Object { friction, .. }) => {
+                    (friction, CoefficientCombineRule::Average)
+                }
+                _ => (FRICTION, CoefficientCombineRule::Average),
             };
             let mut collider = ColliderBuilder::new(solid.shape.clone())
                 .position(solid.pose)
                 .friction(friction)
                 .friction_combine_rule(rule)
-                .collision_groups(groups(kind))
+                .collision_groups(groups(kind, *surface))
                 .user_data(u128::from(*key));
-            if let BodyKind::Object { mass } = kind {
+            if let BodyKind::Object { mass, .. } = kind {
                 collider = collider.mass(mass * solid.volume / volume);
             }
             self.sets
@@ -200,6 +225,54 @@ impl Physics {
                 .insert_with_parent(collider, handle, &mut self.sets.bodies);
         }
         BodyHandle(handle)
+    }
+
+    /// Sets what an object collides with, besides furniture and objects. What a hand holds cannot
+    /// move against the hand, and contacts that nothing can change cost a quarter of a plan's
+    /// time.
+    pub(crate) fn collide(&mut self, object: BodyHandle, with: Robot) {
+        let s = &mut self.sets;
+        let Some(body) = s.bodies.get(object.0) else {
+            return;
+        };
+        let solid = solid_for_objects();
+        let filter = match with {
+            Robot::Whole => solid,
+            Robot::WithoutHand(hand) => {
+                let hand = HANDS.get(hand).copied();
+                hand.map_or(solid, |hand| solid.difference(hand))
+            }
+            Robot::Absent => FURNITURE.union(OBJECT),
+        };
+        let groups = InteractionGroups::new(OBJECT, filter, InteractionTestMode::And);
+        for collider in body.colliders() {
+            if let Some(collider) = s.colliders.get_mut(*collider) {
+                collider.set_collision_groups(groups);
+            }
+        }
+    }
+
+    /// Gives an object another mass (kg), spread over its solids by volume.
+    pub(crate) fn set_mass(&mut self, body: BodyHandle, mass: f64) {
+        let s = &mut self.sets;
+        let Some(b) = s.bodies.get(body.0) else {
+            return;
+        };
+        let colliders = b.colliders().to_vec();
+        let volume = |s: &Sets, c: ColliderHandle| {
+            let shape = s.colliders.get(c).map(|c| c.shape().mass_properties(1.0));
+            shape.map_or(0.0, |properties| properties.mass())
+        };
+        let whole: f64 = colliders.iter().map(|c| volume(s, *c)).sum();
+        for handle in colliders {
+            let share = volume(s, handle) / whole;
+            if let Some(collider) = s.colliders.get_mut(handle) {
+                collider.set_mass(mass * share);
+            }
+        }
+        if let Some(b) = s.bodies.get_mut(body.0) {
+            b.recompute_mass_properties_from_colliders(&s.colliders);
+        }
     }
 
     /// Removes the body and its welds; what rested on it wakes up.
@@ -265,11 +338,19 @@ impl Physics {
             .wake_up(&mut self.sets.bodies, body.0, true);
     }
 
-    /// Keeps a body from falling asleep, for measurements.
+    /// Keeps a body from falling asleep.
     pub(crate) fn keep_awake(&mut self, body: BodyHandle) {
         if let Some(b) = self.sets.bodies.get_mut(body.0) {
             b.activation_mut().normalized_linear_threshold = -1.0;
             b.wake_up(true);
+        }
+    }
+
+    /// Lets a body fall asleep again.
+    pub(crate) fn let_sleep(&mut self, body: BodyHandle) {
+        if let Some(b) = self.sets.bodies.get_mut(body.0) {
+            let usual = RigidBodyActivation::default_normalized_linear_threshold();
+            b.activation_mut().normalized_linear_threshold = usual;
         }
     }
 
@@ -409,11 +490,29 @@ fn normal_impulse(pair: &ContactPair) -> f64 {
 
 /// Furniture never collides with furniture, and the robot only with objects: where a
 /// kinematic body goes is checked geometrically before and during a motion.
-fn groups(kind: BodyKind) -> InteractionGroups {
+fn groups(kind: BodyKind, surface: Surface) -> InteractionGroups {
     let (own, others) = match kind {
         BodyKind::Static | BodyKind::MovingFurniture => (FURNITURE, OBJECT),
-        BodyKind::Robot => (ROBOT, OBJECT),
-        BodyKind::Object { .. } => (OBJECT, FURNITURE.union(OBJECT).union(ROBOT)),
+        BodyKind::Robot => (robot_group(surface), OBJECT),
+        BodyKind::Object { .. } => (OBJECT, solid_for_objects()),
     };
     InteractionGroups::new(own, others, InteractionTestMode::And)
+}
+
+fn robot_group(surface: Surface) -> Group {
+    let hand = match surface {
+        Surface::Plain => None,
+        Surface::Hand(hand) | Surface::Pad(hand) => HANDS.get(hand).copied(),
+    };
+    hand.unwrap_or(ROBOT)
+}
+
+/// What objects collide with unless a hand holds them.
+fn solid_for_objects() -> Group {
+    let [left, right] = HANDS;
+    FURNITURE
+        .union(OBJECT)
+        .union(ROBOT)
+        .union(left)
+        .union(right)
 }

@@ -5,7 +5,8 @@
 //! - The robot and the kitchen follow their joint vectors exactly. `set_…` makes them move
 //!   there during the next step, pushing what is in the way; `teleport_…` puts them there
 //!   at once, which is an edit of the world, not a motion.
-//! - An object that is attached to a link is welded to it softly until it is detached.
+//! - An object that is attached to a link is welded to it softly until it is detached; one that
+//!   fingers hold, until they open or it slips.
 //! - Objects are kept in the order in which they appeared.
 
 use std::sync::Arc;
@@ -16,12 +17,13 @@ use super::collision::CollisionChecker;
 use super::collision_search::{HeldObject, ObjectAt, Surroundings};
 use super::error::WorldError;
 use super::hash::Hasher;
+use super::holding::Slip;
 use super::link_geometry::TreeGeometry;
 use super::models::Models;
 use super::object::Object;
 use super::obstacles::Obstacles;
 use super::part_key::{PartKey, index};
-use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS};
+use super::physics::{BodyHandle, BodyKind, Physics, STEP_SECONDS, Surface};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::to_parry;
 use crate::closest_name::closest_name;
@@ -53,6 +55,8 @@ pub(super) struct State {
     pub(super) objects: IndexMap<String, Object>,
     pub(super) next_number: u32,
     pub(super) steps: u64,
+    /// The last object that has slipped out of each hand.
+    pub(super) slips: Vec<Slip>,
 }
 
 impl World {
@@ -77,7 +81,8 @@ impl World {
                 } else {
                     BodyKind::Static
                 };
-                let parts = group_parts(&models.kitchen_geometry, i, PartKey::Furniture, &[]);
+                let plain = |_| Surface::Plain;
+                let parts = group_parts(&models.kitchen_geometry, i, PartKey::Furniture, plain);
                 let pose = pose_of(&kitchen_poses, group.root);
                 (!parts.is_empty()).then(|| physics.add_body(kind, &pose, &parts))
             })
@@ -87,18 +92,14 @@ impl World {
         models
             .robot
             .forward_kinematics(&robot.base, &robot.joints, &mut robot_poses);
-        let arms = &models.description.arms;
-        let fingers = arms
-            .iter()
-            .flat_map(|arm| arm.gripper.fingers.iter().flatten());
-        let fingers: Vec<LinkId> = fingers.copied().collect();
         let robot_bodies = models
             .robot_geometry
             .groups
             .iter()
             .enumerate()
             .map(|(i, group)| {
-                let parts = group_parts(&models.robot_geometry, i, PartKey::Robot, &fingers);
+                let surface = |link| models.surface_of(link);
+                let parts = group_parts(&models.robot_geometry, i, PartKey::Robot, surface);
                 physics.add_body(BodyKind::Robot, &pose_of(&robot_poses, group.root), &parts)
             })
             .collect();
@@ -118,6 +119,7 @@ impl World {
                 objects: IndexMap::new(),
                 next_number: 0,
                 steps: 0,
+                slips: Vec::new(),
             },
             robot_bodies,
             kitchen_bodies,
@@ -133,6 +135,7 @@ impl World {
     /// fall, slide and are carried.
     pub(crate) fn step(&mut self) {
         if self.state.robot_moves {
+            self.release_opened_hands();
             for (body, group) in self
                 .robot_bodies
                 .iter()
@@ -165,6 +168,7 @@ impl World {
             self.state.kitchen_moves = false;
         }
         self.physics.step();
+        self.watch_holds();
         self.state.steps += 1;
     }
 
@@ -184,11 +188,20 @@ impl World {
         self.is_at_rest()
     }
 
-    /// Whether no object moves faster than 2 mm/s or turns faster than 0.02 rad/s.
+    /// Whether no object moves faster than 2 mm/s or turns faster than 0.02 rad/s; one in a hand
+    /// rests when the hand does.
     pub(crate) fn is_at_rest(&self) -> bool {
-        self.state.objects.values().all(|object| {
+        self.moving_objects().next().is_none()
+    }
+
+    /// The objects that no hand holds and that are not at rest.
+    pub(crate) fn moving_objects(&self) -> impl Iterator<Item = &Object> {
+        let free = self.state.objects.values();
+        let free = free.filter(|object| object.attachment.is_none());
+        free.filter(|object| {
             let (linear, angular) = self.physics.velocity(object.body);
-            linear.norm() < REST_SPEED && angular.norm() < REST_TURN
+            let is_at_rest = linear.norm() < REST_SPEED && angular.norm() < REST_TURN;
+            !is_at_rest
         })
     }
 
@@ -297,6 +310,9 @@ impl World {
             if let Some(attachment) = &object.attachment {
                 hasher.integer(u64::from(index(attachment.link)));
                 hasher.pose(&attachment.at);
+                if let Some(hold) = &attachment.hold {
+                    hold.hash_into(&mut hasher);
+                }
             }
         }
         hasher.finish()
@@ -321,13 +337,13 @@ pub(super) fn pose_of(poses: &[Pose], link: LinkId) -> Pose {
     poses.get(link.index()).copied().unwrap_or_default()
 }
 
-/// The solids of a group in its root's frame, with their keys and whether they grip.
+/// The solids of a group in its root's frame, with their keys and what they are.
 fn group_parts(
     geometry: &TreeGeometry,
     group: usize,
     key: fn(u32) -> PartKey,
-    grips: &[LinkId],
-) -> Vec<(super::solid::Solid, u64, bool)> {
+    surface: impl Fn(LinkId) -> Surface,
+) -> Vec<(super::solid::Solid, u64, Surface)> {
     let mut parts = Vec::new();
     for (place, pose) in &geometry.groups[group].members {
         // Members are indices into this list.
@@ -335,11 +351,7 @@ fn group_parts(
         for solid in &link.solids {
             let mut solid = solid.clone();
             solid.pose = to_parry(pose) * solid.pose;
-            parts.push((
-                solid,
-                key(index(link.link)).code(),
-                grips.contains(&link.link),
-            ));
+            parts.push((solid, key(index(link.link)).code(), surface(link.link)));
         }
     }
     parts

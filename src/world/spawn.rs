@@ -16,7 +16,7 @@ use super::error::WorldError;
 use super::object::Object;
 use super::object_library::ObjectType;
 use super::part_key::PartKey;
-use super::physics::BodyKind;
+use super::physics::{BodyKind, Surface};
 use super::scene::World;
 use super::separation::{lowest_point, separation};
 use super::solid::{Solid, bounds_of, from_parry_vector, to_parry};
@@ -83,8 +83,8 @@ struct Neighbour {
 
 impl World {
     /// Adds an object of a type in the library at the pose, with the type's colour and mass
-    /// (kg) unless others are given. If an object with that name exists, it is moved there
-    /// instead, and keeps its type, colour and mass.
+    /// (kg) unless others are given. If an object with that name and type exists, it is moved
+    /// there instead, and keeps its colour and mass unless others are given.
     pub(crate) fn spawn(
         &mut self,
         name: &str,
@@ -93,9 +93,6 @@ impl World {
         color: Option<[f32; 4]>,
         mass: Option<f64>,
     ) -> Result<SpawnReport, WorldError> {
-        if self.state.objects.contains_key(name) {
-            return self.move_object(name, pose);
-        }
         let library = &self.models.objects;
         let Some(known) = library.get(type_name) else {
             return Err(WorldError::UnknownType {
@@ -103,6 +100,18 @@ impl World {
                 closest: library.closest_name(type_name).map(str::to_owned),
             });
         };
+        if let Some(object) = self.state.objects.get(name) {
+            if object.type_name != type_name {
+                return Err(WorldError::OtherType {
+                    name: name.to_owned(),
+                    type_name: object.type_name.clone(),
+                    wanted: type_name.to_owned(),
+                });
+            }
+            let report = self.move_object(name, pose)?;
+            self.change(name, color, mass)?;
+            return Ok(report);
+        }
         let mut object = known.clone();
         object.color = color.unwrap_or(object.color);
         object.mass = mass.unwrap_or(object.mass);
@@ -119,15 +128,9 @@ impl World {
         if self.state.objects.contains_key(name) {
             return self.move_object(name, pose);
         }
-        check_finite(name, pose)?;
-        let mass = kind.mass;
-        if !(mass.is_finite() && mass > 0.0) {
-            return Err(WorldError::ImpossibleNumber {
-                quantity: "the mass",
-                name: name.to_owned(),
-                value: mass,
-            });
-        }
+        self.check_place(name, pose)?;
+        let (mass, friction) = (kind.mass, kind.friction);
+        check_mass(name, mass)?;
         let solids = Solid::all(&kind.shapes);
         let Some(bounds) = bounds_of(&solids) else {
             return Err(WorldError::NoSolid {
@@ -141,17 +144,19 @@ impl World {
         report.is_new = true;
         let parts: Vec<_> = solids
             .iter()
-            .map(|s| (s.clone(), key.code(), false))
+            .map(|s| (s.clone(), key.code(), Surface::Plain))
             .collect();
         let body = self
             .physics
-            .add_body(BodyKind::Object { mass }, &report.pose, &parts);
+            .add_body(BodyKind::Object { mass, friction }, &report.pose, &parts);
         self.state.objects.insert(
             name.to_owned(),
             Object {
                 name: name.to_owned(),
                 type_name: kind.name.clone(),
                 color: kind.color,
+                mass,
+                friction,
                 shapes: Arc::from(kind.shapes.as_slice()),
                 solids: Arc::from(solids),
                 bounds,
@@ -163,13 +168,31 @@ impl World {
         Ok(report)
     }
 
+    /// Gives the object another colour or mass (kg).
+    fn change(
+        &mut self,
+        name: &str,
+        color: Option<[f32; 4]>,
+        mass: Option<f64>,
+    ) -> Result<(), WorldError> {
+        if let Some(mass) = mass {
+            check_mass(name, mass)?;
+            self.physics.set_mass(self.object(name)?.body, mass);
+        }
+        if let Some(object) = self.state.objects.get_mut(name) {
+            object.color = color.unwrap_or(object.color);
+            object.mass = mass.unwrap_or(object.mass);
+        }
+        Ok(())
+    }
+
     /// Puts the object elsewhere, detached and at rest.
     pub(crate) fn move_object(
         &mut self,
         name: &str,
         pose: &Pose,
     ) -> Result<SpawnReport, WorldError> {
-        check_finite(name, pose)?;
+        self.check_place(name, pose)?;
         self.detach(name)?;
         let object = self.object(name)?;
         let (key, body) = (object.key(), object.body);
@@ -233,6 +256,20 @@ impl World {
             blocked_by: blocked_by.and_then(|key| self.body_name(key)),
             support: landing.and_then(|(_, key)| self.body_name(key)),
         }
+    }
+
+    /// What is below the object if it is at the pose, and how far (m) it can fall.
+    pub(crate) fn below(
+        &self,
+        name: &str,
+        pose: &Pose,
+    ) -> Result<Option<(f64, BodyName)>, WorldError> {
+        let object = self.object(name)?;
+        let at = to_parry(pose);
+        let mut around = self.neighbours(object.key(), &object.bounds.transform_by(&at));
+        around.retain(|n| !matches!(n.key, PartKey::Robot(_)));
+        let landing = drop_onto(&object.solids, &at, &around);
+        Ok(landing.and_then(|(gap, key)| Some((gap, self.body_name(key)?))))
     }
 
     /// The nearest free pose to the side of the wanted one, lifted a little if necessary.
@@ -313,17 +350,15 @@ impl World {
     }
 }
 
-fn check_finite(name: &str, pose: &Pose) -> Result<(), WorldError> {
-    let q = pose.rotation.quaternion();
-    let numbers = pose.translation.vector.iter().chain(q.coords.iter());
-    match numbers.copied().find(|v| !v.is_finite()) {
-        None => Ok(()),
-        Some(value) => Err(WorldError::ImpossibleNumber {
-            quantity: "a coordinate",
-            name: name.to_owned(),
-            value,
-        }),
+fn check_mass(name: &str, mass: f64) -> Result<(), WorldError> {
+    if mass.is_finite() && mass > 0.0 {
+        return Ok(());
     }
+    Err(WorldError::ImpossibleNumber {
+        quantity: "the mass",
+        name: name.to_owned(),
+        value: mass,
+    })
 }
 
 /// The lowest free pose above, in steps of `step` (m) up to `limit` (m).

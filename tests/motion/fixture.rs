@@ -199,6 +199,7 @@ impl Kitchen {
         ))?;
         let grip = GripperCommand::Grip {
             object: Some(object.to_owned()),
+            effort: None,
         };
         let gripped = self.run_one(self.gripper(side, grip))?;
         take_hold(&mut self.world, side, object)?;

@@ -41,7 +41,14 @@ fn an_opening_that_is_too_wide_goes_as_far_as_possible_and_fails() {
 fn gripping_nothing_closes_completely() {
     let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.3);
     command(&mut kitchen, GripperCommand::Open).unwrap();
-    let failure = command(&mut kitchen, GripperCommand::Grip { object: None }).unwrap_err();
+    let failure = command(
+        &mut kitchen,
+        GripperCommand::Grip {
+            object: None,
+            effort: None,
+        },
+    )
+    .unwrap_err();
     assert_eq!(failure, MotionFailure::NothingGripped { side: Side::Right });
     assert_eq!(
         failure.to_string().lines().next(),
@@ -79,6 +86,7 @@ fn another_object_between_the_fingers_is_named() {
     let mut kitchen = cube_in_hand();
     let grip = GripperCommand::Grip {
         object: Some("cup-1".to_owned()),
+        effort: None,
     };
     let failure = command(&mut kitchen, grip).unwrap_err();
     assert_eq!(
@@ -92,7 +100,14 @@ fn another_object_between_the_fingers_is_named() {
 fn what_is_let_go_stays_where_it_stands() {
     let mut kitchen = cube_in_hand();
     let before = kitchen.world.object_pose("bottle-1").unwrap();
-    let gripped = command(&mut kitchen, GripperCommand::Grip { object: None }).unwrap();
+    let gripped = command(
+        &mut kitchen,
+        GripperCommand::Grip {
+            object: None,
+            effort: None,
+        },
+    )
+    .unwrap();
     assert_eq!(
         gripped,
         MotionOutcome::Gripped {
@@ -137,6 +152,7 @@ fn a_sausage_on_the_floor_is_no_object_to_grip() {
         &mut kitchen,
         GripperCommand::Grip {
             object: Some("wurst-1".to_owned()),
+            effort: None,
         },
     );
     assert_eq!(

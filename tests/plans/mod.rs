@@ -1,12 +1,18 @@
 //! Plans: the plan language, designators, whole plans.
 
+mod clutter;
+mod cook;
 mod designators;
 mod exercises;
+mod grasping;
 mod language;
 pub(crate) mod overlaps;
 mod packages;
 pub(crate) mod prompt;
 mod properties;
+mod putting_down;
+mod refusals;
+mod spawning;
 mod tasks;
 mod types;
 mod whole_plan;

@@ -601,7 +601,7 @@ fn planning_that_is_interrupted_has_no_effect() {
     let drive = "(with-simulated-robot
       (cpl:par
         (park-arms)
-        (let ((?far (make-pose \"map\" '((3 3 0) (0 0 0 1)))))
+        (let ((?far (make-pose \"map\" '((2.9 3 0) (0 0 0 1)))))
           (perform (an action (type going) (target (a location (pose ?far))))))))";
     let mut talk = Talk::new();
     let flag = talk.session.interrupt_handle();

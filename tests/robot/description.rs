@@ -161,7 +161,7 @@ fn a_missing_record_is_reported() {
 fn a_posture_beyond_the_limits_is_reported() {
     assert_eq!(
         error("((park 1.9652919379395388", "((park 2.9652919379395388"),
-        "pr2.sexp:46:13: expected a position of l_shoulder_pan_joint from -0.714601836603 to 2.2853981634, found 2.9652919379395386"
+        "pr2.sexp:47:13: expected a position of l_shoulder_pan_joint from -0.714601836603 to 2.2853981634, found 2.9652919379395386"
     );
 }
 

@@ -60,11 +60,17 @@ fn every_type_of_the_library_comes_to_rest_on_the_table() {
 }
 
 #[test]
-fn an_object_of_a_known_name_is_moved_and_keeps_its_type() {
+fn an_object_of_a_known_name_is_moved_but_does_not_change_its_type() {
     let mut world = world();
     spawn(&mut world, "THING", "bottle", &at(-1.4, -1.05, 0.85));
-    let report = spawn(&mut world, "THING", "cube", &at(-1.0, -0.9, 0.85));
+    let place = at(-1.0, -0.9, 0.85);
+    let report = spawn(&mut world, "THING", "bottle", &place);
     assert!(!report.is_new);
+    let other = world.spawn("THING", "cube", &place, None, None);
+    assert_eq!(
+        other.unwrap_err().to_string(),
+        "THING is a bottle, and does not become a cube: remove it first, or choose another name"
+    );
     assert_eq!(world.object("THING").unwrap().type_name(), "bottle");
     assert_eq!(world.objects().len(), 1);
 }

@@ -79,6 +79,8 @@ pub(crate) struct Gripping {
     hands: Vec<Side>,
     /// The name of what is to be held, if that matters.
     object: Option<String>,
+    /// The force of each finger (N).
+    effort: Option<f64>,
 }
 
 impl Command for Gripping {
@@ -90,7 +92,8 @@ impl Command for Gripping {
             MotionKey::optional(
                 "EFFORT",
                 ArgumentKind::Number,
-                "the force of the grip (N); simulated fingers hold what they press on",
+                "the force of each finger (N), as much as possible unless given; the product with \
+                 the friction limits what the hand can hold",
             ),
             MotionKey::optional("OBJECT", ArgumentKind::InWorld, "what is to be held"),
         ],
@@ -105,12 +108,13 @@ impl Command for Gripping {
         Ok(Self {
             hands: arguments.sides("GRIPPER")?,
             object: arguments.in_world("OBJECT").flatten(),
+            effort: arguments.number("EFFORT").ok(),
         })
     }
 
     fn job(self) -> Box<dyn Motion> {
-        let object = self.object;
-        job(self.hands, &GripperCommand::Grip { object })
+        let (object, effort) = (self.object, self.effort);
+        job(self.hands, &GripperCommand::Grip { object, effort })
     }
 }
 

@@ -11,6 +11,8 @@ pub(crate) struct MovingTcp {
     right: Option<PoseGoal>,
     path: TcpPath,
     mode: CollisionMode,
+    /// Name of the object that the hands may touch.
+    object: Option<String>,
 }
 
 /// What arms may touch.
@@ -45,6 +47,12 @@ impl Command for MovingTcp {
                 ArgumentKind::Member(MODES),
                 "what the arm may touch",
             ),
+            MotionKey::optional(
+                "OBJECT",
+                ArgumentKind::InWorld,
+                "the only object that the hands may touch, where they may touch any",
+            )
+            .also(&["COLLISION-OBJECT-B"]),
         ],
         one_of: &["LEFT-TARGET", "RIGHT-TARGET"],
         about: &[],
@@ -64,10 +72,12 @@ impl Command for MovingTcp {
             right: arguments.place("RIGHT-TARGET"),
             path,
             mode,
+            object: arguments.in_world("OBJECT").flatten(),
         })
     }
 
     fn job(self) -> Box<dyn Motion> {
-        Box::new(MoveTcp::new(self.left, self.right, self.path, self.mode))
+        let motion = MoveTcp::new(self.left, self.right, self.path, self.mode);
+        Box::new(motion.touching_only(self.object))
     }
 }

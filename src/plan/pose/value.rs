@@ -25,13 +25,18 @@ impl Quaternion {
     /// No rotation.
     pub(crate) const IDENTITY: Quaternion = Quaternion([0.0, 0.0, 0.0, 1.0]);
 
+    /// Whether it is finite and long enough to stand for a rotation.
+    pub(crate) fn is_rotation(&self) -> bool {
+        let [x, y, z, w] = self.0;
+        let norm = Hamilton::new(w, x, y, z).norm();
+        norm.is_finite() && norm > SHORTEST_QUATERNION
+    }
+
     /// As a rotation; a quaternion that is too short is no rotation.
     pub(crate) fn rotation(&self) -> UnitQuaternion<f64> {
         let [x, y, z, w] = self.0;
-        let q = Hamilton::new(w, x, y, z);
-        let norm = q.norm();
-        if norm.is_finite() && norm > SHORTEST_QUATERNION {
-            UnitQuaternion::from_quaternion(q)
+        if self.is_rotation() {
+            UnitQuaternion::from_quaternion(Hamilton::new(w, x, y, z))
         } else {
             UnitQuaternion::identity()
         }

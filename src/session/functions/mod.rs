@@ -11,6 +11,7 @@ mod prompt;
 mod reaching;
 mod robot_macros;
 mod ros;
+mod scene;
 mod snapshots;
 mod tables;
 pub(crate) mod tour;

@@ -10,16 +10,23 @@ use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 use crate::plan::pose::value::pose_stamped;
+use crate::session::LogLevel;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
 use crate::session::simulation::names::{name_text, suggestion, type_text};
 use crate::spatial::Pose;
-use crate::world::WorldError;
+use crate::world::{Object, SpawnReport, WorldError};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Longest time (s) that a spawned object has to come to rest.
-const SETTLE: f64 = 5.0;
+const SETTLE: f64 = 20.0;
+/// Displacements of an object from where it was to be that count as rough figures of the user: to
+/// the side, up, and down if something was there, or if nothing was (m).
+const ASIDE: f64 = 0.05;
+const HIGHER: f64 = 0.15;
+const LOWER: f64 = 0.05;
+const FALL: f64 = 0.3;
 
 /// Builtins of package `CRAM-BULLET-REASONING-UTILITIES`.
 pub(crate) static TABLE: &[Builtin] = &[
@@ -94,7 +101,7 @@ impl Simulation {
         let Some(kind) = type_text(image, spawning.kind) else {
             return Err(Raise::type_error(spawning.kind, known::SYMBOL));
         };
-        if self.world.object(&name).is_err() && self.models.objects.get(&kind).is_none() {
+        if self.models.objects.get(&kind).is_none() {
             let types = self.models.objects.types();
             let near = suggestion(&kind, types.map(|t| t.name.as_str()), |n| {
                 format!(":{}", n.to_uppercase())
@@ -110,16 +117,64 @@ impl Simulation {
             )));
         }
         let color = spawning.color.map(color).transpose()?;
-        self.world
+        let report = self
+            .world
             .spawn(&name, &kind, &spawning.pose, color, spawning.mass)
             .map_err(world_error)?;
         self.names
-            .entry(name)
+            .entry(name.clone())
             .or_insert_with(|| spawning.name.clone());
-        self.world.settle(SETTLE);
+        self.let_settle(image, &name, &spawning.pose, &report)
+    }
+
+    /// Lets an object come to rest that was put at a pose, and logs it if it does not, or ends
+    /// elsewhere.
+    fn let_settle(
+        &mut self,
+        image: &mut Image,
+        name: &str,
+        wanted: &Pose,
+        report: &SpawnReport,
+    ) -> Result<()> {
+        self.held.shift_remove(name);
+        let is_at_rest = self.world.come_to_rest(name, SETTLE).map_err(world_error)?;
+        let now = self.world.object_pose(name).map_err(world_error)?;
+        let way = now.translation.vector - wanted.translation.vector;
+        let fell = match report.blocked_by {
+            Some(_) => way.z < -LOWER,
+            None => way.z < -FALL,
+        };
+        if way.xy().norm() > ASIDE || way.z > HIGHER || fell {
+            let place = |p: &Pose| {
+                let t = p.translation;
+                format!("({:.2} {:.2} {:.2})", t.x, t.y, t.z)
+            };
+            let why = match &report.blocked_by {
+                Some(body) => format!("does not fit at {}, where {body} is", place(wanted)),
+                None => format!("did not stay at {}", place(wanted)),
+            };
+            let support = self.support(name)?;
+            let on = support.map_or_else(String::new, |support| format!(", on {support}"));
+            let text = format!("{name} {why}. It is at {}{on}.", place(&now));
+            self.log(image, LogLevel::Warn, SPAWN_TAGS, &text);
+        }
+        if !is_at_rest {
+            let moving: Vec<&str> = self.world.moving_objects().map(Object::name).collect();
+            let which = if moving.is_empty() {
+                name.to_owned()
+            } else {
+                moving.join(", ")
+            };
+            let text =
+                format!("Not at rest after {SETTLE} s: {which}. It goes on moving as time passes.");
+            self.log(image, LogLevel::Warn, SPAWN_TAGS, &text);
+        }
         Ok(())
     }
 }
+
+/// The tags of log lines about spawned objects.
+const SPAWN_TAGS: &str = "(BTR-UTILS SPAWN-OBJECT)";
 
 fn world_error(error: WorldError) -> Box<Raise> {
     Raise::simple(format!("{error}."))
@@ -149,7 +204,7 @@ fn spawn_keyword(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     ];
     let [pose, color, mass] = keywords::parse(image, &args[2..], keys)?;
     let pose = match pose {
-        Some(pose) => simulation.pose_as_given(image, &pose)?,
+        Some(pose) => simulation.pose_in_map(image, &pose)?,
         None => Pose::translation(2.0, 0.0, 0.0),
     };
     simulation.spawn(
@@ -183,14 +238,14 @@ fn kill_all_objects(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> 
 fn move_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = simulation.object_named(image, &args[0])?;
     let pose = match args.get(1) {
-        Some(pose) => simulation.pose_as_given(image, pose)?,
+        Some(pose) => simulation.pose_in_map(image, pose)?,
         None => Pose::translation(2.0, 0.0, 0.0),
     };
-    simulation
+    let report = simulation
         .world
         .move_object(&name, &pose)
         .map_err(world_error)?;
-    simulation.world.settle(SETTLE);
+    simulation.let_settle(image, &name, &pose, &report)?;
     done(args[0].clone())
 }
 
@@ -210,6 +265,10 @@ fn move_robot(simulation: &mut Simulation, image: &mut Image, args: &[Value]) ->
         Some(pose) => simulation.pose_as_given(image, pose)?,
         None => Pose::identity(),
     };
+    simulation
+        .world
+        .check_place("the robot", &pose)
+        .map_err(world_error)?;
     let mut robot = simulation.world.robot_configuration().clone();
     robot.base = pose;
     simulation.world.teleport_robot(&robot);

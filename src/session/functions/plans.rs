@@ -14,6 +14,7 @@ use crate::motion::{CollisionMode, LetGo, can_reach, take_hold};
 use crate::plan::Reply;
 use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
 use crate::robot::Side;
+use crate::session::LogLevel;
 use crate::session::host::SimulationHost;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
@@ -269,7 +270,7 @@ impl Simulation {
         };
         poses_for(&(self.base().inverse() * stands))
             .iter()
-            .all(|tool| can_reach(&world, side, tool, CollisionMode::AllowHand))
+            .all(|tool| can_reach(&world, side, tool, CollisionMode::AllowHand, Some(name)))
     }
 }
 
@@ -507,25 +508,28 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
             tool(pregrasp),
         ]
     };
+    let with_poses = |heading: &f64| (*heading, poses_for(&turned(*heading)));
     // Prefer a heading at which the hand can also open and retract, ideally without touching
     // anything; a pose that cannot be reached at any heading fails later, with a reason.
     let reachable = |count: usize| {
-        let poses = headings.iter().map(|heading| poses_for(&turned(*heading)));
-        poses
-            .into_iter()
-            .find(|poses| simulation.is_reachable(side, &poses[..count]))
+        let mut poses = headings.iter().map(with_poses);
+        poses.find(|(_, poses)| simulation.is_reachable(side, &poses[..count]))
     };
     let free = headings.iter().find_map(|heading| {
         let object = turned(*heading);
         let poses = poses_for(&object);
         let free = simulation.is_reachable(side, &poses)
             && simulation.is_free_around(side, &name, &object, poses_for);
-        free.then_some(poses)
+        free.then_some((*heading, poses))
     });
-    let poses = free
+    let (heading, poses) = free
         .or_else(|| reachable(4))
         .or_else(|| reachable(2))
-        .unwrap_or_else(|| poses_for(&target));
+        .unwrap_or_else(|| (0.0, poses_for(&target)));
+    if heading != 0.0 {
+        let text = format!("{name} is round: it is put down turned by {heading} degrees.");
+        simulation.log(image, LogLevel::Info, "(PICK-PLACE PLACE)", &text);
+    }
     done(Value::list(poses.map(|pose| in_base(&pose))))
 }
 

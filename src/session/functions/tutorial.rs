@@ -129,7 +129,7 @@ fn init_projection(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> R
 }
 
 fn spawn_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let pose = simulation.pose_as_given(image, &args[0])?;
+    let pose = simulation.pose_in_map(image, &args[0])?;
     let kind = match args.get(1) {
         Some(kind) => kind.clone(),
         None => image.keyword("BOTTLE").into(),
@@ -142,15 +142,17 @@ fn spawn_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
             image.intern(package, "BOTTLE-1").into()
         }
     };
-    let red = Value::list([Value::Int(1), Value::Int(0), Value::Int(0)]);
-    let color = args.get(3).cloned().unwrap_or(red);
+    let is_new =
+        name_text(image, &name).is_some_and(|name| simulation.world.object(&name).is_err());
+    let red = is_new.then(|| Value::list([Value::Int(1), Value::Int(0), Value::Int(0)]));
+    let color = args.get(3).cloned().or(red);
     simulation.spawn(
         image,
         &Spawning {
             name: &name,
             kind: &kind,
             pose,
-            color: Some(&color),
+            color: color.as_ref(),
             mass: None,
         },
     )?;

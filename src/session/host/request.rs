@@ -199,9 +199,11 @@ impl SimulationHost {
         true
     }
 
-    fn step(&mut self, image: &Image) {
+    fn step(&mut self, image: &mut Image) {
         let simulation = &mut self.simulation;
+        let step = simulation.world.steps();
         simulation.world.step();
+        simulation.tell_of_slips(image, step);
         self.audience.observe(simulation);
         self.audience.film(simulation);
         self.audience.show(simulation, Cause::Step);

@@ -219,7 +219,7 @@ impl Simulation {
         let mut lines = Vec::new();
         let other = unreachable.side.other();
         let mode = CollisionMode::AllowHand;
-        if can_reach(&self.world, other, &unreachable.tool, mode) {
+        if can_reach(&self.world, other, &unreachable.tool, mode, None) {
             lines.push(format!("the {other} hand at the same pose"));
         }
         let Some((name, wanted)) = self.meant(unreachable) else {

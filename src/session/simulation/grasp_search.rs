@@ -121,7 +121,7 @@ impl Simulation {
         ];
         Ok(way
             .iter()
-            .all(|(tool, mode)| can_reach(&world, side, tool, *mode)))
+            .all(|(tool, mode)| can_reach(&world, side, tool, *mode, Some(imagined.object))))
     }
 
     /// Arms and grasps by which the object of a picking-up action can be reached from the
@@ -247,6 +247,10 @@ impl Simulation {
             .into_iter()
             .map(|(_, base)| base)
             .filter(|base| {
+                let t = base.translation;
+                if !self.models.map.contains([t.x, t.y]) {
+                    return false;
+                }
                 let mut there = robot.clone();
                 there.base = *base;
                 checker.is_free(&there, &crate::world::AllowedPairs::none(), 0.01)

@@ -1,7 +1,10 @@
 //! What the hands hold.
 
 use super::Simulation;
+use crate::lisp::image::Image;
+use crate::motion::MotionFailure;
 use crate::robot::Side;
+use crate::session::LogLevel;
 use crate::spatial::Pose;
 
 /// How an object is held.
@@ -16,6 +19,19 @@ pub(in crate::session) struct Held {
 }
 
 impl Simulation {
+    /// Logs what has slipped out of a hand in the step.
+    pub(in crate::session) fn tell_of_slips(&self, image: &mut Image, step: u64) {
+        if let Some(slip) = self.world.slip_since(step, |_| true) {
+            let failure = MotionFailure::HeldObjectSlipped(Box::new(slip.clone()));
+            self.log(
+                image,
+                LogLevel::Warn,
+                "(PICK-PLACE HOLD)",
+                &failure.to_string(),
+            );
+        }
+    }
+
     /// Names of the objects that a hand holds.
     pub(in crate::session) fn held_by(&self, side: Side) -> Vec<String> {
         crate::motion::held_objects(&self.world, side)

@@ -1,8 +1,10 @@
 //! Converting motion designators to motions.
 
+use nalgebra::Vector3;
+
 use super::Simulation;
 use super::names::{name_text, type_text};
-use super::transforms::BASE;
+use super::transforms::{BASE, is_map};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -18,9 +20,16 @@ use crate::plan::designator::value::as_designator;
 use crate::plan::designator::value::current;
 use crate::plan::pose::value::frame_of;
 use crate::robot::Side;
+use crate::session::LogLevel;
 use crate::session::simulation::properties::property;
+use crate::spatial::Pose;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Height (m) above or below the floor up to which a goal of the base counts as on it.
+const OFF_FLOOR: f64 = 0.01;
+/// Cosine of the tilt up to which a goal of the base counts as upright: one degree.
+const UPRIGHT: f64 = 0.99985;
 
 /// The sides that an arm or gripper argument names: `:LEFT`, `:RIGHT`, or a list of them.
 pub(in crate::session) fn sides(image: &Image, value: &Value) -> Result<Vec<Side>> {
@@ -113,7 +122,7 @@ impl Simulation {
             ArgumentKind::Numbers => Argument::Numbers(numbers(value)?),
             ArgumentKind::MapPose => {
                 let pose = Simulation::location_pose(image, value)?;
-                Argument::MapPose(self.pose_as_given(image, &pose)?)
+                Argument::MapPose(self.pose_on_floor(image, &pose)?)
             }
             ArgumentKind::Place => {
                 let pose = Simulation::location_pose(image, value)?;
@@ -140,6 +149,32 @@ impl Simulation {
                 Argument::InWorld(name.transpose()?)
             }
         })
+    }
+
+    /// The pose as coordinates of the map, whatever frame it names, as CRAM's projection takes
+    /// goals of the base. Logs what of it the base will not do.
+    fn pose_on_floor(&self, image: &mut Image, pose: &Value) -> Result<Pose> {
+        let goal = self.pose_as_given(image, pose)?;
+        let mut ignored = Vec::new();
+        if let Some(frame) = frame_of(pose).filter(|frame| !is_map(frame)) {
+            ignored.push(format!(
+                "its frame {frame:?}: the numbers count as coordinates of the map"
+            ));
+        }
+        if goal.translation.z.abs() > OFF_FLOOR {
+            ignored.push(format!("its height z {} m", goal.translation.z));
+        }
+        if (goal.rotation * Vector3::z()).z < UPRIGHT {
+            ignored.push("its tilt".to_owned());
+        }
+        if !ignored.is_empty() {
+            let text = format!(
+                "The base drives on the floor of the map. Of the goal is ignored {}.",
+                ignored.join(", and ")
+            );
+            self.log(image, LogLevel::Warn, "(PICK-AND-PLACE GO)", &text);
+        }
+        Ok(goal)
     }
 
     fn detecting(&self, image: &mut Image, object: &Value) -> DetectQuery {

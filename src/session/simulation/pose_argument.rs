@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use crate::lisp::image::Image;
+use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::plan::pose::argument;
@@ -17,18 +18,15 @@ impl Simulation {
         image: &Image,
         pose: &Value,
     ) -> Result<Pose, Box<Raise>> {
-        let placement = match as_placement(pose) {
-            Some(placement) => placement,
-            None => argument::placement(image, pose)?,
-        };
-        let local = placement.to_pose();
+        let local = self.pose_as_given(image, pose)?;
         match frame_of(pose) {
             Some(frame) => Ok(self.frame_in_map(image, &frame)? * local),
             None => Ok(local),
         }
     }
 
-    /// Position and orientation of a pose argument as given, whatever the frame.
+    /// Position and orientation of a pose argument as given, whatever the frame; an error if
+    /// there is no such frame, or if the quaternion is no rotation.
     pub(in crate::session) fn pose_as_given(
         &self,
         image: &Image,
@@ -38,6 +36,17 @@ impl Simulation {
             Some(placement) => placement,
             None => argument::placement(image, pose)?,
         };
+        if let Some(frame) = frame_of(pose) {
+            self.frame_in_map(image, &frame)?;
+        }
+        if !placement.orientation.is_rotation() {
+            let [x, y, z, w] = placement.orientation.0;
+            return Err(Raise::simple(format!(
+                "{} has the quaternion ({x} {y} {z} {w}), which is no rotation: (0 0 0 1) stands \
+                 for none, (0 0 0.7071 0.7071) for a quarter turn to the left.",
+                print::to_string(image, pose, true)
+            )));
+        }
         Ok(placement.to_pose())
     }
 
@@ -53,7 +62,7 @@ impl Simulation {
             Some(pose) => Ok(pose),
             None => Err(Raise::simple(format!(
                 "{} has no pose: write (a location (pose ?pose)).",
-                crate::lisp::print::to_string(image, location, false)
+                print::to_string(image, location, false)
             ))),
         }
     }

@@ -11,6 +11,14 @@ pub(in crate::session) const MAP: &str = "map";
 /// The frame of the robot's base on the floor.
 pub(in crate::session) const BASE: &str = "base_footprint";
 
+/// Whether the frame is that of the map, under one of its names.
+pub(in crate::session) fn is_map(frame: &str) -> bool {
+    matches!(
+        frame.trim_start_matches('/'),
+        "map" | "world" | "odom_combined"
+    )
+}
+
 impl Simulation {
     /// The pose of a frame in the map frame.
     pub(in crate::session) fn frame_in_map(
@@ -19,7 +27,7 @@ impl Simulation {
         frame: &str,
     ) -> Result<Pose, Box<Raise>> {
         let name = frame.trim_start_matches('/');
-        if matches!(name, "map" | "world" | "odom_combined") {
+        if is_map(name) {
             return Ok(Pose::identity());
         }
         if let Some(link) = self.models.robot.link_named(name) {
@@ -36,7 +44,8 @@ impl Simulation {
         if let Ok(pose) = self.world.object_pose(&object) {
             return Ok(pose);
         }
-        let links = self.models.robot.links();
+        let trees = [&self.models.robot, &self.models.kitchen];
+        let links = trees.into_iter().flat_map(|tree| tree.links());
         let names = links.map(|(_, link)| link.name.as_str()).chain([MAP]);
         let near = suggestion(name, names, |n| format!("{n:?}"));
         Err(Raise::simple(format!(

@@ -1,0 +1,159 @@
+//! What the plans for picking up and placing ask of the objects around: what is where, what has
+//! been disturbed, what stands on what.
+
+use nalgebra::Vector3;
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::plan::Reply;
+use crate::plan::pose::value::pose_stamped;
+use crate::session::host::call::{done, host};
+use crate::session::simulation::Simulation;
+use crate::spatial::{Pose, trig};
+use crate::world::{Object, WorldError};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Tilt (degrees) from which an object counts as tipped.
+const TIPPED: f64 = 10.0;
+
+/// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
+pub(crate) static TABLE: &[Builtin] = &[
+    control(
+        "SCENE-AT-REST",
+        "",
+        "The objects that lie or stand still and that no hand holds, as a list of (name pose).",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (length (pp-plans::scene-at-rest))) => 1",
+        ],
+        host!(scene_at_rest),
+    ),
+    control(
+        "DISTURBED-OBJECTS",
+        "scene distance",
+        "What has happened to objects of a scene, a list of (name pose), that are farther (m) from their poses now or have been tipped: a list of texts. Objects that a hand holds do not count.",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::disturbed-objects (pp-plans::scene-at-rest) 0.005)) => NIL",
+        ],
+        host!(disturbed_objects),
+    ),
+    control(
+        "OBJECT-LIFTED-P",
+        "name",
+        "Does a hand hold the object, and has it lifted it off what it stood on?",
+        &[],
+        host!(object_lifted),
+    ),
+    control(
+        "SUPPORT-OF",
+        "name",
+        "The name of what carries an object, except the robot: a string.",
+        &[
+            "(progn (pp-tut:init-projection) (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1))) (pp-plans::support-of 'bottle-1)) => \"table_area_main\"",
+        ],
+        host!(support_of),
+    ),
+];
+
+fn world_error(error: WorldError) -> Box<Raise> {
+    Raise::simple(format!("{error}."))
+}
+
+impl Simulation {
+    /// The body that carries most of the object, except the robot.
+    pub(super) fn support(&self, name: &str) -> Result<Option<String>> {
+        let supports = self.world.supports(name).map_err(world_error)?;
+        let most = supports
+            .into_iter()
+            .max_by(|a, b| a.force.total_cmp(&b.force));
+        Ok(most.map(|most| most.body.to_string()))
+    }
+}
+
+fn scene_at_rest(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let world = &simulation.world;
+    let moving: Vec<&str> = world.moving_objects().map(Object::name).collect();
+    let still = world
+        .objects()
+        .filter(|o| o.attachment().is_none() && !moving.contains(&o.name()));
+    let mut scene = Vec::new();
+    for object in still {
+        let pose = world.object_pose(object.name()).map_err(world_error)?;
+        let name = simulation.symbol_of(object.name());
+        scene.push(Value::list([name, pose_stamped("map", &pose)]));
+    }
+    done(Value::list(scene))
+}
+
+fn disturbed_objects(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let limit = number::to_f64(&args[1]).unwrap_or(0.0);
+    let mut texts = Vec::new();
+    for entry in args[0].iter_list() {
+        let parts = entry.list_to_vec().unwrap_or_default();
+        let [name, pose] = parts.as_slice() else {
+            return Err(Raise::simple(format!(
+                "{} is no entry of a scene: (name pose) was expected.",
+                print::to_string(image, &entry, true)
+            )));
+        };
+        let before = simulation.pose_in_map(image, pose)?;
+        let Some(text) = simulation.disturbance(image, name, &before, limit)? else {
+            continue;
+        };
+        texts.push(Value::from(text.as_str()));
+    }
+    done(Value::list(texts))
+}
+
+impl Simulation {
+    /// What has happened to the object since it was at the pose, if it is not held now, and
+    /// farther away than the limit (m) or tipped. Nothing happened to one that is gone.
+    fn disturbance(
+        &self,
+        image: &Image,
+        name: &Value,
+        before: &Pose,
+        limit: f64,
+    ) -> Result<Option<String>> {
+        let Ok(name) = self.object_named(image, name) else {
+            return Ok(None);
+        };
+        let object = self.world.object(&name).map_err(world_error)?;
+        if object.attachment().is_some() {
+            return Ok(None);
+        }
+        let now = self.world.object_pose(&name).map_err(world_error)?;
+        let moved = (now.translation.vector - before.translation.vector).norm();
+        let [was_up, is_up] = [before, &now].map(|pose| pose.rotation * Vector3::z());
+        let tilt = trig::atan2(was_up.cross(&is_up).norm(), was_up.dot(&is_up)).to_degrees();
+        let mut what = Vec::new();
+        if moved > limit {
+            what.push(format!("was moved by {:.1} cm", moved * 100.0));
+        }
+        if tilt > TIPPED {
+            what.push(format!("was tipped by {tilt:.0} degrees"));
+        }
+        Ok((!what.is_empty()).then(|| format!("{name} {}", what.join(" and "))))
+    }
+}
+
+fn object_lifted(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let object = simulation.world.object(&name).map_err(world_error)?;
+    done(object.hold().is_some_and(|hold| hold.is_lifted()))
+}
+
+fn support_of(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let support = simulation.support(&name)?;
+    let text = support.unwrap_or_else(|| "nothing".to_owned());
+    done(Value::from(text.as_str()))
+}

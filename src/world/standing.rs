@@ -1,0 +1,98 @@
+//! Whether an object stands for good, or would stand somewhere: tried out in a copy of the world.
+
+use nalgebra::Vector3;
+
+use super::body_name::BodyName;
+use super::error::WorldError;
+use super::physics::{Robot, STEP_SECONDS};
+use super::scene::World;
+use crate::spatial::pose::{angle_between, distance_between};
+use crate::spatial::{Pose, trig};
+
+/// How long (s) an object is watched.
+const WATCHED: f64 = 2.0;
+
+/// What an object would do if it were let go somewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct StandTrial {
+    /// How far (m) it would move.
+    pub(crate) moved: f64,
+    /// How far (rad) it would tip.
+    pub(crate) tilt: f64,
+    /// What would carry it then; `None` if it would still be falling.
+    pub(crate) support: Option<BodyName>,
+}
+
+/// How long (s) an object that seems to be at rest is watched, and how far (m, rad) it may creep
+/// meanwhile.
+const PROBED: f64 = 1.0;
+const CREEP: f64 = 0.0002;
+const CREEP_TURN: f64 = 0.003;
+
+impl World {
+    /// Lets time pass until everything is at rest, the object for good, but about `seconds` (s) at
+    /// most. Returns whether it has come to that.
+    ///
+    /// An object that balances on an edge moves too slowly at first to count as moving, and the
+    /// engine puts it to sleep; it would fall over when the robot comes near. So it is watched in a
+    /// copy of the world, in which it may not sleep.
+    pub(crate) fn come_to_rest(&mut self, name: &str, seconds: f64) -> Result<bool, WorldError> {
+        let mut left = seconds;
+        while left > 0.0 {
+            let before = self.steps();
+            if !self.settle(left) {
+                return Ok(false);
+            }
+            if self.clone().stays(name)? {
+                return Ok(true);
+            }
+            self.stays(name)?;
+            // Exact for any number of steps that can be simulated.
+            left -= (self.steps() - before) as f64 * STEP_SECONDS;
+        }
+        Ok(false)
+    }
+
+    /// Lets some time pass in which the object does not sleep. Returns whether it stays where it
+    /// is.
+    fn stays(&mut self, name: &str) -> Result<bool, WorldError> {
+        let body = self.object(name)?.body;
+        let before = self.object_pose(name)?;
+        self.physics.keep_awake(body);
+        self.pass(PROBED);
+        self.physics.let_sleep(body);
+        let after = self.object_pose(name)?;
+        Ok(
+            distance_between(&before, &after) < CREEP
+                && angle_between(&before, &after) < CREEP_TURN,
+        )
+    }
+
+    fn pass(&mut self, seconds: f64) {
+        let mut left = seconds;
+        while left > 0.0 {
+            self.step();
+            left -= STEP_SECONDS;
+        }
+    }
+
+    /// What the object would do if it were let go at the pose, with the robot out of its way.
+    /// The world itself is not changed.
+    pub(crate) fn stand_trial(&self, name: &str, pose: &Pose) -> Result<StandTrial, WorldError> {
+        let mut world = self.clone();
+        world.detach(name)?;
+        let body = world.object(name)?.body;
+        world.physics.collide(body, Robot::Absent);
+        world.physics.place(body, pose);
+        world.settle(WATCHED);
+        let end = world.object_pose(name)?;
+        let [was_up, is_up] = [pose, &end].map(|pose| pose.rotation * Vector3::z());
+        let supports = world.supports(name)?.into_iter();
+        let most = supports.max_by(|a, b| a.force.total_cmp(&b.force));
+        Ok(StandTrial {
+            moved: (end.translation.vector - pose.translation.vector).norm(),
+            tilt: trig::atan2(was_up.cross(&is_up).norm(), was_up.dot(&is_up)),
+            support: most.map(|most| most.body),
+        })
+    }
+}

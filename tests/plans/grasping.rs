@@ -1,0 +1,186 @@
+//! What hands hold, and when they do not: fingers hold, and nothing else does.
+
+use super::cook::Cook;
+
+/// Where the open hand of a robot with parked arms drops things.
+fn fell(cook: &Cook) -> bool {
+    cook.pose("BOTTLE-1").translation.z < 0.3
+}
+
+#[test]
+fn an_opened_hand_drops_what_it_held() {
+    let mut cook = Cook::at_table_with_bottle();
+    cook.take_bottle();
+    let above = cook.pose("BOTTLE-1");
+    assert!(above.translation.z > 1.0);
+    cook.done(
+        "(with-simulated-robot
+           (perform (an action (type releasing) (gripper right)))
+           (cpl:sleep 2))",
+    );
+    assert_eq!(cook.in_right_hand(), "NIL");
+    assert!(cook.pose("BOTTLE-1").translation.z < above.translation.z - 0.3);
+    let lies = cook.pose("BOTTLE-1");
+    cook.done("(with-simulated-robot (go-to (make-pose \"map\" '((0 0 0) (0 0 0 1)))))");
+    assert!(cook.distance("BOTTLE-1", &lies) < 0.5);
+}
+
+#[test]
+fn every_way_of_opening_the_fingers_drops_what_they_hold() {
+    for open in [
+        "(an action (type opening) (gripper right))",
+        "(an action (type setting-gripper) (gripper right) (position 0.1))",
+        "(a motion (type opening) (gripper right))",
+        "(a motion (type moving-gripper-joint) (gripper right) (joint-angle 0.1))",
+    ] {
+        let mut cook = Cook::at_table_with_bottle();
+        cook.take_bottle();
+        cook.done(&format!(
+            "(with-simulated-robot (perform {open}) (cpl:sleep 2))"
+        ));
+        assert_eq!(cook.in_right_hand(), "NIL", "{open}");
+        assert!(
+            fell(&cook) || cook.pose("BOTTLE-1").translation.z < 0.9,
+            "{open}"
+        );
+    }
+}
+
+#[test]
+fn closing_the_fingers_further_drops_nothing() {
+    let mut cook = Cook::at_table_with_bottle();
+    cook.take_bottle();
+    cook.done(
+        "(with-simulated-robot
+           (perform (an action (type closing) (gripper right)))
+           (perform (an action (type setting-gripper) (gripper right) (position 0.01)))
+           (perform (a motion (type gripping) (gripper right) (effort 80)))
+           (cpl:sleep 1))",
+    );
+    assert_eq!(cook.in_right_hand(), "(BOTTLE-1)");
+    assert!(cook.pose("BOTTLE-1").translation.z > 1.0);
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn what_the_fingers_do_not_hold_cannot_be_attached() {
+    let mut cook = Cook::at_table_with_bottle();
+    let stands = cook.pose("BOTTLE-1");
+    let report = cook.fails(
+        "GRIPPER-CLOSED-COMPLETELY",
+        "(pp-plans::attach-object *bottle* :right :left-side)",
+    );
+    assert_eq!(
+        report,
+        "BOTTLE-1 is not between the fingers of the right hand, which press on it with 0.0 and \
+         0.0 N: grip it first"
+    );
+    cook.done(
+        "(with-simulated-robot (go-to (make-pose \"map\" '((-1.447 0.1 0) (0 0 -0.7071 0.7071)))))",
+    );
+    assert!(cook.distance("BOTTLE-1", &stands) < 1e-3);
+}
+
+/// Grips the bottle without picking it up: moves the hand around it and closes the fingers.
+const GRIP_ONLY: &str = "
+    (destructuring-bind (pre pre2 grasp lift lift2)
+        (pp-plans::grasping-poses *bottle* :right :left-side)
+      (declare (ignore lift2))
+      (defparameter *lift* lift)
+      (with-simulated-robot
+        (perform (a motion (type opening) (gripper right)))
+        (dolist (?p (list pre pre2))
+          (perform (a motion (type moving-tcp) (right-target (a location (pose ?p))))))
+        (let ((?p grasp) (?b *bottle*))
+          (perform (a motion (type moving-tcp) (right-target (a location (pose ?p)))
+                      (collision-mode :allow-hand) (object ?b)))
+          (perform (a motion (type gripping) (gripper right) (object ?b))))))";
+
+/// Lifts the hand.
+const LIFT: &str = "(let ((?p *lift*))
+    (perform (a motion (type moving-tcp) (right-target (a location (pose ?p)))
+                (collision-mode :allow-hand))))";
+
+#[test]
+fn fingers_that_grip_hold_whatever_is_known_about_it() {
+    let mut cook = Cook::at_table_with_bottle();
+    cook.done(GRIP_ONLY);
+    assert_eq!(cook.in_right_hand(), "(BOTTLE-1)");
+    let before = cook.pose("BOTTLE-1").translation.z;
+    cook.done(&format!("(with-simulated-robot {LIFT})"));
+    assert!(cook.pose("BOTTLE-1").translation.z > before + 0.14);
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn a_weak_grip_loses_a_heavy_object_and_says_with_which_forces() {
+    // A bottle of 1.5 kg weighs 14.7 N; fingers that press with 10 N hold 12 N by friction.
+    let mut cook = Cook::at_table_with_bottle_of(":mass 1.5");
+    cook.done(&GRIP_ONLY.replace("(gripper right) (object ?b)", "(gripper right) (effort 10)"));
+    let report = cook.fails("GRIPPER-CLOSED-COMPLETELY", LIFT);
+    assert!(
+        report.starts_with("BOTTLE-1 has slipped out of the right hand:"),
+        "{report}"
+    );
+    assert!(report.contains("the fingers hold up to 12.0 N"), "{report}");
+    assert_eq!(cook.in_right_hand(), "NIL");
+    // Fingers that press hard enough lift it.
+    let mut cook = Cook::at_table_with_bottle_of(":mass 1.5");
+    cook.done(&GRIP_ONLY.replace("(gripper right) (object ?b)", "(gripper right) (effort 60)"));
+    cook.done(&format!("(with-simulated-robot {LIFT})"));
+    assert_eq!(cook.in_right_hand(), "(BOTTLE-1)");
+}
+
+#[test]
+fn an_effort_that_the_gripper_does_not_have_is_refused() {
+    let mut cook = Cook::new();
+    for effort in ["500", "0", "-3"] {
+        let report = cook.fails(
+            "GRIPPER-GOAL-NOT-REACHED",
+            &format!("(perform (a motion (type gripping) (gripper right) (effort {effort})))"),
+        );
+        assert!(
+            report.contains(&format!("cannot press with {effort} N")) && report.contains("100 N"),
+            "{report}"
+        );
+    }
+}
+
+#[test]
+fn what_is_too_heavy_stays_where_it_stands_and_the_figures_are_told() {
+    for (mass, kilograms) in [("20", 20.0), ("4", 4.0)] {
+        let mut cook = Cook::at_table_with_bottle_of(&format!(":mass {mass}"));
+        let stands = cook.pose("BOTTLE-1");
+        let report = cook.fails(
+            "MANIPULATION-GOAL-NOT-REACHED",
+            "(let ((?b *bottle*))
+               (perform (an action (type picking-up) (arm right) (grasp left-side) (object ?b))))",
+        );
+        assert_eq!(
+            report,
+            format!(
+                "BOTTLE-1 is too heavy for the right arm: it has {kilograms} kg, and the maker of \
+                 the arm allows 1.8 kg"
+            )
+        );
+        cook.done("(with-simulated-robot (cpl:sleep 1))");
+        assert!(cook.distance("BOTTLE-1", &stands) < 0.005);
+        assert_eq!(cook.in_right_hand(), "NIL");
+    }
+    let mut cook = Cook::at_table_with_bottle_of(":mass 1.7");
+    cook.take_bottle();
+}
+
+#[test]
+fn a_hand_that_holds_something_grasps_nothing_else() {
+    let mut cook = Cook::at_table_with_bottle();
+    cook.take_bottle();
+    cook.done("(spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)) :bottle 'bottle-2)");
+    let report = cook.fails(
+        "MANIPULATION-GOAL-NOT-REACHED",
+        "(let ((?b (find-object :bottle)))
+           (perform (an action (type picking-up) (arm right) (object ?b))))",
+    );
+    assert_eq!(report, "The right hand is not free: it holds BOTTLE-1.");
+    assert_eq!(cook.in_right_hand(), "(BOTTLE-1)");
+}
