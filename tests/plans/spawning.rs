@@ -45,7 +45,6 @@ fn rough_figures_of_the_tutorial_are_met_without_a_word() {
         ("bottle", "-2 -0.9 0.86"),
         ("bottle", "-1.0 0.75 0.86"),
         ("cube", "1.44 1.28 0.85"),
-        ("weisswurst", "1.5 1 1"),
         ("weisswurst", "0 1 0.1"),
     ] {
         let text = format!("(spawn-object '(({place}) (0 0 0 1)) :{kind} 'thing)");
