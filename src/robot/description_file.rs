@@ -298,7 +298,7 @@ impl<'a> Reader<'a> {
             tool_offset: record.required("tool-offset")?.number()?,
             tool_axes: rotation(record.required("tool-axes")?)?,
             start: *start,
-            payload: optional_positive(&record, "payload")?,
+            payload: optional_positive(record, "payload")?,
             kinematics,
             postures,
             gripper: self.gripper(side)?,
@@ -349,7 +349,7 @@ impl<'a> Reader<'a> {
                 self.links(&record.required("right-finger")?.list()?)?,
             ],
             joint_per_metre: record.required("joint-per-metre")?.positive()?,
-            effort: optional_positive(&record, "effort")?.unwrap_or(UNKNOWN_EFFORT),
+            effort: optional_positive(record, "effort")?.unwrap_or(UNKNOWN_EFFORT),
             tip: [tip.x, tip.y.abs()],
             pad: finger.y.abs() - record.required("pad-face")?.number()?,
         })
