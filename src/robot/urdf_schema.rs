@@ -1,6 +1,8 @@
 //! What a URDF may contain: the attributes and children that each element needs, and
 //! the values they may have. Checked before the file is read.
 
+use std::ops::RangeInclusive;
+
 use super::urdf_error::UrdfProblem;
 use super::xml_elements::Element;
 
@@ -11,11 +13,15 @@ enum Value {
     JointType,
     Number,
     NotNegative,
-    Positive,
+    Length,
     Three,
-    ThreePositive,
+    Position,
+    ThreeLengths,
     Color,
 }
+
+/// The lengths of shapes, in metres, with which the physics engine can calculate.
+const LENGTHS: RangeInclusive<f64> = 1e-6..=1e4;
 
 impl Value {
     /// Wording for messages.
@@ -25,9 +31,10 @@ impl Value {
             Self::JointType => "fixed, revolute, continuous or prismatic",
             Self::Number => "one finite number",
             Self::NotNegative => "one finite number that is not negative",
-            Self::Positive => "one finite number above 0",
+            Self::Length => "one length from 1e-6 to 1e4 (in metres)",
             Self::Three => "three finite numbers separated by blanks",
-            Self::ThreePositive => "three finite numbers above 0, separated by blanks",
+            Self::Position => "three numbers from -1e4 to 1e4 (in metres), separated by blanks",
+            Self::ThreeLengths => "three lengths from 1e-6 to 1e4 (in metres), separated by blanks",
             Self::Color => "four numbers from 0 to 1 (red green blue alpha)",
         }
     }
@@ -43,9 +50,10 @@ impl Value {
             Self::JointType => ["fixed", "revolute", "continuous", "prismatic"].contains(&value),
             Self::Number => all(1, |_| true),
             Self::NotNegative => all(1, |n| n >= 0.0),
-            Self::Positive => all(1, |n| n > 0.0),
+            Self::Length => all(1, |n| LENGTHS.contains(&n)),
             Self::Three => all(3, |_| true),
-            Self::ThreePositive => all(3, |n| n > 0.0),
+            Self::Position => all(3, |n| n.abs() <= *LENGTHS.end()),
+            Self::ThreeLengths => all(3, |n| LENGTHS.contains(&n)),
             Self::Color => all(4, |n| (0.0..=1.0).contains(&n)),
         }
     }
@@ -58,7 +66,7 @@ const ATTRIBUTES: &[(&str, &str, Value, Option<&str>)] = &[
     ("joint", "type", Value::JointType, Some("fixed")),
     ("parent", "link", Value::Text, Some("base_link")),
     ("child", "link", Value::Text, Some("arm_link")),
-    ("origin", "xyz", Value::Three, None),
+    ("origin", "xyz", Value::Position, None),
     ("origin", "rpy", Value::Three, None),
     ("axis", "xyz", Value::Three, Some("0 0 1")),
     ("limit", "lower", Value::Number, None),
@@ -83,10 +91,10 @@ const ATTRIBUTES: &[(&str, &str, Value, Option<&str>)] = &[
     ("inertia", "iyy", Value::Number, Some("0.1")),
     ("inertia", "iyz", Value::Number, Some("0")),
     ("inertia", "izz", Value::Number, Some("0.1")),
-    ("box", "size", Value::ThreePositive, Some("0.1 0.2 0.3")),
-    ("cylinder", "radius", Value::Positive, Some("0.1")),
-    ("cylinder", "length", Value::Positive, Some("0.2")),
-    ("sphere", "radius", Value::Positive, Some("0.1")),
+    ("box", "size", Value::ThreeLengths, Some("0.1 0.2 0.3")),
+    ("cylinder", "radius", Value::Length, Some("0.1")),
+    ("cylinder", "length", Value::Length, Some("0.2")),
+    ("sphere", "radius", Value::Length, Some("0.1")),
     ("material", "name", Value::Text, Some("grey")),
     ("color", "rgba", Value::Color, Some("0.5 0.5 0.5 1")),
 ];

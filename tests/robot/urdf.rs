@@ -119,14 +119,14 @@ fn a_number_that_is_none_is_reported_at_its_place() {
             "name=\"j\" type=\"fixed\"",
             "<origin xyz=\"1 2 x\"/>"
         )),
-        "r.urdf:3:78: xyz=\"1 2 x\" in <origin> is wrong; expected three finite numbers separated by blanks"
+        "r.urdf:3:78: xyz=\"1 2 x\" in <origin> is wrong; expected three numbers from -1e4 to 1e4 (in metres), separated by blanks"
     );
     assert_eq!(
         error(&joint(
             "name=\"j\" type=\"fixed\"",
             "<origin xyz=\"1 2 inf\"/>"
         )),
-        "r.urdf:3:78: xyz=\"1 2 inf\" in <origin> is wrong; expected three finite numbers separated by blanks"
+        "r.urdf:3:78: xyz=\"1 2 inf\" in <origin> is wrong; expected three numbers from -1e4 to 1e4 (in metres), separated by blanks"
     );
 }
 
@@ -136,8 +136,34 @@ fn a_size_that_is_not_positive_is_reported() {
         error(
             "<link name=\"a\"><collision><geometry><box size=\"1 0 1\"/></geometry></collision></link>"
         ),
-        "r.urdf:2:48: size=\"1 0 1\" in <box> is wrong; expected three finite numbers above 0, separated by blanks"
+        "r.urdf:2:48: size=\"1 0 1\" in <box> is wrong; expected three lengths from 1e-6 to 1e4 (in metres), separated by blanks"
     );
+}
+
+#[test]
+fn shapes_with_which_nobody_can_calculate_are_reported() {
+    for (attribute, shape) in [
+        ("size=\"1 1e308 1\"", "box size=\"1 1e308 1\""),
+        ("size=\"1 1e-7 1\"", "box size=\"1 1e-7 1\""),
+        (
+            "radius=\"1e-300\"",
+            "cylinder radius=\"1e-300\" length=\"1\"",
+        ),
+        ("length=\"1e300\"", "cylinder radius=\"1\" length=\"1e300\""),
+        ("radius=\"10001\"", "sphere radius=\"10001\""),
+    ] {
+        let text = format!(
+            "<link name=\"a\"><collision><geometry><{shape}/></geometry></collision></link>"
+        );
+        let told = error(&text);
+        assert!(told.starts_with("r.urdf:2:"), "{told}");
+        assert!(
+            told.contains(attribute) && told.contains("from 1e-6 to 1e4"),
+            "{told}"
+        );
+    }
+    let far = "<link name=\"a\"><visual><origin xyz=\"1e5 0 0\"/><geometry><sphere radius=\"1\"/></geometry></visual></link>";
+    assert!(error(far).contains("from -1e4 to 1e4"), "{}", error(far));
 }
 
 #[test]
