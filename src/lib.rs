@@ -25,6 +25,7 @@
 //! [`seed`](SessionOptions::seed) always has the same result, to the bit.
 
 mod closest_name;
+mod defect;
 mod front;
 mod lisp;
 mod motion;
@@ -40,6 +41,7 @@ mod world;
 
 #[doc(hidden)]
 pub use front::{command::main, measured};
+pub use lisp::guard::heap::HeapLimit;
 pub use lisp::source::Location;
 pub use picture::Image as Picture;
 pub use robot::Side;

@@ -1,9 +1,14 @@
-//! Tasks that have ended leave nothing behind. In a process of its own, whose memory nobody
-//! else uses.
+//! Tasks that have ended leave nothing behind, nor do values that hold each other. In a process of
+//! its own, whose memory nobody else uses.
 
 #![cfg(target_os = "linux")]
 
+use std::sync::Mutex;
+
 use planwright::{Evaluate, Outcome, Session, SessionOptions};
+
+/// One test at a time: they measure the memory of the process.
+static MEMORY: Mutex<()> = Mutex::new(());
 
 /// Kilobytes of memory that this process holds.
 fn resident() -> u64 {
@@ -15,6 +20,7 @@ fn resident() -> u64 {
 
 #[test]
 fn memory_stays_flat_over_a_million_tasks() {
+    let _alone = MEMORY.lock();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let mut run = |text: &str| {
         let outcome = session.evaluate("test", text, &mut |_| {});
@@ -30,4 +36,34 @@ fn memory_stays_flat_over_a_million_tasks() {
         after < before + 2048,
         "{before} kB after 100,000 tasks, {after} kB after a million"
     );
+}
+
+#[test]
+fn memory_stays_flat_over_a_million_circles_of_each_kind() {
+    let _alone = MEMORY.lock();
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    let mut run = |text: &str| {
+        let outcome = session.evaluate("test", text, &mut |_| {});
+        assert_eq!(outcome, Outcome::Finished, "{text}");
+        resident()
+    };
+    run("(defstruct node next) (defclass thing () ((part :accessor part)))");
+    for circle in [
+        "(labels ((f (n) (if (= n 0) 0 (f (- n 1))))) (f 1))",
+        "(labels ((a (n) (if (= n 0) 0 (b (- n 1)))) (b (n) (a n))) (a 2))",
+        "(let ((f nil)) (setf f (lambda () f)))",
+        "(let ((l (list 1 2 3))) (setf (cdr (last l)) l))",
+        "(let ((l (list 1 2 3))) (nconc l l))",
+        "(let ((v (vector 1 2))) (setf (aref v 0) (list v)))",
+        "(let ((n (make-node))) (setf (node-next n) n))",
+        "(let ((x (make-instance 'thing))) (setf (part x) x))",
+        "(let ((h (make-hash-table))) (setf (gethash 1 h) h))",
+    ] {
+        let before = run(&format!("(dotimes (i 100000) {circle})"));
+        let after = run(&format!("(dotimes (i 900000) {circle})"));
+        assert!(
+            after < before + 8192,
+            "{before} kB after 100,000 times {circle}, {after} kB after a million"
+        );
+    }
 }

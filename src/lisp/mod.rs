@@ -6,6 +6,7 @@ pub(crate) mod builtins;
 pub(crate) mod compile;
 pub(crate) mod condition;
 pub(crate) mod evaluator;
+pub(crate) mod guard;
 pub(crate) mod image;
 pub(crate) mod library;
 pub(crate) mod loop_macro;

@@ -45,6 +45,11 @@ pub(crate) trait Host {
     /// image's interrupt flag is set.
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64;
 
+    /// Shows what the program has written.
+    fn show_output(&mut self, image: &mut Image) {
+        let _ = image;
+    }
+
     /// Cancels a request for which no task waits any more.
     fn cancel(&mut self, image: &mut Image, ticket: Ticket);
 

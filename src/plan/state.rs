@@ -12,6 +12,7 @@ use super::names::Names;
 use super::tree::TreeNode;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// The plan language's part of an image.
@@ -34,6 +35,8 @@ pub(crate) struct Plan {
     numbers: Cell<u64>,
 }
 
+/// Where the clock ends, in simulated seconds: up to there, 136 years, it resolves a microsecond.
+const END_OF_TIME: f64 = (1_u64 << 32) as f64;
 /// The first number in generated names.
 const FIRST_NUMBER: u64 = 390;
 
@@ -66,6 +69,17 @@ impl Plan {
     /// Simulated time in seconds since the session began.
     pub(crate) fn now(&self) -> f64 {
         self.now.get()
+    }
+
+    /// The time so many seconds from now; an error if it is later than the clock can tell.
+    pub(crate) fn after(&self, seconds: f64) -> Result<f64, Box<Raise>> {
+        let time = self.now() + seconds;
+        if time <= END_OF_TIME {
+            return Ok(time);
+        }
+        Err(Raise::simple(format!(
+            "The clock cannot wait {seconds:e} s: simulated time ends at {END_OF_TIME} s."
+        )))
     }
 
     pub(super) fn set_now(&self, now: f64) {

@@ -14,7 +14,7 @@ impl Repeat for Session {
     }
 
     fn interrupted_at(&self) -> Option<u64> {
-        self.image.polls.seen_at()
+        self.image.polls().seen_at()
     }
 
     fn interrupt_next_at(&mut self, at: u64) {

@@ -78,6 +78,10 @@ impl Host for LiveHost<'_> {
         self.host.idle(image, now, until)
     }
 
+    fn show_output(&mut self, image: &mut Image) {
+        flush(image, self.host, self.sink);
+    }
+
     fn cancel(&mut self, image: &mut Image, ticket: Ticket) {
         self.host.cancel(image, ticket);
     }

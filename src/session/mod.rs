@@ -18,6 +18,7 @@ mod plans;
 mod printing;
 mod queries;
 mod record;
+mod recovery;
 pub(crate) mod simulation;
 mod text;
 
@@ -25,10 +26,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use crate::defect;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::release::FreesAll;
 use crate::picture::ViewError;
 use crate::picture::animation::Shot;
 use crate::plan::{Evaluation, Scheduler};
@@ -53,6 +56,8 @@ pub struct Session {
     checked: check::KnownNames,
     /// Stopped evaluations, and what the user may do with them.
     console: console::Console,
+    /// The last to be dropped: what has been put off is freed.
+    _rest: FreesAll,
 }
 
 /// How the evaluation of one form ended.
@@ -80,15 +85,12 @@ impl Session {
             host: SimulationHost::new(simulation, Audience::new(options.realtime)),
             checked: check::KnownNames::default(),
             console: console::Console::default(),
+            _rest: FreesAll,
         };
+        session.image.limits.heap.set_limit(options.heap);
+        session.image.output.set_shown(true);
         session.load_plans()?;
         Ok(session)
-    }
-
-    /// Sets how many bytes of the Rust stack the compiler may use: a thread with a large stack
-    /// can compile forms that are nested more deeply.
-    pub(crate) fn set_stack_budget(&mut self, bytes: usize) {
-        self.image.stack_budget = bytes;
     }
 
     /// The examples of everything in the tables, with their names, in order of installation.
@@ -157,6 +159,19 @@ impl Session {
     /// Ends the recording, if there is one; fails if it could not be written.
     pub(crate) fn end_recording(&mut self) -> Result<(), WatchError> {
         self.host.audience.end_recording(&self.host.simulation)
+    }
+
+    /// Evaluates an input; a panic ends it, but not the session.
+    fn evaluate_or_recover(
+        &mut self,
+        source_name: &str,
+        text: &str,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        match defect::caught(|| self.evaluate_input(source_name, text, sink)) {
+            Ok(outcome) => outcome,
+            Err(defect) => self.recover(&defect, sink),
+        }
     }
 
     /// Evaluates an input: one for the inspector, for the debugger, or forms at the top level.
@@ -285,21 +300,21 @@ fn interrupted() -> Abort {
 
 impl Evaluate for Session {
     fn evaluate(&mut self, source_name: &str, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
-        self.image.polls.begin(self.console.interrupt_next.take());
+        self.image.polls().begin(self.console.interrupt_next.take());
         // A user who asked to leave and then continues has changed their mind.
         self.host.person.quit = None;
         if text.trim().is_empty() {
             // It only shows a stopped evaluation again.
-            return self.evaluate_input(source_name, text, sink);
+            return self.evaluate_or_recover(source_name, text, sink);
         }
         let record = self.image.extension::<record::Record>();
         let record = record.unwrap_or_else(|| self.image.extend(record::Record::default()));
         record.begin(self.prompt(), source_name, text);
-        let outcome = self.evaluate_input(source_name, text, &mut |event| {
+        let outcome = self.evaluate_or_recover(source_name, text, &mut |event| {
             record.note(&event);
             sink(event);
         });
-        record.end(outcome, self.image.polls.seen_at());
+        record.end(outcome, self.image.polls().seen_at());
         outcome
     }
 
@@ -312,6 +327,6 @@ impl Evaluate for Session {
     }
 
     fn interrupt_handle(&self) -> Arc<AtomicBool> {
-        self.image.interrupt.clone()
+        Arc::clone(self.image.interrupt())
     }
 }

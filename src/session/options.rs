@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::log_level::LogLevel;
+use crate::lisp::guard::heap::HeapLimit;
 use crate::robot::{
     KITCHEN_URDF, KinematicTree, MissingNames, PR2_DESCRIPTION, PR2_URDF, RobotDescription,
 };
@@ -26,6 +27,9 @@ pub struct SessionOptions {
     pub log_level: LogLevel,
     /// How many simulated seconds pass per real second; as many as possible if `None`.
     pub realtime: Option<f64>,
+    /// How much memory may be in use before a condition `HEAP-EXHAUSTED-ERROR` is signalled; as
+    /// much as there is if `None`, and then the process is aborted.
+    pub heap: Option<HeapLimit>,
 }
 
 impl Default for SessionOptions {
@@ -37,6 +41,7 @@ impl Default for SessionOptions {
             world: None,
             log_level: LogLevel::Info,
             realtime: None,
+            heap: None,
         }
     }
 }

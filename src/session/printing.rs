@@ -1,15 +1,17 @@
 //! Values and conditions as text.
 
 use super::Session;
+use super::dialogue::screen::INTERRUPT;
 use super::dialogue::{Abort, ActionStep};
 use crate::lisp::condition;
 use crate::lisp::evaluator::nested;
+use crate::lisp::guard::stoppable;
 use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::print;
 use crate::lisp::source::Location;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
-use crate::lisp::value::raise::Raise;
+use crate::lisp::value::raise::{Raise, is_interrupt};
 use crate::lisp::value::symbol::Sym;
 
 /// Maximum number of enclosing actions shown with a condition.
@@ -52,7 +54,11 @@ impl Session {
         let user_place = places.find(|place| is_own && !is_built_in(place));
         Abort {
             report: self.printed_by(known::PRINC_TO_STRING, condition),
-            condition: self.printed(condition),
+            condition: if is_interrupt(condition) {
+                INTERRUPT.to_owned()
+            } else {
+                self.printed(condition)
+            },
             place,
             user_place,
             actions: self.actions(&calls),
@@ -94,11 +100,18 @@ impl Session {
     /// fail, by the printer alone.
     fn printed_by(&mut self, function: Sym, value: &Value) -> String {
         let args = vec![value.clone()];
-        nested::call_nested(&mut self.image, function.into(), args)
-            .ok()
-            .and_then(|text| text.as_text())
-            .unwrap_or_else(|| {
-                print::to_string(&self.image, value, function == known::PRIN1_TO_STRING)
-            })
+        match nested::call_nested(&mut self.image, function.into(), args) {
+            Ok(text) => text.as_text(),
+            Err(raise) if raise.is_interrupt() => return "(printing was interrupted)".to_owned(),
+            Err(_) => None,
+        }
+        .unwrap_or_else(|| self.printed_plainly(value, function == known::PRIN1_TO_STRING))
+    }
+
+    /// A value printed by the printer alone, as far as nothing stops that.
+    fn printed_plainly(&self, value: &Value, escape: bool) -> String {
+        let _watch = self.image.limits.watch();
+        stoppable(|| print::to_string(&self.image, value, escape))
+            .unwrap_or_else(|_| "(printing was stopped)".to_owned())
     }
 }

@@ -1,9 +1,12 @@
 //! Evaluating a text: reading and evaluating one form after another.
 
+use std::rc::Rc;
+
 use super::console::Suspended;
 use super::dialogue::{Abort, Event, Outcome};
 use super::{Ended, Session};
 use crate::lisp::evaluator::nested;
+use crate::lisp::guard::stoppable;
 use crate::lisp::reader;
 use crate::lisp::reader::Reader;
 use crate::lisp::source::Place;
@@ -99,14 +102,20 @@ impl Session {
     }
 
     fn read_placed(&mut self, reader: &mut Reader) -> Result<Option<(Value, Place)>, Box<Abort>> {
-        let mut next = reader.next(&mut self.image);
+        let limits = Rc::clone(&self.image.limits);
+        let _watch = limits.watch();
+        let mut next = stoppable(|| reader.next(&mut self.image));
         loop {
-            match next {
+            let read = match next {
+                Ok(read) => read,
+                Err(reason) => return Err(Box::new(self.raised(reason.into()))),
+            };
+            match read {
                 Ok(reader::Outcome::Form(form, place)) => return Ok(Some((form, place))),
                 Ok(reader::Outcome::End) => return Ok(None),
                 Ok(reader::Outcome::Evaluate(form)) => {
                     let value = self.evaluate_now(&form).map_err(|r| self.raised(r))?;
-                    next = reader.supply(&mut self.image, value);
+                    next = stoppable(|| reader.supply(&mut self.image, value));
                 }
                 Err(error) => return Err(Box::new(self.raised(error.raise()))),
             }

@@ -284,3 +284,57 @@ fn a_picture_that_cannot_be_is_told() {
         assert!(err.starts_with(what), "{err}");
     }
 }
+
+/// What the program prints for an input, with little memory.
+fn with_little_memory(input: &str) -> (Option<i32>, String) {
+    let mut child = planwright(&["--heap", "100M"])
+        .stdin(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    stdin.write_all(input.as_bytes()).unwrap();
+    drop(stdin);
+    let (status, out, err) = told(child.wait_with_output().unwrap());
+    (status, out + &err)
+}
+
+#[test]
+fn a_full_heap_is_a_condition_and_the_session_goes_on() {
+    for endless in [
+        "(let ((l nil)) (loop (push 1 l)))",
+        "(let ((l nil)) (loop (push (make-array 100000) l)))",
+        "(let ((s \"abcdefgh\")) (loop (setf s (concatenate 'string s s))))",
+        "(let ((s (list 1 2))) (loop (setf s (append s s))))",
+        "(let ((v (make-array 0 :adjustable t :fill-pointer 0))) (loop (vector-push-extend 1 v)))",
+        "(let ((h (make-hash-table)) (i 0)) (loop (setf (gethash (incf i) h) i)))",
+        "(with-output-to-string (s) (loop (write-string \"abcdefghijklmnopqrstuvwxyz\" s)))",
+        "(let ((s \"\")) (loop (setf s (format nil \"~a~ax\" s s))))",
+        "(let ((l nil)) (loop (let ((x 1)) (push (lambda () x) l))))",
+        "(cpl:top-level (cpl:par-loop (x (loop for i below 1000000 collect i)) (cpl:sleep 1) x))",
+        "(make-array (expt 10 12))",
+        "(make-list 33000000)",
+        "(make-string 33000000)",
+        "(length (reverse (make-list 3000000)))",
+    ] {
+        let (status, out) = with_little_memory(&format!("{endless}\n(list :alive)\n"));
+        assert_eq!(status, Some(1), "{endless}: {out}");
+        assert!(out.contains("HEAP-EXHAUSTED-ERROR"), "{endless}: {out}");
+        assert!(out.ends_with("(:ALIVE)\n"), "{endless}: {out}");
+    }
+    let handled = "(handler-case (let ((l nil)) (loop (push 1 l))) (storage-condition () :full))";
+    let (status, out) = with_little_memory(handled);
+    assert_eq!((status, out.as_str()), (Some(0), ":FULL\n"));
+}
+
+#[test]
+fn a_run_without_end_ends_when_nobody_reads_its_output() {
+    let mut child = planwright(&[]).stdin(Stdio::piped()).spawn().unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    stdin.write_all(b"(loop (print 1))\n").unwrap();
+    let mut begin = [0; 4];
+    let mut stdout = child.stdout.take().unwrap();
+    stdout.read_exact(&mut begin).unwrap();
+    assert_eq!(&begin, b"\n1 \n");
+    drop(stdout);
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+}

@@ -57,6 +57,20 @@ fn endless_loops_can_be_interrupted() {
         "(let ((l (list 1 2))) (setf (cdr (last l)) l) (mapc #'identity l))",
         "(cpl:top-level (cpl:par (loop (cpl:sleep 1)) (loop (cpl:sleep 2))))",
         "(cpl:top-level (cpl:with-failure-handling ((error (e) (cpl:retry))) (error \"x\")))",
+        "(equal '#1=(a . #1#) '#2=(a . #2#))",
+        "(let ((a (vector 1)) (b (vector 1))) (setf (aref a 0) a (aref b 0) b) (equalp a b))",
+        "(progn (defmacro mm () `(mm)) (mm))",
+        "(progn (defmacro mm () `(mm)) (handler-case (macroexpand '(mm)) (t () 1)))",
+        "(eval '#1=(progn 1 #1#))",
+        "(length (princ-to-string (expt 7 3000000)))",
+        "(read-from-string (make-string 3000000 :initial-element #\\9))",
+        "(integer-length (isqrt (expt 7 3000000)))",
+        "(integer-length (floor (expt 7 10000000) (expt 3 5000000)))",
+        "(gcd (expt 3 2000000) (expt 7 1500000))",
+        "(expt 7 20000000)",
+        "(let ((d nil)) (dotimes (i 3000000) (setf d (list d))) (length (prin1-to-string d)))",
+        "(length (copy-tree (let ((a (list 1))) (setf (cdr a) a) a)))",
+        "(length (multiple-value-list (apply #'values (make-list 10000000))))",
     ] {
         let mut session = session();
         let flag = session.interrupt_handle();
@@ -69,6 +83,72 @@ fn endless_loops_can_be_interrupted() {
         assert_eq!(outcome, Outcome::Aborted, "{endless}: {shown}");
         let (outcome, shown) = told(&mut session, "(+ 1 1)");
         assert_eq!((outcome, shown.as_str()), (Outcome::Finished, "[\"2\"]\n"));
+    }
+}
+
+#[test]
+fn what_has_been_written_is_seen_while_a_form_runs() {
+    for endless in [
+        "(progn (print :shown) (finish-output) (loop))",
+        "(progn (princ :shown) (loop))",
+        "(progn (format t \"SHOWN~%\") (equal '#1=(a . #1#) '#2=(a . #2#)))",
+        "(progn (write-line \"SHOWN\") (equal '#1=(a . #1#) '#2=(a . #2#)))",
+        "(cpl:top-level (cpl:par (progn (princ :shown) (loop)) (cpl:sleep 1)))",
+        "(loop (write-string \"SHOWN\"))",
+    ] {
+        let mut session = session();
+        let flag = session.interrupt_handle();
+        let mut shown = String::new();
+        let outcome = session.evaluate("test", endless, &mut |event| {
+            if let Event::Output(text) = event {
+                shown.push_str(&text);
+                if shown.contains("SHOWN") {
+                    flag.store(true, Ordering::Relaxed);
+                }
+            }
+        });
+        assert_eq!(outcome, Outcome::Aborted, "{endless}");
+    }
+}
+
+#[test]
+fn code_without_end_is_a_condition() {
+    for endless in [
+        "'#1=(progn #1#)",
+        "'#1=(eval-when (:execute) #1#)",
+        "'(destructuring-bind #1=(a #1#) '(1) 2)",
+        "'(destructuring-bind #1=(&optional (#1# 1)) '(1) 2)",
+        "'(defmacro m #1=(a #1#) 1)",
+        "'(macrolet ((m #1=(a #1#) 1)) (m 1))",
+        "'(let ((x 1)) . #1=((let ((x 1)) . #1#)))",
+        "'(lambda () #1=(if #1# 1 2))",
+        "'(setf #1=(car #1#) 1)",
+        "'(loop for #1=(a #1#) in '(1) collect a)",
+        "'(loop for #1=(a . #1#) in '(1) collect a)",
+        "'(case 1 #1=((1 2 . #1#) 1))",
+        "'(handler-case 1 #1=(error () . #1#))",
+        "'(quasiquote #1=(a #1#))",
+        "'(quasiquote #1=(a . #1#))",
+        "'(the #1=(or integer #1#) 1)",
+        "'(typep 1 '#1=(or integer #1#))",
+        "'(symbol-macrolet ((a (car a))) a)",
+        "'(defun f #1=(&optional (a #1#)) a)",
+        "(let ((f 1)) (dotimes (i 300000) (setf f (list 'progn f))) f)",
+        "(let ((f 'x)) (dotimes (i 300000) (setf f (list f))) `(destructuring-bind ,f nil 1))",
+        "(let ((f 'x)) (dotimes (i 300000) (setf f (list f))) `(loop for ,f in nil collect 1))",
+        "(let ((f 'x)) (dotimes (i 300000) (setf f (list f))) `(quasiquote ,f))",
+        "(let ((f 'x)) (dotimes (i 300000) (setf f (list 'quasiquote f))) f)",
+        "(let ((f 'x)) (dotimes (i 300000) (setf f (list 'or f))) `(typep 1 ',f))",
+        "(let ((f 'x)) (dotimes (i 300000) (setf f (list 'car f))) `(setf ,f 1))",
+        "(let ((f 'x)) (dotimes (i 300000) (setf f (list 'lambda nil f))) f)",
+        "(let ((f 'x)) (dotimes (i 300000) (setf f (vector f))) `(quasiquote ,f))",
+        "(let ((f 'x)) (dotimes (i 300000) (setf f (list 'pp-tut::an 'action (list :type f)))) f)",
+    ] {
+        let mut session = session();
+        let text = format!("(handler-case (eval {endless}) (condition () :ended)) (+ 1 1)");
+        let (outcome, shown) = told(&mut session, &text);
+        assert_eq!(outcome, Outcome::Finished, "{endless}: {shown}");
+        assert!(shown.ends_with("[\"2\"]\n"), "{endless}: {shown}");
     }
 }
 

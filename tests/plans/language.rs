@@ -459,6 +459,18 @@ fn fluents() {
         ("(value (not (make-fluent)))", "T"),
         ("(wait-for (make-fluent :value 7))", "7"),
         ("(wait-for (make-fluent) :timeout 0.2)", "NIL"),
+        (
+            "(wait-for (make-fluent) :timeout 1d30)",
+            "!! SIMPLE-ERROR The clock cannot wait 1e30 s: simulated time ends at 4294967296 s.",
+        ),
+        (
+            "(sleep 1d30)",
+            "!! SIMPLE-ERROR The clock cannot wait 1e30 s: simulated time ends at 4294967296 s.",
+        ),
+        (
+            "(handler-case (sleep -1) (type-error (e) (type-error-datum e)))",
+            "-1",
+        ),
         ("(wait-for (< (make-fluent :value 3) 5))", "T"),
         (
             "(wait-for nil)",

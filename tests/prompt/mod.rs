@@ -1,4 +1,5 @@
 //! A session as a person talks to it.
 
+mod recovery;
 mod reference;
 mod session;

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use super::heap;
 use super::picture::PictureArguments;
 
 /// Program a simulated kitchen robot in a Common-Lisp-like plan language.
@@ -77,6 +78,10 @@ pub(crate) struct Options {
         value_parser = positive_factor
     )]
     pub(crate) realtime: Option<f64>,
+    /// Memory that may be in use, such as 500M or 2G; beyond it, a program gets a condition
+    /// HEAP-EXHAUSTED-ERROR [default: half of the machine's memory]
+    #[arg(long, global = true, value_name = "SIZE", value_parser = heap::bytes)]
+    pub(crate) heap: Option<usize>,
 }
 
 /// How to watch a run.

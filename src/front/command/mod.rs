@@ -10,6 +10,7 @@
 mod arguments;
 mod check;
 mod failure;
+mod heap;
 mod man;
 mod open;
 mod paint;
@@ -29,6 +30,7 @@ use std::thread;
 
 use clap::{CommandFactory, Parser};
 
+use crate::defect;
 use arguments::{Arguments, Command, WatchArguments};
 use failure::{CommandError, Status};
 use paint::Paint;
@@ -39,8 +41,11 @@ pub(crate) use open::open_default;
 /// Bytes of stack for a command's thread: the compiler recurses as deep as forms are nested.
 const STACK_BYTES: usize = 64 << 20;
 
-/// Runs the command line of this process.
-pub fn main() -> ExitCode {
+/// Runs the command line of this process. `in_use` tells how many bytes its allocator has given
+/// out.
+pub fn main(in_use: fn() -> usize) -> ExitCode {
+    heap::count_by(in_use);
+    defect::keep_caught_panics_quiet();
     let thread = thread::Builder::new()
         .stack_size(STACK_BYTES)
         .spawn(run_command_line);

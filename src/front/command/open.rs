@@ -10,6 +10,8 @@ use clap::Parser;
 use super::arguments::Arguments;
 use super::arguments::{LogLevel, Options};
 use super::failure::CommandError;
+use super::heap;
+use crate::lisp::guard::set_stack_budget;
 use crate::session::dialogue::Evaluate;
 use crate::session::{self, Session, SessionOptions};
 
@@ -41,11 +43,10 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             LogLevel::None => session::LogLevel::None,
         },
         realtime: options.realtime,
+        heap: heap::limit(options.heap),
     };
-    let mut session =
-        Session::new(&options).map_err(|error| CommandError::Open(error.to_string()))?;
-    session.set_stack_budget(COMPILER_STACK);
-    Ok(session)
+    set_stack_budget(COMPILER_STACK);
+    Session::new(&options).map_err(|error| CommandError::Open(error.to_string()))
 }
 
 /// A fresh session, as with no options on the command line.

@@ -7,6 +7,7 @@ use super::keywords;
 use super::lists::{MAX_LENGTH, size};
 use super::sequence_access::default_element;
 use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::guard::reserve;
 use crate::lisp::image::Image;
 use crate::lisp::types::sequence_types::upgraded;
 use crate::lisp::value::Value;
@@ -116,6 +117,7 @@ pub(crate) fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
             "An array of that size does not fit in memory.",
         ));
     }
+    reserve(total.unwrap_or(0).saturating_mul(size_of::<Value>()));
     if shape.len() > MAX_RANK {
         return Err(Raise::simple(format!(
             "An array has at most {MAX_RANK} dimensions."

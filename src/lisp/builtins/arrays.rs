@@ -8,6 +8,7 @@ use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Array;
+use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{checked_element, index};
@@ -79,6 +80,11 @@ fn row_major(array: &Value, at: usize) -> Option<Value> {
 
 fn set_row_major(array: &Value, at: usize, value: &Value) -> Outcome {
     let value = checked_element(element_type(array)?, value.clone())?;
+    match array {
+        Value::Vector(vector) => cycles::note(vector, &value),
+        Value::Array(array) => cycles::note(array, &value),
+        _ => {}
+    }
     let done = match (array, &value) {
         (Value::Vector(v), _) => v.set(at, value.clone()),
         (Value::Str(s), Value::Char(c)) => s.set_char(at, *c),

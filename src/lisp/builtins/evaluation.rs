@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::compile;
+use crate::lisp::guard::descend;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::{Body, Function};
@@ -179,6 +180,7 @@ fn evaluate_sequence(machine: &mut Machine<'_>, forms: Value) -> Result<Step> {
 
 /// Evaluates a form at top level.
 pub(crate) fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> {
+    descend()?;
     let (form, _) = compile::macroexpand(machine.image, form)?;
     if let Value::Cons(cons) = &form {
         match cons.car().as_symbol() {

@@ -3,6 +3,7 @@
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{character, element, index};
@@ -82,6 +83,7 @@ fn push(value: &Value, vector: &Value, extension: Option<usize>) -> Outcome {
     match vector {
         Value::Vector(v) => {
             let value = element(v, value.clone())?;
+            cycles::note(v, &value);
             let mut items = v.items.borrow_mut();
             if pointer >= items.len() {
                 let Some(extension) = extension else {

@@ -8,6 +8,7 @@ use super::shown::shown;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::cycles;
 use crate::lisp::value::hash_table::{HashTable, HashTest};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -76,7 +77,10 @@ fn gethash(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn set_gethash(_: &mut Image, args: &[Value]) -> Outcome {
-    table(&args[2])?.insert(args[1].clone(), args[0].clone());
+    let table = table(&args[2])?;
+    cycles::note(table, &args[0]);
+    cycles::note(table, &args[1]);
+    table.insert(args[1].clone(), args[0].clone());
     Ok(args[0].clone())
 }
 

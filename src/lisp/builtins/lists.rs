@@ -4,9 +4,11 @@ use std::rc::Rc;
 
 use super::keywords;
 use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::guard::{Pace, reserve};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::cons::Cons;
+use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{self, ListBuilder, ListWalk, last_pair};
@@ -43,6 +45,7 @@ pub(crate) fn size(value: &Value) -> Result<usize, Box<Raise>> {
             format!("{size} elements do not fit in memory."),
         ));
     }
+    reserve(size.saturating_mul(size_of::<Value>()));
     Ok(size)
 }
 
@@ -77,7 +80,10 @@ pub(crate) fn nconc_all(lists: &[Value]) -> Outcome {
             _ => return Err(Raise::type_error(list, known::LIST)),
         }
         match last.take() {
-            Some(cons) => cons.set_cdr(list.clone()),
+            Some(cons) => {
+                cycles::note(&cons, list);
+                cons.set_cdr(list.clone());
+            }
             None => result = list.clone(),
         }
         if !is_last {
@@ -129,11 +135,12 @@ const MOST_PAIRS: usize = 10_000_000;
 
 /// Counts the pairs of a tree during a walk.
 #[derive(Default)]
-struct PairCount(usize);
+struct PairCount(usize, Pace);
 
 impl PairCount {
     /// Counts one more pair; an error if there are so many that the tree must be circular.
     fn add_one(&mut self) -> Result<(), Box<Raise>> {
+        self.1.step();
         self.0 += 1;
         if self.0 <= MOST_PAIRS {
             return Ok(());

@@ -2,6 +2,7 @@
 
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
+use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::{Rounds, Value};
@@ -58,6 +59,7 @@ fn set_cxr<const PATH: u32>(_: &mut Image, args: &[Value]) -> Outcome {
     let Value::Cons(cons) = &place else {
         return Err(Raise::type_error(&place, known::CONS));
     };
+    cycles::note(cons, &args[0]);
     if first == 0 {
         cons.set_car(args[0].clone());
     } else {
@@ -84,7 +86,10 @@ fn ordinal<const N: usize>(_: &mut Image, args: &[Value]) -> Outcome {
 fn set_nth_of(index: usize, list: &Value, value: &Value) -> Outcome {
     let place = nth_cdr(index, list)?;
     match &place {
-        Value::Cons(cons) => cons.set_car(value.clone()),
+        Value::Cons(cons) => {
+            cycles::note(cons, value);
+            cons.set_car(value.clone());
+        }
         _ if list.is_nil() => return Err(Raise::type_error(list, known::CONS)),
         _ => {
             let length = sequence::list_length(list)?;
@@ -109,12 +114,16 @@ fn pair(value: &Value) -> Result<&std::rc::Rc<crate::lisp::value::cons::Cons>, B
 }
 
 fn rplaca(_: &mut Image, args: &[Value]) -> Outcome {
-    pair(&args[0])?.set_car(args[1].clone());
+    let pair = pair(&args[0])?;
+    cycles::note(pair, &args[1]);
+    pair.set_car(args[1].clone());
     Ok(args[0].clone())
 }
 
 fn rplacd(_: &mut Image, args: &[Value]) -> Outcome {
-    pair(&args[0])?.set_cdr(args[1].clone());
+    let pair = pair(&args[0])?;
+    cycles::note(pair, &args[1]);
+    pair.set_cdr(args[1].clone());
     Ok(args[0].clone())
 }
 

@@ -6,6 +6,7 @@ use super::array_index;
 use super::keywords;
 use super::lists::{nreverse_onto, size};
 use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::guard::reserve;
 use crate::lisp::image::Image;
 use crate::lisp::types::sequence_types::SequenceType;
 use crate::lisp::value::Value;
@@ -145,11 +146,12 @@ fn replace(image: &mut Image, args: &[Value]) -> Outcome {
 fn concatenate(image: &mut Image, args: &[Value]) -> Outcome {
     let result = SequenceType::new(image, &args[0])?;
     if result.kind == Kind::Str && args[1..].iter().all(|a| matches!(a, Value::Str(_))) {
-        let mut text = String::new();
-        for part in &args[1..] {
-            if let Value::Str(string) = part {
-                text.push_str(&string.borrow());
-            }
+        let strings = || args[1..].iter().filter_map(Value::as_string);
+        let bytes = strings().map(|string| string.borrow().len()).sum();
+        reserve(bytes);
+        let mut text = String::with_capacity(bytes);
+        for string in strings() {
+            text.push_str(&string.borrow());
         }
         result.check_length(text.chars().count())?;
         return Ok(Value::string(text));

@@ -150,6 +150,7 @@ fn finish_output(image: &mut Image, args: &[Value]) -> Outcome {
     let target = args.first().unwrap_or(&Value::NIL);
     let stream = stream::output_stream(image, target)?;
     stream::flush(&stream)?;
+    image.output.finish();
     Ok(Value::NIL)
 }
 

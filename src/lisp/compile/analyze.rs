@@ -12,6 +12,7 @@ use super::scope::{
 use super::special_forms;
 use crate::closest_name::closest_name;
 use crate::lisp::evaluator::nested;
+use crate::lisp::guard::{Pace, descend, look};
 use crate::lisp::image::Image;
 use crate::lisp::image::notes::NoteKind;
 use crate::lisp::source::Place;
@@ -31,19 +32,18 @@ pub(super) struct Compiler<'a> {
     pub(crate) image: &'a mut Image,
     functions: Vec<FunctionContext>,
     current: usize,
-    stack_base: usize,
+    pace: Pace,
     /// The place of the innermost enclosing form that has one.
     pub(crate) place: Place,
 }
 
 impl<'a> Compiler<'a> {
     pub(crate) fn new(image: &'a mut Image) -> Compiler<'a> {
-        let marker = 0u8;
         Compiler {
-            stack_base: std::ptr::from_ref(&marker).addr(),
             image,
             functions: Vec::new(),
             current: 0,
+            pace: Pace::default(),
             place: Place::NONE,
         }
     }
@@ -201,17 +201,15 @@ impl<'a> Compiler<'a> {
         Raise::program(text).at(self.place)
     }
 
+    /// An error if forms are nested too deeply: for functions that call themselves.
+    pub(crate) fn descend(&self) -> Compiled<()> {
+        descend().map_err(|deep| Box::<Raise>::from(deep).at(self.place))
+    }
+
     /// Analyses a form.
     pub(crate) fn analyze(&mut self, form: &Value, scope: &Scope) -> Compiled<Node> {
-        let marker = 0u8;
-        let used = self.stack_base.abs_diff(std::ptr::from_ref(&marker).addr());
-        if used > self.image.stack_budget {
-            return Err(Raise::new(
-                known::CONTROL_STACK_EXHAUSTED,
-                "The form is nested too deeply to be compiled.",
-            )
-            .at(self.place));
-        }
+        self.descend()?;
+        self.pace.step();
         match form {
             Value::Symbol(name) => self.analyze_variable(*name, scope),
             Value::Cons(cons) => {
@@ -366,6 +364,7 @@ impl<'a> Compiler<'a> {
         form: &Value,
         scope: &Scope,
     ) -> Compiled<Value> {
+        look();
         let args = vec![form.clone(), Environment::value(scope)];
         let expansion = nested::call_nested(self.image, Value::Function(function.clone()), args)
             .map_err(|r| r.at(self.place))?;

@@ -1,6 +1,7 @@
 //! Destructuring lambda lists: `destructuring-bind` and the arguments of macros.
 
 use super::lambda_list::LambdaList;
+use crate::lisp::guard::descend;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -41,6 +42,7 @@ impl Bindings<'_> {
                 Ok(())
             }
             Value::Cons(_) => {
+                descend()?;
                 let var = self.gensym("PART");
                 self.bind(var.clone(), form);
                 let parsed = LambdaList::parse(self.image, pattern, true)?;

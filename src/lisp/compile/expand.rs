@@ -3,6 +3,7 @@
 use super::analyze::keep_place;
 use super::environment;
 use crate::lisp::evaluator::nested;
+use crate::lisp::guard::look;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
@@ -62,6 +63,7 @@ pub(crate) fn macroexpand_in(
     let mut form = form.clone();
     let mut expanded = false;
     while let Some(expansion) = macroexpand_1_in(image, &form, environment)? {
+        look();
         form = expansion;
         expanded = true;
     }

@@ -1,5 +1,6 @@
 //! Backquote: templates to forms that build them.
 
+use crate::lisp::guard::descend;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -12,6 +13,7 @@ pub(crate) fn expand_quasiquote(image: &mut Image, form: &Value) -> Result<Value
 }
 
 fn template_form(image: &mut Image, template: &Value, depth: usize) -> Result<Value, Box<Raise>> {
+    descend()?;
     match template {
         Value::Cons(_) => list_form(image, template, depth),
         Value::Vector(v) => {
@@ -146,6 +148,7 @@ fn rebuild(
     inner: &Value,
     depth: usize,
 ) -> Result<Value, Box<Raise>> {
+    descend()?;
     let form = match unquoted(image, inner, depth)? {
         Some(form) => form,
         None => template_form(image, inner, depth)?,

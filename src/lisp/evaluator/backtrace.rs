@@ -10,6 +10,9 @@ use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::Annotation;
 use crate::lisp::vm::fiber::{Fiber, Frame, FrameKind};
 
+/// Frames that are shown at either end of the stack.
+const MOST_AT_AN_END: usize = 5_000;
+
 /// A stack frame as the user sees it.
 pub(crate) struct FrameView {
     /// Its index in the fiber, outermost first.
@@ -66,10 +69,12 @@ impl VariablePlace {
 }
 
 impl Fiber {
-    /// The frames, innermost first.
+    /// The frames, innermost first; of very many, those at both ends.
     pub(crate) fn views(&self) -> Vec<FrameView> {
+        let inner = self.frames.len().saturating_sub(MOST_AT_AN_END);
         let frames = self.frames.iter().enumerate().rev();
         frames
+            .filter(|(index, _)| *index < MOST_AT_AN_END || *index >= inner)
             .map(|(index, frame)| self.view(index, frame))
             .collect()
     }

@@ -1,11 +1,15 @@
 //! Starting a fiber, resuming it where it stopped, and stopping it again.
 
+use crate::lisp::condition;
+use crate::lisp::guard::{Stopped, stoppable_on};
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::cycles;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::release;
 use crate::lisp::vm::calls::Suspended;
-use crate::lisp::vm::fiber::{Frame, FrameKind};
+use crate::lisp::vm::fiber::{Frame, FrameKind, Target};
 use crate::lisp::vm::machine::{Event, Machine};
 use crate::lisp::vm::step::Step;
 
@@ -26,8 +30,7 @@ impl Machine<'_> {
     /// Starts a call in an idle fiber and runs it.
     pub(crate) fn start(&mut self, function: Value, args: Vec<Value>) -> Event {
         self.fiber.enter(self.image);
-        let next = self.call_value(function, args, true);
-        self.go_on(next)
+        self.go_on(|machine| machine.call_value(function, args, true))
     }
 
     /// Resumes the fiber with the answer to its request, or with a value in place of a failed call.
@@ -38,7 +41,7 @@ impl Machine<'_> {
         } else {
             value.primary()
         };
-        self.go_on(Next::Deliver(value))
+        self.go_on(|_| Next::Deliver(value))
     }
 
     /// Resumes the fiber by raising an error where it made its request.
@@ -48,8 +51,7 @@ impl Machine<'_> {
             let calls = self.calls();
             self.image.add_condition_calls(condition, calls);
         }
-        let next = self.raise(raise);
-        self.go_on(next)
+        self.go_on(|machine| machine.raise(raise))
     }
 
     /// Resumes the fiber with a call on top of its stack, whose value is the answer to the request
@@ -57,8 +59,7 @@ impl Machine<'_> {
     pub(crate) fn resume_with_call(&mut self, function: Value, args: Vec<Value>) -> Event {
         self.fiber.enter(self.image);
         let multi = self.fiber.wants_all;
-        let next = self.call_value(function, args, multi);
-        self.go_on(next)
+        self.go_on(|machine| machine.call_value(function, args, multi))
     }
 
     /// Leaves a frame and all above it, running cleanup code, and continues with a call in its
@@ -71,26 +72,52 @@ impl Machine<'_> {
     ) -> Event {
         self.fiber.enter(self.image);
         let call = Value::cons(function, Value::list(args));
-        let next = self.unwind(crate::lisp::vm::fiber::Target::Frame(index), call);
-        self.go_on(next)
+        self.go_on(|machine| machine.unwind(Target::Frame(index), call))
     }
 
     /// Continues after an interrupt.
     pub(crate) fn run(&mut self) -> Event {
         self.fiber.enter(self.image);
         let undelivered = self.fiber.undelivered.take();
-        self.go_on(undelivered.map_or(Next::Run, Next::Deliver))
+        self.go_on(|_| undelivered.map_or(Next::Run, Next::Deliver))
     }
 
     /// Unwinds the whole fiber, running its cleanup code.
     pub(crate) fn unwind_all(&mut self) -> Event {
         self.fiber.enter(self.image);
         self.fiber.undelivered = None;
-        let next = self.unwind(crate::lisp::vm::fiber::Target::Everything, Value::NIL);
-        self.go_on(next)
+        self.go_on(|machine| machine.unwind(Target::Everything, Value::NIL))
     }
 
-    fn go_on(&mut self, mut next: Next) -> Event {
+    /// Runs until the machine stops. Rust functions that work long may be left on the way.
+    fn go_on(&mut self, begin: impl FnOnce(&mut Self) -> Next) -> Event {
+        let _watch = self.image.limits.watch();
+        let leave = |machine: &mut Self| machine.fiber.leave(machine.image);
+        let first = |machine: &mut Self| {
+            let next = begin(machine);
+            machine.run_on(next)
+        };
+        let mut outcome = stoppable_on(self, first, leave);
+        loop {
+            match outcome {
+                Ok(event) => {
+                    if !matches!(event, Event::Output) {
+                        self.fiber.leave(self.image);
+                    }
+                    return event;
+                }
+                Err(reason) => {
+                    let next = |machine: &mut Self| {
+                        let next = machine.left(reason);
+                        machine.run_on(next)
+                    };
+                    outcome = stoppable_on(self, next, leave);
+                }
+            }
+        }
+    }
+
+    fn run_on(&mut self, mut next: Next) -> Event {
         let mut budget = INTERRUPT_INTERVAL;
         loop {
             // Code that calls builtins that call code passes here more often than it jumps back.
@@ -102,12 +129,30 @@ impl Machine<'_> {
             next = match next {
                 Next::Run => self.run_code(),
                 Next::Deliver(value) => self.deliver(value),
-                Next::Stop(event) => {
-                    self.fiber.leave(self.image);
-                    return event;
-                }
+                Next::Stop(event) => return event,
             };
         }
+    }
+
+    /// What to do when a builtin was left. The call cannot go on, and no handler is asked about
+    /// an interrupt.
+    fn left(&mut self, reason: Stopped) -> Next {
+        let raise = Box::<Raise>::from(reason);
+        if reason == Stopped::HeapExhausted {
+            return self.raise(raise);
+        }
+        match condition::make(self.image, &raise) {
+            Ok(condition) => self.stop_interrupted(condition),
+            Err(_) => Next::Stop(Event::Interrupted),
+        }
+    }
+
+    /// Stops at an interrupt that came in the middle of a call.
+    pub(super) fn stop_interrupted(&mut self, condition: Value) -> Next {
+        let place = self.place();
+        self.note_place(&condition, place);
+        self.fiber.wants_all = false;
+        Next::Stop(Event::Unhandled(condition))
     }
 
     fn deliver(&mut self, value: Value) -> Next {
@@ -182,19 +227,38 @@ impl Machine<'_> {
         });
     }
 
-    /// The next step, which is to stop if the budget is used up and an interrupt is pending.
+    /// The next step; if the budget is used up, that may be to stop.
     pub(super) fn or_interrupt(&mut self, next: Next, budget: u32) -> Next {
-        if budget > 0 || matches!(next, Next::Stop(_)) || !self.is_interrupted() {
+        if budget > 0 || matches!(next, Next::Stop(_)) {
             return next;
         }
-        if let Next::Deliver(value) = next {
+        let Some(stop) = self.pause() else {
+            return next;
+        };
+        if let (Next::Deliver(value), Next::Stop(Event::Interrupted | Event::Output)) =
+            (next, &stop)
+        {
             self.fiber.undelivered = Some(value);
         }
-        Next::Stop(Event::Interrupted)
+        stop
     }
 
-    pub(super) fn is_interrupted(&self) -> bool {
-        self.image.take_interrupt()
+    /// Looks whether there is a reason not to go on, once in a while.
+    pub(super) fn pause(&mut self) -> Option<Next> {
+        release::some();
+        cycles::collect_if_due();
+        match self.image.limits.reason() {
+            Some(Stopped::Interrupted) => Some(Next::Stop(Event::Interrupted)),
+            Some(Stopped::HeapExhausted) if !frees_more() => {
+                Some(self.raise(Stopped::HeapExhausted.into()))
+            }
+            Some(Stopped::HeapExhausted) | None => {
+                // What stands on a line that is not whole is shown as well.
+                self.image.output.finish();
+                let is_due = self.image.output.is_due();
+                is_due.then_some(Next::Stop(Event::Output))
+            }
+        }
     }
 
     pub(super) fn save_pc(&mut self, new: usize) {
@@ -225,4 +289,11 @@ impl Machine<'_> {
             })
             .unwrap_or(Place::NONE)
     }
+}
+
+/// Frees what has been put off, and all circles; was anything waiting to be freed?
+fn frees_more() -> bool {
+    let had_put_off = release::all();
+    cycles::collect_all();
+    release::all() || had_put_off
 }

@@ -1,8 +1,7 @@
 //! Calls outside any plan, such as those of macro functions, which run to completion and cannot
 //! wait.
 
-use std::sync::atomic::Ordering;
-
+use crate::lisp::guard::Stopped;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -39,6 +38,8 @@ fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Va
         ));
     }
     image.nesting += 1;
+    // Nobody can show what is written before the call has ended.
+    let was_shown = image.output.set_shown(false);
     let mut fiber = Fiber::default();
     let mut machine = Machine::new(image, &mut fiber);
     let mut event = machine.start(function, args);
@@ -55,13 +56,14 @@ fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Va
                 ));
             }
             Event::Interrupted => {
-                machine.image.interrupt.store(true, Ordering::Relaxed);
                 machine.unwind_all();
-                break Err(Raise::new(known::INTERACTIVE_INTERRUPT, "Interrupted."));
+                break Err(Stopped::Interrupted.into());
             }
+            Event::Output => event = machine.run(),
             Event::Unwound => break Ok(Value::NIL),
         }
     };
     image.nesting -= 1;
+    image.output.set_shown(was_shown);
     result
 }

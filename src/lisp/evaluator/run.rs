@@ -29,6 +29,9 @@ impl Machine<'_> {
     pub(super) fn run_code(&mut self) -> Next {
         let mut budget = INTERRUPT_INTERVAL;
         loop {
+            if self.image.output.is_due() {
+                return Next::Stop(Event::Output);
+            }
             // Registers of the topmost frame.
             let Some(frame) = self.fiber.frames.last() else {
                 return Next::Run;
@@ -102,8 +105,8 @@ impl Machine<'_> {
                             budget -= 1;
                             if budget == 0 {
                                 self.save_pc(target);
-                                if self.is_interrupted() {
-                                    return Next::Stop(Event::Interrupted);
+                                if let Some(next) = self.pause() {
+                                    return next;
                                 }
                                 budget = INTERRUPT_INTERVAL;
                             }
@@ -245,6 +248,10 @@ impl Machine<'_> {
                 Ok(value) => {
                     let value = if multi { value } else { value.primary() };
                     self.fiber.stack.push(value);
+                    if self.image.output.is_due() {
+                        self.save_pc(pc);
+                        return Called::Elsewhere(Next::Stop(Event::Output));
+                    }
                     Called::Here
                 }
                 Err(raise) => {

@@ -7,7 +7,7 @@ use crate::lisp::condition;
 use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::lisp::value::raise::Raise;
+use crate::lisp::value::raise::{Raise, is_interrupt};
 use crate::lisp::vm::computation::{Computation, Progress, compute};
 use crate::lisp::vm::fiber::{Dynamic, Handler};
 use crate::lisp::vm::machine::Machine;
@@ -27,6 +27,7 @@ impl Machine<'_> {
     pub(super) fn raise(&mut self, raise: Box<Raise>) -> Next {
         let place = raise.place();
         match condition::make(self.image, &raise) {
+            Ok(condition) if is_interrupt(&condition) => self.stop_interrupted(condition),
             Ok(condition) => {
                 let place = if place.is_some() { place } else { self.place() };
                 self.note_place(&condition, place);

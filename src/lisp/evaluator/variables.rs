@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use crate::lisp::value::Value;
 use crate::lisp::value::code::{Capture, Code};
+use crate::lisp::value::cycles;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -38,6 +39,7 @@ impl Machine<'_> {
     pub(super) fn set_local_box(&mut self, at: usize) {
         let value = self.pop();
         if let Value::Cell(cell) = &self.fiber.stack[at] {
+            cycles::note(cell, &value);
             cell.set(value);
         }
     }
@@ -61,6 +63,7 @@ impl Machine<'_> {
     pub(super) fn set_free_box(&mut self, free: &Value) {
         let value = self.pop();
         if let Value::Cell(cell) = free {
+            cycles::note(cell, &value);
             cell.set(value);
         }
     }

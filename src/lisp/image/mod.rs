@@ -5,7 +5,6 @@ pub(crate) mod identity;
 pub(crate) mod notes;
 pub(crate) mod open_call;
 mod output;
-pub(crate) mod polls;
 pub(crate) mod setf_expander;
 mod signalled;
 
@@ -13,7 +12,7 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use indexmap::IndexMap;
 
@@ -21,10 +20,11 @@ use self::definition::Installed;
 use self::identity::Identities;
 use self::notes::{Note, NoteKind};
 pub(crate) use self::output::Output;
-use self::polls::Polls;
 use self::setf_expander::SetfExpander;
 use self::signalled::Signalled;
 use super::builtin::{Builtin, Entry, Operator};
+use super::guard::Limits;
+use super::guard::polls::Polls;
 use super::native::BuiltinCall;
 use super::source::{Place, Sources};
 use super::value::Value;
@@ -52,13 +52,8 @@ pub(crate) struct Image {
     pub(crate) random: rand_pcg::Pcg64,
     /// How `setf` treats operators that have an expander instead of a setf function.
     pub(crate) setf_expanders: IndexMap<Sym, SetfExpander>,
-    /// Set from outside to interrupt the machine.
-    pub(crate) interrupt: Arc<AtomicBool>,
-    /// Counts the polls of the flag. The count is the same in every run, so that an interrupt can
-    /// be repeated.
-    pub(crate) polls: Polls,
-    /// Bytes of the Rust stack that the compiler may use for nested forms.
-    pub(crate) stack_budget: usize,
+    /// What ends an evaluation from outside.
+    pub(crate) limits: Rc<Limits>,
     /// What the compiler notices; `None` unless notes are wanted.
     pub(crate) notes: Option<Vec<Note>>,
     /// How deeply runs of macro functions are nested.
@@ -82,8 +77,6 @@ pub(crate) struct Image {
 
 /// The stream of the random generator: any constant will do.
 const STREAM: u128 = 0xa02b_dbf7_bb3c_0a7a;
-/// Bytes of the Rust stack that the compiler may use by default: a test's thread has two megabytes.
-const STACK_BUDGET: usize = 1 << 20;
 
 impl Image {
     /// An image with the known symbols and standard packages, and nothing else.
@@ -106,9 +99,7 @@ impl Image {
             output: Output::default(),
             random: rand_pcg::Pcg64::new(0, STREAM),
             setf_expanders: IndexMap::new(),
-            interrupt: Arc::default(),
-            polls: Polls::default(),
-            stack_budget: STACK_BUDGET,
+            limits: Rc::default(),
             notes: None,
             nesting: 0,
             signalled: Signalled::default(),
@@ -122,18 +113,25 @@ impl Image {
         }
     }
 
+    /// The interrupt flag: set from outside to stop the machine.
+    pub(crate) fn interrupt(&self) -> &Arc<AtomicBool> {
+        self.limits.polls.flag()
+    }
+
+    /// How often has the flag been looked at? Counts the same in every run, so that an
+    /// interrupt can be repeated.
+    pub(crate) fn polls(&self) -> &Polls {
+        &self.limits.polls
+    }
+
     /// Is the interrupt flag set?
     pub(crate) fn is_interrupted(&self) -> bool {
-        self.polls.look(&self.interrupt)
+        self.limits.polls.look()
     }
 
     /// Was the interrupt flag set? Clears it.
     pub(crate) fn take_interrupt(&self) -> bool {
-        let was = self.is_interrupted();
-        if was {
-            self.interrupt.store(false, Ordering::Relaxed);
-        }
-        was
+        self.limits.polls.take()
     }
 
     /// Takes a note about a form, if notes are wanted.

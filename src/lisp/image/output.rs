@@ -5,13 +5,20 @@
 pub(crate) struct Output {
     text: String,
     column: usize,
+    /// Is there somebody who shows what is written, line by line?
+    is_shown: bool,
+    /// Is there a whole line, or what the program wants to be seen?
+    is_due: bool,
 }
 
 impl Output {
     /// Writes a text.
     pub(crate) fn write(&mut self, text: &str) {
         match text.rfind('\n') {
-            Some(i) => self.column = text[i + 1..].chars().count(),
+            Some(i) => {
+                self.column = text[i + 1..].chars().count();
+                self.is_due = true;
+            }
             None => self.column += text.chars().count(),
         }
         self.text.push_str(text);
@@ -34,8 +41,25 @@ impl Output {
         self.column
     }
 
+    /// Sets whether somebody shows what is written as soon as it is due.
+    pub(crate) fn set_shown(&mut self, is_shown: bool) -> bool {
+        std::mem::replace(&mut self.is_shown, is_shown)
+    }
+
+    /// What has been written is to be shown now.
+    pub(crate) fn finish(&mut self) {
+        self.is_due = !self.text.is_empty();
+    }
+
+    /// Has somebody to show now what has been written?
+    #[inline]
+    pub(crate) fn is_due(&self) -> bool {
+        self.is_due && self.is_shown
+    }
+
     /// Takes what was written.
     pub(crate) fn take(&mut self) -> String {
+        self.is_due = false;
         std::mem::take(&mut self.text)
     }
 }

@@ -5,6 +5,7 @@ use super::update;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Instance;
+use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -73,6 +74,7 @@ pub(crate) fn set_slot_value(
             update::then_call(machine, object.clone(), again, args)
         }
         Value::Instance(instance) if instance.set_slot(slot, value.clone()) => {
+            cycles::note(instance, &value);
             Ok(Step::Return(value))
         }
         other => missing(machine.image, other, slot, Access::Write, Some(value)),

@@ -12,6 +12,7 @@ use super::combine;
 use super::update;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::cycles;
 use crate::lisp::value::dispatch::{
     BUILTIN_TAG, Dispatch, EQL_TAG, Effective, Key, MAX_ENTRIES, MAX_PARTS, NO_PART, Part,
     Position, Shape, SlotPlace,
@@ -114,6 +115,7 @@ pub(crate) fn call_generic(
             if let [value, Value::Instance(instance)] = args.as_slice()
                 && let Some(slot) = instance.slots.borrow_mut().get_mut(*index)
             {
+                cycles::note(instance, value);
                 *slot = value.clone();
                 return Ok(Step::Return(value.clone()));
             }

@@ -13,16 +13,17 @@ use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, ClassKind};
 use crate::lisp::value::function::{Body, Deferred, Function, Native};
 use crate::lisp::value::hash_table::HashTest;
+use crate::lisp::value::number::large::to_text;
 
 /// A value that is not a list, vector, array, structure or condition report.
 pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String {
     match value {
         Value::Symbol(sym) => symbol::symbol(image, *sym, settings),
         Value::Int(n) => integer(&n.to_string(), || BigInt::from(*n), settings),
-        Value::Big(n) => integer(&n.to_string(), || n.as_ref().clone(), settings),
+        Value::Big(n) => integer(&to_text(n, 10), || n.as_ref().clone(), settings),
         Value::Ratio(r) => {
-            let numerator = r.numerator.to_str_radix(settings.base);
-            let denominator = r.denominator.to_str_radix(settings.base);
+            let numerator = to_text(&r.numerator, settings.base);
+            let denominator = to_text(&r.denominator, settings.base);
             let ratio = format!("{numerator}/{denominator}").to_uppercase();
             match (settings.radix, settings.base) {
                 (false, _) => ratio,
@@ -96,7 +97,7 @@ fn integer(decimal: &str, n: impl FnOnce() -> BigInt, settings: &Settings) -> St
         (10, false) => decimal.to_owned(),
         (10, true) => format!("{decimal}."),
         (base, has_radix) => {
-            let digits = n().to_str_radix(base).to_uppercase();
+            let digits = to_text(&n(), base).to_uppercase();
             if has_radix {
                 format!("{}{digits}", radix_prefix(base))
             } else {

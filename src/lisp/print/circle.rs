@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use crate::lisp::guard::Pace;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
 
@@ -81,7 +82,9 @@ impl Labels {
         let mut seen: HashMap<usize, bool> = HashMap::new();
         let mut pending = vec![Visit::Enter(value.clone())];
         let mut inner = Vec::new();
+        let mut pace = Pace::default();
         while let Some(visit) = pending.pop() {
+            pace.step();
             match visit {
                 Visit::Leave(address) => {
                     seen.insert(address, false);

@@ -11,6 +11,7 @@ use super::report;
 use super::settings::Settings;
 use super::shape::{self, Form, Layout, Shape, Style};
 use super::symbol;
+use crate::lisp::guard::Pace;
 use crate::lisp::image::Image;
 use crate::lisp::image::identity::identity;
 use crate::lisp::value::Value;
@@ -124,7 +125,9 @@ impl<'a> Printer<'a> {
     fn run(&mut self, value: &Value) {
         self.labels = Labels::of(value, self.settings.circle);
         self.tasks.push(Task::Value(value.clone(), Style::Auto, 0));
+        let mut pace = Pace::default();
         while let Some(task) = self.tasks.pop() {
+            pace.step();
             match task {
                 Task::Value(value, style, depth) => self.value(value, style, depth),
                 Task::Rest(rest) => self.rest(rest),

@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::error::ReadErrorKind;
 use crate::lisp::value::Value;
+use crate::lisp::value::cycles;
 
 /// The labels of one top-level form.
 #[derive(Default)]
@@ -91,9 +92,11 @@ fn replace(root: &Value, old: &Value, new: &Value) {
                     continue;
                 }
                 if let Some(new) = visit(&cons.cdr(), &mut pending) {
+                    cycles::note(cons, &new);
                     cons.set_cdr(new);
                 }
                 if let Some(new) = visit(&cons.car(), &mut pending) {
+                    cycles::note(cons, &new);
                     cons.set_car(new);
                 }
             }

@@ -99,10 +99,7 @@ fn bits(length: Option<u32>, body: &str) -> Result<Value, ReadErrorKind> {
         })
         .collect::<Result<Vec<Value>, _>>()?;
     let items = fill(items, length)?;
-    Ok(Value::Vector(Rc::new(Vector {
-        element_type: known::BIT,
-        ..Vector::simple(items)
-    })))
+    Ok(Value::Vector(Rc::new(Vector::of_type(known::BIT, items))))
 }
 
 /// A vector; if a length is given, the last element is repeated to reach it.

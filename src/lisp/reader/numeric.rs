@@ -7,6 +7,7 @@ use super::error::ReadErrorKind;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
+use crate::lisp::value::number::large;
 use crate::lisp::value::symbol::Sym;
 
 /// The number that a token without escapes denotes; `None` if it is a symbol.
@@ -65,7 +66,7 @@ fn parse_big(token: &str, radix: u32) -> Option<BigInt> {
     if digits.is_empty() || !digits.chars().all(|c| c.is_digit(radix)) {
         return None;
     }
-    let magnitude = BigInt::parse_bytes(digits.as_bytes(), radix)?;
+    let magnitude = BigInt::from(large::from_digits(digits, radix));
     Some(if token.starts_with('-') && !magnitude.is_zero() {
         -magnitude
     } else {

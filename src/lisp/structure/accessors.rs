@@ -6,6 +6,7 @@ use super::define::{check_slot_type, copy_structure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, Instance, StructureSlot};
+use crate::lisp::value::cycles;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -54,6 +55,7 @@ pub(crate) fn define(
     let writer = Function::made(accessor, (2, Some(2)), move |image, args| {
         let instance = instance_of(&args[1], &of).ok_or_else(|| wrong_type(&args[1], &of))?;
         check_slot_type(image, &slot_type, &args[0])?;
+        cycles::note(instance, &args[0]);
         if let Some(place) = instance.slots.borrow_mut().get_mut(index) {
             *place = args[0].clone();
         }

@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 
 use super::Value;
+use super::release::release_values;
 use super::symbol::{Sym, known};
 
 /// A one-dimensional array.
@@ -20,11 +21,16 @@ pub(crate) struct Vector {
 impl Vector {
     /// A simple vector.
     pub(crate) fn simple(items: Vec<Value>) -> Vector {
+        Vector::of_type(known::T, items)
+    }
+
+    /// A vector of an element type, without fill pointer.
+    pub(crate) fn of_type(element_type: Sym, items: Vec<Value>) -> Vector {
         Vector {
             items: RefCell::new(items),
             fill_pointer: Cell::new(None),
             adjustable: false,
-            element_type: known::T,
+            element_type,
         }
     }
 
@@ -66,4 +72,16 @@ pub(crate) struct Array {
     pub(crate) items: RefCell<Vec<Value>>,
     /// `T`, or the element type the array was made with.
     pub(crate) element_type: Sym,
+}
+
+impl Drop for Vector {
+    fn drop(&mut self) {
+        release_values(self.items.take());
+    }
+}
+
+impl Drop for Array {
+    fn drop(&mut self) {
+        release_values(self.items.take());
+    }
 }

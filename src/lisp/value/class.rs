@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::Value;
 use super::function::Function;
 use super::generic::Method;
+use super::release::release_values;
 use super::slot::Slot;
 use super::symbol::Sym;
 
@@ -228,45 +229,10 @@ impl Instance {
     }
 }
 
-thread_local! {
-    /// Slot values of dropped instances that wait to be dropped themselves.
-    static DROPPED: RefCell<Vec<Value>> = const { RefCell::new(Vec::new()) };
-    /// Is the queue being emptied?
-    static IS_DROPPING: Cell<bool> = const { Cell::new(false) };
-}
-
-/// A chain of a million instances is freed without recursion: while an instance's slots are
-/// dropped, those of the instances that are dropped with it only join a queue.
 impl Drop for Instance {
     fn drop(&mut self) {
-        let slots = self.slots.take();
-        if !slots.iter().any(may_own_instances) {
-            return;
-        }
-        // At the end of the thread the queue is gone; then the slots are dropped directly.
-        let _ = DROPPED.try_with(|queue| queue.borrow_mut().extend(slots));
-        let Ok(false) = IS_DROPPING.try_with(|dropping| dropping.replace(true)) else {
-            return;
-        };
-        while let Ok(Some(value)) = DROPPED.try_with(|queue| queue.borrow_mut().pop()) {
-            drop(value);
-        }
-        let _ = IS_DROPPING.try_with(|dropping| dropping.set(false));
+        release_values(self.slots.take());
     }
-}
-
-/// Could dropping the value drop an instance?
-fn may_own_instances(value: &Value) -> bool {
-    matches!(
-        value,
-        Value::Instance(_)
-            | Value::Cons(_)
-            | Value::Vector(_)
-            | Value::Array(_)
-            | Value::Hash(_)
-            | Value::Function(_)
-            | Value::Foreign(_)
-    )
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use super::Value;
+use super::release;
 use super::slot::Slot;
 use crate::lisp::source::Place;
 
@@ -49,6 +50,18 @@ impl Cons {
         self.cdr.set(value);
     }
 
+    /// Looks at both halves. `visit` must not touch this pair.
+    pub(super) fn for_each(&self, visit: &mut dyn FnMut(&Value)) {
+        self.car.with(&mut *visit);
+        self.cdr.with(visit);
+    }
+
+    /// Takes out both halves.
+    pub(super) fn empty(&self) {
+        drop(self.car.take());
+        drop(self.cdr.take());
+    }
+
     /// The place in the source of the list that starts with this pair.
     pub(crate) fn place(&self) -> Place {
         self.place.get()
@@ -66,12 +79,29 @@ impl Drop for Cons {
     fn drop(&mut self) {
         let mut pending = Vec::new();
         collect_unshared(self, &mut pending);
-        while let Some(cons) = pending.pop() {
-            if let Ok(inner) = Rc::try_unwrap(cons) {
-                collect_unshared(&inner, &mut pending);
-            }
+        if !pending.is_empty() {
+            free(pending, AT_ONCE);
         }
     }
+}
+
+/// Pairs that are freed in one go; longer lists are freed in parts.
+const AT_ONCE: usize = 100_000;
+
+/// Frees pairs that nobody else holds, and what only they hold; the rest is put off after so
+/// many. Returns their number.
+pub(super) fn free(mut pending: Vec<Rc<Cons>>, most: usize) -> usize {
+    let mut count = 0;
+    while let Some(cons) = pending.pop() {
+        if let Ok(inner) = Rc::try_unwrap(cons) {
+            collect_unshared(&inner, &mut pending);
+        }
+        count += 1;
+        if count == most && !pending.is_empty() {
+            release::put_off(std::mem::take(&mut pending));
+        }
+    }
+    count
 }
 
 fn collect_unshared(cons: &Cons, pending: &mut Vec<Rc<Cons>>) {
@@ -99,5 +129,6 @@ mod tests {
         }
         drop(right);
         drop(left);
+        release::all();
     }
 }

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::Value;
 use super::array::Vector;
 use super::hash_table::HashTest;
+use crate::lisp::guard::Pace;
 
 /// `equal`: same structure of pairs and strings, `eql` leaves.
 pub(crate) fn equal(a: &Value, b: &Value) -> bool {
@@ -20,7 +21,9 @@ pub(crate) fn equalp(a: &Value, b: &Value) -> bool {
 
 fn same(a: &Value, b: &Value, loosely: bool) -> bool {
     let mut pending = vec![(a.clone(), b.clone())];
+    let mut pace = Pace::default();
     while let Some((a, b)) = pending.pop() {
+        pace.step();
         if a.is_eql(&b) {
             continue;
         }

@@ -3,6 +3,7 @@
 use std::any::Any;
 
 use super::Value;
+use super::release::{Dead, release};
 use super::symbol::Sym;
 
 /// What a value may need to know while it prints. The image implements it.
@@ -66,5 +67,28 @@ impl ForeignBox {
     /// The object's behaviour.
     pub(crate) fn object(&self) -> &dyn Foreign {
         self.object.as_ref()
+    }
+}
+
+/// Stands in the place of an object that has been handed over to be freed.
+struct Gone;
+
+impl Foreign for Gone {
+    fn type_symbol(&self) -> Sym {
+        super::known::NIL
+    }
+
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
+        String::new()
+    }
+}
+
+impl Drop for ForeignBox {
+    fn drop(&mut self) {
+        // A structure without fields takes no memory.
+        release(Dead::Object(std::mem::replace(
+            &mut self.object,
+            Box::new(Gone),
+        )));
     }
 }

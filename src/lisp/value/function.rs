@@ -7,6 +7,7 @@ use std::rc::Rc;
 use super::Value;
 use super::code::Code;
 use super::generic::GenericFunction;
+use super::release::release_values;
 use super::symbol::Sym;
 
 /// A function object.
@@ -119,6 +120,16 @@ impl Function {
         match &self.body {
             Body::Generic(g) => Some(g),
             _ => None,
+        }
+    }
+}
+
+impl Drop for Function {
+    fn drop(&mut self) {
+        if let Body::Closure { captured, .. } = &mut self.body
+            && !captured.is_empty()
+        {
+            release_values(std::mem::take(captured));
         }
     }
 }

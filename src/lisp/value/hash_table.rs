@@ -7,6 +7,7 @@ use std::hash::{Hash, Hasher};
 
 use super::Value;
 use super::equality;
+use super::release::release_values;
 
 /// The equality by which a table finds its keys.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -134,6 +135,15 @@ impl HashTable {
         true
     }
 
+    /// Calls a function for every reference to a key or a value: the table holds keys twice.
+    pub(super) fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+        for (key, value) in self.entries.borrow().iter().flatten() {
+            visit(key);
+            visit(key);
+            visit(value);
+        }
+    }
+
     /// Removes all entries.
     pub(crate) fn clear(&self) {
         self.index.take();
@@ -146,6 +156,15 @@ impl HashTable {
             |_| Vec::new(),
             |entries| entries.iter().flatten().cloned().collect(),
         )
+    }
+}
+
+impl Drop for HashTable {
+    fn drop(&mut self) {
+        let entries = self.entries.take().into_iter().flatten();
+        let values: Vec<Value> = entries.flat_map(|(key, value)| [key, value]).collect();
+        self.index.take();
+        release_values(values);
     }
 }
 

@@ -7,6 +7,7 @@ pub(crate) mod array;
 pub(crate) mod class;
 pub(crate) mod code;
 pub(crate) mod cons;
+pub(crate) mod cycles;
 pub(crate) mod dispatch;
 pub(crate) mod equality;
 pub(crate) mod foreign;
@@ -19,6 +20,7 @@ pub(crate) mod number;
 pub(crate) mod package;
 pub(crate) mod parameters;
 pub(crate) mod raise;
+pub(crate) mod release;
 pub(crate) mod sequence;
 pub(crate) mod slot;
 pub(crate) mod stream;
@@ -41,6 +43,7 @@ use self::slot::Slot;
 use self::stream::Stream;
 use self::string::LispString;
 use self::symbol::Sym;
+use crate::lisp::guard::Pace;
 
 /// A Lisp value.
 #[derive(Clone, Default)]
@@ -146,10 +149,11 @@ impl Value {
         I: IntoIterator<Item = Value>,
         I::IntoIter: DoubleEndedIterator,
     {
-        items
-            .into_iter()
-            .rev()
-            .fold(tail, |rest, item| Value::cons(item, rest))
+        let mut pace = Pace::default();
+        items.into_iter().rev().fold(tail, |rest, item| {
+            pace.step();
+            Value::cons(item, rest)
+        })
     }
 
     /// A fresh simple vector.
@@ -201,6 +205,14 @@ impl Value {
     pub(crate) fn as_cons(&self) -> Option<&Rc<Cons>> {
         match self {
             Value::Cons(c) => Some(c),
+            _ => None,
+        }
+    }
+
+    /// The string, if this is one.
+    pub(crate) fn as_string(&self) -> Option<&Rc<LispString>> {
+        match self {
+            Value::Str(string) => Some(string),
             _ => None,
         }
     }
@@ -308,6 +320,7 @@ pub(crate) struct Rounds {
     mark: Option<Value>,
     steps: usize,
     next_mark: usize,
+    pace: Pace,
 }
 
 impl Default for Rounds {
@@ -316,6 +329,7 @@ impl Default for Rounds {
             mark: None,
             steps: 0,
             next_mark: 1024,
+            pace: Pace::default(),
         }
     }
 }
@@ -326,6 +340,7 @@ impl Rounds {
         if self.mark.as_ref().is_some_and(|mark| mark.is_eq(pair)) {
             return true;
         }
+        self.pace.step();
         self.steps += 1;
         if self.steps == self.next_mark {
             self.mark = Some(pair.clone());

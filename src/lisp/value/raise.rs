@@ -3,6 +3,7 @@
 
 use super::Value;
 use super::symbol::{Sym, known};
+use crate::lisp::guard::{Stopped, TooDeep};
 use crate::lisp::source::Place;
 
 /// A condition that is to be signalled as by `error`.
@@ -112,8 +113,42 @@ impl Raise {
         })
     }
 
+    /// Is it an interrupt that came in the middle of a call?
+    pub(crate) fn is_interrupt(&self) -> bool {
+        match self {
+            Raise::Condition { condition, .. } => is_interrupt(condition),
+            Raise::Make { class, .. } => *class == known::INTERACTIVE_INTERRUPT,
+        }
+    }
+
     /// A `CONTROL-ERROR` with a text.
     pub(crate) fn control(report: impl Into<String>) -> Box<Raise> {
         Raise::new(known::SIMPLE_CONTROL_ERROR, report)
+    }
+}
+
+/// Is the condition an interrupt that came in the middle of a call?
+pub(crate) fn is_interrupt(condition: &Value) -> bool {
+    matches!(condition, Value::Instance(i) if i.class().name == known::INTERACTIVE_INTERRUPT)
+}
+
+impl From<TooDeep> for Box<Raise> {
+    fn from(_: TooDeep) -> Box<Raise> {
+        Raise::new(
+            known::CONTROL_STACK_EXHAUSTED,
+            "The form is nested too deeply to be compiled.",
+        )
+    }
+}
+
+impl From<Stopped> for Box<Raise> {
+    fn from(reason: Stopped) -> Box<Raise> {
+        match reason {
+            Stopped::Interrupted => Raise::new(known::INTERACTIVE_INTERRUPT, "Interrupted."),
+            Stopped::HeapExhausted => Raise::new(
+                known::HEAP_EXHAUSTED_ERROR,
+                "Heap exhausted: more memory would be in use than --heap allows.",
+            ),
+        }
     }
 }

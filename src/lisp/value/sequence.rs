@@ -4,6 +4,7 @@ use std::rc::Rc;
 
 use crate::lisp::value::array::Vector;
 use crate::lisp::value::cons::Cons;
+use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::string::LispString;
@@ -120,6 +121,7 @@ impl Sequence {
                 }
                 match rest {
                     Value::Cons(cons) => {
+                        cycles::note(&cons, &value);
                         cons.set_car(value);
                         return Ok(());
                     }
@@ -127,6 +129,7 @@ impl Sequence {
                 }
             }
             Sequence::Vector(vector) => {
+                cycles::note(vector, &value);
                 if index < vector.len() && vector.set(index, element(vector, value)?) {
                     return Ok(());
                 }

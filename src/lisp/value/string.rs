@@ -2,6 +2,11 @@
 
 use std::cell::{Cell, Ref, RefCell};
 
+use crate::lisp::guard::reserve;
+
+/// Bytes of a text for which there may be no room.
+const LARGE: usize = 1 << 16;
+
 /// A mutable string.
 ///
 /// Positions count characters, not bytes. Texts of ASCII characters are indexed in
@@ -47,7 +52,11 @@ impl LispString {
 
     /// A copy of the text.
     pub(crate) fn text(&self) -> String {
-        self.text.borrow().clone()
+        let text = self.text.borrow();
+        if text.len() > LARGE {
+            reserve(text.len());
+        }
+        text.clone()
     }
 
     /// The text, borrowed; must not be held across a change of the string.

@@ -27,6 +27,8 @@ pub(crate) enum Event {
     Unhandled(Value),
     /// The interrupt flag was set; `run` continues.
     Interrupted,
+    /// The program has written something that is to be shown now; `run` goes on.
+    Output,
     /// An unwinding of everything has ended.
     Unwound,
 }

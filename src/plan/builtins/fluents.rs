@@ -192,7 +192,7 @@ fn wait_for(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
             } else {
                 seconds(&timeout)?
             };
-            Some(plan.now() + seconds)
+            Some(plan.after(seconds)?)
         }
         _ => None,
     };

@@ -33,7 +33,9 @@ use std::collections::{BinaryHeap, VecDeque};
 
 use super::host::Ticket;
 use super::task::TaskId;
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::plan::task::{Status, TaskRef};
 use advance::Alarm;
 use live::{Live, Slot};
 
@@ -73,5 +75,23 @@ impl Scheduler {
     /// A scheduler without tasks.
     pub(crate) fn new() -> Scheduler {
         Scheduler::default()
+    }
+
+    /// Ends all tasks as they are, without running any of their cleanup code: after a panic in
+    /// the middle of one.
+    pub(crate) fn give_up(&mut self, image: &mut Image) {
+        let tasks = self.entries.iter().flatten();
+        let tasks: Vec<TaskRef> = tasks.filter_map(|live| live.task.clone()).collect();
+        for task in tasks {
+            if !task.get().status().is_dead() {
+                self.set_status(image, &task, Status::Evaporated);
+            }
+        }
+        *self = Scheduler {
+            stops_in_place: self.stops_in_place,
+            last_id: self.last_id,
+            last_token: self.last_token,
+            ..Scheduler::default()
+        };
     }
 }

@@ -5,6 +5,7 @@ use std::any::Any;
 use super::Scheduler;
 use super::group::Group;
 use super::live::{Answer, Slot, Told, Wait};
+use crate::lisp::guard::Stopped;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
@@ -14,6 +15,9 @@ use crate::plan::request::{GroupKind, Request};
 use crate::plan::state::Plan;
 use crate::plan::task::{Status, Task, TaskName, TaskRef};
 use crate::plan::tree::TreeNode;
+
+/// About how much memory a task takes that has just begun.
+const BYTES_OF_A_TASK: usize = 1024;
 
 impl Scheduler {
     /// Handles a request of the entry that is running with `fiber`; returns the answer, or `None`
@@ -32,9 +36,10 @@ impl Scheduler {
         };
         let plan = Plan::of(image);
         match request {
-            Request::Sleep(seconds) => {
-                self.block(slot, Wait::Sleep, Some(plan.now() + seconds));
-            }
+            Request::Sleep(seconds) => match plan.after(seconds) {
+                Ok(end) => self.block(slot, Wait::Sleep, Some(end)),
+                Err(raise) => return Some(Answer::Raise(raise)),
+            },
             Request::Wait { fluent, until } => self.block(slot, Wait::Fluent(fluent), until),
             Request::TopLevel { name, function } => {
                 let tree = match name {
@@ -69,6 +74,13 @@ impl Scheduler {
                     )));
                 }
                 let of = functions.len();
+                if image
+                    .limits
+                    .heap
+                    .would_exhaust(of.saturating_mul(BYTES_OF_A_TASK))
+                {
+                    return Some(Answer::Raise(Stopped::HeapExhausted.into()));
+                }
                 let mut children = Vec::with_capacity(of);
                 for (i, function) in functions.into_iter().enumerate() {
                     let name = TaskName::Child(name, i + 1, of, plan.fresh_number());

@@ -65,7 +65,11 @@ impl Scheduler {
                 }
             };
             match event {
-                Event::Interrupted => {
+                Event::Output if !image.take_interrupt() => {
+                    host.show_output(image);
+                    next = Some(Answer::GoOn);
+                }
+                Event::Interrupted | Event::Output => {
                     self.put_back(slot, fiber);
                     if let Some(live) = self.live_mut(slot) {
                         live.answer = Some(Answer::GoOn);
@@ -96,6 +100,14 @@ impl Scheduler {
                 }
                 Event::Request(request) => {
                     next = self.handle(image, host, slot, &fiber, request);
+                    if next.is_some() && image.take_interrupt() {
+                        self.put_back(slot, fiber);
+                        if let Some(live) = self.live_mut(slot) {
+                            live.answer = next;
+                        }
+                        self.interrupted = Some(slot);
+                        return Stopped::Interrupted;
+                    }
                 }
             }
         }

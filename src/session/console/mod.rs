@@ -79,6 +79,14 @@ impl Console {
         self.levels.len()
     }
 
+    /// Forgets everything that was stopped, without a word.
+    pub(crate) fn give_up(&mut self) {
+        *self = Console {
+            is_interactive: self.is_interactive,
+            ..Console::default()
+        };
+    }
+
     pub(crate) fn take_draft(&mut self) -> Option<String> {
         self.draft.take()
     }

@@ -44,7 +44,7 @@ impl Host for SimulationHost {
             && let Some(slice) = pace.slice()
         {
             let slice = slice.min(until - self.simulation.now);
-            pace.wait(slice, &image.interrupt);
+            pace.wait(slice, image.interrupt());
             if image.is_interrupted() {
                 return self.simulation.now;
             }
@@ -208,7 +208,7 @@ impl SimulationHost {
         self.audience.film(simulation);
         self.audience.show(simulation, Cause::Step);
         if let Some(pace) = &mut self.audience.pace {
-            pace.wait(STEP_SECONDS, &image.interrupt);
+            pace.wait(STEP_SECONDS, image.interrupt());
         }
     }
 }

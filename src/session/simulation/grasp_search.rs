@@ -211,7 +211,7 @@ impl Simulation {
                     })
                 };
                 // Ctrl-C ends a long search; nothing is offered then.
-                let way = interruptible(&image.interrupt, || plan_drive(&self.world, goal))?;
+                let way = interruptible(image.interrupt(), || plan_drive(&self.world, goal))?;
                 if way.is_ok_and(ends_there) {
                     return Some((base, arm, grasp.clone()));
                 }

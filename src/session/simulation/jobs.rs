@@ -59,10 +59,10 @@ impl Job {
         if image.is_interrupted() {
             return None;
         }
-        let status = interruptible(&image.interrupt, || self.motion.tick(world));
+        let status = interruptible(image.interrupt(), || self.motion.tick(world));
         if status.is_none() {
             self.motion = before;
-            image.polls.seen_since_last();
+            image.polls().seen_since_last();
         }
         status
     }

@@ -3,6 +3,8 @@
 use num_bigint::BigInt;
 use num_traits::Signed;
 
+use crate::lisp::value::number::large::to_text;
+
 /// How an integer is written.
 pub(super) struct IntegerStyle {
     pub(super) radix: u32,
@@ -16,7 +18,7 @@ pub(super) struct IntegerStyle {
 
 /// The integer's text.
 pub(super) fn integer(n: &BigInt, style: &IntegerStyle) -> String {
-    let digits = n.abs().to_str_radix(style.radix).to_uppercase();
+    let digits = to_text(&n.abs(), style.radix).to_uppercase();
     let digits = match style.comma {
         Some((comma, interval)) if interval > 0 => grouped(&digits, comma, interval),
         _ => digits,

@@ -5,6 +5,7 @@ use num_bigint::BigInt;
 use super::complex;
 use super::convert::{fraction_of, from_big, is_rational, is_real, ratio, to_big, to_f32, to_f64};
 use super::error::{NumberResult, division_by_zero, invalid, not_a_number, overflow};
+use super::large::multiply;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
@@ -114,7 +115,10 @@ fn add_slowly(a: &Value, b: &Value) -> NumberResult {
         Pair::Double(x, y) => double(x + y, known::PLUS, a, b),
         Pair::Single(x, y) => single(x + y, known::PLUS, a, b),
         Pair::Integers(x, y) => Ok(from_big(x + y)),
-        Pair::Fractions((n, d), (m, e)) => Ok(fraction(n * &e + m * &d, d * e)),
+        Pair::Fractions((n, d), (m, e)) => Ok(fraction(
+            multiply(&n, &e) + multiply(&m, &d),
+            multiply(&d, &e),
+        )),
     }
 }
 
@@ -139,7 +143,10 @@ fn sub_slowly(a: &Value, b: &Value) -> NumberResult {
         Pair::Double(x, y) => double(x - y, known::MINUS, a, b),
         Pair::Single(x, y) => single(x - y, known::MINUS, a, b),
         Pair::Integers(x, y) => Ok(from_big(x - y)),
-        Pair::Fractions((n, d), (m, e)) => Ok(fraction(n * &e - m * &d, d * e)),
+        Pair::Fractions((n, d), (m, e)) => Ok(fraction(
+            multiply(&n, &e) - multiply(&m, &d),
+            multiply(&d, &e),
+        )),
     }
 }
 
@@ -163,8 +170,8 @@ fn mul_slowly(a: &Value, b: &Value) -> NumberResult {
     match pair(known::TIMES, a, b)? {
         Pair::Double(x, y) => double(x * y, known::TIMES, a, b),
         Pair::Single(x, y) => single(x * y, known::TIMES, a, b),
-        Pair::Integers(x, y) => Ok(from_big(x * y)),
-        Pair::Fractions((n, d), (m, e)) => Ok(fraction(n * m, d * e)),
+        Pair::Integers(x, y) => Ok(from_big(multiply(&x, &y))),
+        Pair::Fractions((n, d), (m, e)) => Ok(fraction(multiply(&n, &m), multiply(&d, &e))),
     }
 }
 
@@ -188,7 +195,9 @@ fn div_slowly(a: &Value, b: &Value) -> NumberResult {
         Pair::Double(x, y) => double(x / y, known::DIVIDE, a, b),
         Pair::Single(x, y) => single(x / y, known::DIVIDE, a, b),
         Pair::Integers(x, y) => ratio(x, y).ok_or_else(by_zero),
-        Pair::Fractions((n, d), (m, e)) => ratio(n * e, d * m).ok_or_else(by_zero),
+        Pair::Fractions((n, d), (m, e)) => {
+            ratio(multiply(&n, &e), multiply(&d, &m)).ok_or_else(by_zero)
+        }
     }
 }
 

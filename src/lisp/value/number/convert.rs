@@ -7,6 +7,7 @@ use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::error::{NumberResult, not_real, overflow};
+use super::large;
 use super::ratio::Ratio;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -24,12 +25,12 @@ pub(crate) fn ratio(numerator: BigInt, denominator: BigInt) -> Option<Value> {
     if denominator.is_zero() {
         return None;
     }
-    let mut divisor = numerator.gcd(&denominator);
+    let mut divisor = large::common_divisor(&numerator, &denominator);
     if denominator.is_negative() {
         divisor = -divisor;
     }
-    let numerator = numerator / &divisor;
-    let denominator = denominator / &divisor;
+    let (numerator, _) = large::divide(&numerator, &divisor);
+    let (denominator, _) = large::divide(&denominator, &divisor);
     if denominator.is_one() {
         return Some(from_big(numerator));
     }
@@ -128,7 +129,7 @@ fn fraction_to_f64(numerator: &BigInt, denominator: &BigInt, bits: u32, lowest: 
     } else {
         (magnitude, denominator << shift)
     };
-    let (quotient, rest) = scaled.div_rem(&divisor);
+    let (quotient, rest) = large::divide(&scaled, &divisor);
     // At most `bits` + 2 bits.
     let mut mantissa = quotient.to_u64().unwrap_or(u64::MAX);
     let mut is_inexact = !rest.is_zero();

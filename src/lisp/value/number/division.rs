@@ -9,6 +9,7 @@ use num_traits::{One, Signed, Zero};
 use super::arithmetic::{mul, sub};
 use super::convert::{exact_fraction, fraction_of, from_big, is_rational, is_real, to_f32, to_f64};
 use super::error::{NumberResult, division_by_zero, invalid, not_real, overflow};
+use super::large;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -59,7 +60,11 @@ pub(crate) fn divide(
         if m.is_zero() {
             return Err(division_by_zero(rounding.operation(), &[a, b]));
         }
-        let quotient = from_big(divide_big(n * e, d * m, rounding));
+        let quotient = from_big(divide_big(
+            &large::multiply(&n, &e),
+            &large::multiply(&d, &m),
+            rounding,
+        ));
         let rest = sub(a, &mul(&quotient, b)?)?;
         return Ok((quotient, rest));
     }
@@ -97,13 +102,13 @@ fn divide_small(x: i64, y: i64, rounding: Rounding) -> (Value, Value) {
 }
 
 /// The integer quotient. The divisor must not be zero.
-fn divide_big(numerator: BigInt, divisor: BigInt, rounding: Rounding) -> BigInt {
+fn divide_big(numerator: &BigInt, divisor: &BigInt, rounding: Rounding) -> BigInt {
     match rounding {
-        Rounding::Floor => numerator.div_floor(&divisor),
-        Rounding::Ceiling => -(-numerator).div_floor(&divisor),
-        Rounding::Truncate => numerator / divisor,
+        Rounding::Floor => large::divide_down(numerator, divisor).0,
+        Rounding::Ceiling => -large::divide_down(&-numerator, divisor).0,
+        Rounding::Truncate => large::divide(numerator, divisor).0,
         Rounding::Round => {
-            let (quotient, rest) = numerator.div_mod_floor(&divisor);
+            let (quotient, rest) = large::divide_down(numerator, divisor);
             let twice: BigInt = rest.abs() * 2;
             match twice.cmp(&divisor.abs()) {
                 Ordering::Less => quotient,

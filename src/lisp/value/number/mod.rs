@@ -14,6 +14,7 @@ mod convert;
 mod division;
 pub(crate) mod error;
 mod float_parts;
+pub(crate) mod large;
 mod power;
 mod random;
 mod ratio;

@@ -14,6 +14,7 @@ use super::convert::{
 use super::error::{
     NumberResult, division_by_zero, invalid, not_a_number, not_an_integer, overflow,
 };
+use super::large;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -119,10 +120,10 @@ fn exact_power(base: &Value, power: &Value) -> NumberResult {
             match (small, small % 2) {
                 (0, _) => BigInt::one(),
                 (_, 1) => n.clone(),
-                _ => n * n,
+                _ => large::multiply(n, n),
             }
         } else {
-            num_traits::pow(n.clone(), usize::try_from(small).unwrap_or(usize::MAX))
+            large::power(n, small)
         }
     };
     let (n, d) = (raise_to(&numerator), raise_to(&denominator));
@@ -155,14 +156,14 @@ pub(crate) fn isqrt(value: &Value) -> NumberResult {
     if n.is_negative() {
         return Err(expected());
     }
-    Ok(from_big(n.sqrt()))
+    Ok(from_big(large::square_root(n.magnitude()).into()))
 }
 
 /// `(gcd a b)`.
 pub(crate) fn gcd(a: &Value, b: &Value) -> NumberResult {
     let x = to_big(a).ok_or_else(|| not_an_integer(a))?;
     let y = to_big(b).ok_or_else(|| not_an_integer(b))?;
-    Ok(from_big(x.gcd(&y)))
+    Ok(from_big(large::common_divisor(&x, &y)))
 }
 
 /// `(lcm a b)`.
@@ -173,5 +174,5 @@ pub(crate) fn lcm(a: &Value, b: &Value) -> NumberResult {
     let x = to_big(a).ok_or_else(|| not_an_integer(a))?;
     let y = to_big(b).ok_or_else(|| not_an_integer(b))?;
     let divisor = gcd(a, b)?;
-    crate::lisp::value::number::arithmetic::abs(&div(&from_big(x * y), &divisor)?)
+    crate::lisp::value::number::arithmetic::abs(&div(&from_big(large::multiply(&x, &y)), &divisor)?)
 }

@@ -2,13 +2,14 @@
 
 use std::cell::RefCell;
 
-use num_bigint::BigInt;
+use num_bigint::{BigInt, Sign};
 use num_traits::Signed;
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 
 use super::convert::from_big;
 use super::error::NumberResult;
+use super::large;
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::known;
@@ -72,11 +73,12 @@ pub(crate) fn random(generator: &mut Pcg64, limit: &Value) -> NumberResult {
         }
         Value::Big(n) if n.is_positive() => {
             let words = n.bits().div_ceil(64) + 1;
-            let mut drawn = BigInt::from(0);
-            for _ in 0..words {
-                drawn = (drawn << 64) + generator.next_u64();
-            }
-            Ok(from_big((drawn * n.as_ref()) >> (words * 64)))
+            // The word drawn first is the highest.
+            let drawn: Vec<u8> = (0..words)
+                .flat_map(|_| generator.next_u64().to_be_bytes())
+                .collect();
+            let drawn = BigInt::from_bytes_be(Sign::Plus, &drawn);
+            Ok(from_big(large::multiply(&drawn, n) >> (words * 64)))
         }
         Value::Single(x) if *x > 0.0 => {
             let unit = (generator.next_u64() >> 40) as f32 / (1_u32 << 24) as f32;

@@ -2,11 +2,13 @@
 //! when an interrupt came and when to repeat it.
 
 use std::cell::Cell;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A count of polls of the interrupt flag.
+/// The interrupt flag, and a count of polls of it.
 #[derive(Debug, Default)]
 pub(crate) struct Polls {
+    flag: Arc<AtomicBool>,
     count: Cell<u64>,
     seen_at: Cell<Option<u64>>,
     due_at: Cell<Option<u64>>,
@@ -32,13 +34,27 @@ impl Polls {
         }
     }
 
+    /// The flag.
+    pub(crate) fn flag(&self) -> &Arc<AtomicBool> {
+        &self.flag
+    }
+
+    /// Polls the flag and clears it.
+    pub(crate) fn take(&self) -> bool {
+        let was_set = self.look();
+        if was_set {
+            self.flag.store(false, Ordering::Relaxed);
+        }
+        was_set
+    }
+
     /// Polls the flag.
-    pub(super) fn look(&self, flag: &AtomicBool) -> bool {
+    pub(crate) fn look(&self) -> bool {
         let count = self.count.get() + 1;
         self.count.set(count);
-        let is_set = flag.load(Ordering::Relaxed) || self.due_at.get() == Some(count);
+        let is_set = self.flag.load(Ordering::Relaxed) || self.due_at.get() == Some(count);
         if is_set {
-            flag.store(true, Ordering::Relaxed);
+            self.flag.store(true, Ordering::Relaxed);
             if self.seen_at.get().is_none() {
                 self.seen_at.set(Some(count));
             }
@@ -53,17 +69,17 @@ mod tests {
 
     #[test]
     fn an_interrupt_can_be_repeated() {
-        let flag = AtomicBool::new(false);
         let polls = Polls::default();
-        assert!(!polls.look(&flag));
+        let flag = Arc::clone(polls.flag());
+        assert!(!polls.look());
         flag.store(true, Ordering::Relaxed);
-        assert!(polls.look(&flag));
+        assert!(polls.look());
         assert_eq!(polls.seen_at(), Some(2));
 
         flag.store(false, Ordering::Relaxed);
         polls.begin(Some(2));
-        assert!(!polls.look(&flag));
-        assert!(polls.look(&flag));
+        assert!(!polls.look());
+        assert!(polls.look());
         assert!(flag.load(Ordering::Relaxed));
     }
 }

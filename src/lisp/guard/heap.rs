@@ -1,0 +1,70 @@
+//! How much memory may be in use.
+
+use std::cell::Cell;
+
+use super::{CURRENT, Stopped, leave};
+
+/// A limit to the memory in use.
+#[derive(Default)]
+pub(crate) struct Heap {
+    limit: Cell<Option<HeapLimit>>,
+    /// How often the limit has been put up since more than the limit is in use.
+    extensions: Cell<usize>,
+}
+
+/// A limit to the memory in use, and how to learn how much is.
+#[derive(Clone, Copy, Debug)]
+pub struct HeapLimit {
+    /// Bytes that may be in use.
+    pub bytes: usize,
+    /// The bytes in use, as the program's allocator counts them.
+    pub in_use: fn() -> usize,
+}
+
+/// By what part of the limit it is put up once it has been reached: for handlers, and for people
+/// who look around and let go of what they do not need.
+const EXTENSION: usize = 16;
+
+impl Heap {
+    /// Sets the limit.
+    pub(crate) fn set_limit(&self, limit: Option<HeapLimit>) {
+        self.limit.set(limit);
+        self.extensions.set(0);
+    }
+
+    /// Is more in use than may be? Says so once, and again when a sixteenth more is in use.
+    pub(super) fn is_exhausted(&self) -> bool {
+        self.would_exhaust(0)
+    }
+
+    /// Would so many bytes more be too many?
+    pub(crate) fn would_exhaust(&self, more: usize) -> bool {
+        let Some(limit) = self.limit.get() else {
+            return false;
+        };
+        let in_use = (limit.in_use)();
+        if in_use < limit.bytes {
+            self.extensions.set(0);
+        }
+        let extensions = self.extensions.get();
+        let extended = limit.bytes + limit.bytes / EXTENSION * extensions;
+        if in_use.saturating_add(more) < extended {
+            return false;
+        }
+        if in_use >= limit.bytes {
+            self.extensions
+                .set((in_use - limit.bytes) / (limit.bytes / EXTENSION).max(1) + 1);
+        }
+        true
+    }
+}
+
+/// Leaves the calling function by unwinding if there is no room for so many bytes more. To be
+/// called before a single allocation whose size a program decides.
+pub(crate) fn reserve(bytes: usize) {
+    let is_too_much =
+        CURRENT.with_borrow(|limits| limits.as_ref().is_some_and(|l| l.heap.would_exhaust(bytes)));
+    if is_too_much {
+        leave(Stopped::HeapExhausted);
+    }
+}

@@ -1,0 +1,151 @@
+//! What ends Rust code that works long: an interrupt, a full heap, a stack that is used up.
+//!
+//! The machine looks for interrupts and at the heap between operations. Numbers, lists and texts
+//! can be of any size, so a Rust function that walks one of them looks, too, with [`look`] or a
+//! [`Pace`]. Where there is reason to stop, that function is left by unwinding, up to
+//! [`stoppable`] around the machine; until then it has to change nothing that would be missed.
+//! Every look at the interrupt flag is counted ([`polls`]), these as well.
+//!
+//! Rust functions that call themselves for the parts of a form call [`descend`] first.
+
+pub(crate) mod heap;
+pub(crate) mod polls;
+mod stack;
+
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::rc::Rc;
+
+pub(crate) use heap::{Heap, reserve};
+use polls::Polls;
+pub(crate) use stack::{TooDeep, descend, set_stack_budget};
+
+thread_local! {
+    /// What stops the evaluation that runs on this thread.
+    static CURRENT: RefCell<Option<Rc<Limits>>> = const { RefCell::new(None) };
+}
+
+/// What stops the evaluations of one image.
+#[derive(Default)]
+pub(crate) struct Limits {
+    /// The interrupt flag, with a count of looks at it.
+    pub(crate) polls: Polls,
+    /// The memory that may be in use.
+    pub(crate) heap: Heap,
+}
+
+/// Why a Rust function was left.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Stopped {
+    /// The interrupt flag was set; it is no longer.
+    Interrupted,
+    /// More memory is in use than may be.
+    HeapExhausted,
+}
+
+/// Puts limits in force on this thread until it is dropped.
+pub(crate) struct Watch(Option<Rc<Limits>>);
+
+impl Limits {
+    /// Puts the limits in force on this thread.
+    pub(crate) fn watch(self: &Rc<Self>) -> Watch {
+        Watch(CURRENT.replace(Some(Rc::clone(self))))
+    }
+
+    /// Is there a reason to stop?
+    pub(crate) fn reason(&self) -> Option<Stopped> {
+        if self.polls.take() {
+            return Some(Stopped::Interrupted);
+        }
+        self.heap.is_exhausted().then_some(Stopped::HeapExhausted)
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        CURRENT.set(self.0.take());
+    }
+}
+
+/// Leaves the calling function by unwinding if there is a reason to stop.
+pub(crate) fn look() {
+    let reason = CURRENT.with_borrow(|limits| limits.as_ref()?.reason());
+    if let Some(reason) = reason {
+        leave(reason);
+    }
+}
+
+/// Leaves the calling function by unwinding.
+pub(crate) fn leave(reason: Stopped) -> ! {
+    resume_unwind(Box::new(reason))
+}
+
+/// Runs something that may be left by unwinding.
+pub(crate) fn stoppable<T>(work: impl FnOnce() -> T) -> Result<T, Stopped> {
+    stoppable_on(&mut (), |()| work(), |()| {})
+}
+
+/// Like [`stoppable`], for work on a state; `clean_up` is called if a panic comes through.
+pub(crate) fn stoppable_on<S, T>(
+    state: &mut S,
+    work: impl FnOnce(&mut S) -> T,
+    clean_up: impl FnOnce(&mut S),
+) -> Result<T, Stopped> {
+    catch_unwind(AssertUnwindSafe(|| work(state))).map_err(|payload| match payload.downcast() {
+        Ok(reason) => *reason,
+        Err(payload) => {
+            clean_up(state);
+            resume_unwind(payload)
+        }
+    })
+}
+
+/// Counts the steps of a walk, and looks once in a while.
+#[derive(Default)]
+pub(crate) struct Pace(u32);
+
+/// Short steps between two looks: about a tenth of a millisecond.
+const STEPS: u32 = 4096;
+
+impl Pace {
+    /// To be called for each step.
+    #[inline]
+    pub(crate) fn step(&mut self) {
+        self.0 += 1;
+        if self.0 == STEPS {
+            self.0 = 0;
+            look();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::Ordering;
+
+    #[test]
+    fn a_walk_without_end_is_left_once_the_flag_is_set() {
+        let limits = Rc::new(Limits::default());
+        let _watch = limits.watch();
+        let mut steps = 0_u64;
+        let outcome = stoppable(|| {
+            let mut pace = Pace::default();
+            loop {
+                pace.step();
+                steps += 1;
+                if steps == 10_000 {
+                    limits.polls.flag().store(true, Ordering::Relaxed);
+                }
+            }
+        });
+        assert_eq!(outcome.map(|(): ()| ()), Err(Stopped::Interrupted));
+        assert_eq!(steps, 3 * u64::from(STEPS) - 1);
+        assert!(!limits.polls.flag().load(Ordering::Relaxed));
+    }
+
+    #[test]
+    fn where_nobody_watches_nothing_stops() {
+        assert_eq!(stoppable(|| (look(), 1).1), Ok(1));
+    }
+}
