@@ -147,6 +147,9 @@ fn what_is_piped_is_kept_and_resumed_if_that_is_asked_for() {
     let (_, out, err) = piped(state.path(), &[&format!("--resume={name}")], "(list *a*)\n");
     assert_eq!(out, "(2)\n");
     assert!(err.starts_with("; Resumed 3 inputs; "), "{err}");
+    let resume = format!("--resume={name}");
+    let (_, _, err) = piped(state.path(), &[&resume, "--seed", "5"], "1");
+    assert!(err.starts_with("; --seed is not used: "), "{err}");
     let (status, _, err) = piped(state.path(), &["--journal", name], "1");
     assert_eq!(status, Some(2));
     assert!(

@@ -722,6 +722,7 @@ fn what_the_prompt_alone_understands_is_saved_and_replayed() {
     talk.say("1");
     talk.say("q");
     talk.say("(values) 1");
+    talk.say("(length \"text\nA> text\")");
     talk.say("(format t \"A> not a prompt~%PP 1]> nor this~%...~%~%\")");
     talk.say("(world-hash)");
     let saved = saved_and_replayed(&mut talk, "prompt");

@@ -1,6 +1,7 @@
 //! Opens the prompt in a terminal.
 
 use std::io;
+use std::path::PathBuf;
 
 use super::arguments::{Options, PromptOptions, WatchArguments};
 use super::failure::{CommandError, Status};
@@ -49,9 +50,29 @@ pub(super) fn open_journals(
         robot: options.robot.clone(),
         robot_description: options.robot_description.clone(),
     };
-    let opened = prompt::open(journal, &beginning)?;
+    let mut opened = prompt::open(journal, &beginning)?;
     if let Some(earlier) = &opened.earlier {
         let beginning = earlier.beginning.clone();
+        let differs = |given: &Option<PathBuf>, began: &Option<PathBuf>| {
+            let given = given.as_ref().map(std::path::absolute);
+            given.is_some_and(|given| given.ok() != *began)
+        };
+        let unused = [
+            (
+                "--seed",
+                options.seed != 0 && options.seed != beginning.seed,
+            ),
+            ("--world", differs(&options.world, &beginning.world)),
+            ("--robot", differs(&options.robot, &beginning.robot)),
+            (
+                "--robot-description",
+                differs(&options.robot_description, &beginning.robot_description),
+            ),
+        ];
+        let unused = unused.iter().filter(|(_, is_unused)| *is_unused);
+        opened.remarks.extend(unused.map(|(option, _)| {
+            format!("; {option} is not used: a session is resumed with what it began with.")
+        }));
         options.seed = beginning.seed;
         options.world = beginning.world;
         options.robot = beginning.robot;

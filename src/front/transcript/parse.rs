@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::markdown::session_blocks;
-use crate::session::dialogue::is_whole;
 use crate::session::dialogue::prompt_line::{PromptLine, prompt_line};
+use crate::session::dialogue::{ends_in_quotes, is_whole};
 
 /// A file of inputs, each with its expected output.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -63,19 +63,29 @@ fn entries(lines: &[String], block: Range<usize>) -> Vec<Entry> {
         .skip(block.start)
         .filter_map(|(number, line)| Some((number, prompt_line(line)?)))
         .collect();
-    let ends = prompts.iter().skip(1).map(|(number, _)| *number);
-    prompts
-        .iter()
-        .zip(ends.chain([block.end]))
-        .map(|((number, prompt), end)| entry(lines, *number, *prompt, end))
-        .collect()
+    let end_before = |index: usize| prompts.get(index).map_or(block.end, |(number, _)| *number);
+    let mut found = Vec::new();
+    let mut index = 0;
+    while let Some((number, prompt)) = prompts.get(index) {
+        let input_before = |next| input(lines, *number, prompt.input, end_before(next)).0;
+        let mut next = index + 1;
+        // A line within a string may look like a prompt.
+        while next < prompts.len() && ends_in_quotes(&input_before(next)) {
+            next += 1;
+        }
+        if !is_whole(&input_before(next)) {
+            next = index + 1;
+        }
+        found.push(entry(lines, *number, *prompt, end_before(next)));
+        index = next;
+    }
+    found
 }
 
-/// The entry whose prompt is on line `number`; the next prompt is on line `end`.
-///
-/// An input that is incomplete at the next prompt ends there; reading it then fails.
-fn entry(lines: &[String], number: usize, prompt: PromptLine<'_>, end: usize) -> Entry {
-    let mut input = prompt.input.to_owned();
+/// The input whose prompt is on line `number`, up to the line that completes it but before line
+/// `end`; and the line after it.
+fn input(lines: &[String], number: usize, first: &str, end: usize) -> (String, usize) {
+    let mut input = first.to_owned();
     let mut next = number + 1;
     while !is_whole(&input) {
         let Some(line) = lines.get(next).filter(|_| next < end) else {
@@ -85,6 +95,14 @@ fn entry(lines: &[String], number: usize, prompt: PromptLine<'_>, end: usize) ->
         input.push_str(line);
         next += 1;
     }
+    (input, next)
+}
+
+/// The entry whose prompt is on line `number`; the next prompt is on line `end`.
+///
+/// An input that is incomplete at the next prompt ends there; reading it then fails.
+fn entry(lines: &[String], number: usize, prompt: PromptLine<'_>, end: usize) -> Entry {
+    let (input, next) = input(lines, number, prompt.input, end);
     let following = lines.get(next..end).unwrap_or_default();
     let expected = without_blank_end(following.iter().map(String::as_str));
     let expected_at = next..next + expected.len();
@@ -158,6 +176,22 @@ mod tests {
         assert_eq!(
             parsed("A> (car\n'(1)\nA> 2\n2\n"),
             [entry(1, "(car\n'(1)", &[]), entry(3, "2", &["2"])]
+        );
+    }
+
+    #[test]
+    fn a_line_of_a_string_is_no_prompt() {
+        assert_eq!(
+            parsed("A> (list \"x\nA> y\nB 1]> z\")\n(\"x\n\nA> 2\n2\n"),
+            [
+                entry(1, "(list \"x\nA> y\nB 1]> z\")", &["(\"x"]),
+                entry(6, "2", &["2"])
+            ]
+        );
+        // A string that nothing ends does not swallow the rest.
+        assert_eq!(
+            parsed("A> (list \"x\nA> 2\n2\n"),
+            [entry(1, "(list \"x", &[]), entry(2, "2", &["2"])]
         );
     }
 

@@ -8,6 +8,18 @@ pub(crate) fn is_whole(text: &str) -> bool {
     !matches!(is_complete(text), Completeness::Incomplete { .. })
 }
 
+/// Whether the text ends inside a string, a block comment or a symbol in bars, so that whatever
+/// follows belongs to that.
+pub(crate) fn ends_in_quotes(text: &str) -> bool {
+    let Completeness::Incomplete { opened_at, .. } = is_complete(text) else {
+        return false;
+    };
+    let begin = text.get(opened_at..).unwrap_or_default();
+    ["\"", "|", "#|"]
+        .iter()
+        .any(|quote| begin.starts_with(quote))
+}
+
 #[cfg(test)]
 mod tests {
     use crate::session::dialogue::input::*;
@@ -52,6 +64,16 @@ mod tests {
             "' ; quoted\n",
         ] {
             assert!(!is_whole(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_follows_an_open_quote_belongs_to_it() {
+        for text in ["\"a", "(f \"a\nb", "(f #| a", "(f |a"] {
+            assert!(ends_in_quotes(text), "{text}");
+        }
+        for text in ["(f \"a\"", "(f '", "a", "(f #\\\"", "(f ; \"\n"] {
+            assert!(!ends_in_quotes(text), "{text}");
         }
     }
 

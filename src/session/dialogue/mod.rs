@@ -16,6 +16,6 @@ pub(crate) mod screen;
 pub(crate) use converse::{Candidate, Completions, Converse};
 pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
 pub(crate) use evaluate_on::{evaluate_keeping_abort, evaluate_on};
-pub(crate) use input::is_whole;
+pub(crate) use input::{ends_in_quotes, is_whole};
 pub(crate) use repeat::Repeat;
 pub(crate) use screen::Screen;

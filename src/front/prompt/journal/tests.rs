@@ -322,3 +322,24 @@ fn a_damaged_journal_stays_as_it_is() {
     );
     assert_eq!(fs::read(&path).unwrap(), bytes);
 }
+
+#[test]
+fn a_journal_that_may_only_be_read_is_continued_in_a_copy() {
+    let folder = Folder::new("read-only");
+    let path = folder.file("a.journal");
+    drop(written(&path, &["(a)"]));
+    let mut permissions = fs::metadata(&path).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&path, permissions).unwrap();
+    let before = fs::read(&path).unwrap();
+    // Some users may write to any file.
+    let is_privileged = fs::OpenOptions::new().append(true).open(&path).is_ok();
+    let resumed = folder.resumed(&path);
+    let journal = resumed.journal.unwrap();
+    assert_eq!(journal.path() == path, is_privileged);
+    if !is_privileged {
+        assert!(resumed.remarks[0].ends_with("cannot be written to."));
+        assert_eq!(read(journal.path()).unwrap().inputs.len(), 1);
+    }
+    assert_eq!(fs::read(&path).unwrap(), before);
+}
