@@ -71,6 +71,12 @@ impl Earlier {
             let record = parts.and_then(Record::of_parts);
             let taken = record.and_then(|record| earlier.take(record, &mut current));
             if taken.is_none() {
+                // Something was written after the last input, so the program survived it.
+                if let Some(input) = current.and_then(|at: usize| earlier.inputs.get_mut(at))
+                    && input.end == End::Unknown
+                {
+                    input.end = End::Ended(None);
+                }
                 earlier.tail = Tail::Damaged { line: line.number };
                 return Ok(earlier);
             }

@@ -171,7 +171,7 @@ fn everything_before_damage_is_salvaged_and_the_line_is_named() {
         .collect();
     let earlier = Earlier::parse(&path, without.concat().as_bytes()).unwrap();
     assert!(matches!(earlier.tail, Tail::Damaged { line: 4 }));
-    assert_eq!(inputs(&earlier), [("(a)", End::Unknown)]);
+    assert_eq!(inputs(&earlier), [("(a)", End::Ended(None))]);
 }
 
 #[test]
