@@ -314,6 +314,7 @@ fn a_full_heap_is_a_condition_and_the_session_goes_on() {
         "(let ((s \"\")) (loop (setf s (format nil \"~a~ax\" s s))))",
         "(let ((l nil)) (loop (let ((x 1)) (push (lambda () x) l))))",
         "(cpl:top-level (cpl:par-loop (x (loop for i below 1000000 collect i)) (cpl:sleep 1) x))",
+        "(labels ((bomb () (cpl:par (bomb) (bomb)))) (cpl:top-level (bomb)))",
         "(make-array (expt 10 12))",
         "(make-list 33000000)",
         "(make-string 33000000)",

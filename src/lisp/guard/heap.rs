@@ -37,6 +37,14 @@ impl Heap {
         self.would_exhaust(0)
     }
 
+    /// Whether so many bytes more would exceed the limit. Unlike [`Heap::would_exhaust`], this says
+    /// so every time: for what multiplies, each of which would otherwise take its share of the
+    /// extensions.
+    pub(crate) fn lacks_room_for(&self, more: usize) -> bool {
+        let limit = self.limit.get();
+        limit.is_some_and(|limit| (limit.in_use)().saturating_add(more) >= limit.bytes)
+    }
+
     /// Would so many bytes more be too many?
     pub(crate) fn would_exhaust(&self, more: usize) -> bool {
         let Some(limit) = self.limit.get() else {

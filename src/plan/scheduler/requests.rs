@@ -77,7 +77,7 @@ impl Scheduler {
                 if image
                     .limits
                     .heap
-                    .would_exhaust(of.saturating_mul(BYTES_OF_A_TASK))
+                    .lacks_room_for(of.saturating_mul(BYTES_OF_A_TASK))
                 {
                     return Some(Answer::Raise(Stopped::HeapExhausted.into()));
                 }
