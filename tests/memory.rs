@@ -18,15 +18,18 @@ fn resident() -> u64 {
     number.unwrap().parse().unwrap()
 }
 
+/// Kilobytes of memory that this process holds after an evaluation.
+fn resident_after(session: &mut Session, text: &str) -> u64 {
+    let outcome = session.evaluate("test", text, &mut |_| {});
+    assert_eq!(outcome, Outcome::Finished, "{text}");
+    resident()
+}
+
 #[test]
 fn memory_stays_flat_over_a_million_tasks() {
     let _alone = MEMORY.lock();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
-    let mut run = |text: &str| {
-        let outcome = session.evaluate("test", text, &mut |_| {});
-        assert_eq!(outcome, Outcome::Finished, "{text}");
-        resident()
-    };
+    let mut run = |text: &str| resident_after(&mut session, text);
     run("(defun many (n)
            (dotimes (i n)
              (cpl:top-level (cpl:par-loop (x '(1 2 3 4 5 6 7 8 9)) (* x x)))))");
@@ -42,11 +45,7 @@ fn memory_stays_flat_over_a_million_tasks() {
 fn memory_stays_flat_over_a_million_circles_of_each_kind() {
     let _alone = MEMORY.lock();
     let mut session = Session::new(&SessionOptions::default()).unwrap();
-    let mut run = |text: &str| {
-        let outcome = session.evaluate("test", text, &mut |_| {});
-        assert_eq!(outcome, Outcome::Finished, "{text}");
-        resident()
-    };
+    let mut run = |text: &str| resident_after(&mut session, text);
     run("(defstruct node next) (defclass thing () ((part :accessor part)))");
     for circle in [
         "(labels ((f (n) (if (= n 0) 0 (f (- n 1))))) (f 1))",

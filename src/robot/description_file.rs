@@ -85,12 +85,7 @@ impl RobotDescription {
         let file = DataFile::read(text, file_name)?;
         let mut records = Vec::new();
         for node in file.nodes() {
-            let head = node.head()?;
-            let Some((_, keys)) = RECORDS.iter().find(|(name, _)| *name == head) else {
-                let closest = closest_name(head, RECORDS.iter().map(|r| r.0));
-                return Err(node.unknown("record", head, closest));
-            };
-            records.push(node.record(keys)?);
+            records.push(node.record("record", RECORDS)?);
         }
         let reader = Reader {
             tree,

@@ -13,9 +13,21 @@ pub(crate) struct Record<'a> {
 }
 
 impl<'a> Node<'a> {
-    /// A record whose keys are all among `keys`.
-    pub(crate) fn record(&self, keys: &[&str]) -> Result<Record<'a>, DataError> {
-        Record::read(*self, keys)
+    /// A record of one of the kinds, each given by its head and the keys that it may have; `what`
+    /// such a record is, for errors.
+    pub(crate) fn record(
+        &self,
+        what: &str,
+        kinds: &[(&str, &[&str])],
+    ) -> Result<Record<'a>, DataError> {
+        let head = self.head()?;
+        match kinds.iter().find(|(name, _)| *name == head) {
+            Some((_, keys)) => Record::read(*self, keys),
+            None => {
+                let closest = closest_name(head, kinds.iter().map(|kind| kind.0));
+                Err(self.unknown(what, head, closest))
+            }
+        }
     }
 }
 

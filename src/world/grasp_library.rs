@@ -183,13 +183,8 @@ impl GraspLibrary {
             grasps: IndexMap::new(),
         };
         for node in file.nodes() {
-            let head = node.head()?;
-            let Some((_, keys)) = RECORDS.iter().find(|(name, _)| *name == head) else {
-                let closest = closest_name(head, RECORDS.iter().map(|r| r.0));
-                return Err(node.unknown("record", head, closest));
-            };
-            let record = node.record(keys)?;
-            match head {
+            let record = node.record("record", RECORDS)?;
+            match record.head() {
                 "rotation" => library.add_rotation(&record)?,
                 "default-grip" => default_grip = Some(grip(&record)?),
                 "grip" => {

@@ -60,13 +60,8 @@ impl ObjectLibrary {
         };
         let mut listed = Vec::new();
         for node in file.nodes() {
-            let head = node.head()?;
-            let Some((_, keys)) = RECORDS.iter().find(|(name, _)| *name == head) else {
-                let closest = closest_name(head, RECORDS.iter().map(|r| r.0));
-                return Err(node.unknown("record", head, closest));
-            };
-            let record = node.record(keys)?;
-            match head {
+            let record = node.record("record", RECORDS)?;
+            match record.head() {
                 "available" => listed.extend_from_slice(record.things()),
                 "kinds" => library.add_kinds(&record)?,
                 _ => library.add_object(&record)?,
@@ -171,12 +166,7 @@ const SHAPES: &[(&str, &[&str])] = &[
 ];
 
 fn add_shape(node: Node<'_>, solids: &mut Vec<PlacedShape>) -> Result<(), DataError> {
-    let head = node.head()?;
-    let Some((_, keys)) = SHAPES.iter().find(|(name, _)| *name == head) else {
-        let closest = closest_name(head, SHAPES.iter().map(|s| s.0));
-        return Err(node.unknown("shape", head, closest));
-    };
-    let record = node.record(keys)?;
+    let record = node.record("shape", SHAPES)?;
     let numbers = |key: &str| {
         record
             .optional(key)
@@ -191,7 +181,7 @@ fn add_shape(node: Node<'_>, solids: &mut Vec<PlacedShape>) -> Result<(), DataEr
         }
     };
     let pose = from_xyz_rpy(numbers("at")?, numbers("rpy")?);
-    let shape = match head {
+    let shape = match record.head() {
         "box" => Shape::Box {
             size: size("size")?,
         },

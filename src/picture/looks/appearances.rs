@@ -8,7 +8,6 @@ use indexmap::IndexMap;
 use super::look::{Color, Look};
 use super::surfaces::{Drawn, color_of, surface};
 use super::vessel::{Part, parts_of};
-use crate::closest_name::closest_name;
 use crate::picture::scene::Finish;
 use crate::sexp::{DataError, DataFile, DataProblem, Node, Record};
 use crate::spatial::PlacedShape;
@@ -52,13 +51,8 @@ impl Appearances {
     pub(crate) fn from_sexp(text: &str, file_name: &str) -> Result<Self, DataError> {
         let mut looks = Self::default();
         for node in DataFile::read(text, file_name)?.nodes() {
-            let head = node.head()?;
-            let Some((_, keys)) = RECORDS.iter().find(|(name, _)| *name == head) else {
-                let closest = closest_name(head, RECORDS.iter().map(|r| r.0));
-                return Err(node.unknown("record", head, closest));
-            };
-            let record = node.record(keys)?;
-            match head {
+            let record = node.record("record", RECORDS)?;
+            match record.head() {
                 "colors" => looks.add_colors(&record)?,
                 "object" => looks.add_objects(&record)?,
                 "link" => looks.add_links(&record)?,

@@ -41,13 +41,8 @@ pub(crate) fn surface(
     node: Node<'_>,
     colors: &IndexMap<String, Color>,
 ) -> Result<Drawn, DataError> {
-    let head = node.head()?;
-    let Some((_, keys)) = SURFACES.iter().find(|(name, _)| *name == head) else {
-        let closest = closest_name(head, SURFACES.iter().map(|s| s.0));
-        return Err(node.unknown("surface", head, closest));
-    };
-    let record = node.record(keys)?;
-    let (surface, at) = match head {
+    let record = node.record("surface", SURFACES)?;
+    let (surface, at) = match record.head() {
         "turned" => {
             let line = record.required("line")?;
             turned(&record, &points(line)?)?
