@@ -172,7 +172,11 @@ const COMMON: &[Failure] = &[
     Failure {
         name: "HIGH-LEVEL-FAILURE",
         parents: &["SIMPLE-PLAN-FAILURE"],
-        slots: &[slot("DESCRIPTION", "DESCRIPTION", "ERROR-DESCRIPTION")],
+        slots: &[
+            slot("DESCRIPTION", "DESCRIPTION", "ERROR-DESCRIPTION"),
+            // What was tried: a list of (what cause count).
+            slot("ATTEMPTS", "ATTEMPTS", "FAILURE-ATTEMPTS"),
+        ],
         description: Some("High-level failure happened"),
     },
     failure(
@@ -227,17 +231,17 @@ const COMMON: &[Failure] = &[
     ),
     failure(
         "SEARCHING-FAILED",
-        &["HIGH-LEVEL-FAILURE"],
+        &["OBJECT-NOWHERE-TO-BE-FOUND"],
         &[slot("OBJECT", "OBJECT", "SEARCHING-FAILED-OBJECT")],
     ),
     failure(
         "FETCHING-FAILED",
-        &["HIGH-LEVEL-FAILURE"],
+        &["OBJECT-UNFETCHABLE"],
         &[slot("OBJECT", "OBJECT", "FETCHING-FAILED-OBJECT")],
     ),
     failure(
         "DELIVERING-FAILED",
-        &["HIGH-LEVEL-FAILURE"],
+        &["OBJECT-UNDELIVERABLE"],
         &[slot("OBJECT", "OBJECT", "DELIVERING-FAILED-OBJECT")],
     ),
 ];

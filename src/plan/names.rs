@@ -76,7 +76,11 @@ const FAILURES: PackageDefinition = PackageDefinition {
     nicknames: &["COMMON-FAIL"],
     doc: "The failures of a robot's actions.",
     uses: &["COMMON-LISP"],
-    exports: &[],
+    exports: &[
+        "RETRY-WITH-DESIGNATOR-SOLUTIONS",
+        "RETRY-WITH-LIST-SOLUTIONS",
+        "RETRY-WITH-LOC-DESIGNATOR-SOLUTIONS",
+    ],
     reexports: &[],
 };
 

@@ -93,13 +93,35 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
     row("CRAM-BULLET-REASONING-UTILITIES", &["BTR-UTILS"], ""),
     row("CRAM-BULLET-REASONING-BELIEF-STATE", &["BTR-BELIEF"], ""),
     row("CRAM-OBJECT-INTERFACES", &["OBJ-INT"], ""),
-    row("CRAM-MANIPULATION-INTERFACES", &["MAN-INT"], ""),
+    row(
+        "CRAM-MANIPULATION-INTERFACES",
+        &["MAN-INT"],
+        "ROBOT-FREE-HAND",
+    ),
     row("CRAM-KNOWROB-PICK-PLACE", &["KR-PP"], ""),
     row("CRAM-OBJECT-KNOWLEDGE", &["OBJECTS"], ""),
-    row("CRAM-ROBOT-INTERFACES", &["ROB-INT"], ""),
-    // Tests the goal of an action, once a plan has defined it.
-    row("CRAM-OCCASIONS-EVENTS", &["COE", "CET"], "HOLDS"),
-    row("CRAM-PLAN-OCCASIONS-EVENTS", &["CPOE"], ""),
+    row(
+        "CRAM-ROBOT-INTERFACES",
+        &["ROB-INT"],
+        "ROBOT ARM ARMS ROBOT-BASE-FRAME ROBOT-ODOM-FRAME ROBOT-TORSO-LINK-JOINT \
+         ROBOT-TOOL-FRAME END-EFFECTOR-LINK CAMERA-FRAME JOINT-LOWER-LIMIT JOINT-UPPER-LIMIT \
+         ROBOT-JOINT-STATES ENVIRONMENT-NAME",
+    ),
+    // Test the goal of an action, and tell how it stands.
+    row(
+        "CRAM-OCCASIONS-EVENTS",
+        &["COE", "CET"],
+        "HOLDS NOTE-GOAL ON-EVENT CLEAR-BELIEF",
+    ),
+    row(
+        "CRAM-PLAN-OCCASIONS-EVENTS",
+        &["CPOE"],
+        "OBJECT-IN-HAND OBJECT-AT-LOCATION OBJECT-PLACED ROBOT-AT-LOCATION TORSO-AT \
+         GRIPPER-JOINT-AT GRIPPER-OPENED GRIPPER-CLOSED ARMS-POSITIONED-AT TOOL-FRAMES-AT \
+         LOOKING-AT \
+         OBJECT-PERCEIVED-EVENT OBJECT-ATTACHED-ROBOT OBJECT-ATTACHED OBJECT-DETACHED-ROBOT \
+         OBJECT-DETACHED OBJECT-LOCATION-CHANGED ROBOT-STATE-CHANGED",
+    ),
     row(
         "CRAM-PROCESS-MODULES",
         &["CPM"],
@@ -132,6 +154,8 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("COMMON-LISP-USER", &["PLANWRIGHT"]),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", &["CRAM-COMMON-FAILURES"]),
+    ("CRAM-PR2-FETCH-DELIVER-PLANS", &["CRAM-COMMON-FAILURES"]),
+    ("CRAM-OCCASIONS-EVENTS", &["CRAM-PROLOG"]),
     ("CRAM-BULLET-WORLD-TUTORIAL", &["CRAM-PROLOG"]),
 ];
 
@@ -158,6 +182,18 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
     ),
     (
         "CRAM-MOBILE-PICK-PLACE-PLANS",
+        "CRAM-EXECUTIVE",
+        "PERFORM",
+        false,
+    ),
+    (
+        "CRAM-PR2-FETCH-DELIVER-PLANS",
+        "CRAM-DESIGNATORS",
+        "A AN ALL DEF-ACTION DESIG-PROP-VALUE CURRENT-DESIG",
+        false,
+    ),
+    (
+        "CRAM-PR2-FETCH-DELIVER-PLANS",
         "CRAM-EXECUTIVE",
         "PERFORM",
         false,

@@ -16,6 +16,10 @@ macro_rules! library {
 /// The files, in the order in which they are loaded.
 const LIBRARY: &[(&str, &str)] = library![
     "log.plan",
+    "robot.plan",
+    "events.plan",
+    "occasions.plan",
+    "retrying.plan",
     "going.plan",
     "perceiving.plan",
     "gripper.plan",

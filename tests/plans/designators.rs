@@ -73,23 +73,21 @@ fn motions_of_rules_go_to_process_modules_one_at_a_time() {
 }
 
 #[test]
-fn a_goal_that_does_not_hold_afterwards_fails() {
+fn what_holds_already_is_not_done_and_what_is_missed_is_told() {
     let text = "(defvar *done* nil)
-        (defun coe:holds (occasion) (declare (ignore occasion)) *done*)
+        (def-prolog-handler done (bindings) (when *done* (list bindings)))
         (defun work () (setf *done* t) :value)
         (def-fact-group mine (action-grounding)
           (<- (action-grounding ?d (work)) (spec:property ?d (:type :working)))
           (<- (action-grounding ?d (idle)) (spec:property ?d (:type :idling))))
         (defun idle () :value)
-        (cpl:top-level
-          (cpl:with-failure-handling ((cpl:plan-failure (e) (return (princ-to-string e))))
-            (perform (an action (type idling) (goal (done))))))
+        (cpl:top-level (perform (an action (type idling) (goal (done)))))
         (cpl:top-level (perform (an action (type working) (goal (done)))))
         (cpl:top-level (perform (an action (type working) (goal (done)))))";
     assert_eq!(
         printed(text),
-        "*DONE*\nCRAM-OCCASIONS-EVENTS:HOLDS\nWORK\nMINE\nIDLE\n\
-         \"Goal `(:DONE)' of action `#<A ACTION\n    (TYPE IDLING)\n    (GOAL (:DONE))>' was not achieved.\"\n\
-         NIL\nWARNING: Action goal `(:DONE)' already achieved.\nNIL\n"
+        "*DONE*\nDONE\nWORK\nMINE\nIDLE\n\
+         [(PERFORM GOAL) WARN] 0.000: idling: (done) does not hold afterwards.\n:VALUE\n\
+         :VALUE\n[(PERFORM GOAL) INFO] 0.000: working: (done) holds already.\nNIL\n"
     );
 }

@@ -6,6 +6,7 @@ mod designators;
 mod exercises;
 mod grasping;
 mod language;
+mod occasions;
 pub(crate) mod overlaps;
 mod packages;
 pub(crate) mod prompt;

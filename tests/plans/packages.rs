@@ -34,11 +34,14 @@ const WORDS: &[&str] = &[
 fn means_something(image: &Image, functors: &[&str], sym: Sym) -> bool {
     let data = image.symbol(sym);
     let name = image.name(sym);
+    let facts = facts::of(image);
     data.package == Some(PackageTable::CL)
         || !data.value.is_unbound()
         || !matches!(data.function, FunctionCell::Unbound)
         || image.classes.contains_key(&sym)
         || functors.contains(&name)
+        || facts.knows(sym)
+        || facts.handler(sym).is_some()
         || WORDS.contains(&name)
 }
 

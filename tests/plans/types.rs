@@ -83,6 +83,7 @@ fn value(row: &TypeRow, key: &Key, written: &str) -> String {
         (Kind::Number, "JOINT-ANGLE" | "POSITION") if row.name == "MOVING-TORSO" => "0.2",
         (Kind::Number, "JOINT-ANGLE" | "POSITION") => "0.05",
         (Kind::Number, "EFFORT") => "30",
+        (Kind::Number, "RETRIES") => "1",
         (Kind::Number, "DURATION") => "0.5",
         (Kind::Keywords, "GRIPPER" | "ARM" | "ARMS" | "DIRECTION") => "left",
         (Kind::Keywords, "GRASP" | "LEFT-GRASP" | "RIGHT-GRASP") => "left-side",

@@ -17,7 +17,7 @@ use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::FunctionCell;
-use crate::lisp::vm::calls::{Annotation, Calls, run};
+use crate::lisp::vm::calls::{Annotation, Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 use crate::plan::{Result, packages};
@@ -82,54 +82,62 @@ fn not_performable(image: &mut Image, argument: &Value) -> Box<Raise> {
         .with(k_arguments, Value::list([argument.clone()]))
 }
 
-/// Performs an action. If it has a goal, does nothing if the goal already holds, and fails if it
-/// does not hold afterwards.
+/// Performs an action. If it has a goal that already holds, does nothing; if the goal does not
+/// hold afterwards, that is noted.
 async fn perform_action(calls: &Calls, designator: &Value) -> Result<Value> {
     let action = designator.clone();
     let goal = calls.with(move |machine| goal_of(machine.image, &action));
-    let Some((goal, holds)) = goal.await else {
+    let Some(Goal { goal, holds, note }) = goal.await else {
         return run_action(calls, designator).await;
     };
-    let is_achieved = calls.call1(&holds, goal.clone()).await.is_true();
-    let stated = goal.clone();
-    let goal_text = calls
-        .with(move |machine| {
-            let text = print::to_string(machine.image, &stated, true);
-            if is_achieved {
-                let output = &mut machine.image.output;
-                output.fresh_line();
-                output.write(&format!(
-                    "WARNING: Action goal `{text}' already achieved.\n"
-                ));
-            }
-            text
-        })
-        .await;
-    if is_achieved {
+    if calls.call1(&holds, goal.clone()).await.is_true() {
+        note_goal(calls, note, "ACHIEVED", goal, designator).await;
         return Ok(Value::NIL);
     }
-    run_action(calls, designator).await?;
-    if calls.call1(&holds, goal).await.is_true() {
-        return Ok(Value::NIL);
+    let value = run_action(calls, designator).await?;
+    if !calls.call1(&holds, goal.clone()).await.is_true() {
+        note_goal(calls, note, "MISSED", goal, designator).await;
     }
-    let action = designator.clone();
-    calls
-        .with(move |machine| {
-            let action = print::to_string(machine.image, &action, false);
-            Err(failure::simple_failure(
-                machine.image,
-                format!("Goal `{goal_text}' of action `{action}' was not achieved."),
-            ))
-        })
-        .await
+    Ok(value)
 }
 
-/// The goal of an action, and the function that tests it.
-fn goal_of(image: &mut Image, action: &Value) -> Option<(Value, Value)> {
+/// What an action is to bring about.
+struct Goal {
+    /// The occasion.
+    goal: Value,
+    /// The function that tests it.
+    holds: Value,
+    /// The function that tells people how it stands.
+    note: Option<Value>,
+}
+
+/// The goal of an action, if goals can be tested.
+fn goal_of(image: &mut Image, action: &Value) -> Option<Goal> {
     let goal = crate::plan::designator::property(image, action, "GOAL")?;
-    let holds = packages::symbol(image, "CRAM-OCCASIONS-EVENTS", "HOLDS");
+    let [holds, note] =
+        ["HOLDS", "NOTE-GOAL"].map(|name| packages::symbol(image, "CRAM-OCCASIONS-EVENTS", name));
     image.function(holds)?;
-    Some((goal, holds.into()))
+    Some(Goal {
+        goal,
+        holds: holds.into(),
+        note: image.function(note).map(|_| note.into()),
+    })
+}
+
+/// Tells people that a goal was achieved before its action, or missed by it.
+async fn note_goal(
+    calls: &Calls,
+    note: Option<Value>,
+    how: &'static str,
+    goal: Value,
+    action: &Value,
+) {
+    if let Some(note) = note {
+        let how = calls.with(move |machine| machine.image.keyword(how));
+        let how = how.await.into();
+        let args = Args::Many(vec![how, goal, action.clone()]);
+        calls.call(&note, args).await;
+    }
 }
 
 /// Resolves an action and calls its plan.

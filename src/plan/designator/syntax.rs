@@ -147,9 +147,32 @@ fn property_code(image: &mut Image, property: &Value, depth: usize) -> Result<Va
         Value::Symbol(sym) => Value::from(keyword_of(image, *sym)),
         other => other.clone(),
     };
+    let is_goal = key.as_symbol().is_some_and(|s| image.name(s) == "GOAL");
     let mut code = vec![Value::from(known::LIST), quote(key)];
     for value in &items[1..] {
-        code.push(value_code(image, value, depth + 1)?);
+        code.push(match is_goal {
+            true => goal_code(image, value, depth + 1)?,
+            false => value_code(image, value, depth + 1)?,
+        });
+    }
+    Ok(list(code))
+}
+
+/// Code for a goal `(occasion argument…)`: the name of the occasion stays a symbol of its package.
+fn goal_code(image: &mut Image, goal: &Value, depth: usize) -> Result<Value> {
+    let head = goal.car_or_nil();
+    let Value::Cons(cons) = goal else {
+        return value_code(image, goal, depth);
+    };
+    let is_name = head
+        .as_symbol()
+        .is_some_and(|s| !image.name(s).starts_with('?'));
+    if !is_name || !goal.is_list() {
+        return value_code(image, goal, depth);
+    }
+    let mut code = vec![Value::from(known::LIST), quote(head)];
+    for argument in cons.cdr().iter_list() {
+        code.push(value_code(image, &argument, depth + 1)?);
     }
     Ok(list(code))
 }

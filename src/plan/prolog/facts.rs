@@ -85,8 +85,19 @@ pub(crate) fn install_functors(image: &Image, table: &'static [Functor]) {
     functors.extend(table.iter().map(|functor| (functor.name, functor)));
 }
 
-/// Functions of package `CRAM-PROLOG` into which its macros expand.
+/// Functions of package `CRAM-PROLOG`: those into which its macros expand, and a question.
 pub(crate) static TABLE: &[Builtin] = &[
+    pure(
+        "FUNCTOR-DEFINED-P",
+        "functor",
+        "Has any fact group a rule about the functor, or is there a handler for it?",
+        &["(prolog::functor-defined-p 'no-such-functor) => NIL"],
+        |image, args| {
+            let facts = of(image);
+            let is_defined = |s: Sym| facts.knows(s) || facts.handler(s).is_some();
+            Ok(Value::bool(args[0].as_symbol().is_some_and(is_defined)))
+        },
+    ),
     pure(
         "DEFINE-FACT-GROUP",
         "name rules",

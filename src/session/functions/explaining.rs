@@ -9,13 +9,22 @@ use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static TABLE: &[Builtin] = &[control(
-    "EXPLAIN",
-    "",
-    "Tells what is known about the last failure of a motion, and what would work instead: from where, with which arm and grasp, looking where.",
-    &["(progn (pw:explain) :told) => :TOLD"],
-    host!(explain),
-)];
+pub(crate) static TABLE: &[Builtin] = &[
+    control(
+        "EXPLAIN",
+        "",
+        "Tells what is known about the last failure of a motion, and what would work instead: from where, with which arm and grasp, looking where. Of an action that has tried several things, tells what it has tried and why each failed.",
+        &["(progn (pw:explain) :told) => :TOLD"],
+        host!(explain),
+    ),
+    control(
+        "REMEMBER-ACCOUNT",
+        "text",
+        "Keeps what an action that has failed tells of its attempts, for EXPLAIN, until a motion fails or another action.",
+        &["(pw:remember-account \"Two places were occupied.\") => NIL"],
+        host!(remember_account),
+    ),
+];
 
 fn explain(
     simulation: &mut Simulation,
@@ -28,4 +37,13 @@ fn explain(
     image.output.fresh_line();
     image.output.write(&text);
     done(Value::values(Vec::new()))
+}
+
+fn remember_account(
+    simulation: &mut Simulation,
+    _: &mut Image,
+    args: &[Value],
+) -> Result<Reply, Box<Raise>> {
+    simulation.last_account = args[0].as_text();
+    done(Value::NIL)
 }

@@ -10,6 +10,7 @@ mod plans;
 mod prompt;
 mod reaching;
 mod robot_macros;
+mod robot_state;
 mod ros;
 mod scene;
 mod snapshots;

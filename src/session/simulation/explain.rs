@@ -38,6 +38,7 @@ pub(in crate::session) struct Remembered {
 impl Simulation {
     /// Keeps a failure, to be explained on demand.
     pub(in crate::session) fn remember(&mut self, failure: &MotionFailure) {
+        self.last_account = None;
         self.last_failure = Some(Box::new(Remembered {
             failure: failure.clone(),
             time: self.now,
@@ -45,8 +46,12 @@ impl Simulation {
         }));
     }
 
-    /// The long form of the last failure of a motion, if there was one.
+    /// The long form of the last failure, if there was one: what an action has told of its
+    /// attempts, or what is known of the failure of a motion.
     pub(in crate::session) fn explain_last(&mut self, image: &mut Image) -> Option<String> {
+        if let Some(account) = &self.last_account {
+            return Some(account.clone());
+        }
         let mut last = self.last_failure.take()?;
         std::mem::swap(&mut self.world, &mut last.world);
         let text = self.explanation(image, &last.failure, last.time);

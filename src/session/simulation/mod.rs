@@ -55,6 +55,8 @@ pub(crate) struct Simulation {
     pub(super) log_level: LogLevel,
     /// The last failure of a motion, to be explained on demand.
     last_failure: Option<Box<explain::Remembered>>,
+    /// What the last failed action has told of its attempts, if that is newer.
+    pub(super) last_account: Option<String>,
     /// The objects that the robot looked for last.
     sought: Option<DetectQuery>,
     looks: OnceCell<Looks>,
@@ -76,6 +78,7 @@ impl Simulation {
             axes: None,
             log_level,
             last_failure: None,
+            last_account: None,
             sought: None,
             looks: OnceCell::new(),
             now: 0.0,
