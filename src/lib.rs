@@ -28,6 +28,7 @@ mod closest_name;
 mod defect;
 mod front;
 mod lisp;
+mod location;
 mod motion;
 mod perception;
 mod picture;

@@ -6,8 +6,9 @@
 //! stops, and continues once the posture is steady. If the path has become blocked, it then
 //! plans another one.
 
+use super::base_checker::at_place;
 use super::base_path::BasePlace;
-use super::drive_plan::{at_place, is_trajectory_free, plan_drive};
+use super::drive_plan::{is_trajectory_free, plan_drive};
 use super::failure::MotionFailure;
 use super::guard;
 use super::job::{

@@ -32,7 +32,7 @@ pub(crate) fn interruptible<T>(flag: &Arc<AtomicBool>, work: impl FnOnce() -> T)
 }
 
 /// Ends the calling search if an interrupt is pending.
-pub(super) fn look() {
+pub(crate) fn look() {
     let is_wanted = FLAG.with_borrow(|flag| {
         flag.as_ref()
             .is_some_and(|flag| flag.load(Ordering::Relaxed))

@@ -2,6 +2,7 @@
 //!
 //! Only this folder moves the robot. Nothing here knows of the plan language.
 
+mod base_checker;
 pub(crate) mod base_path;
 pub(crate) mod cartesian_path;
 pub(crate) mod command;
@@ -43,6 +44,7 @@ pub(crate) mod trajectory;
 mod trajectory_follower;
 pub(crate) mod unreachable;
 
+pub(crate) use base_checker::BaseChecker;
 pub(crate) use detect::{Detect, DetectQuery};
 pub(crate) use drive::Drive;
 pub(crate) use expected_contacts::CollisionMode;

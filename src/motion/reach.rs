@@ -3,9 +3,9 @@
 //!
 //! The answers agree with those of the motions; whether there is a path is not checked.
 
+use super::base_checker::{BaseChecker, at_place};
 use super::base_path::BasePlace;
 use super::configuration_checker::ConfigurationChecker;
-use super::drive_plan::{BaseChecker, at_place};
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::pose_goal::{PoseGoalTask, REASON_STEP};
 use crate::robot::Side;

@@ -77,8 +77,9 @@ impl Session {
         crate::plan::pose::install(&mut image);
         crate::plan::designator::install(&mut image);
         functions::install(&mut image);
-        let simulation = Simulation::new(Arc::new(options.models()?), options.log_level)
-            .map_err(|error| SessionError::Models(error.to_string()))?;
+        let simulation =
+            Simulation::new(Arc::new(options.models()?), options.log_level, options.seed)
+                .map_err(|error| SessionError::Models(error.to_string()))?;
         let mut session = Session {
             image,
             scheduler: Scheduler::new(),

@@ -20,6 +20,7 @@ const LIBRARY: &[(&str, &str)] = library![
     "events.plan",
     "occasions.plan",
     "retrying.plan",
+    "locations.plan",
     "going.plan",
     "perceiving.plan",
     "gripper.plan",

@@ -6,13 +6,18 @@ use super::error::WorldError;
 use super::obstacles::Obstacles;
 use super::scene::{World, pose_of};
 use crate::closest_name::closest_name;
-use crate::robot::{JointId, KinematicTree, LinkId};
+use crate::robot::{JointId, JointPositions, KinematicTree, LinkId};
 use crate::spatial::Pose;
 
 impl World {
     /// Pose of a link of the kitchen in the map frame.
     pub(crate) fn furniture_pose(&self, link: LinkId) -> Pose {
         pose_of(&self.state.kitchen_poses, link)
+    }
+
+    /// Positions of all joints of the kitchen (rad or m).
+    pub(crate) fn kitchen_positions(&self) -> &JointPositions {
+        &self.state.kitchen
     }
 
     /// Position of a joint of the kitchen (rad or m).

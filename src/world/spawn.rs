@@ -74,11 +74,13 @@ pub(crate) struct SpawnReport {
 }
 
 /// A body near the requested pose of an object.
-struct Neighbour {
-    key: PartKey,
-    pose: ParryPose,
-    bounds: Aabb,
-    solid: Solid,
+#[derive(Clone)]
+pub(super) struct Neighbour {
+    pub(super) key: PartKey,
+    pub(super) pose: ParryPose,
+    /// Bounds in the map frame (m).
+    pub(super) bounds: Aabb,
+    pub(super) solid: Solid,
 }
 
 impl World {
@@ -229,7 +231,7 @@ impl World {
     ) -> SpawnReport {
         let wanted = to_parry(pose);
         let bounds = bounds.transform_by(&wanted);
-        let neighbours = self.neighbours(own, &bounds.loosened(TOUCH));
+        let neighbours = self.neighbours(Some(own), &bounds.loosened(TOUCH));
         let blocked_by = first_overlap(solids, &wanted, &neighbours);
         let is_free = |place: &ParryPose| first_overlap(solids, place, &neighbours).is_none();
         let place = if blocked_by.is_none() {
@@ -241,7 +243,7 @@ impl World {
         };
         // Nothing in a kitchen is as high as the last pose tried.
         let place = place.unwrap_or(wanted);
-        let around = self.neighbours(own, &bounds.loosened(SHIFT_LIMIT));
+        let around = self.neighbours(Some(own), &bounds.loosened(SHIFT_LIMIT));
         let landing = drop_onto(solids, &place, &around)
             .filter(|(gap, _)| blocked_by.is_some() || *gap <= SNAP_GAP);
         let fall = landing.map_or(0.0, |(gap, _)| gap);
@@ -266,7 +268,7 @@ impl World {
     ) -> Result<Option<(f64, BodyName)>, WorldError> {
         let object = self.object(name)?;
         let at = to_parry(pose);
-        let mut around = self.neighbours(object.key(), &object.bounds.transform_by(&at));
+        let mut around = self.neighbours(Some(object.key()), &object.bounds.transform_by(&at));
         around.retain(|n| !matches!(n.key, PartKey::Robot(_)));
         let landing = drop_onto(&object.solids, &at, &around);
         Ok(landing.and_then(|(gap, key)| Some((gap, self.body_name(key)?))))
@@ -280,7 +282,7 @@ impl World {
         bounds: &Aabb,
         wanted: &ParryPose,
     ) -> Option<ParryPose> {
-        let neighbours = self.neighbours(own, &bounds.loosened(SHIFT_LIMIT));
+        let neighbours = self.neighbours(Some(own), &bounds.loosened(SHIFT_LIMIT));
         let is_free = |place: &ParryPose| first_overlap(solids, place, &neighbours).is_none();
         let mut distance = SHIFT_STEP;
         while distance <= SHIFT_LIMIT {
@@ -299,8 +301,9 @@ impl World {
         None
     }
 
-    /// Everything above, below and within the bounds, except the floor.
-    fn neighbours(&self, own: PartKey, bounds: &Aabb) -> Vec<Neighbour> {
+    /// Everything above, below and within the bounds, except the floor and the object with that
+    /// key.
+    pub(super) fn neighbours(&self, own: Option<PartKey>, bounds: &Aabb) -> Vec<Neighbour> {
         let mut column = *bounds;
         column.mins.z = f64::NEG_INFINITY;
         column.maxs.z = f64::INFINITY;
@@ -324,7 +327,7 @@ impl World {
             let key = PartKey::Robot(super::part_key::index(link.link));
             link.solids.iter().for_each(|s| add(key, pose * s.pose, s));
         }
-        for object in self.state.objects.values().filter(|o| o.key() != own) {
+        for object in self.state.objects.values().filter(|o| Some(o.key()) != own) {
             let pose = to_parry(&self.physics.pose(object.body));
             object
                 .solids
@@ -379,7 +382,11 @@ fn raised(
 }
 
 /// The first body that the solids overlap at the pose.
-fn first_overlap(solids: &[Solid], at: &ParryPose, neighbours: &[Neighbour]) -> Option<PartKey> {
+pub(super) fn first_overlap(
+    solids: &[Solid],
+    at: &ParryPose,
+    neighbours: &[Neighbour],
+) -> Option<PartKey> {
     for solid in solids {
         let pose = at * solid.pose;
         if lowest_point(&pose, solid).z < -TOUCH {
@@ -399,7 +406,11 @@ fn first_overlap(solids: &[Solid], at: &ParryPose, neighbours: &[Neighbour]) -> 
 }
 
 /// How far (m) the solids can fall from the pose, and onto what.
-fn drop_onto(solids: &[Solid], at: &ParryPose, neighbours: &[Neighbour]) -> Option<(f64, PartKey)> {
+pub(super) fn drop_onto(
+    solids: &[Solid],
+    at: &ParryPose,
+    neighbours: &[Neighbour],
+) -> Option<(f64, PartKey)> {
     let mut nearest: Option<(f64, PartKey)> = None;
     let mut keep = |gap: f64, key| {
         if nearest.is_none_or(|(best, _)| gap < best) {

@@ -7,6 +7,7 @@ mod exercises;
 mod grasping;
 mod language;
 mod occasions;
+mod locations;
 pub(crate) mod overlaps;
 mod packages;
 pub(crate) mod prompt;

@@ -323,6 +323,9 @@ fn of_value(image: &Image, value: &Value) -> String {
             let exported = package.symbols.values().filter(|(_, external)| *external);
             text.push_str(&format!("  Exported symbols: {}\n", exported.count()));
         }
+        Value::Foreign(object) => {
+            add_indented(&mut text, Some(&object.object().describe(image)));
+        }
         _ => {}
     }
     text

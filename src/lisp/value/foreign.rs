@@ -38,6 +38,12 @@ pub(crate) trait Foreign: Any {
     /// The readable form, as `princ` (`escape` false) or `prin1` (`escape` true) print it.
     fn print(&self, context: &dyn PrintContext, escape: bool) -> String;
 
+    /// What `describe` adds to the printed form: lines, or nothing.
+    fn describe(&self, context: &dyn PrintContext) -> String {
+        let _ = context;
+        String::new()
+    }
+
     /// Is this `equal` to another value that is not identical to it?
     fn is_equal(&self, other: &Value) -> bool {
         let _ = other;

@@ -1,193 +1,27 @@
 //! Locations: poses that are given, generated or sampled, and checked by validators.
 //!
-//! Generators run in ascending order of priority; each returns a list of poses. A pose is a
-//! solution if no validator rejects it. After a number of rejections in a row
-//! (`*location-generator-max-retries*`) the search ends.
+//! Generators run in ascending order of priority; each returns a list of poses, or a function that
+//! returns one pose after another. A pose is a solution if no validator rejects it. After a number
+//! of rejections in a row (`*location-generator-max-retries*`) the search ends.
+
+use indexmap::IndexMap;
 
 use super::check;
 use super::failure;
 use super::failure::Unresolved;
+use super::location_registry::{GENERATORS, VALIDATORS, enabled, most_retries, variable};
 use super::object;
 use super::reference::{same_description, solutions_of};
 use super::value;
 use super::value::{Class, Designator};
-use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::{Args, Calls};
+use crate::plan::Result;
 use crate::plan::pose::value::as_placement;
-use crate::plan::{Result, packages};
-
-/// The variable with the generators: a list of `(priority function documentation enabled)`.
-const GENERATORS: &str = "*LOCATION-GENERATORS*";
-/// The variable with the validators, in the same form.
-const VALIDATORS: &str = "*LOCATION-VALIDATION-FUNCTIONS*";
-/// The variable with the number of rejections in a row that ends a search.
-const MOST_RETRIES: &str = "*LOCATION-GENERATOR-MAX-RETRIES*";
-/// Its initial value.
-const RETRIES: i64 = 30;
-
-/// Functions of package `CRAM-DESIGNATORS`.
-pub(crate) static TABLE: &[Builtin] = &[
-    pure(
-        "REGISTER-LOCATION-GENERATOR",
-        "priority function &optional documentation",
-        "Lets a function of a location designator, which returns a list of poses, resolve locations; low priorities come first.",
-        &[],
-        |image, args| register(image, GENERATORS, args),
-    ),
-    pure(
-        "REGISTER-LOCATION-VALIDATION-FUNCTION",
-        "priority function &optional documentation",
-        "Lets a function of a location designator and a pose judge solutions: :ACCEPT, :MAYBE-REJECT, :UNKNOWN, or NIL to reject.",
-        &[],
-        |image, args| register(image, VALIDATORS, args),
-    ),
-    pure(
-        "DELETE-LOCATION-GENERATOR-FUNCTION",
-        "function",
-        "Forgets a generator.",
-        &["(desig:delete-location-generator-function 'no-such) => NIL"],
-        |image, args| change(image, GENERATORS, &args[0], Change::Delete),
-    ),
-    pure(
-        "ENABLE-LOCATION-GENERATOR-FUNCTION",
-        "function",
-        "Uses a generator again.",
-        &[],
-        |image, args| change(image, GENERATORS, &args[0], Change::Enable),
-    ),
-    pure(
-        "DISABLE-LOCATION-GENERATOR-FUNCTION",
-        "function",
-        "Does not use a generator for the time being.",
-        &[],
-        |image, args| change(image, GENERATORS, &args[0], Change::Disable),
-    ),
-    pure(
-        "DELETE-LOCATION-VALIDATION-FUNCTION",
-        "function",
-        "Forgets a validator.",
-        &[],
-        |image, args| change(image, VALIDATORS, &args[0], Change::Delete),
-    ),
-    pure(
-        "ENABLE-LOCATION-VALIDATION-FUNCTION",
-        "function",
-        "Uses a validator again.",
-        &[],
-        |image, args| change(image, VALIDATORS, &args[0], Change::Enable),
-    ),
-    pure(
-        "DISABLE-LOCATION-VALIDATION-FUNCTION",
-        "function",
-        "Does not use a validator for the time being.",
-        &[],
-        |image, args| change(image, VALIDATORS, &args[0], Change::Disable),
-    ),
-    pure(
-        "LIST-LOCATION-GENERATOR-FUNCTIONS",
-        "",
-        "All generators: (priority function documentation enabled).",
-        &[],
-        |image, _| {
-            let list = variable(image, GENERATORS);
-            Ok(image.special(list).clone())
-        },
-    ),
-];
-
-enum Change {
-    Delete,
-    Enable,
-    Disable,
-}
-
-/// Defines the variables.
-pub(crate) fn define(image: &mut Image) {
-    for name in [GENERATORS, VALIDATORS] {
-        let sym = variable(image, name);
-        image.define_special(sym, Value::NIL);
-    }
-    let sym = variable(image, MOST_RETRIES);
-    image.define_special(sym, Value::Int(RETRIES));
-}
-
-/// A symbol of `CRAM-DESIGNATORS`.
-fn variable(image: &mut Image, name: &str) -> Sym {
-    packages::symbol(image, "CRAM-DESIGNATORS", name)
-}
-
-fn register(image: &mut Image, list: &str, args: &[Value]) -> Result<Value> {
-    let Value::Int(priority) = args[0] else {
-        return Err(Raise::type_error(&args[0], known::INTEGER));
-    };
-    let entry = Value::list([
-        args[0].clone(),
-        args[1].clone(),
-        args.get(2).cloned().unwrap_or(Value::NIL),
-        Value::T,
-    ]);
-    let list = variable(image, list);
-    let mut entries: Vec<Value> = image
-        .special(list)
-        .iter_list()
-        .filter(|e| !is_about(e, &args[1]))
-        .collect();
-    let place = entries
-        .iter()
-        .position(|e| matches!(e.car_or_nil(), Value::Int(p) if p > priority));
-    entries.insert(place.unwrap_or(entries.len()), entry);
-    image.set_special(list, Value::list(entries));
-    Ok(args[1].clone())
-}
-
-fn is_about(entry: &Value, function: &Value) -> bool {
-    entry.cdr_or_nil().car_or_nil().is_eql(function)
-}
-
-fn change(image: &mut Image, list: &str, function: &Value, change: Change) -> Result<Value> {
-    let list = variable(image, list);
-    let mut found = false;
-    let mut entries = Vec::new();
-    for entry in image.special(list).iter_list() {
-        if !is_about(&entry, function) {
-            entries.push(entry);
-            continue;
-        }
-        found = true;
-        let parts: Vec<Value> = entry.iter_list().take(3).collect();
-        match change {
-            Change::Delete => {}
-            Change::Enable => entries.push(Value::list_with_tail(parts, Value::list([Value::T]))),
-            Change::Disable => {
-                entries.push(Value::list_with_tail(parts, Value::list([Value::NIL])));
-            }
-        }
-    }
-    image.set_special(list, Value::list(entries));
-    Ok(Value::bool(found))
-}
-
-/// The enabled functions, in order of priority.
-fn enabled(image: &mut Image, list: &str) -> Vec<Value> {
-    let list = variable(image, list);
-    image
-        .special(list)
-        .iter_list()
-        .filter_map(|entry| {
-            let parts = entry.list_to_vec()?;
-            match parts.as_slice() {
-                [_, function, _, enabled] if enabled.is_true() => Some(function.clone()),
-                _ => None,
-            }
-        })
-        .collect()
-}
 
 /// The result of a search.
 enum Found {
@@ -242,21 +76,53 @@ async fn first_solution(calls: &Calls, designator: &Value) -> Result<Found> {
     if let Some(pose) = known.await? {
         return Ok(Found::Pose(pose));
     }
-    let functor = calls.with(|machine| variable(machine.image, "LOCATION-GROUNDING"));
-    let grounded = solutions_of(calls, functor.await, None, designator).await?;
     let mut generators = calls
         .with(|machine| enabled(machine.image, GENERATORS))
         .await;
     generators.reverse();
-    let mut samples: Vec<Value> = grounded.iter_list().collect();
-    samples.reverse();
     let search = Search {
         designator: designator.clone(),
         owner: designator.clone(),
-        samples,
+        samples: Vec::new(),
         generators,
+        causes: Causes::default(),
     };
     search.run(calls).await
+}
+
+/// The poses that a location lists, and those that rules give.
+pub(super) async fn groundings(calls: &Calls, designator: &Value) -> Result<Value> {
+    let location = designator.clone();
+    let listed = calls.with(move |machine| {
+        let target = value::designator(machine.image, &location)?;
+        let poses = target.property_named(machine.image, "POSES");
+        Ok::<_, Box<Raise>>(poses.unwrap_or(Value::NIL))
+    });
+    let listed = listed.await?;
+    let functor = calls.with(|machine| variable(machine.image, "LOCATION-GROUNDING"));
+    let grounded = solutions_of(calls, functor.await, None, designator).await?;
+    let mut poses: Vec<Value> = match &listed {
+        single if as_placement(single).is_some() => vec![listed],
+        list => list.iter_list().collect(),
+    };
+    poses.extend(grounded.iter_list());
+    Ok(Value::list(poses))
+}
+
+/// Forgets what a location was resolved to, the search for it, and what follows it.
+pub(super) fn reset(image: &mut Image, designator: &Value) -> Result<()> {
+    let target = value::designator(image, designator)?;
+    *target.data.borrow_mut() = None;
+    *target.solutions.borrow_mut() = None;
+    target.is_effective.set(false);
+    let next = target.successor.take();
+    if let Some(next) = next.as_ref().and_then(value::as_designator) {
+        *next.parent.borrow_mut() = None;
+    }
+    if let Some(first) = value::as_designator(&value::first(designator)) {
+        *first.memory.borrow_mut() = None;
+    }
+    Ok(())
 }
 
 /// The pose of a location, if no search is needed.
@@ -290,55 +156,140 @@ fn given_pose(image: &Image, target: &Designator) -> Option<Value> {
     }
 }
 
+/// Why samples were rejected or are no longer generated.
+#[derive(Default)]
+struct Causes {
+    rejections: i64,
+    /// Texts of validators, with the numbers of samples that they rejected for it.
+    rejected: IndexMap<String, i64>,
+    /// Texts of generators.
+    ended: Vec<String>,
+}
+
+impl Causes {
+    fn reject(&mut self, why: Option<String>) {
+        self.rejections += 1;
+        if let Some(why) = why {
+            *self.rejected.entry(why).or_default() += 1;
+        }
+    }
+}
+
+impl std::fmt::Display for Causes {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.rejections, self.ended.is_empty()) {
+            (0, true) => {
+                let remedy = "write (a location (pose ?pose))";
+                return write!(f, "Nothing generates such a location: {remedy}.");
+            }
+            (0, false) => {}
+            (1, _) => f.write_str("1 candidate was rejected")?,
+            (n, _) => write!(f, "{n} candidates were rejected")?,
+        }
+        let mut rejected: Vec<_> = self.rejected.iter().collect();
+        rejected.sort_by_key(|(_, n)| std::cmp::Reverse(**n));
+        for (i, (why, n)) in rejected.into_iter().enumerate() {
+            let lead = if i == 0 { ": " } else { ", " };
+            write!(f, "{lead}{n} {why}")?;
+        }
+        if self.rejections > 0 {
+            f.write_str(".")?;
+        }
+        for (i, why) in self.ended.iter().enumerate() {
+            let lead = if i == 0 && self.rejections == 0 {
+                ""
+            } else {
+                "\n"
+            };
+            write!(f, "{lead}{why}")?;
+        }
+        Ok(())
+    }
+}
+
+/// A validator's judgement of a sample.
+enum Verdict {
+    Accepted,
+    /// With the reason, if the validator gives one.
+    Rejected(Option<String>),
+}
+
 /// A search for solutions of one location.
 struct Search {
     /// The designator that describes the location.
     designator: Value,
     /// The designator that receives the solution.
     owner: Value,
-    /// Poses that were generated but not checked yet, the next one last.
+    /// Poses that were generated but not checked yet, and functions that generate more; the next
+    /// one last.
     samples: Vec<Value>,
     /// Generators that have not run yet, the next one last.
     generators: Vec<Value>,
+    causes: Causes,
 }
 
 impl Search {
     /// Checks samples, running generators for more, until one is accepted.
     async fn run(mut self, calls: &Calls) -> Result<Found> {
-        let mut rejections = 0;
         loop {
-            let Some(sample) = self.samples.pop() else {
-                let Some(generator) = self.generators.pop() else {
-                    return Ok(Found::Nothing(reason(rejections)));
-                };
-                let poses = calls.call1(&generator, self.designator.clone()).await;
-                self.samples = match &poses {
-                    Value::Cons(_) => poses.iter_list().collect(),
-                    Value::Symbol(known::NIL) => Vec::new(),
-                    single => vec![single.clone()],
-                };
-                self.samples.reverse();
-                continue;
+            let Some(sample) = self.next_sample(calls).await else {
+                return Ok(Found::Nothing(self.causes.to_string()));
             };
-            if self.is_accepted(calls, &sample).await {
-                self.settle(&sample);
-                return Ok(Found::Pose(sample));
+            match self.judge(calls, &sample).await {
+                Verdict::Accepted => {
+                    self.settle(&sample);
+                    return Ok(Found::Pose(sample));
+                }
+                Verdict::Rejected(why) => self.causes.reject(why),
             }
-            rejections += 1;
-            if rejections >= calls.with(|machine| most_retries(machine.image)).await {
-                return Ok(Found::Nothing(reason(rejections)));
+            let most = calls.with(|machine| most_retries(machine.image)).await;
+            if self.causes.rejections >= most {
+                return Ok(Found::Nothing(self.causes.to_string()));
             }
         }
     }
 
-    /// Whether the validators accept a sample.
-    async fn is_accepted(&self, calls: &Calls, sample: &Value) -> bool {
+    /// The next sample; generators run when there are none left.
+    async fn next_sample(&mut self, calls: &Calls) -> Option<Value> {
+        loop {
+            match self.samples.pop() {
+                Some(more @ Value::Function(_)) => {
+                    let sample = calls.call(&more, Args::Many(Vec::new())).await;
+                    match sample {
+                        Value::Symbol(known::NIL) => {}
+                        Value::Str(why) => self.causes.ended.push(why.text()),
+                        sample => {
+                            self.samples.push(more);
+                            return Some(sample);
+                        }
+                    }
+                }
+                Some(sample) => return Some(sample),
+                None => {
+                    let generator = self.generators.pop()?;
+                    let poses = calls.call1(&generator, self.designator.clone()).await;
+                    self.samples = match &poses {
+                        Value::Cons(_) => poses.iter_list().collect(),
+                        Value::Symbol(known::NIL) => Vec::new(),
+                        single => vec![single.clone()],
+                    };
+                    self.samples.reverse();
+                }
+            }
+        }
+    }
+
+    /// What the validators say of a sample.
+    async fn judge(&self, calls: &Calls, sample: &Value) -> Verdict {
         let validators = calls.with(|machine| enabled(machine.image, VALIDATORS));
         let mut is_sure = false;
         let mut is_doubtful = false;
         for validator in validators.await {
             let args = Args::Two([self.designator.clone(), sample.clone()]);
             let answer = calls.call(&validator, args).await;
+            if let Value::Str(why) = &answer {
+                return Verdict::Rejected(Some(why.text()));
+            }
             let answer = calls.with(move |machine| {
                 let sym = answer.as_symbol();
                 sym.map(|sym| machine.image.name(sym).to_owned())
@@ -347,10 +298,13 @@ impl Search {
                 Some("ACCEPT") => is_sure = true,
                 Some("MAYBE-REJECT") => is_doubtful = true,
                 Some("UNKNOWN") => {}
-                _ => return false,
+                _ => return Verdict::Rejected(None),
             }
         }
-        is_sure || !is_doubtful
+        match is_sure || !is_doubtful {
+            true => Verdict::Accepted,
+            false => Verdict::Rejected(None),
+        }
     }
 
     /// Makes a sample the value of the owner, and keeps what has not been checked.
@@ -360,24 +314,6 @@ impl Search {
             let rest = Value::cons(Value::list(self.samples), Value::list(self.generators));
             *target.solutions.borrow_mut() = Some(rest);
         }
-    }
-}
-
-/// The number of rejections in a row that ends a search.
-fn most_retries(image: &mut Image) -> i64 {
-    let most = variable(image, MOST_RETRIES);
-    match image.special(most) {
-        Value::Int(most) => *most,
-        _ => RETRIES,
-    }
-}
-
-/// Why a search has found nothing.
-fn reason(rejections: i64) -> String {
-    match rejections {
-        0 => "Nothing generates such a location: write (a location (pose ?pose)).".to_owned(),
-        1 => "1 candidate was rejected.".to_owned(),
-        n => format!("{n} candidates were rejected."),
     }
 }
 
@@ -405,6 +341,7 @@ pub(crate) async fn next_solution(calls: &Calls, designator: &Value) -> Result<V
         // Both are kept in reverse order.
         samples: rest.car_or_nil().iter_list().collect(),
         generators: rest.cdr_or_nil().iter_list().collect(),
+        causes: Causes::default(),
     };
     Ok(match search.run(calls).await? {
         Found::Pose(_) => {

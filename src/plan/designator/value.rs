@@ -106,6 +106,8 @@ pub(crate) struct Designator {
     pub(crate) is_effective: Cell<bool>,
     /// Further solutions after `data`: a list, or `NIL`.
     pub(crate) solutions: RefCell<Option<Value>>,
+    /// What a search for solutions remembers; the first designator of a chain has it.
+    pub(crate) memory: RefCell<Option<Value>>,
     class_symbol: Sym,
 }
 
@@ -126,6 +128,7 @@ impl Designator {
             data: RefCell::default(),
             is_effective: Cell::new(false),
             solutions: RefCell::default(),
+            memory: RefCell::default(),
             class_symbol: packages::symbol(image, "CRAM-DESIGNATORS", class.class_name()),
         }
     }
@@ -257,7 +260,13 @@ impl Designator {
     /// Moves all the designator's references to `pending`.
     fn release(&self, pending: &mut Vec<Value>) {
         pending.push(self.description.replace(Value::NIL));
-        let links = [&self.parent, &self.successor, &self.data, &self.solutions];
+        let links = [
+            &self.parent,
+            &self.successor,
+            &self.data,
+            &self.solutions,
+            &self.memory,
+        ];
         pending.extend(links.into_iter().filter_map(|link| link.take()));
     }
 }
@@ -311,6 +320,20 @@ impl Foreign for Designator {
         }
         text.push('>');
         text
+    }
+
+    fn describe(&self, context: &dyn PrintContext) -> String {
+        let mut lines = Vec::new();
+        if let Some(data) = &*self.data.borrow() {
+            lines.push(format!("Refers to: {}", context.text(data, true)));
+        }
+        // The first designator of the chain has what the search remembers.
+        let oldest = self.parent.borrow().as_ref().map(first);
+        let oldest = oldest.as_ref().and_then(as_designator).unwrap_or(self);
+        if let Some(Value::Foreign(memory)) = &*oldest.memory.borrow() {
+            lines.push(memory.object().describe(context));
+        }
+        lines.join("\n")
     }
 }
 

@@ -3,6 +3,7 @@
 mod explaining;
 mod grasps;
 mod leaving;
+mod locations;
 mod objects;
 mod picture_request;
 mod pictures;

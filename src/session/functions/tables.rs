@@ -20,6 +20,8 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("ROS-LOAD", functions::ros::LOAD_TABLE),
     ("ASDF", functions::ros::ASDF_TABLE),
     ("QUICKLISP-CLIENT", functions::ros::QUICKLISP_TABLE),
+    ("CRAM-LOCATION-COSTMAP", functions::locations::TABLE),
+    ("PLANWRIGHT", functions::locations::FURNITURE_TABLE),
     ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::snapshots::TABLE),
     ("PLANWRIGHT", functions::pictures::TABLE),

@@ -1,7 +1,7 @@
 //! Undo: snapshots of the world that are taken automatically, and named ones.
 //!
-//! A snapshot holds the world, the robot in it, what the hands hold and the names of
-//! objects. Lisp variables and simulated time are not part of it.
+//! A snapshot holds the world, the robot in it, what the hands hold, the names of objects, and
+//! where the random numbers of locations have got to. Lisp variables and simulated time are not part of it.
 
 use std::collections::VecDeque;
 use std::rc::Rc;
@@ -26,6 +26,7 @@ pub(crate) struct Snapshot {
     names: IndexMap<String, Value>,
     held: IndexMap<String, Held>,
     axes: Option<Axes>,
+    searches: u64,
 }
 
 /// The state before a form at top level.
@@ -60,6 +61,7 @@ impl Snapshot {
             names: simulation.names.clone(),
             held: simulation.held.clone(),
             axes: simulation.axes.clone(),
+            searches: simulation.searches,
         }
     }
 
@@ -69,6 +71,7 @@ impl Snapshot {
         simulation.names.clone_from(&self.names);
         simulation.held.clone_from(&self.held);
         simulation.axes.clone_from(&self.axes);
+        simulation.searches = self.searches;
         simulation.jobs.clear();
     }
 }

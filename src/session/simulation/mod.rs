@@ -6,6 +6,7 @@ pub(super) mod grasp_search;
 pub(super) mod held;
 pub(super) mod imagined;
 pub(crate) mod jobs;
+pub(super) mod locations;
 pub(super) mod motion_types;
 pub(super) mod motions;
 pub(super) mod names;
@@ -62,11 +63,18 @@ pub(crate) struct Simulation {
     looks: OnceCell<Looks>,
     /// Simulated time (s) last reported by the scheduler.
     pub(super) now: f64,
+    /// The seed of the session, and how many searches for locations have begun in this world.
+    seed: u64,
+    pub(super) searches: u64,
 }
 
 impl Simulation {
     /// The robot as after start-up: at the origin of the map, its arms tucked.
-    pub(super) fn new(models: Arc<Models>, log_level: LogLevel) -> Result<Simulation, DataError> {
+    pub(super) fn new(
+        models: Arc<Models>,
+        log_level: LogLevel,
+        seed: u64,
+    ) -> Result<Simulation, DataError> {
         let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp")?;
         Ok(Simulation {
             world: starting_world(&models),
@@ -82,6 +90,8 @@ impl Simulation {
             sought: None,
             looks: OnceCell::new(),
             now: 0.0,
+            seed,
+            searches: 0,
         })
     }
 
@@ -92,6 +102,7 @@ impl Simulation {
         self.held.clear();
         self.axes = None;
         self.sought = None;
+        self.searches = 0;
     }
 
     /// Simulated time (s).

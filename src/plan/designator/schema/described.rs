@@ -30,8 +30,9 @@ pub(crate) static OBJECT_KEYS: &[Key] = &[
 /// Keys of location designators.
 pub(crate) static LOCATION_KEYS: &[Key] = &[
     optional("POSE", Kind::PoseStamped, "the pose itself"),
+    optional("POSES", Kind::Poses, "the poses, in this order"),
     optional("OBJECT", Kind::Object, "the object to reach or see"),
-    optional("ARM", Kind::Keyword, "the arm that is to reach"),
+    optional("ARM", Kind::Keywords, "the arms one of which is to reach"),
     optional("OF", Kind::Anything, "the object whose location it is"),
     optional("ON", Kind::Anything, "the surface it is on"),
     optional("IN", Kind::Anything, "the container it is in"),
@@ -41,6 +42,12 @@ pub(crate) static LOCATION_KEYS: &[Key] = &[
     optional("VISIBLE-FOR", Kind::Anything, "who is to see it"),
     optional("SIDE", Kind::Anything, "left, right, front or back"),
     optional("RANGE", Kind::Anything, "how far away at most (m)"),
+    optional("Z-OFFSET", Kind::Number, "how high above it (m)"),
+    optional(
+        "ORIENTATION",
+        Kind::Keyword,
+        "support-aligned, axis-aligned, random or upside-down",
+    ),
     optional("RANGE-INVERT", Kind::Anything, "how far away at least (m)"),
     optional(
         "CENTERED-WITH-PADDING",

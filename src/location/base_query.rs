@@ -1,0 +1,41 @@
+//! The description of a place for the robot.
+
+use crate::robot::Side;
+use crate::spatial::Pose;
+
+/// What is to be reached or seen.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Item {
+    /// An object where it is, by its name in the world.
+    Object(String),
+    /// An object of the world, imagined at the target's pose.
+    Moved(String),
+    /// Something of a type, imagined at the target's pose.
+    Kind(String),
+    /// Only the place.
+    Point,
+}
+
+/// What is to be reached or seen, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Target {
+    /// What.
+    pub(crate) item: Item,
+    /// Where, in the map frame.
+    pub(crate) pose: Pose,
+    /// The target as reports name it.
+    pub(crate) name: String,
+}
+
+/// A base pose from which something is within reach or in sight.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct BaseQuery {
+    /// The target.
+    pub(crate) target: Target,
+    /// The arms one of which must reach it; `None` if it need not be reached.
+    pub(crate) arms: Option<Vec<Side>>,
+    /// The grasps by which it may be held; `None` for all that are known.
+    pub(crate) grasps: Option<Vec<String>>,
+    /// Whether the camera must see it.
+    pub(crate) sees: bool,
+}

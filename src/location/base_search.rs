@@ -1,0 +1,288 @@
+//! The search for base poses from which a target is within reach or in sight.
+
+use std::f64::consts::TAU;
+
+use super::base_query::BaseQuery;
+use super::costmap::{Costmap, Factor};
+use super::draw::Draw;
+use super::offered::Offered;
+use super::reach::{NoReach, Reach, imagined};
+use super::sight::hidden;
+use super::stream::Scene;
+use super::tally::Tally;
+use crate::motion::{BaseChecker, interruption};
+use crate::spatial::{Pose, pose, trig};
+use crate::world::{RobotConfiguration, World, WorldError};
+
+/// Edge length (m) of a cell.
+const RESOLUTION: f64 = 0.05;
+/// Distances (m) of the base's axis from a target within reach, and the most comfortable one with
+/// its spread.
+const REACH: [f64; 2] = [0.2, 1.05];
+const COMFORT: [f64; 2] = [0.65, 0.15];
+/// Distance (m) from which a target is seen at most, and the variance (m²) of the preferred ones.
+const SIGHT: f64 = 2.0;
+const SIGHT_VARIANCE: f64 = 0.5;
+/// Number of headings that are tried at a place, besides the one to the target.
+const HEADINGS: u32 = 24;
+/// A base pose is no higher (m) than this.
+const FLOOR: f64 = 0.05;
+
+/// The search in one state of the world.
+pub(super) struct BaseSearch {
+    map: Costmap,
+    /// The world as it would be, with the robot where it was tested last.
+    imagined: World,
+    /// The robot as it is.
+    robot: RobotConfiguration,
+    order: Vec<usize>,
+    next: usize,
+    /// Which heading is tried: 0 for the one to the target, then others, the nearest first.
+    turn: u32,
+}
+
+impl BaseSearch {
+    /// Begins a search, or tells why there is no such place.
+    pub(super) fn new(
+        query: &BaseQuery,
+        scene: Scene<'_>,
+        draw: &mut Draw,
+    ) -> Result<Result<Self, String>, WorldError> {
+        let t = query.target.pose.translation;
+        let far = if query.arms.is_some() {
+            REACH[1]
+        } else {
+            SIGHT
+        };
+        let limits = [[t.x - far, t.y - far], [t.x + far, t.y + far]];
+        let map = match Costmap::product(RESOLUTION, limits, &factors(query, scene.world)) {
+            Ok(map) => map,
+            Err(emptied) => {
+                return Ok(Err(format!(
+                    "{} leave nothing of the floor: 0.00 m².",
+                    emptied.keys.join(" and ")
+                )));
+            }
+        };
+        let imagined = imagined(query, scene)?;
+        let mut search = Self {
+            robot: imagined.robot_configuration().clone(),
+            imagined,
+            map,
+            order: Vec::new(),
+            next: 0,
+            turn: 0,
+        };
+        search.begin_turn(0, draw);
+        Ok(Ok(search))
+    }
+
+    /// The map of where to look.
+    pub(super) fn map(&self) -> &Costmap {
+        &self.map
+    }
+
+    fn begin_turn(&mut self, turn: u32, draw: &mut Draw) {
+        self.order = draw.order(self.map.cells.iter().map(|(_, value)| *value));
+        self.next = 0;
+        self.turn = turn;
+    }
+
+    /// The next base pose that has not been offered.
+    pub(super) fn next(
+        &mut self,
+        query: &BaseQuery,
+        scene: Scene<'_>,
+        draw: &mut Draw,
+        offered: &Offered,
+        tally: &mut Tally,
+    ) -> Result<Option<Pose>, WorldError> {
+        let robot = self.robot.clone();
+        let mut test = Test::new(query, scene, &robot, &self.imagined);
+        loop {
+            interruption::look();
+            let Some(cell) = self.order.get(self.next) else {
+                if self.turn == HEADINGS {
+                    return Ok(None);
+                }
+                self.begin_turn(self.turn + 1, draw);
+                continue;
+            };
+            // The order consists of indices of this list.
+            let (point, _) = self.map.cells[*cell];
+            let base = heading_to(query, point, self.turn);
+            if !offered.has(&base) {
+                match test.run(&mut self.imagined, &base)? {
+                    Ok(()) => {
+                        self.next += 1;
+                        return Ok(Some(base));
+                    }
+                    Err(cause) => tally.add(cause),
+                }
+            }
+            self.next += 1;
+        }
+    }
+
+    /// Why the pose is no such place, if it is none.
+    pub(super) fn check(
+        &mut self,
+        query: &BaseQuery,
+        scene: Scene<'_>,
+        base: &Pose,
+    ) -> Result<Result<(), String>, WorldError> {
+        let t = base.translation;
+        if t.z.abs() >= FLOOR {
+            return Ok(Err("not on the floor".to_owned()));
+        }
+        let factors = factors(query, scene.world);
+        let missed = factors.iter().find(|f| (f.value)([t.x, t.y]) <= 0.0);
+        if let Some(factor) = missed {
+            return Ok(Err(format!("not {}", factor.key)));
+        }
+        let on_floor = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
+        let mut test = Test::new(query, scene, &self.robot, &self.imagined);
+        test.run(&mut self.imagined, &on_floor)
+    }
+}
+
+/// The exact tests of a base pose, the cheap ones first.
+struct Test<'a> {
+    query: &'a BaseQuery,
+    checker: BaseChecker<'a>,
+    robot: &'a RobotConfiguration,
+    reach: Reach<'a>,
+}
+
+impl<'a> Test<'a> {
+    fn new(
+        query: &'a BaseQuery,
+        scene: Scene<'a>,
+        robot: &'a RobotConfiguration,
+        imagined: &World,
+    ) -> Self {
+        Self {
+            query,
+            checker: BaseChecker::new(scene.world),
+            robot,
+            reach: Reach::new(query, scene, robot, imagined),
+        }
+    }
+
+    fn run(&mut self, world: &mut World, base: &Pose) -> Result<Result<(), String>, WorldError> {
+        let t = base.translation;
+        let place = [t.x, t.y, pose::yaw(base)];
+        if let Some(hit) = self.checker.blocked(&place, 0.0) {
+            return Ok(Err(format!("in collision with {}", hit.other)));
+        }
+        if self.query.arms.is_some()
+            && let Err(cause) = self.reach.is_near(&self.query.target.pose, base)
+        {
+            return Ok(Err(self.cause(&cause)));
+        }
+        let mut robot = self.robot.clone();
+        robot.base = *base;
+        world.teleport_robot(&robot);
+        if self.query.arms.is_some()
+            && let Err(cause) = self.reach.test(world, &self.query.target.pose)
+        {
+            return Ok(Err(self.cause(&cause)));
+        }
+        if self.query.sees
+            && let Some(cause) = hidden(world, self.query)?
+        {
+            return Ok(Err(cause));
+        }
+        Ok(Ok(()))
+    }
+
+    fn cause(&self, cause: &NoReach) -> String {
+        let name = &self.query.target.name;
+        match cause {
+            NoReach::NoGrasp => format!("without a known grasp of {name}"),
+            NoReach::TooFar => format!("out of reach of {name}"),
+            NoReach::InTheWay => format!("with something in the way to {name}"),
+        }
+    }
+}
+
+/// The factors of the map.
+fn factors<'a>(query: &'a BaseQuery, world: &'a World) -> Vec<Factor<'a>> {
+    let t = query.target.pose.translation;
+    let target = [t.x, t.y];
+    let distance = move |[x, y]: [f64; 2]| libm::hypot(x - target[0], y - target[1]);
+    let name = &query.target.name;
+    let mut factors = Vec::new();
+    if query.arms.is_some() {
+        factors.push(Factor {
+            key: format!("within {} m of {name}", REACH[1]),
+            value: Box::new(move |p| {
+                let [best, spread] = COMFORT;
+                let d = distance(p);
+                let is_in_reach = (REACH[0]..=REACH[1]).contains(&d);
+                f64::from(u8::from(is_in_reach)) * gauss(d - best, spread * spread)
+            }),
+        });
+    }
+    if query.sees {
+        factors.push(Factor {
+            key: format!("within {SIGHT} m of {name}"),
+            value: Box::new(move |p| {
+                let d = distance(p);
+                f64::from(u8::from(d <= SIGHT)) * gauss(d, SIGHT_VARIANCE)
+            }),
+        });
+    }
+    factors.push(Factor {
+        key: "on the map".to_owned(),
+        value: Box::new(move |p| f64::from(u8::from(world.models().map.contains(p)))),
+    });
+    factors
+}
+
+/// A bell curve with the value 1 at 0 and never quite 0.
+fn gauss(x: f64, variance: f64) -> f64 {
+    libm::exp(-x * x / (2.0 * variance)).max(1e-6)
+}
+
+/// The base pose at a point (m) with one of the headings.
+fn heading_to(query: &BaseQuery, [x, y]: [f64; 2], turn: u32) -> Pose {
+    let t = query.target.pose.translation;
+    let ahead = trig::atan2(t.y - y, t.x - x);
+    if turn == 0 {
+        return pose::from_xy_yaw(x, y, ahead);
+    }
+    let step = TAU / f64::from(HEADINGS);
+    let nearest = (ahead / step).round();
+    let side = if nearest * step > ahead { -1.0 } else { 1.0 };
+    // 0, 1, -1, 2, -2 … steps, beginning on the side of the exact heading.
+    let by = f64::from(turn / 2) * if turn % 2 == 0 { side } else { -side };
+    pose::from_xy_yaw(x, y, trig::wrap((nearest + by) * step))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::location::{Item, Target};
+
+    #[test]
+    fn every_heading_of_the_grid_is_tried_once() {
+        let query = BaseQuery {
+            target: Target {
+                item: Item::Point,
+                pose: Pose::translation(1.0, 0.3, 0.8),
+                name: String::new(),
+            },
+            arms: None,
+            grasps: None,
+            sees: true,
+        };
+        let yaws = (1..=HEADINGS).map(|turn| pose::yaw(&heading_to(&query, [0.0, 0.0], turn)));
+        let mut steps: Vec<i32> = yaws
+            .map(|yaw| ((yaw / (TAU / 24.0)).round() as i32).rem_euclid(24))
+            .collect();
+        assert_eq!(&steps[..3], [1, 2, 0]);
+        steps.sort_unstable();
+        assert!(steps.into_iter().eq(0..24));
+    }
+}

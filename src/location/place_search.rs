@@ -1,0 +1,296 @@
+//! The search for places on a support where a thing would stand.
+
+use super::constraint::inset;
+use super::costmap::{Costmap, Factor};
+use super::draw::Draw;
+use super::offered::Offered;
+use super::place_query::{PlaceQuery, What};
+use super::stream::Scene;
+use super::tally::Tally;
+use crate::motion::interruption;
+use crate::spatial::Pose;
+use crate::world::{Extent, Ground, Load, NoRoom, StandingRoom, World, WorldError};
+
+/// Edge lengths (m) of the cells: finer ones are tried if the coarser ones yield nothing.
+const RESOLUTIONS: [f64; 3] = [0.04, 0.02, 0.01];
+/// A finer grid has no more cells than this.
+const MOST_CELLS: usize = 20_000;
+/// How far (m) what carries a thing may be above or below the upper face of the support.
+const SLACK: f64 = 0.02;
+
+/// The search in one state of the world.
+pub(super) struct PlaceSearch {
+    extent: Extent,
+    ground: Ground,
+    load: Option<Load>,
+    map: Costmap,
+    /// Which grid is in use.
+    level: usize,
+    /// The cells in the order in which they are tried, and the next one.
+    order: Vec<usize>,
+    next: usize,
+    /// Whether anything has been found in this order, and on this grid.
+    is_fruitful: bool,
+    is_level_fruitful: bool,
+}
+
+impl PlaceSearch {
+    /// Begins a search, or tells why there is no such place.
+    pub(super) fn new(
+        query: &PlaceQuery,
+        world: &World,
+        draw: &mut Draw,
+    ) -> Result<Result<Self, String>, WorldError> {
+        let load = match &query.what {
+            What::Point => None,
+            What::Object(name) => Some(world.load(name)?),
+            What::Kind(kind) => {
+                let objects = &world.models().objects;
+                let known = objects.get(kind).ok_or_else(|| WorldError::UnknownType {
+                    name: kind.clone(),
+                    closest: objects.closest_name(kind).map(str::to_owned),
+                })?;
+                Some(Load::of_shapes(&known.shapes))
+            }
+        };
+        let mut search = Self {
+            extent: query.support.extent(world)?,
+            ground: query.support.ground(world)?,
+            load,
+            map: Costmap::default(),
+            level: 0,
+            order: Vec::new(),
+            next: 0,
+            is_fruitful: false,
+            is_level_fruitful: false,
+        };
+        let mut why = String::new();
+        for level in 0..RESOLUTIONS.len() {
+            match search.map_at(query, world, level) {
+                Ok(map) => {
+                    search.begin_level(level, map, draw);
+                    return Ok(Ok(search));
+                }
+                Err(reason) => why = reason,
+            }
+        }
+        Ok(Err(why))
+    }
+
+    /// The map of where to look.
+    pub(super) fn map(&self) -> &Costmap {
+        &self.map
+    }
+
+    fn begin_level(&mut self, level: usize, map: Costmap, draw: &mut Draw) {
+        self.map = map;
+        self.level = level;
+        self.is_level_fruitful = false;
+        self.begin_pass(draw);
+    }
+
+    fn begin_pass(&mut self, draw: &mut Draw) {
+        self.order = draw.order(self.map.cells.iter().map(|(_, value)| *value));
+        self.next = 0;
+        self.is_fruitful = false;
+    }
+
+    /// How far (m) from the edges the thing has to be.
+    fn margin(&self) -> f64 {
+        self.load.as_ref().map_or(0.0, |load| {
+            let [x, y, _] = load.size(&Pose::identity());
+            x.max(y) / 2.0
+        })
+    }
+
+    fn map_at(&self, query: &PlaceQuery, world: &World, level: usize) -> Result<Costmap, String> {
+        let name = query.support.name(world);
+        let margin = self.margin();
+        let [x, y, _] = self.extent.size();
+        let what = || query.what_name();
+        if 2.0 * margin > x.min(y) {
+            return Err(format!(
+                "{} is {:.2} m across and does not fit on {name}, which is {x:.2} m by {y:.2} m.",
+                what(),
+                2.0 * margin
+            ));
+        }
+        let on = if query.above.is_some() { "above" } else { "on" };
+        let factors = query.factors(&self.extent, on, margin);
+        Costmap::product(RESOLUTIONS[level], self.limits(), &factors).map_err(|emptied| {
+            let keys = emptied.keys;
+            match keys.split_last() {
+                Some((last, rest)) if !rest.is_empty() => format!(
+                    "{} and {last} leave nothing of {name}: 0.00 m².",
+                    rest.join(", ")
+                ),
+                _ => format!("{} leaves nothing of {name}: 0.00 m².", keys.join("")),
+            }
+        })
+    }
+
+    /// Limits (m) of x and y around the support.
+    fn limits(&self) -> [[f64; 2]; 2] {
+        let Extent { frame, min, max } = &self.extent;
+        let corners = [
+            [min[0], min[1]],
+            [min[0], max[1]],
+            [max[0], min[1]],
+            [max[0], max[1]],
+        ];
+        let corners = corners.map(|[x, y]| frame * nalgebra::Point3::new(x, y, 0.0));
+        let border = |pick: fn(f64, f64) -> f64, start: f64| {
+            [0, 1].map(|i| corners.iter().map(|c| c[i]).fold(start, pick))
+        };
+        [
+            border(f64::min, f64::INFINITY),
+            border(f64::max, f64::NEG_INFINITY),
+        ]
+    }
+
+    /// The next place that has not been offered.
+    pub(super) fn next(
+        &mut self,
+        query: &PlaceQuery,
+        scene: Scene<'_>,
+        draw: &mut Draw,
+        offered: &Offered,
+        tally: &mut Tally,
+    ) -> Option<Pose> {
+        let room = StandingRoom::new(scene.world, self.limits(), self.load.as_ref());
+        loop {
+            interruption::look();
+            let Some(cell) = self.order.get(self.next) else {
+                if self.is_fruitful {
+                    self.begin_pass(draw);
+                    continue;
+                }
+                let finer = RESOLUTIONS.len() > self.level + 1 && !self.is_level_fruitful;
+                if !finer || self.map.cells.len() * 4 > MOST_CELLS {
+                    return None;
+                }
+                let level = self.level + 1;
+                let map = self.map_at(query, scene.world, level).ok()?;
+                *tally = Tally::default();
+                self.begin_level(level, map, draw);
+                continue;
+            };
+            // The order consists of indices of this list.
+            let (point, _) = self.map.cells[*cell];
+            let poses = query.orientation.poses(point, &self.extent, draw);
+            let mut found = None;
+            for pose in poses.iter().filter(|pose| !offered.has(pose)) {
+                match self.try_at(query, &room, pose) {
+                    Ok(pose) => {
+                        found = Some(pose);
+                        break;
+                    }
+                    Err(cause) => tally.add(cause_text(&cause)),
+                }
+            }
+            self.next += 1;
+            if found.is_some() {
+                self.is_fruitful = true;
+                self.is_level_fruitful = true;
+                return found;
+            }
+        }
+    }
+
+    /// The thing at the pose, at the height where it stands or is held.
+    fn try_at(
+        &self,
+        query: &PlaceQuery,
+        room: &StandingRoom<'_>,
+        pose: &Pose,
+    ) -> Result<Pose, NoRoom> {
+        let below = match self.ground {
+            Ground::Furniture => SLACK,
+            Ground::Object(_) => self.extent.size()[2],
+        };
+        let t = pose.translation;
+        let top = self.extent.top();
+        let mut pose = *pose;
+        match &self.load {
+            None => {
+                pose.translation.z =
+                    room.point([t.x, t.y], top + SLACK, SLACK + below, self.ground)?;
+            }
+            Some(load) => {
+                pose = room.stand(load, &pose, top + SLACK, SLACK + below, self.ground)?
+            }
+        }
+        if let Some(above) = query.above {
+            pose.translation.z += above;
+            if let Some(load) = &self.load {
+                room.check_free(load, &pose)?;
+            }
+        }
+        Ok(pose)
+    }
+
+    /// Why the pose is no such place, if it is none.
+    pub(super) fn check(
+        &self,
+        query: &PlaceQuery,
+        scene: Scene<'_>,
+        pose: &Pose,
+    ) -> Result<(), String> {
+        let t = pose.translation;
+        let on = if query.above.is_some() { "above" } else { "on" };
+        let factors = query.factors(&self.extent, on, self.margin());
+        let missed = factors.iter().find(|f| (f.value)([t.x, t.y]) <= 0.0);
+        if let Some(factor) = missed {
+            return Err(format!("not {}", factor.key));
+        }
+        let room = StandingRoom::new(scene.world, self.limits(), self.load.as_ref());
+        let stands = self.try_at(query, &room, pose);
+        let stands = stands.map_err(|cause| cause_text(&cause))?;
+        let off = (stands.translation.z - t.z).abs();
+        if off > 0.01 {
+            return Err(format!("{:.0} cm too high or too low", off * 100.0));
+        }
+        Ok(())
+    }
+}
+
+impl PlaceQuery {
+    /// What is to be put down, as reports name it.
+    fn what_name(&self) -> String {
+        match &self.what {
+            What::Point => "a point".to_owned(),
+            What::Object(name) => name.clone(),
+            What::Kind(kind) => format!("a {kind}"),
+        }
+    }
+
+    /// The factors of the map, the cheap ones first; things are `margin` (m) or more from edges.
+    fn factors<'a>(&'a self, extent: &'a Extent, on: &str, margin: f64) -> Vec<Factor<'a>> {
+        let key = match &self.what {
+            What::Point => format!("({on} …)"),
+            _ => format!("({on} …) for {}", self.what_name()),
+        };
+        let mut factors = vec![Factor {
+            key,
+            value: Box::new(move |point| {
+                f64::from(u8::from(inset(extent, extent.local(point)) >= margin))
+            }),
+        }];
+        let mut constraints: Vec<_> = self.constraints.iter().collect();
+        constraints.sort_by_key(|c| c.score());
+        factors.extend(constraints.into_iter().map(|constraint| Factor {
+            key: constraint.key.clone(),
+            value: Box::new(move |point| constraint.value(extent, point)),
+        }));
+        factors
+    }
+}
+
+fn cause_text(cause: &NoRoom) -> String {
+    match cause {
+        NoRoom::NoSupport => "with nothing below".to_owned(),
+        NoRoom::On(body) => format!("on {body}"),
+        NoRoom::Edge => "across an edge or not level".to_owned(),
+        NoRoom::Touches(body) => format!("touching {body}"),
+    }
+}

@@ -1,0 +1,70 @@
+//! Whether the robot would see something from a base pose with its head turned to it.
+
+use nalgebra::Point3;
+
+use super::base_query::{BaseQuery, Target};
+use super::reach::object_of;
+use crate::motion::pan_and_tilt;
+use crate::perception::Sight;
+use crate::world::{World, WorldError};
+
+/// Share of an object that must be in sight.
+const SHARE: f64 = 0.9;
+/// How much nearer (m) than a bare place may be what is in front of it.
+const SLACK: f64 = 0.03;
+
+/// Turns the head of the robot in the imagined world to the target; false if the neck cannot.
+fn look(world: &mut World, target: &Target) -> bool {
+    let point = Point3::from(target.pose.translation.vector);
+    let angles = pan_and_tilt(world, &point);
+    let mut robot = world.robot_configuration().clone();
+    let models = world.models();
+    let neck = &models.description.neck;
+    for (joint, angle) in [neck.pan_joint, neck.tilt_joint].into_iter().zip(angles) {
+        let limits = models.robot.joint(joint).limits;
+        if limits.is_some_and(|l| angle < l.lower || angle > l.upper) {
+            return false;
+        }
+        robot.joints.set(joint, angle);
+    }
+    world.teleport_robot(&robot);
+    true
+}
+
+/// Why the robot, which stands there already in the imagined world, does not see the target.
+pub(super) fn hidden(world: &mut World, query: &BaseQuery) -> Result<Option<String>, WorldError> {
+    let target = &query.target;
+    let does_not_see = format!("not seeing {}", target.name);
+    if !look(world, target) {
+        return Ok(Some(format!(
+            "{does_not_see} (the neck does not turn that far)"
+        )));
+    }
+    let sight = Sight::of_robot(world);
+    match object_of(query) {
+        Some(name) => {
+            let seen = sight.visibility(name)?;
+            if seen.fraction() >= SHARE {
+                return Ok(None);
+            }
+            let by = seen.occluders.first().map(|(body, _)| body.to_string());
+            Ok(Some(match by {
+                Some(by) => format!("{does_not_see} (hidden by {by})"),
+                None => does_not_see,
+            }))
+        }
+        None => {
+            let camera = sight.picture().camera();
+            let point = Point3::from(target.pose.translation.vector);
+            let away = camera.pose.inverse_transform_point(&point).z;
+            let is_seen = camera.pixel_of(&point).is_some_and(|[column, row]| {
+                let (width, height) = (camera.width as f64, camera.height as f64);
+                let is_inside = (0.0..width).contains(&column) && (0.0..height).contains(&row);
+                // Both are within the picture, so that the casts are exact.
+                let depth = sight.picture().depth(column as usize, row as usize);
+                is_inside && depth.is_none_or(|depth| depth >= away - SLACK)
+            });
+            Ok((!is_seen).then_some(does_not_see))
+        }
+    }
+}

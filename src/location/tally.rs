@@ -1,0 +1,36 @@
+//! How many candidates were rejected for which cause.
+
+use std::fmt;
+
+use indexmap::IndexMap;
+
+/// Causes with their counts.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tally {
+    causes: IndexMap<String, u32>,
+}
+
+impl Tally {
+    /// Counts one candidate.
+    pub(super) fn add(&mut self, cause: impl Into<String>) {
+        *self.causes.entry(cause.into()).or_default() += 1;
+    }
+
+    /// Number of candidates.
+    pub(super) fn total(&self) -> u32 {
+        self.causes.values().sum()
+    }
+}
+
+impl fmt::Display for Tally {
+    /// The most frequent cause first: `22 touch the table, 8 do not see bottle-1`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut causes: Vec<(&String, u32)> = self.causes.iter().map(|(c, n)| (c, *n)).collect();
+        causes.sort_by_key(|(_, n)| std::cmp::Reverse(*n));
+        for (i, (cause, n)) in causes.into_iter().enumerate() {
+            let comma = if i == 0 { "" } else { ", " };
+            write!(f, "{comma}{n} {cause}")?;
+        }
+        Ok(())
+    }
+}

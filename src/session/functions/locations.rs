@@ -1,0 +1,138 @@
+//! Builtins for symbolic locations: the samples that generators give, what validators say of a
+//! pose, and the furniture by name.
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
+use crate::location::{containers, surfaces};
+use crate::plan::Reply;
+use crate::plan::pose::value::{as_placement, pose_stamped};
+use crate::session::host::call::{done, host};
+use crate::session::simulation::Simulation;
+use crate::session::simulation::names::type_keyword;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `CRAM-LOCATION-COSTMAP`.
+pub(crate) static TABLE: &[Builtin] = &[
+    control(
+        "NEXT-LOCATION-SAMPLE",
+        "location target",
+        "The next pose that fulfils the location's description, which has not been given before. A text that says why if there is none; NIL if this is no description of a place; :INTERRUPTED. The target is the pose of what is to be reached or seen, if that is a location, else NIL.",
+        &["(costmap:next-location-sample (desig:a location) nil) => NIL"],
+        host!(next_sample),
+    ),
+    control(
+        "SUITABLE-ROBOT-POSE",
+        "location target",
+        "The pose of the robot if it fulfils the location's description, else NIL.",
+        &["(costmap:suitable-robot-pose (desig:a location) nil) => NIL"],
+        host!(suitable_robot_pose),
+    ),
+    control(
+        "JUDGE-LOCATION-SAMPLE",
+        "location target pose",
+        "What a validator says of a pose: :ACCEPT if it fulfils the location's description, :UNKNOWN if there is none, else a text that says why not.",
+        &["(costmap:judge-location-sample (desig:a location) nil nil) => :UNKNOWN"],
+        host!(judge),
+    ),
+];
+
+/// Builtins of package `PLANWRIGHT`.
+pub(crate) static FURNITURE_TABLE: &[Builtin] = &[
+    control(
+        "LIST-SURFACES",
+        "",
+        "The furniture on which things can be put: the names that (urdf-name …) takes.",
+        &["(and (member :table-area-main (list-surfaces)) t) => T"],
+        host!(list_surfaces),
+    ),
+    control(
+        "LIST-CONTAINERS",
+        "",
+        "What can be opened by a handle: lists of the name that (urdf-name …) takes, the joint, its position and its limits (m or rad).",
+        &["(first (assoc :iai-fridge-door (list-containers))) => :IAI-FRIDGE-DOOR"],
+        host!(list_containers),
+    ),
+];
+
+fn next_sample(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let Some(memory) = simulation.location_stream(image, &args[0], &args[1])? else {
+        return done(Value::NIL);
+    };
+    let found = simulation.with_stream(image, &memory, |stream, scene| {
+        let found = stream.next(scene)?;
+        Ok(found.ok_or_else(|| stream.why()))
+    })?;
+    match found {
+        Some(Ok(pose)) => done(pose_stamped("map", &pose)),
+        Some(Err(why)) => done(Value::from(why.as_str())),
+        None => done(image.keyword("INTERRUPTED")),
+    }
+}
+
+fn suitable_robot_pose(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let Some(memory) = simulation.location_stream(image, &args[0], &args[1])? else {
+        return done(Value::NIL);
+    };
+    let found = simulation.with_stream(image, &memory, |stream, scene| stream.here(scene))?;
+    let pose = found.flatten();
+    done(pose.map_or(Value::NIL, |pose| pose_stamped("map", &pose)))
+}
+
+fn judge(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let memory = simulation.location_stream(image, &args[0], &args[1])?;
+    let Some(memory) = memory else {
+        return done(image.keyword("UNKNOWN"));
+    };
+    if as_placement(&args[2]).is_none() {
+        return done(image.keyword("UNKNOWN"));
+    }
+    let pose = simulation.pose_in_map(image, &args[2])?;
+    let verdict =
+        simulation.with_stream(image, &memory, |stream, scene| stream.check(scene, &pose))?;
+    match verdict {
+        Some(Ok(())) => done(image.keyword("ACCEPT")),
+        Some(Err(why)) => done(Value::from(why.as_str())),
+        None => done(image.keyword("INTERRUPTED")),
+    }
+}
+
+fn list_surfaces(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+    let kitchen = &simulation.models.kitchen;
+    let names = surfaces(&simulation.world).into_iter();
+    let names = names.map(|(link, _)| furniture_keyword(image, &kitchen.link(link).name));
+    done(Value::list(names.collect::<Vec<_>>()))
+}
+
+fn list_containers(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+    let kitchen = &simulation.models.kitchen;
+    let positions = simulation.world.kitchen_positions();
+    let rows = containers(&simulation.models).into_iter().map(|container| {
+        let joint = kitchen.joint(container.joint);
+        let limits = joint.limits;
+        let limit = |pick: fn(&crate::robot::Limits) -> f64| {
+            limits
+                .as_ref()
+                .map_or(Value::NIL, |l| Value::Double(pick(l)))
+        };
+        Value::list([
+            furniture_keyword(image, &kitchen.link(container.link).name),
+            Value::from(joint.name.as_str()),
+            Value::Double(kitchen.position(positions, container.joint)),
+            limit(|l| l.lower),
+            limit(|l| l.upper),
+        ])
+    });
+    done(Value::list(rows.collect::<Vec<_>>()))
+}
+
+/// The keyword of a link of the kitchen.
+fn furniture_keyword(image: &mut Image, name: &str) -> Value {
+    type_keyword(image, &name.replace('_', "-"))
+}
