@@ -256,7 +256,7 @@ fn heading_to(query: &BaseQuery, [x, y]: [f64; 2], turn: u32) -> Pose {
     let nearest = (ahead / step).round();
     let side = if nearest * step > ahead { -1.0 } else { 1.0 };
     // 0, 1, -1, 2, -2 … steps, beginning on the side of the exact heading.
-    let by = f64::from(turn / 2) * if turn % 2 == 0 { side } else { -side };
+    let by = f64::from(turn / 2) * if turn.is_multiple_of(2) { side } else { -side };
     pose::from_xy_yaw(x, y, trig::wrap((nearest + by) * step))
 }
 

@@ -23,6 +23,11 @@ impl Offered {
         self.count
     }
 
+    /// All poses, cell by cell.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Pose> {
+        self.cells.values().flatten()
+    }
+
     fn cell(pose: &Pose) -> [i64; 2] {
         let t = pose.translation;
         // The cast saturates.

@@ -82,6 +82,11 @@ impl PlaceSearch {
         &self.map
     }
 
+    /// Height (m) of the support's upper face.
+    pub(super) fn height(&self) -> f64 {
+        self.extent.top()
+    }
+
     fn begin_level(&mut self, level: usize, map: Costmap, draw: &mut Draw) {
         self.map = map;
         self.level = level;

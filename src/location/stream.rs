@@ -2,6 +2,7 @@
 
 use super::base_query::BaseQuery;
 use super::base_search::BaseSearch;
+use super::costmap::Costmap;
 use super::draw::Draw;
 use super::offered::Offered;
 use super::place_query::{PlaceQuery, What};
@@ -33,9 +34,22 @@ pub(crate) struct Scene<'a> {
 /// A search in one state of the world.
 enum Search {
     Place(PlaceSearch),
-    Base(BaseSearch),
+    Base(Box<BaseSearch>),
     /// There is nothing to search, for this reason.
     Nothing(String),
+}
+
+/// What can be shown of a search.
+#[derive(Clone, Debug)]
+pub(crate) struct LocationView {
+    /// Where to look.
+    pub(crate) map: Costmap,
+    /// Its height (m).
+    pub(crate) height: f64,
+    /// Whether the poses are those of the robot's base.
+    pub(crate) is_for_robot: bool,
+    /// The poses offered, the last one last.
+    pub(crate) offered: Vec<Pose>,
 }
 
 /// The poses that fulfil a description.
@@ -74,7 +88,8 @@ impl Stream {
             Query::Place(query) => {
                 PlaceSearch::new(query, scene.world, &mut self.draw)?.map(Search::Place)
             }
-            Query::Base(query) => BaseSearch::new(query, scene, &mut self.draw)?.map(Search::Base),
+            Query::Base(query) => BaseSearch::new(query, scene, &mut self.draw)?
+                .map(|search| Search::Base(Box::new(search))),
         };
         self.search = Some((state, search.unwrap_or_else(Search::Nothing)));
         Ok(())
@@ -163,6 +178,38 @@ impl Stream {
         }
         self.offer(base);
         Ok(Some(base))
+    }
+
+    /// Whether the demands leave nothing to look at.
+    pub(crate) fn is_empty(&self) -> bool {
+        matches!(self.search, Some((_, Search::Nothing(_))))
+    }
+
+    /// Number of poses offered so far.
+    pub(crate) fn count(&self) -> usize {
+        self.offered.count()
+    }
+
+    /// What can be shown of the search in the world as it is; `None` if nothing is left of the map.
+    pub(crate) fn view(&mut self, scene: Scene<'_>) -> Result<Option<LocationView>, WorldError> {
+        self.prepare(scene)?;
+        let (map, height) = match &self.search {
+            Some((_, Search::Place(search))) => (search.map().clone(), search.height()),
+            Some((_, Search::Base(search))) => (search.map().clone(), 0.0),
+            _ => return Ok(None),
+        };
+        let last = self.last;
+        let before = self
+            .offered
+            .all()
+            .copied()
+            .filter(|pose| Some(*pose) != last);
+        Ok(Some(LocationView {
+            map,
+            height,
+            is_for_robot: matches!(self.query, Query::Base(_)),
+            offered: before.chain(last).collect(),
+        }))
     }
 
     /// How large the area is in which is searched, and how many poses have been offered.

@@ -90,7 +90,11 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
         "",
     ),
     row("CRAM-BULLET-REASONING", &["BTR"], ""),
-    row("CRAM-BULLET-REASONING-UTILITIES", &["BTR-UTILS"], ""),
+    row(
+        "CRAM-BULLET-REASONING-UTILITIES",
+        &["BTR-UTILS"],
+        "VISUALIZE-DESIGNATOR-COSTMAPS",
+    ),
     row("CRAM-BULLET-REASONING-BELIEF-STATE", &["BTR-BELIEF"], ""),
     row("CRAM-OBJECT-INTERFACES", &["OBJ-INT"], ""),
     row(
@@ -143,7 +147,7 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
     row("CRAM-PR2-PICK-PLACE-DEMO", &[], ""),
     row("CRAM-BEGINNER-TUTORIAL", &[], ""),
-    row("PLANWRIGHT", &["PW"], ""),
+    row("PLANWRIGHT", &["PW"], "VISUALIZE-COSTMAP"),
 ];
 
 /// Packages that inherit from packages other than `COMMON-LISP`.

@@ -8,8 +8,10 @@ use super::Observation;
 use super::frame::{Frame, Hit, Hold, Path, Placed};
 use super::node::{Kind, Node, VisualMesh};
 use super::trajectory_lines::TrajectoryLines;
+use crate::picture::LocationMap;
 use crate::picture::scene::Scene;
 use crate::robot::{JointId, JointKind, KinematicTree, LinkId};
+use crate::spatial::Pose;
 use crate::world::{BodyName, CollisionHit, Object, World};
 
 /// Least force (N) at which a contact is shown.
@@ -17,6 +19,9 @@ const LEAST_FORCE: f64 = 0.5;
 
 /// How long (s) to show what stopped a motion.
 const HIT_SECONDS: f64 = 2.5;
+
+/// Maps of locations become nodes, which are kept; later ones are not shown.
+const MOST_MAPS: usize = 256;
 
 /// Name, type and colour of an object; objects that differ in any of these are distinct nodes.
 type ObjectKey = (String, String, [u32; 4]);
@@ -33,6 +38,8 @@ pub(crate) struct FrameBuilder {
     objects: IndexMap<ObjectKey, u32>,
     /// The meshes of objects, by type and colour.
     meshes: IndexMap<(String, [u32; 4]), Arc<VisualMesh>>,
+    /// The maps of locations that have been shown, with their nodes.
+    maps: Vec<(Arc<LocationMap>, u32)>,
     joints: Vec<JointId>,
     base: u32,
     trajectories: Vec<TrajectoryLines>,
@@ -51,6 +58,7 @@ impl FrameBuilder {
             robot_links: Vec::new(),
             objects: IndexMap::new(),
             meshes: IndexMap::new(),
+            maps: Vec::new(),
             joints: Vec::new(),
             base: 0,
             trajectories: Vec::new(),
@@ -151,6 +159,9 @@ impl FrameBuilder {
                 }
             }
         }
+        if let Some(node) = observation.location.and_then(|map| self.map_node(map)) {
+            placed.push(Placed::new(node, &Pose::identity()));
+        }
         placed.sort_by_key(|p| p.node);
         self.hits
             .retain(|(since, _)| (0.0..HIT_SECONDS).contains(&(observation.time - since)));
@@ -248,6 +259,29 @@ impl FrameBuilder {
         });
         self.objects.insert(key, node);
         node
+    }
+
+    /// The node of the map of a location.
+    fn map_node(&mut self, map: &Arc<LocationMap>) -> Option<u32> {
+        let known = self.maps.iter().find(|(known, _)| Arc::ptr_eq(known, map));
+        if let Some((_, node)) = known {
+            return Some(*node);
+        }
+        if self.maps.len() == MOST_MAPS {
+            return None;
+        }
+        let mut scene = Scene::default();
+        scene.add_location_map(map);
+        let node = self.add(Node {
+            id: 0,
+            name: "location".to_owned(),
+            kind: Kind::Object,
+            type_name: "map of a location".to_owned(),
+            still: None,
+            mesh: VisualMesh::of(&scene).into(),
+        });
+        self.maps.push((Arc::clone(map), node));
+        Some(node)
     }
 
     fn add_link(

@@ -18,7 +18,10 @@ pub(crate) use frame_builder::FrameBuilder;
 pub(crate) use node::{Kind, Node, Vertex, VisualMesh};
 pub(crate) use watch_event::{TaskId, TaskNews, TaskState, WatchEvent};
 
+use std::sync::Arc;
+
 use crate::motion::PlannedTrajectory;
+use crate::picture::LocationMap;
 use crate::spatial::Pose;
 use crate::world::{CollisionHit, World};
 
@@ -31,6 +34,8 @@ pub(crate) struct Observation<'a> {
     pub(crate) world: &'a World,
     /// Coordinate axes that the user wants to see: their pose and length (m).
     pub(crate) axes: Option<(Pose, f64)>,
+    /// The map of a symbolic location to be seen.
+    pub(crate) location: Option<&'a Arc<LocationMap>>,
     /// The trajectories of motions under way, each with a number that identifies it.
     pub(crate) trajectories: &'a [(u64, PlannedTrajectory<'a>)],
 }

@@ -132,7 +132,7 @@ fn a_location_that_cannot_be_says_why() {
             &mut cook,
             &format!("(a location {ISLAND} (for (an object (type bwl))))")
         ),
-        "there is no object type named \"bwl\"; did you mean \"bowl\"?."
+        "there is no object type bwl; did you mean bowl?"
     );
     assert_eq!(
         refusal(&mut cook, "(a location)"),

@@ -329,8 +329,7 @@ async fn resolve_places(calls: &Calls, request: &mut MotionRequest) -> Result<()
         if !is_symbolic.await {
             continue;
         }
-        let message = "The location is not known.".to_owned();
-        let pose = location::try_reference(calls, place, message).await?;
+        let pose = location::try_reference(calls, place, String::new()).await?;
         let (motion, symbolic) = (request.designator.clone(), place.clone());
         (*place, request.designator) = calls
             .with(move |machine| {

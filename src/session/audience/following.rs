@@ -44,6 +44,11 @@ impl Audience {
         self.followers.all.retain(|(known, _)| *known != id);
     }
 
+    /// Whether there are any followers.
+    pub(crate) fn has_followers(&self) -> bool {
+        !self.followers.all.is_empty()
+    }
+
     /// Shows the followers the present state of the world.
     pub(crate) fn show(&mut self, simulation: &Simulation, cause: Cause) {
         if self.followers.all.is_empty() {
@@ -120,6 +125,10 @@ fn observation<'a>(
         time: simulation.now,
         world: &simulation.world,
         axes: simulation.axes.as_ref().map(|axes| (axes.pose, axes.size)),
+        location: simulation
+            .location_map
+            .as_ref()
+            .or(simulation.resolved_map.as_ref()),
         trajectories,
     }
 }

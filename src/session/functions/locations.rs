@@ -8,6 +8,7 @@ use crate::lisp::value::raise::Raise;
 use crate::location::{containers, surfaces};
 use crate::plan::Reply;
 use crate::plan::pose::value::{as_placement, pose_stamped};
+use crate::session::host::SimulationHost;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
 use crate::session::simulation::names::type_keyword;
@@ -37,7 +38,23 @@ pub(crate) static TABLE: &[Builtin] = &[
         &["(costmap:judge-location-sample (desig:a location) nil nil) => :UNKNOWN"],
         host!(judge),
     ),
+    control(
+        "SHOW-LOCATION-MAP",
+        "location target",
+        "Shows where a location may be in pictures and the live view: cells coloured by their values, and the poses offered so far as arrows, the last one in another colour. Writes how large the area is. It stays until another one is shown.",
+        &[],
+        host!(show_map),
+    ),
 ];
+
+/// Builtins of package `CRAM-BULLET-REASONING`.
+pub(crate) static VISUALIZATION_TABLE: &[Builtin] = &[control(
+    "CLEAR-COSTMAP-VIS-OBJECT",
+    "",
+    "Shows no map of a location any more.",
+    &["(btr:clear-costmap-vis-object) => NIL"],
+    host!(clear_map),
+)];
 
 /// Builtins of package `PLANWRIGHT`.
 pub(crate) static FURNITURE_TABLE: &[Builtin] = &[
@@ -57,15 +74,19 @@ pub(crate) static FURNITURE_TABLE: &[Builtin] = &[
     ),
 ];
 
-fn next_sample(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+fn next_sample(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let simulation = &mut host.simulation;
     let Some(memory) = simulation.location_stream(image, &args[0], &args[1])? else {
         return done(Value::NIL);
     };
     let found = simulation.with_stream(image, &memory, |stream, scene| {
         let found = stream.next(scene)?;
-        Ok(found.ok_or_else(|| stream.why()))
+        Ok((found.ok_or_else(|| stream.why()), stream.count()))
     })?;
-    match found {
+    if host.audience.has_followers() && matches!(found, Some((Ok(_), 1))) {
+        simulation.resolved_map = simulation.location_map_of(image, &memory)?;
+    }
+    match found.map(|(found, _)| found) {
         Some(Ok(pose)) => done(pose_stamped("map", &pose)),
         Some(Err(why)) => done(Value::from(why.as_str())),
         None => done(image.keyword("INTERRUPTED")),
@@ -101,6 +122,31 @@ fn judge(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Resu
         Some(Err(why)) => done(Value::from(why.as_str())),
         None => done(image.keyword("INTERRUPTED")),
     }
+}
+
+fn show_map(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let Some(memory) = simulation.location_stream(image, &args[0], &args[1])? else {
+        return Err(Raise::simple(
+            "There is nothing to be seen: the location does not say on what it is, nor what the robot is to reach or see.",
+        ));
+    };
+    simulation.location_map = simulation.location_map_of(image, &memory)?;
+    let summary = simulation.with_stream(image, &memory, |stream, _| {
+        Ok(match stream.is_empty() {
+            true => stream.why(),
+            false => stream.summary(),
+        })
+    })?;
+    image.output.fresh_line();
+    image.output.write(&summary.unwrap_or_default());
+    image.output.fresh_line();
+    done(Value::NIL)
+}
+
+fn clear_map(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    simulation.location_map = None;
+    simulation.resolved_map = None;
+    done(Value::NIL)
 }
 
 fn list_surfaces(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {

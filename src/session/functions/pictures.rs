@@ -133,6 +133,9 @@ fn map_picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> 
     if let Some(axes) = simulation.axes() {
         scene.add_axes(&axes.pose, axes.size);
     }
+    if let Some(map) = &simulation.location_map {
+        scene.add_location_map(map);
+    }
     let camera = View::Map.camera(&simulation.world, width, height);
     let camera = camera.map_err(|error| Raise::simple(format!("{error}.")))?;
     let mut picture = render(&scene, &camera);

@@ -22,6 +22,10 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("QUICKLISP-CLIENT", functions::ros::QUICKLISP_TABLE),
     ("CRAM-LOCATION-COSTMAP", functions::locations::TABLE),
     ("PLANWRIGHT", functions::locations::FURNITURE_TABLE),
+    (
+        "CRAM-BULLET-REASONING",
+        functions::locations::VISUALIZATION_TABLE,
+    ),
     ("PLANWRIGHT", functions::explaining::TABLE),
     ("PLANWRIGHT", functions::snapshots::TABLE),
     ("PLANWRIGHT", functions::pictures::TABLE),

@@ -1,6 +1,7 @@
 //! From location designators to descriptions of places, and the search for them.
 
 use std::cell::RefCell;
+use std::sync::Arc;
 
 use super::Simulation;
 use super::motions::sides;
@@ -19,6 +20,7 @@ use crate::location::{
     Stream, Support, Target, What, link_named,
 };
 use crate::motion::interruption::interruptible;
+use crate::picture::LocationMap;
 use crate::plan::designator::value::{Class, Designator, as_class, as_designator, current, first};
 use crate::robot::Side;
 use crate::session::LogLevel;
@@ -47,8 +49,10 @@ impl Foreign for LocationStream {
     }
 }
 
-pub(in crate::session) fn raised(error: &WorldError) -> Box<Raise> {
-    Raise::simple(format!("{error}."))
+fn raised(error: &WorldError) -> Box<Raise> {
+    let text = error.to_string();
+    let end = if text.ends_with('?') { "" } else { "." };
+    Raise::simple(text + end)
 }
 
 /// All values of a property, of all properties with that key, also those in lists.
@@ -173,6 +177,24 @@ impl Simulation {
                 Ok(None)
             }
         }
+    }
+
+    /// What can be shown of the search for a location, if there is anything.
+    pub(in crate::session) fn location_map_of(
+        &self,
+        image: &mut Image,
+        memory: &Value,
+    ) -> Result<Option<Arc<LocationMap>>> {
+        let view = self.with_stream(image, memory, |stream, scene| stream.view(scene))?;
+        Ok(view.flatten().map(|view| {
+            Arc::new(LocationMap {
+                resolution: view.map.resolution,
+                cells: view.map.cells,
+                height: view.height,
+                offered: view.offered,
+                arrow: if view.is_for_robot { 0.3 } else { 0.12 },
+            })
+        }))
     }
 
     /// What the properties describe; `None` if that is no place on something nor one for the robot.

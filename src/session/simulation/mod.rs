@@ -24,7 +24,7 @@ use indexmap::IndexMap;
 use super::log_level::LogLevel;
 use crate::lisp::value::Value;
 use crate::motion::DetectQuery;
-use crate::picture::Looks;
+use crate::picture::{LocationMap, Looks};
 use crate::sexp::DataError;
 use crate::spatial::Pose;
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
@@ -53,6 +53,10 @@ pub(crate) struct Simulation {
     /// Active and waiting motions.
     pub(super) jobs: Jobs,
     pub(super) axes: Option<Axes>,
+    /// The map of a location that the user asked to see.
+    pub(super) location_map: Option<Arc<LocationMap>>,
+    /// The map of the location that was resolved last, for followers.
+    pub(super) resolved_map: Option<Arc<LocationMap>>,
     pub(super) log_level: LogLevel,
     /// The last failure of a motion, to be explained on demand.
     last_failure: Option<Box<explain::Remembered>>,
@@ -84,6 +88,8 @@ impl Simulation {
             held: IndexMap::new(),
             jobs: Jobs::default(),
             axes: None,
+            location_map: None,
+            resolved_map: None,
             log_level,
             last_failure: None,
             last_account: None,
@@ -101,6 +107,8 @@ impl Simulation {
         self.names.clear();
         self.held.clear();
         self.axes = None;
+        self.location_map = None;
+        self.resolved_map = None;
         self.sought = None;
         self.searches = 0;
     }

@@ -10,6 +10,9 @@ impl Simulation {
         if let Some(axes) = self.axes() {
             scene.add_axes(&axes.pose, axes.size);
         }
+        if let Some(map) = &self.location_map {
+            scene.add_location_map(map);
+        }
         scene
     }
 
