@@ -5,7 +5,8 @@ use super::job::{
     Activity, DetectedObject, Job, MotionOutcome, MotionStatus, ProcessModule, Progress,
 };
 use crate::perception::Sight;
-use crate::world::World;
+use crate::world::noise::Perceived;
+use crate::world::{Object, World};
 
 /// Which objects are looked for.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,6 +37,7 @@ impl Detect {
 }
 
 impl Search {
+    /// Whether an object of that name is looked for, if it is taken for one of the type.
     fn matches(&self, name: &str, type_name: &str) -> bool {
         let same = |a: &String, b: &str| a.eq_ignore_ascii_case(b);
         self.query.name.as_ref().is_none_or(|n| same(n, name))
@@ -54,15 +56,15 @@ impl Search {
     }
 
     fn look(&self, world: &World) -> Result<Vec<DetectedObject>, MotionFailure> {
-        let wanted = || {
-            world
-                .objects()
-                .filter(|o| self.matches(o.name(), o.type_name()))
-        };
         let base = world.robot_configuration().base;
         let sight = Sight::of_robot(world);
         let (mut seen, mut candidates) = (Vec::new(), Vec::new());
-        for object in wanted() {
+        for object in world.objects() {
+            let perceived = world.noise().map(|noise| noise.perceived(object.name()));
+            let type_name = apparent_type(world, object, perceived.as_ref());
+            if !self.matches(object.name(), type_name) || perceived.is_some_and(|p| p.is_missed) {
+                continue;
+            }
             // The names come from the world, so they exist.
             let Ok(visibility) = sight.visibility(object.name()) else {
                 continue;
@@ -70,10 +72,11 @@ impl Search {
             let Ok(pose) = world.object_pose(object.name()) else {
                 continue;
             };
+            let pose = perceived.map_or(pose, |perceived| perceived.pose(&pose));
             if visibility.is_seen() {
                 seen.push(DetectedObject {
                     name: object.name().to_owned(),
-                    type_name: object.type_name().to_owned(),
+                    type_name: type_name.to_owned(),
                     pose_in_base: base.inverse() * pose,
                     pose_in_map: pose,
                 });
@@ -86,16 +89,44 @@ impl Search {
                 wanted,
                 candidates,
                 meant: self.type_that_was_meant(world),
+                may_err: world.noise().is_some(),
             });
         }
         Ok(seen)
     }
 }
 
+/// The type that an object is taken for.
+fn apparent_type<'w>(
+    world: &'w World,
+    object: &'w Object,
+    perceived: Option<&Perceived>,
+) -> &'w str {
+    let truth = object.type_name();
+    let Some(chosen) = perceived.and_then(|perceived| perceived.other_type) else {
+        return truth;
+    };
+    let others: Vec<&str> = world
+        .models()
+        .objects
+        .types()
+        .map(|kind| kind.name.as_str())
+        .filter(|name| *name != truth)
+        .collect();
+    // The cast rounds down.
+    others
+        .get((chosen * others.len() as f64) as usize)
+        .copied()
+        .unwrap_or(truth)
+}
+
 impl Activity for Search {
     const MODULE: ProcessModule = ProcessModule::Perception;
 
     fn step(&mut self, world: &mut World) -> Option<MotionStatus> {
+        if let Some(noise) = world.noise_mut() {
+            noise.look();
+        }
         Some(match self.look(world) {
             Ok(seen) => MotionStatus::Done(MotionOutcome::Detected(seen)),
             Err(failure) => MotionStatus::failed(failure),

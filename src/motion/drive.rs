@@ -63,6 +63,8 @@ pub(crate) struct BaseMotion {
     ahead_is_sure: bool,
     /// Number of paths found so far.
     plans: u32,
+    /// How far beside the end of the path the base arrives: x, y (m) and heading (rad).
+    drift: BasePlace,
     replanning: Replanning,
 }
 
@@ -81,6 +83,7 @@ impl Drive {
             yields: 0,
             ahead_is_sure: false,
             plans: 0,
+            drift: [0.0; 3],
             replanning: Replanning::default(),
         })
     }
@@ -143,6 +146,8 @@ impl BaseMotion {
                 self.replanning.reset();
                 self.ahead = None;
                 self.follower = Some(follower);
+                let noise = world.noise();
+                self.drift = noise.map_or([0.0; 3], |noise| noise.of_drive(world.steps()));
                 None
             }
             Err(failure) if failure.may_pass() => {
@@ -206,7 +211,11 @@ impl BaseMotion {
         {
             return self.give_up_trajectory(hit);
         }
-        let next = at_place(world.robot_configuration(), &follower.next());
+        let mut place = follower.next();
+        for (axis, drift) in place.iter_mut().zip(self.drift) {
+            *axis += drift * follower.fraction();
+        }
+        let next = at_place(world.robot_configuration(), &place);
         if let Some(hit) = guard::obstacle(world, &next, &AllowedPairs::none()) {
             return self.give_up_trajectory(hit);
         }

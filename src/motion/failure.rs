@@ -98,7 +98,7 @@ pub(crate) enum MotionFailure {
         hit: Box<CollisionHit>,
     },
     /// No object that matches the query is in sight.
-    #[error("Could not find object {wanted}.{}", sights(.candidates, .wanted, .meant.as_deref()))]
+    #[error("Could not find object {wanted}.{}", sights(.candidates, .wanted, .meant.as_deref(), *.may_err))]
     ObjectNotFound {
         /// What was looked for.
         wanted: String,
@@ -106,6 +106,8 @@ pub(crate) enum MotionFailure {
         candidates: Vec<Visibility>,
         /// The type with the most similar name, if there is no such type.
         meant: Option<String>,
+        /// Whether the robot may overlook objects that are in sight.
+        may_err: bool,
     },
     /// The fingers met without an object between them.
     #[error(
@@ -450,10 +452,15 @@ fn heights(range: &Option<[f64; 2]>) -> String {
     }
 }
 
-fn sights(candidates: &[Visibility], wanted: &str, meant: Option<&str>) -> String {
+fn sights(candidates: &[Visibility], wanted: &str, meant: Option<&str>, may_err: bool) -> String {
     if candidates.is_empty() {
         let meant = meant.map_or_else(String::new, |name| format!("; did you mean {name}?"));
-        return format!("\nthe world holds no object like {wanted}{meant}");
+        let nowhere = if may_err {
+            "the robot recognises"
+        } else {
+            "the world holds"
+        };
+        return format!("\n{nowhere} no object like {wanted}{meant}");
     }
     let lines: Vec<String> = candidates.iter().map(ToString::to_string).collect();
     format!("\n{}", lines.join("; "))

@@ -3,6 +3,7 @@
 use super::cartesian_path::tcp_in_base;
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::failure::MotionFailure;
+use super::hold::held_objects;
 use super::job::{Job, MotionOutcome, ProcessModule, check_finite, numbers_of};
 use super::joint_follower::JointFollower;
 use super::joint_motion::{Arrival, JointGoal, JointMotion};
@@ -45,6 +46,8 @@ pub(crate) struct HandGoal {
     mode: CollisionMode,
     /// Name of the only object that the hands may touch; any if there is none.
     target: Option<String>,
+    /// Whether the goals have got the errors of the robot.
+    has_erred: bool,
 }
 
 impl MoveTcp {
@@ -60,6 +63,7 @@ impl MoveTcp {
             path,
             mode,
             target: None,
+            has_erred: false,
         }))
     }
 
@@ -68,6 +72,25 @@ impl MoveTcp {
     pub(crate) fn touching_only(mut self, target: Option<String>) -> Self {
         self.activity.goal_mut().target = target;
         self
+    }
+}
+
+impl HandGoal {
+    /// Lets empty hands that approach an object miss their goals by as much as the robot does.
+    fn err(&mut self, world: &World) {
+        let Some(noise) = world.noise() else { return };
+        if self.has_erred || self.mode == CollisionMode::AvoidAll {
+            return;
+        }
+        self.has_erred = true;
+        for (side, goal) in Side::BOTH.into_iter().zip(&mut self.poses) {
+            let Some(PoseGoal::InBase(pose) | PoseGoal::InMap(pose)) = goal else {
+                continue;
+            };
+            if held_objects(world, side).is_empty() {
+                *pose = noise.of_approach(world.steps(), side, pose);
+            }
+        }
     }
 }
 
@@ -85,6 +108,7 @@ impl JointGoal for HandGoal {
     }
 
     fn plan(&mut self, world: &World, plans: u32) -> Result<JointFollower, MotionFailure> {
+        self.err(world);
         let base = world.robot_configuration().base;
         let goals = Side::BOTH.into_iter().zip(self.poses);
         let goals: Vec<(Side, Pose)> = goals

@@ -147,7 +147,7 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
     row("CRAM-PR2-PICK-PLACE-DEMO", &[], ""),
     row("CRAM-BEGINNER-TUTORIAL", &[], ""),
-    row("PLANWRIGHT", &["PW"], "VISUALIZE-COSTMAP"),
+    row("PLANWRIGHT", &["PW"], "VISUALIZE-COSTMAP WITH-NOISE"),
 ];
 
 /// Packages that inherit from packages other than `COMMON-LISP`.

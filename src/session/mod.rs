@@ -77,9 +77,10 @@ impl Session {
         crate::plan::pose::install(&mut image);
         crate::plan::designator::install(&mut image);
         functions::install(&mut image);
-        let simulation =
+        let mut simulation =
             Simulation::new(Arc::new(options.models()?), options.log_level, options.seed)
                 .map_err(|error| SessionError::Models(error.to_string()))?;
+        simulation.set_noise(options.noise_levels()?);
         let mut session = Session {
             image,
             scheduler: Scheduler::new(),

@@ -9,6 +9,7 @@ use crate::robot::{
 };
 use crate::sexp::DataError;
 use crate::world::Models;
+use crate::world::noise::NoiseLevels;
 use crate::world::object_library::{OBJECTS, ObjectLibrary};
 
 /// What a session starts with.
@@ -23,6 +24,9 @@ pub struct SessionOptions {
     pub robot_description: Option<(String, String)>,
     /// Name and text of a URDF in place of the built-in kitchen's.
     pub world: Option<(String, String)>,
+    /// How large the errors of the robot's sensors and motors are, such as
+    /// `position=0.01,misses=0.1`; an empty text stands for usual errors, `None` for none.
+    pub noise: Option<String>,
     /// The least severe log lines that are shown.
     pub log_level: LogLevel,
     /// How many simulated seconds pass per real second; as many as possible if `None`.
@@ -39,6 +43,7 @@ impl Default for SessionOptions {
             robot: None,
             robot_description: None,
             world: None,
+            noise: None,
             log_level: LogLevel::Info,
             realtime: None,
             heap: None,
@@ -64,6 +69,9 @@ pub enum SessionError {
         /// What it lacks.
         missing: String,
     },
+    /// The noise that was asked for cannot be.
+    #[error("{0}")]
+    Noise(String),
     /// A built-in plan is wrong.
     #[error("the built-in plan {name} cannot be loaded: {report}")]
     Plan {
@@ -75,6 +83,14 @@ pub enum SessionError {
 }
 
 impl SessionOptions {
+    /// How large the robot's errors are.
+    pub(super) fn noise_levels(&self) -> Result<Option<NoiseLevels>, SessionError> {
+        let levels = self.noise.as_deref().map(NoiseLevels::from_text);
+        levels
+            .transpose()
+            .map_err(|error| SessionError::Noise(error.to_string()))
+    }
+
     /// Reads the descriptions of robot, kitchen and objects.
     pub(super) fn models(&self) -> Result<Models, SessionError> {
         let tree = |given: &Option<(String, String)>, text: &str, name: &str| {

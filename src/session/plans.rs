@@ -21,6 +21,7 @@ const LIBRARY: &[(&str, &str)] = library![
     "occasions.plan",
     "retrying.plan",
     "locations.plan",
+    "noise.plan",
     "going.plan",
     "perceiving.plan",
     "gripper.plan",

@@ -20,6 +20,7 @@ mod kitchen_motion;
 mod link_geometry;
 mod map_area;
 pub(crate) mod models;
+pub(crate) mod noise;
 pub(crate) mod object;
 pub(crate) mod object_library;
 mod obstacles;

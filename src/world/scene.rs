@@ -20,6 +20,7 @@ use super::hash::Hasher;
 use super::holding::Slip;
 use super::link_geometry::TreeGeometry;
 use super::models::Models;
+use super::noise::Noise;
 use super::object::Object;
 use super::obstacles::Obstacles;
 use super::part_key::{PartKey, index};
@@ -57,6 +58,8 @@ pub(super) struct State {
     pub(super) steps: u64,
     /// The last object that has slipped out of each hand.
     pub(super) slips: Vec<Slip>,
+    /// Errors of sensors and motors, if there are any.
+    pub(super) noise: Option<Noise>,
 }
 
 impl World {
@@ -120,6 +123,7 @@ impl World {
                 next_number: 0,
                 steps: 0,
                 slips: Vec::new(),
+                noise: None,
             },
             robot_bodies,
             kitchen_bodies,
@@ -314,6 +318,9 @@ impl World {
                     hold.hash_into(&mut hasher);
                 }
             }
+        }
+        if let Some(noise) = &self.state.noise {
+            noise.hash_into(&mut hasher);
         }
         hasher.finish()
     }

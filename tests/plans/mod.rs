@@ -7,6 +7,7 @@ mod exercises;
 mod grasping;
 mod language;
 mod locations;
+mod noise;
 mod occasions;
 pub(crate) mod overlaps;
 mod packages;

@@ -61,6 +61,17 @@ pub(crate) struct Options {
     /// whose names are not those of the built-in PR2
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) robot_description: Option<PathBuf>,
+    /// Let the robot's sensors and motors make errors, such as position=0.01,misses=0.1 (see
+    /// set-noise in the manual); usual ones if no SETTINGS are given
+    #[arg(
+        long,
+        global = true,
+        value_name = "SETTINGS",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = ""
+    )]
+    pub(crate) noise: Option<String>,
     /// Least severe log messages to show
     #[arg(long, global = true, value_name = "LEVEL", default_value = "info")]
     pub(crate) log_level: LogLevel,

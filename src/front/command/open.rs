@@ -35,6 +35,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         robot: options.robot.as_deref().map(read).transpose()?,
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
         world: options.world.as_deref().map(read).transpose()?,
+        noise: options.noise.clone(),
         log_level: match options.log_level {
             LogLevel::Debug => session::LogLevel::Debug,
             LogLevel::Info => session::LogLevel::Info,

@@ -49,6 +49,7 @@ pub(super) fn open_journals(
         world: options.world.clone(),
         robot: options.robot.clone(),
         robot_description: options.robot_description.clone(),
+        noise: options.noise.clone(),
     };
     let mut opened = prompt::open(journal, &beginning)?;
     if let Some(earlier) = &opened.earlier {
@@ -68,6 +69,10 @@ pub(super) fn open_journals(
                 "--robot-description",
                 differs(&options.robot_description, &beginning.robot_description),
             ),
+            (
+                "--noise",
+                options.noise.is_some() && options.noise != beginning.noise,
+            ),
         ];
         let unused = unused.iter().filter(|(_, is_unused)| *is_unused);
         opened.remarks.extend(unused.map(|(option, _)| {
@@ -77,6 +82,7 @@ pub(super) fn open_journals(
         options.world = beginning.world;
         options.robot = beginning.robot;
         options.robot_description = beginning.robot_description;
+        options.noise = beginning.noise;
     }
     Ok(opened)
 }

@@ -4,6 +4,7 @@ mod explaining;
 mod grasps;
 mod leaving;
 mod locations;
+mod noise;
 mod objects;
 mod picture_request;
 mod pictures;

@@ -27,6 +27,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
         functions::locations::VISUALIZATION_TABLE,
     ),
     ("PLANWRIGHT", functions::explaining::TABLE),
+    ("PLANWRIGHT", functions::noise::TABLE),
     ("PLANWRIGHT", functions::snapshots::TABLE),
     ("PLANWRIGHT", functions::pictures::TABLE),
     ("PLANWRIGHT", functions::prompt::TABLE),

@@ -28,6 +28,7 @@ use crate::picture::{LocationMap, Looks};
 use crate::sexp::DataError;
 use crate::spatial::Pose;
 use crate::world::grasp_library::{GRASPS, GraspLibrary};
+use crate::world::noise::{Noise, NoiseLevels};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
 
@@ -65,6 +66,8 @@ pub(crate) struct Simulation {
     /// The objects that the robot looked for last.
     sought: Option<DetectQuery>,
     looks: OnceCell<Looks>,
+    /// How many times the robot has begun to make errors.
+    noises: u64,
     /// Simulated time (s) last reported by the scheduler.
     pub(super) now: f64,
     /// The seed of the session, and how many searches for locations have begun in this world.
@@ -95,6 +98,7 @@ impl Simulation {
             last_account: None,
             sought: None,
             looks: OnceCell::new(),
+            noises: 0,
             now: 0.0,
             seed,
             searches: 0,
@@ -103,7 +107,9 @@ impl Simulation {
 
     /// Resets the world: no objects, the robot at the origin. Simulated time continues.
     pub(super) fn restart(&mut self) {
+        let noise = self.noise_levels();
         self.world = starting_world(&self.models);
+        self.set_noise(noise);
         self.names.clear();
         self.held.clear();
         self.axes = None;
@@ -111,6 +117,18 @@ impl Simulation {
         self.resolved_map = None;
         self.sought = None;
         self.searches = 0;
+    }
+
+    /// How large the errors of sensors and motors are, if there are any.
+    pub(super) fn noise_levels(&self) -> Option<NoiseLevels> {
+        self.world.noise().map(|noise| noise.levels)
+    }
+
+    /// Sets how large the errors of sensors and motors are.
+    pub(super) fn set_noise(&mut self, levels: Option<NoiseLevels>) {
+        self.noises += u64::from(levels.is_some());
+        let noise = levels.map(|levels| Noise::new(levels, [self.seed, self.noises]));
+        self.world.set_noise(noise);
     }
 
     /// Simulated time (s).

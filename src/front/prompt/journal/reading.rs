@@ -108,6 +108,7 @@ impl Earlier {
             Record::RobotDescription(file) => {
                 self.beginning.robot_description = Some(file.into());
             }
+            Record::Noise(settings) => self.beginning.noise = Some(settings),
             Record::Input { text, stops } => {
                 *current = Some(self.inputs.len());
                 self.inputs.push(Recorded {

@@ -23,6 +23,7 @@ pub(super) enum Record {
     World(String),
     Robot(String),
     RobotDescription(String),
+    Noise(String),
     /// The evaluation of an input begins.
     Input {
         text: String,
@@ -52,8 +53,10 @@ impl Record {
             let file = std::path::absolute(file).unwrap_or_else(|_| file.clone());
             Some(record(file.to_string_lossy().into_owned()))
         });
+        let noise = beginning.noise.clone().map(Record::Noise);
         std::iter::once(Record::Seed(beginning.seed))
             .chain(given)
+            .chain(noise)
             .collect()
     }
 
@@ -64,6 +67,7 @@ impl Record {
             Record::World(file) => ("world", escaped(file)),
             Record::Robot(file) => ("robot", escaped(file)),
             Record::RobotDescription(file) => ("robot-description", escaped(file)),
+            Record::Noise(settings) => ("noise", escaped(settings)),
             Record::Input { text, stops: true } => ("input", escaped(text)),
             Record::Input { text, stops: false } => ("pasted", escaped(text)),
             Record::Interrupted(at) => ("interrupted", at.to_string()),
@@ -81,6 +85,7 @@ impl Record {
             "world" => Record::World(unescaped(value)),
             "robot" => Record::Robot(unescaped(value)),
             "robot-description" => Record::RobotDescription(unescaped(value)),
+            "noise" => Record::Noise(unescaped(value)),
             "input" | "pasted" => Record::Input {
                 text: unescaped(value),
                 stops: word == "input",

@@ -70,6 +70,7 @@ fn what_is_written_is_read_again() {
         world: Some("/a b\\n.urdf".into()),
         robot: None,
         robot_description: None,
+        noise: Some("position=0.01".to_owned()),
     };
     let mut journal = Journal::create(&path, &beginning, &[]).unwrap();
     journal.begun("(a\n \"\\n\")\r", true).unwrap();

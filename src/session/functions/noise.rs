@@ -1,0 +1,65 @@
+//! The errors of the robot's sensors and motors.
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::plan::Reply;
+use crate::session::host::call::{done, host};
+use crate::session::simulation::Simulation;
+use crate::session::simulation::names::name_text;
+use crate::world::noise::NoiseLevels;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `PLANWRIGHT`.
+pub(crate) static TABLE: &[Builtin] = &[control(
+    "SET-NOISE",
+    "&rest settings",
+    "Sets the errors of the robot's sensors and motors, and returns the former settings. Settings are names and numbers: :POSITION (m) and :YAW (rad) are standard deviations of what is detected, :MISSES and :FALSE-TYPES the probabilities that an object is overlooked or taken for another, :ODOMETRY-POSITION (m) and :ODOMETRY-YAW (rad) standard deviations of where a drive ends, :GRASP-POSITION (m) and :GRASP-YAW (rad) of where a hand approaches an object. What is not named is zero; without settings there are no errors. :USUAL stands for the errors of a common robot. The same seed gives the same errors.",
+    &[
+        "(progn (pw:set-noise :position 0.01 :misses 0.1) (pw:set-noise)) => (:POSITION 0.01d0 :MISSES 0.1d0)",
+        "(pw:set-noise) => NIL",
+    ],
+    host!(set_noise),
+)];
+
+fn set_noise(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let former = simulation
+        .noise_levels()
+        .map_or_else(Vec::new, NoiseLevels::settings);
+    let former = former.into_iter().flat_map(|(name, value)| {
+        [
+            image.keyword(&name.to_uppercase()).into(),
+            Value::Double(value),
+        ]
+    });
+    let former = Value::list(former.collect::<Vec<_>>());
+    simulation.set_noise(levels(image, args)?);
+    done(former)
+}
+
+/// The levels that arguments give.
+fn levels(image: &Image, args: &[Value]) -> Result<Option<NoiseLevels>> {
+    let name = |value: &Value| name_text(image, value).unwrap_or_default();
+    match args {
+        [] => return Ok(None),
+        [usual] if name(usual) == "USUAL" => return Ok(Some(NoiseLevels::usual())),
+        _ => {}
+    }
+    let mut levels = NoiseLevels::default();
+    for setting in args.chunks(2) {
+        let [key, value] = setting else {
+            return Err(Raise::program("A setting of noise is a name and a number."));
+        };
+        let Some(value) = number::to_f64(value) else {
+            return Err(Raise::type_error(value, known::REAL));
+        };
+        levels
+            .set(&name(key), value)
+            .map_err(|error| Raise::simple(error.to_string()))?;
+    }
+    Ok(Some(levels))
+}
