@@ -28,6 +28,13 @@ const LIBRARY: &[(&str, &str)] = library![
     "arms.plan",
     "picking-up.plan",
     "placing.plan",
+    "navigating.plan",
+    "attempts.plan",
+    "household.plan",
+    "searching.plan",
+    "fetching.plan",
+    "delivering.plan",
+    "transporting.plan",
     "tutorial-package.plan",
 ];
 

@@ -2,6 +2,7 @@
 
 mod clutter;
 mod cook;
+mod deliveries;
 mod designators;
 mod exercises;
 mod grasping;
@@ -15,7 +16,9 @@ pub(crate) mod prompt;
 mod properties;
 mod putting_down;
 mod refusals;
+mod searching;
 mod spawning;
 mod tasks;
+mod transporting;
 mod types;
 mod whole_plan;

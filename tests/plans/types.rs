@@ -23,6 +23,7 @@ const SCENE: &str = "
     (defun as-performed (designator)
       (handler-case (with-simulated-robot (perform designator) :performed)
         (cram-common-failures:low-level-failure () :failure-of-the-world)
+        (cram-common-failures:high-level-failure () :failure-of-the-world)
         (condition (c) (princ-to-string c))))";
 
 /// Variables of designators.
@@ -86,7 +87,10 @@ fn value(row: &TypeRow, key: &Key, written: &str) -> String {
         (Kind::Number, "RETRIES") => "1",
         (Kind::Number, "DURATION") => "0.5",
         (Kind::Keywords, "GRIPPER" | "ARM" | "ARMS" | "DIRECTION") => "left",
-        (Kind::Keywords, "GRASP" | "LEFT-GRASP" | "RIGHT-GRASP") => "left-side",
+        (Kind::Keywords, "GRASP" | "GRASPS" | "LEFT-GRASP" | "RIGHT-GRASP") => "left-side",
+        (Kind::Keyword, "CONTEXT") => "table-setting-counter",
+        (Kind::Action, "PICK-UP-ACTION") => "(an action (type picking-up) (object ?object))",
+        (Kind::Action, "PLACE-ACTION") => "(an action (type placing))",
         (Kind::Member(members), _) => return members[0].to_lowercase(),
         (Kind::Object | Kind::Objects, _) if row.name == "DETECTING" => "(an object (type bottle))",
         (Kind::Object | Kind::DetectedObject, _) => "?object",
@@ -158,14 +162,17 @@ fn walk(class: Class) {
     let mut lies = Vec::new();
     for row in &rows {
         assert!(row.example.is_some(), "{} has no example", row.name);
-        let holds = matches!(&*row.name, "GRIPPING" | "PICKING-UP" | "PLACING");
+        let holds = matches!(
+            &*row.name,
+            "GRIPPING" | "PICKING-UP" | "PLACING" | "FETCHING" | "DELIVERING" | "TRANSPORTING"
+        );
         let mut table = Table::new();
         for (index, designator) in designators(row).into_iter().enumerate() {
             // What a hand has taken is not on the table any more.
             if holds && index > 0 {
                 table = Table::new();
             }
-            if row.name == "PLACING" {
+            if matches!(&*row.name, "PLACING" | "DELIVERING") {
                 let picked =
                     table.perform("(an action (type picking-up) (object ?object) (arm left))");
                 assert_eq!(picked, ":PERFORMED");
@@ -274,14 +281,7 @@ fn waiting_takes_simulated_time_and_keeps_nobody_from_moving() {
 #[test]
 fn what_is_not_built_is_not_in_the_table() {
     let mut table = Table::new();
-    for name in [
-        "transporting",
-        "searching",
-        "fetching",
-        "delivering",
-        "accessing",
-        "sealing",
-    ] {
+    for name in ["accessing", "sealing"] {
         let action = format!("(an action (type {name}) (object (an object (type bottle))))");
         let said = table.perform(&action);
         let wanted = format!("There is no action of type {}", name.to_uppercase());

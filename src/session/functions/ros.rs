@@ -88,10 +88,9 @@ const OTHER_SYSTEMS: [&str; 4] = [
 ];
 
 /// Packages that stand for no system that is built in.
-const NO_SYSTEMS: [&str; 7] = [
+const NO_SYSTEMS: [&str; 6] = [
     "ASDF",
     "CRAM-PR2-ENVIRONMENT-MANIPULATION",
-    "CRAM-PR2-FETCH-DELIVER-PLANS",
     "CRAM-PR2-PICK-PLACE-DEMO",
     "PLANWRIGHT",
     "QUICKLISP-CLIENT",

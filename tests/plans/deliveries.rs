@@ -1,0 +1,284 @@
+//! How often objects are transported from one surface to another, from anywhere on it.
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+
+use super::cook::Cook;
+
+/// A surface: the name of its link, the corners of its top, and its height (m).
+struct Surface {
+    name: &'static str,
+    low: [f64; 2],
+    high: [f64; 2],
+    height: f64,
+}
+
+const SURFACES: [Surface; 3] = [
+    Surface {
+        name: "table-area-main",
+        low: [-2.2, -1.45],
+        high: [-0.6, -0.65],
+        height: 0.72,
+    },
+    Surface {
+        name: "kitchen-island-surface",
+        low: [-1.467, 0.494],
+        high: [-0.667, 2.944],
+        height: 0.861,
+    },
+    Surface {
+        name: "sink-area-surface",
+        low: [1.248, -0.285],
+        high: [1.822, 1.315],
+        height: 0.854,
+    },
+];
+
+/// How far (m) from the edge of a surface an object stands at least.
+const FROM_EDGE: f64 = 0.05;
+/// How far (m) from where it was to be put an object may stand.
+const NEAR: f64 = 0.05;
+
+const PLAN: &str = "
+    (defvar *object*)
+    (defvar *target*)
+    (defun transport (type from to)
+      (let ((?type type) (?from from) (?to to))
+        (setf *object* (an object (type ?type)))
+        (let ((?object *object*))
+          (setf *target* (a location (on (an object (urdf-name ?to) (part-of kitchen)))
+                                     (for ?object)))
+          (again ?object *target*
+                 (a location (on (an object (urdf-name ?from) (part-of kitchen))))))))
+    (defun again (?object ?target &optional ?from)
+      (with-simulated-robot
+        (perform (an action (type transporting) (object ?object) (target ?target)
+                     (desig:when ?from (location ?from))))))
+    (defun block-first-stand (type)
+      (let* ((?object (desig:make-designator :object
+                        `((:type ,type) (:name thing)
+                          (:pose ((:pose-in-map ,(get-current-pose-of-object 'thing)))))))
+             (stand (reference (a location (reachable-for pr2) (visible-for pr2)
+                                  (object ?object)))))
+        (loop for (dx dy) in '((0 0) (0.15 0.15) (0.15 -0.15) (-0.15 0.15) (-0.15 -0.15))
+              for number from 1
+              do (spawn-object (list (list (+ (cl-tf:x (cl-tf:origin stand)) dx)
+                                           (+ (cl-tf:y (cl-tf:origin stand)) dy) 0.15)
+                                     '(0 0 0 1))
+                               :breakfast-cereal
+                               (intern (format nil \"BOX-~a\" number))))))
+    (defun off-target ()
+      (coe::distance (coe::pose-in-map (reference (current-desig *target*)))
+                     (get-current-pose-of-object 'thing)))";
+
+/// What has come of transports.
+#[derive(Default)]
+struct Tally {
+    trials: u32,
+    delivered: u32,
+    moved_twice: u32,
+    milliseconds: Vec<f64>,
+    reasons: BTreeMap<String, u32>,
+}
+
+impl Tally {
+    fn line(&mut self, name: &str) {
+        self.milliseconds.sort_by(f64::total_cmp);
+        let median = self.milliseconds.get(self.milliseconds.len() / 2);
+        eprintln!(
+            "{name:30} {:4} of {:4} delivered ({:.1} %), median {:.0} ms, {} moved again",
+            self.delivered,
+            self.trials,
+            100.0 * f64::from(self.delivered) / f64::from(self.trials.max(1)),
+            median.copied().unwrap_or(0.0),
+            self.moved_twice,
+        );
+        for (reason, count) in &self.reasons {
+            eprintln!("  {count:4}  {reason}");
+        }
+    }
+}
+
+/// A stream of worlds.
+struct Worlds {
+    random: Pcg64,
+}
+
+impl Worlds {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * f64::from(self.random.next_u32()) / f64::from(u32::MAX)
+    }
+
+    /// Puts an object of a type somewhere on a surface, where it stands.
+    fn populate(&mut self, cook: &mut Cook, kind: &str, on: &Surface) {
+        for _ in 0..100 {
+            let [x, y] =
+                [0, 1].map(|i| self.between(on.low[i] + FROM_EDGE, on.high[i] - FROM_EDGE));
+            let half_yaw = self.between(0.0, std::f64::consts::PI);
+            let (s, c) = half_yaw.sin_cos();
+            cook.done("(init-projection)");
+            cook.done(&format!(
+                "(spawn-object '(({x:.4} {y:.4} {:.3}) (0 0 {s:.5} {c:.5})) {kind} 'thing)",
+                on.height + 0.1
+            ));
+            let t = cook.pose("THING").translation;
+            let aside = (t.x - x).hypot(t.y - y);
+            if aside < 0.02 && t.z > on.height && cook.lean("THING") < 5.0 {
+                return;
+            }
+        }
+        panic!("no {kind} stands on {}", on.name);
+    }
+}
+
+/// Transports one object.
+fn trial(cook: &mut Cook, kind: &str, from: &Surface, to: &Surface, tally: &mut Tally) {
+    let start = Instant::now();
+    let said = cook.say(&format!("(transport {kind} :{} :{})", from.name, to.name));
+    tally.trials += 1;
+    tally.milliseconds.push(start.elapsed().as_secs_f64() * 1e3);
+    if let Err((report, class)) = said {
+        let class = class
+            .split_whitespace()
+            .next()
+            .unwrap_or_default()
+            .to_owned();
+        let report: String = report.chars().take(200).collect();
+        eprintln!("{kind} {} -> {}: {class} {report}", from.name, to.name);
+        *tally.reasons.entry(class).or_default() += 1;
+        return;
+    }
+    let off: f64 = cook
+        .done("(off-target)")
+        .trim()
+        .trim_end_matches("d0")
+        .parse()
+        .unwrap_or(f64::INFINITY);
+    if off > NEAR {
+        eprintln!("{kind} {} -> {}: {off:.3} m off", from.name, to.name);
+        *tally.reasons.entry("elsewhere".to_owned()).or_default() += 1;
+        return;
+    }
+    tally.delivered += 1;
+    let before = cook.session.simulation().now();
+    cook.done("(again *object* *target*)");
+    tally.moved_twice += u32::from(cook.session.simulation().now() > before);
+}
+
+/// `cargo test --release --lib -- --ignored --nocapture how_often_objects_are_transported`, with
+/// `WORLDS` for the number of worlds for each type and pair of surfaces, and `TYPES`, separated
+/// by commas, for the types; with `BLOCKED`, boxes stand where the robot would first go to pick
+/// the object up.
+#[test]
+#[ignore = "takes minutes; prints how often objects are transported"]
+fn how_often_objects_are_transported() {
+    let worlds = std::env::var("WORLDS").ok().and_then(|n| n.parse().ok());
+    let worlds: u32 = worlds.unwrap_or(5);
+    let is_blocked = std::env::var("BLOCKED").is_ok();
+    let mut cook = Cook::new();
+    cook.done(PLAN);
+    let types = match std::env::var("TYPES") {
+        Ok(types) => types,
+        Err(_) => cook
+            .done("(format nil \"~{~(~a~)~^,~}\" (remove-if-not #'list-defined-grasps (list-available-objects)))"),
+    };
+    let types: Vec<String> = types
+        .trim()
+        .trim_matches('"')
+        .split(',')
+        .map(|name| format!(":{name}"))
+        .collect();
+    let mut all = Tally::default();
+    for kind in &types {
+        let mut tally = Tally::default();
+        for from in &SURFACES {
+            for to in &SURFACES {
+                if from.name == to.name {
+                    continue;
+                }
+                let mut stream = Worlds {
+                    random: Pcg64::seed_from_u64(13),
+                };
+                for _ in 0..worlds {
+                    stream.populate(&mut cook, kind, from);
+                    if is_blocked {
+                        // It fails if there is no place to stand, which is for the trial to tell.
+                        let _ = cook.say(&format!("(block-first-stand {kind})"));
+                    }
+                    trial(&mut cook, kind, from, to, &mut tally);
+                }
+            }
+        }
+        tally.line(kind);
+        all.trials += tally.trials;
+        all.delivered += tally.delivered;
+        all.moved_twice += tally.moved_twice;
+        all.milliseconds.append(&mut tally.milliseconds);
+        for (reason, count) in tally.reasons {
+            *all.reasons.entry(reason).or_default() += count;
+        }
+    }
+    all.line("all");
+}
+
+/// Objects of the table setting: type, where it is, and where it goes (m, and heading in rad).
+const TABLE_SETTING: [(&str, [f64; 4], [f64; 4]); 4] = {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    [
+        (
+            ":breakfast-cereal",
+            [1.4, 0.4, 0.95, 0.0],
+            [-0.78, 0.9, 0.95, PI],
+        ),
+        (":cup", [1.3, 0.6, 0.9, 0.0], [-0.79, 1.35, 0.9, FRAC_PI_2]),
+        (
+            ":bowl",
+            [1.4, 0.8, 0.87, 0.0],
+            [-0.76, 1.19, 0.88, FRAC_PI_2],
+        ),
+        (
+            ":milk",
+            [1.4, 0.62, 0.95, PI],
+            [-0.75, 1.7, 0.95, FRAC_PI_2],
+        ),
+    ]
+};
+
+fn pose_form([x, y, z, yaw]: [f64; 4]) -> String {
+    let (s, c) = (yaw / 2.0).sin_cos();
+    format!("'(({x} {y} {z}) (0 0 {s:.6} {c:.6}))")
+}
+
+/// `cargo test --release --lib -- --ignored --nocapture the_table_is_set`
+#[test]
+#[ignore = "prints what becomes of the objects of a table setting, and the time it takes"]
+fn the_table_is_set() {
+    let mut cook = Cook::new();
+    cook.done(PLAN);
+    for (kind, from, _) in TABLE_SETTING {
+        let name = kind.trim_start_matches(':');
+        cook.done(&format!(
+            "(spawn-object {} {kind} '{name}-1)",
+            pose_form(from)
+        ));
+    }
+    let start = Instant::now();
+    for (kind, from, to) in TABLE_SETTING {
+        let said = cook.say(&format!(
+            "(let* ((?from (make-pose \"map\" {})) (?to (make-pose \"map\" {}))
+                    (?there (a location (pose ?to))))
+               (again (an object (type {kind})) ?there (a location (pose ?from))))",
+            pose_form(from),
+            pose_form(to)
+        ));
+        let name = format!("{}-1", kind.trim_start_matches(':').to_uppercase());
+        let t = cook.pose(&name).translation;
+        let off = (t.x - to[0]).hypot(t.y - to[1]);
+        let report = said.err().map(|(report, _)| report).unwrap_or_default();
+        eprintln!("{kind:20} {:.1} cm off {report}", off * 100.0);
+    }
+    eprintln!("{:.2} s", start.elapsed().as_secs_f64());
+}

@@ -1,0 +1,109 @@
+//! Searching for objects, at places and from places to stand that are given by their poses.
+
+use super::cook::Cook;
+
+/// Two places on the island, a place from which both can be seen, and one where nobody can stand.
+const PLACES: &str = "
+    (defun pose (x y z)
+      (make-pose \"map\" `((,x ,y ,z) (0 0 0 1))))
+    (defparameter *at-first* (pose -0.8 1.0 0.95))
+    (defparameter *at-second* (pose -0.8 2.0 0.95))
+    (defparameter *stand* (pose -1.9 1.5 0))
+    (defparameter *in-the-island* (pose -0.8 1.5 0))
+    (defparameter *failure* nil)
+    (defun attempts ()
+      (loop for (what cause count) in (failure-attempts *failure*)
+            collect (list what count)))
+    (defun search-for (type ?places &optional ?stands)
+      (let ((?type type))
+        (cpl:with-failure-handling
+            ((searching-failed (failure)
+               (setf *failure* failure)))
+          (get-object-name
+           (with-simulated-robot
+             (perform (an action (type searching)
+                          (object (an object (type ?type)))
+                          (location (a location (poses ?places)))
+                          (desig:when ?stands
+                            (robot-location (a location (poses ?stands)))))))))))";
+
+fn cook() -> Cook {
+    let mut cook = Cook::new();
+    cook.done(PLACES);
+    cook.done("(btr-utils:spawn-object 'bottle-1 :bottle :pose '((-0.8 2.0 0.95) (0 0 0 1)))");
+    cook
+}
+
+/// The failure of a search, by what was tried how often.
+fn attempts(cook: &mut Cook, search: &str) -> String {
+    let (_, class) = cook.say(search).unwrap_err();
+    assert!(class.contains("SEARCHING-FAILED"), "{class}");
+    cook.done("(attempts)").trim().to_owned()
+}
+
+#[test]
+fn what_is_at_the_first_place_is_found_without_a_failure() {
+    let said = cook().done("(search-for :bottle (list *at-second*))");
+    assert_eq!(said, "BOTTLE-1\n");
+}
+
+#[test]
+fn what_is_at_the_second_place_is_found_there() {
+    let mut cook = cook();
+    let said = cook.done("(search-for :bottle (list *at-first* *at-second*) (list *stand*))");
+    assert!(said.ends_with("BOTTLE-1\n"), "{said}");
+    assert!(!said.contains("not to be seen"), "{said}");
+}
+
+#[test]
+fn what_is_hidden_is_not_found_and_the_failure_says_what_was_tried() {
+    let mut cook = cook();
+    // A row of boxes between the robot and the bottle.
+    for (number, y) in [1.8, 1.9, 2.0, 2.1, 2.2].iter().enumerate() {
+        cook.done(&format!(
+            "(btr-utils:spawn-object 'wall-{number} :breakfast-cereal
+               :pose '((-1.1 {y} 1.0) (0 0 0 1)))"
+        ));
+    }
+    let search = "(search-for :bottle (list *at-second*) (list *stand*))";
+    assert_eq!(attempts(&mut cook, search), "((\"look\" 1) (\"place\" 1))");
+    let told = cook.done("(explain)");
+    for part in [
+        "the bottle was not found",
+        "look: not in sight (×1)",
+        "place: not found (×1)",
+    ] {
+        assert!(told.contains(part), "{part}\n{told}");
+    }
+    let classes = "(list (typep *failure* 'object-nowhere-to-be-found)
+                         (typep *failure* 'high-level-failure))";
+    assert_eq!(cook.done(classes), "(T T)\n");
+}
+
+#[test]
+fn a_search_from_where_nobody_can_stand_fails() {
+    let search = "(search-for :bottle (list *at-second*) (list *in-the-island*))";
+    assert_eq!(
+        attempts(&mut cook(), search),
+        "((\"place to stand\" 1) (\"place\" 1))"
+    );
+}
+
+#[test]
+fn a_blocked_place_to_stand_is_passed_over() {
+    let mut cook = cook();
+    let said = cook.done("(search-for :bottle (list *at-second*) (list *in-the-island* *stand*))");
+    assert!(said.ends_with("BOTTLE-1\n"), "{said}");
+    let warnings = said.matches("(PP-PLANS NAVIGATE) WARN").count();
+    assert_eq!(warnings, 1, "{said}");
+}
+
+#[test]
+fn what_is_not_in_the_world_is_searched_for_and_the_robot_is_parked_then() {
+    let mut cook = cook();
+    let search = "(search-for :cup (list *at-first* *at-second*) (list *stand*))";
+    assert_eq!(attempts(&mut cook, search), "((\"look\" 2) (\"place\" 1))");
+    let parked = "(coe:holds '(cpoe:arms-positioned-at :carry :carry))";
+    assert_eq!(cook.done(parked), "(NIL)\n");
+    cook.assert_no_overlap();
+}

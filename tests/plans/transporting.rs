@@ -1,0 +1,140 @@
+//! Fetching, delivering and transporting objects.
+
+use super::cook::Cook;
+
+const PLACES: &str = "
+    (defun pose (x y z)
+      (make-pose \"map\" `((,x ,y ,z) (0 0 0 1))))
+    (defun transport (?object ?target &optional ?location)
+      (with-simulated-robot
+        (perform (an action (type transporting)
+                     (object ?object)
+                     (desig:when ?location (location (a location (pose ?location))))
+                     (target (a location (pose ?target)))))))
+    (defparameter *on-the-island* (pose -0.8 1.6 0.96))
+    (defparameter *on-the-counter* (pose 1.45 0.7 0.96))";
+
+/// A kitchen with a bottle on the counter.
+fn cook() -> Cook {
+    let mut cook = Cook::new();
+    cook.done(PLACES);
+    cook.done("(btr-utils:spawn-object 'bottle-1 :bottle :pose '((1.45 0.7 0.96) (0 0 0 1)))");
+    cook
+}
+
+#[test]
+fn a_bottle_is_transported_and_not_again() {
+    let mut cook = cook();
+    cook.done("(defparameter *bottle* (an object (type bottle)))");
+    let transport = "(transport *bottle* *on-the-island* *on-the-counter*)";
+    let said = cook.done(transport);
+    for line in ["Found bottle-1.", "Fetched bottle-1."] {
+        assert!(said.contains(line), "{said}");
+    }
+    assert!(!said.contains("WARN"), "{said}");
+    let at = "(cut:lazy-car (coe:holds `(cpoe:object-at-location
+                ,*bottle* ,(let ((?there *on-the-island*)) (a location (pose ?there))) 0.05)))";
+    assert_eq!(
+        cook.done(&format!("(coe:holds `(cpoe:object-in-hand bottle-1)) {at}")),
+        "NIL\nNIL\n"
+    );
+    assert!((cook.pose("BOTTLE-1").translation.y - 1.6).abs() < 0.02);
+    let before = cook.session.simulation().now();
+    let said = cook.done(transport);
+    assert!(said.contains("bottle-1 is at its target already"), "{said}");
+    assert_eq!(cook.session.simulation().now(), before, "no motion");
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn a_second_object_of_the_same_description_is_another_one() {
+    let mut cook = cook();
+    cook.done(
+        "(btr-utils:spawn-object 'bottle-2 :bottle :pose '((1.45 1.0 0.96) (0 0 0 1)))
+         (loop for at in (list *on-the-counter* (pose 1.45 1.0 0.96))
+               for to in (list *on-the-island* (pose -0.8 1.2 0.96))
+               do (transport (an object (type bottle)) to at))",
+    );
+    for (name, y) in [("BOTTLE-1", 1.6), ("BOTTLE-2", 1.2)] {
+        assert!((cook.pose(name).translation.y - y).abs() < 0.05, "{name}");
+        assert!(cook.pose(name).translation.x < -0.5, "{name}");
+    }
+}
+
+#[test]
+fn nothing_is_fetched_with_full_hands() {
+    let mut cook = cook();
+    cook.done(
+        "(btr-utils:spawn-object 'bottle-2 :bottle :pose '((1.45 1.0 0.96) (0 0 0 1)))
+         (btr-utils:spawn-object 'bottle-3 :bottle :pose '((1.45 1.3 0.96) (0 0 0 1)))
+         (defun fetch (at &optional (?arms '(:right :left)))
+           (with-simulated-robot
+             (let ((?object (an object (type bottle)))
+                   (?at at))
+               (perform (an action (type searching) (object ?object)
+                            (location (a location (pose ?at)))))
+               (perform (an action (type fetching) (object ?object) (arms ?arms))))))
+         (fetch *on-the-counter* :right)
+         (fetch (pose 1.45 1.3 0.96) :left)",
+    );
+    let before = cook.done("(roslisp::ros-time)");
+    let report = cook.fails(
+        "FETCHING-FAILED",
+        "(let ((?object (an object (type bottle) (name bottle-2))))
+           (perform (an action (type fetching) (object ?object))))",
+    );
+    assert_eq!(
+        report,
+        "bottle-2 cannot be fetched: the right hand holds bottle-1, the left hand holds bottle-3."
+    );
+    assert_eq!(cook.done("(roslisp::ros-time)"), before, "no motion");
+}
+
+#[test]
+fn what_no_hand_holds_cannot_be_delivered() {
+    let report = cook().fails(
+        "DELIVERING-FAILED",
+        "(let ((?object (an object (type bottle) (name bottle-1)))
+               (?there *on-the-island*))
+           (perform (an action (type delivering) (object ?object)
+                        (target (a location (pose ?there))))))",
+    );
+    assert_eq!(report, "No hand holds bottle-1.");
+}
+
+#[test]
+fn what_cannot_be_delivered_is_put_back() {
+    let mut cook = cook();
+    let report = cook.fails(
+        "DELIVERING-FAILED",
+        "(transport (an object (type bottle)) (pose -0.8 1.6 2.5) *on-the-counter*)",
+    );
+    assert!(
+        report.starts_with("bottle-1 could not be delivered"),
+        "{report}"
+    );
+    let back = cook.pose("BOTTLE-1").translation;
+    assert!(
+        (back.x - 1.45).abs() < 0.05 && (back.y - 0.7).abs() < 0.05,
+        "{back}"
+    );
+    assert_eq!(cook.done("(pp-plans::objects-in-hand :right)"), "NIL\n");
+    let told = cook.done("(explain)");
+    assert!(told.contains("bottle-1 could not be delivered"), "{told}");
+}
+
+#[test]
+fn a_goal_of_the_users_own_skips_the_action() {
+    let mut cook = cook();
+    let before = cook.done("(roslisp::ros-time)");
+    let said = cook.done(
+        "(with-simulated-robot
+           (let* ((?object (an object (type bottle) (name bottle-1)))
+                  (?there *on-the-counter*)
+                  (?target (a location (pose ?there))))
+             (perform (an action (type delivering) (object ?object) (target ?target)
+                          (goal (cpoe:object-at-location ?object ?target))))))",
+    );
+    assert!(said.contains("(PERFORM GOAL) INFO"), "{said}");
+    assert_eq!(cook.done("(roslisp::ros-time)"), before);
+}
