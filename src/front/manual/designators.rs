@@ -34,7 +34,11 @@ fn write_row(to: &mut String, image: &Image, row: &TypeRow) {
         line(to, &format!("Also {}.\n", codes(aliases)));
     }
     if row.class == Class::Action {
-        let plan = format!("pp-plans:{}", image.name(row.plan));
+        let package = image.symbol(row.plan).package;
+        let package = package.map(|id| image.packages.get(id));
+        let nickname = package.and_then(|p| p.nicknames.iter().min_by_key(|name| name.len()));
+        let package = nickname.map_or("pp-plans", |name| &**name);
+        let plan = format!("{package}:{}", image.name(row.plan));
         line(to, &format!("Plan: {}.\n", code(&plan)));
     }
     if let Some(example) = &row.example {
