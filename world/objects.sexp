@@ -2,8 +2,9 @@
 ;
 ; Shapes are given in the object's frame (front +x, left +y, top +z); spawning sets the pose
 ; of its origin. They are: a box given by its edge lengths, a cylinder with its axis along z,
-; a sphere, and a ring of equal boxes (staves, thickness x width x height) around :at. :at and
-; :rpy give the pose of the shape's centre and default to zero.
+; a sphere, and a ring of equal boxes (staves, thickness x width x height) around :at, whose tops
+; :lean outwards by that angle. :at and :rpy give the pose of the shape's centre; they and :lean
+; default to zero.
 ; Colours are linear red, green, blue and optionally alpha.
 
 ; The types that list-available-objects returns, in that order.
@@ -54,8 +55,8 @@
 (object cup :mass 0.2 :color (1 0.64 0.293)
  :shapes
   ((cylinder :radius 0.0325 :length 0.006 :at (0.001 -0.0005 -0.0392))
-   (ring :count 8 :radius 0.0332 :stave (0.004 0.0292 0.041) :at (0.0015 -0.0007 -0.0157))
-   (ring :count 8 :radius 0.0382 :stave (0.004 0.0333 0.0407) :at (0.0019 -0.0009 0.0251))))
+   (ring :count 8 :radius 0.0324 :stave (0.0056 0.0292 0.041) :at (0.0015 -0.0007 -0.0157))
+   (ring :count 8 :radius 0.0371 :stave (0.0062 0.0340 0.0407) :at (0.0019 -0.0009 0.0251))))
 
 (object cube :mass 0.2 :color (0.5 0.5 0.5)
  :shapes
@@ -85,7 +86,7 @@
 (object blue-metal-plate :mass 0.2 :color (0.5 0.5 0.5)
  :shapes
   ((cylinder :radius 0.06 :length 0.005 :at (0.0001 0.0018 -0.0162))
-   (ring :count 12 :radius 0.07 :stave (0.018 0.0423 0.018) :at (0.0001 0.0018 -0.0057))
+   (ring :count 12 :radius 0.067 :stave (0.024 0.0423 0.018) :at (0.0001 0.0018 -0.0057))
    (ring :count 12 :radius 0.0937 :stave (0.032 0.0588 0.0126) :at (0.0001 0.0018 0.0096))))
 
 ; Its handle points along x.
@@ -112,7 +113,7 @@
 ; Its two handles stick out along y.
 (object pot :mass 0.2 :color (0.1 0.2 0.3)
  :shapes
-  ((cylinder :radius 0.1225 :length 0.006 :at (0 0 -0.087))
+  ((cylinder :radius 0.125 :length 0.006 :at (0 0 -0.087))
    (ring :count 12 :radius 0.1225 :stave (0.005 0.067 0.154) :at (0 0 -0.007))
    (box :size (0.09 0.069 0.025) :at (0 -0.157 0.0575))
    (box :size (0.09 0.069 0.025) :at (0 0.157 0.0575))))
@@ -127,8 +128,7 @@
 (object bowl :mass 0.2 :color (0 0.3 0)
  :shapes
   ((cylinder :radius 0.042 :length 0.006 :at (0 0 -0.0301))
-   (ring :count 8 :radius 0.05 :stave (0.006 0.0439 0.014) :at (0 0 -0.0201))
-   (ring :count 8 :radius 0.063 :stave (0.006 0.0547 0.022) :at (0 0 -0.0021))
+   (ring :count 8 :radius 0.0571 :stave (0.006 0.064 0.056) :lean 0.6632 :at (0 0 -0.0088))
    (ring :count 8 :radius 0.077 :stave (0.006 0.0663 0.023) :at (0 0 0.0204))))
 
 ; Lying, its long axis along y.

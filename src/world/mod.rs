@@ -34,7 +34,7 @@ pub(crate) mod scene;
 pub(crate) mod scene_shapes;
 mod separation;
 pub(crate) mod snapshot;
-mod solid;
+pub(crate) mod solid;
 pub(crate) mod spawn;
 mod standing;
 mod standing_room;

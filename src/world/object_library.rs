@@ -162,7 +162,7 @@ const SHAPES: &[(&str, &[&str])] = &[
     ("box", &["at", "rpy", "size"]),
     ("cylinder", &["at", "rpy", "radius", "length"]),
     ("sphere", &["at", "rpy", "radius"]),
-    ("ring", &["at", "rpy", "count", "radius", "stave"]),
+    ("ring", &["at", "rpy", "count", "radius", "stave", "lean"]),
 ];
 
 fn add_shape(node: Node<'_>, solids: &mut Vec<PlacedShape>) -> Result<(), DataError> {
@@ -202,10 +202,17 @@ fn add_shape(node: Node<'_>, solids: &mut Vec<PlacedShape>) -> Result<(), DataEr
             let stave = Shape::Box {
                 size: size("stave")?,
             };
+            let lean = record.optional("lean").map_or(Ok(0.0), |lean| {
+                let angle = lean.number()?;
+                match angle.abs() < std::f64::consts::FRAC_PI_2 {
+                    true => Ok(angle),
+                    false => Err(lean.expected("an angle (rad) below a quarter turn")),
+                }
+            })?;
             solids.extend((0..count).map(|i| {
                 let turn = std::f64::consts::TAU * i as f64 / count as f64;
                 let turned = from_xyz_rpy([0.0; 3], [0.0, 0.0, turn]);
-                let out = from_xyz_rpy([radius, 0.0, 0.0], [0.0; 3]);
+                let out = from_xyz_rpy([radius, 0.0, 0.0], [0.0, lean, 0.0]);
                 PlacedShape {
                     shape: stave.clone(),
                     pose: pose * turned * out,
@@ -225,6 +232,8 @@ fn add_shape(node: Node<'_>, solids: &mut Vec<PlacedShape>) -> Result<(), DataEr
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Point3;
+
     use super::*;
 
     fn library() -> ObjectLibrary {
@@ -246,6 +255,23 @@ mod tests {
         assert_eq!(names[..3], ["tray", "tray-base", "spoon"]);
         assert_eq!(names[10], "bottle");
         assert_eq!(names[24], "shoe");
+    }
+
+    #[test]
+    fn staves_lean_outwards() {
+        let text = "(object o :mass 1 :color (0 0 0)
+                     :shapes ((ring :count 4 :radius 1 :stave (0.1 1 2) :lean 0.5)))";
+        let library = ObjectLibrary::from_sexp(text, "o.sexp").expect("it is right");
+        for stave in &library.get("o").expect("it is there").shapes {
+            let top = stave.pose * Point3::new(0.0, 0.0, 1.0);
+            let radius = libm::hypot(top.x, top.y);
+            assert!((radius - 1.0 - libm::sin(0.5)).abs() < 1e-12, "{top}");
+            assert!((top.z - libm::cos(0.5)).abs() < 1e-12, "{top}");
+        }
+        assert_eq!(
+            error(&text.replace("0.5", "1.6")),
+            "o.sexp:2:79: expected an angle (rad) below a quarter turn, found 1.6"
+        );
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! The kitchen: surfaces at their heights, drawers and doors that open outwards.
 
+use nalgebra::Vector3;
+
 use crate::robot::{KITCHEN_URDF, KinematicTree};
 use crate::spatial::{Pose, Shape};
 
@@ -7,7 +9,7 @@ fn kitchen() -> KinematicTree {
     KinematicTree::from_urdf(KITCHEN_URDF, "kitchen.urdf").expect("the kitchen is right")
 }
 
-/// Height of the highest box of the link, whose boxes must not be tilted.
+/// Height of the highest box of the link.
 fn top(tree: &KinematicTree, link: &str) -> f64 {
     let link = tree.link_named(link).expect("the link exists");
     let pose = tree.link_pose(link, &Pose::identity(), &tree.zero_positions());
@@ -16,7 +18,11 @@ fn top(tree: &KinematicTree, link: &str) -> f64 {
         .collisions
         .iter()
         .map(|solid| match solid.shape {
-            Shape::Box { size } => (pose * solid.pose).translation.z + size[2] / 2.0,
+            Shape::Box { size } => {
+                let at = pose * solid.pose;
+                let up = at.rotation.inverse() * Vector3::z();
+                at.translation.z + up.abs().dot(&Vector3::from(size)) / 2.0
+            }
             _ => f64::NEG_INFINITY,
         });
     tops.fold(f64::NEG_INFINITY, f64::max)

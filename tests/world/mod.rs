@@ -2,6 +2,7 @@
 
 mod collisions;
 pub(crate) mod fixture;
+mod kitchen_surfaces;
 mod motion;
 mod objects;
 mod sight;

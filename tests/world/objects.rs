@@ -1,9 +1,13 @@
 //! Objects in the kitchen: where they come to rest, what moves them.
 
-use crate::spatial::pose::from_xyz_rpy;
-use crate::tests::world::fixture::{at, spawn, world};
-use crate::world::BodyName;
+use parry3d_f64::math::Vector;
+use parry3d_f64::query::Ray;
 use proptest::prelude::*;
+
+use crate::spatial::pose::from_xyz_rpy;
+use crate::tests::world::fixture::{at, models, spawn, world};
+use crate::world::BodyName;
+use crate::world::solid::{Solid, bounds_of};
 
 /// Spawns, settles, and returns the height (m) at which the object rests.
 fn rest_height(type_name: &str, x: f64, y: f64, z: f64) -> f64 {
@@ -172,5 +176,37 @@ proptest! {
             before = now;
         }
         prop_assert!(before > -0.01, "{name} fell through the floor");
+    }
+}
+
+#[test]
+fn vessels_have_no_holes() {
+    let models = models();
+    for name in [
+        "bowl",
+        "cup",
+        "mug",
+        "plate",
+        "blue-metal-plate",
+        "red-metal-plate",
+        "pot",
+    ] {
+        let solids = Solid::all(&models.objects.get(name).unwrap().shapes);
+        let brim = bounds_of(&solids).unwrap().maxs.z - 1e-4;
+        // From the middle of the opening, in all directions below the brim.
+        let directions = 20_000;
+        let gone = (0..directions).filter(|i| {
+            let down = -(f64::from(*i) + 0.5) / f64::from(directions);
+            let (sin, cos) = (f64::from(*i) * 2.399_963).sin_cos();
+            let out = (1.0 - down * down).sqrt();
+            let ray = Ray::new(
+                Vector::new(0.0, 0.0, brim),
+                Vector::new(out * cos, out * sin, down),
+            );
+            !solids
+                .iter()
+                .any(|s| s.shape.intersects_ray(&s.pose, &ray, 1.0))
+        });
+        assert_eq!(gone.count(), 0, "{name}");
     }
 }

@@ -1,9 +1,10 @@
 //! Cups, bowls and plates: rings of boxes work well in contact but look like barrels, so they
 //! are drawn as the round things that they stand for.
 
-use crate::spatial::{PlacedShape, Pose, Shape};
+use nalgebra::Vector3;
 
 use crate::picture::surface::Surface;
+use crate::spatial::{PlacedShape, Pose, Shape};
 
 /// Least number of boxes that count as a ring.
 const LEAST_COUNT: usize = 6;
@@ -25,13 +26,13 @@ pub(crate) enum Part<'a> {
     },
 }
 
-/// A ring of upright boxes.
+/// A ring of boxes that stand upright or all lean outwards alike.
 struct Ring {
     /// Centre (m) in the object's frame.
     middle: [f64; 3],
     /// Distance from the axis to the middle of the boxes (m).
     radius: f64,
-    /// Thickness and height of the boxes (m).
+    /// Thickness along the radius, and height, of the boxes as they stand (m).
     thickness: f64,
     height: f64,
 }
@@ -78,6 +79,12 @@ fn is_upright(pose: &Pose) -> bool {
     q.i.abs() < 1e-9 && q.j.abs() < 1e-9
 }
 
+/// How much of a box's height (as a share) is along the object's axis: 1 for an upright box,
+/// less for one that leans.
+fn uprightness(pose: &Pose) -> f64 {
+    (pose.rotation * Vector3::z()).z
+}
+
 fn is_around(ring: &Ring, [x, y, _]: [f64; 3]) -> bool {
     let [a, b, _] = ring.middle;
     (a - x).abs() < AXIS_TOLERANCE && (b - y).abs() < AXIS_TOLERANCE
@@ -108,7 +115,9 @@ fn ring(shapes: &[PlacedShape]) -> Option<(Ring, &[PlacedShape])> {
     else {
         return None;
     };
-    let is_stave = |s: &&PlacedShape| s.shape == first.shape && is_upright(&s.pose);
+    let upright = uprightness(&first.pose);
+    let is_stave =
+        |s: &&PlacedShape| s.shape == first.shape && (uprightness(&s.pose) - upright).abs() < 1e-9;
     let same = shapes.iter().take_while(is_stave).count();
     // Two rings of the same boxes are distinguished by their heights.
     let level =
@@ -133,15 +142,24 @@ fn ring(shapes: &[PlacedShape]) -> Option<(Ring, &[PlacedShape])> {
     let radius = distance(first);
     let is_ring = staves
         .iter()
-        .all(|s| (distance(s) - radius).abs() < RING_TOLERANCE)
+        .all(|s| (distance(s) - radius).abs() < RING_TOLERANCE && leans_outwards(s, middle))
         && radius > thickness;
     let ring = Ring {
         middle,
         radius,
-        thickness,
-        height,
+        thickness: thickness / upright,
+        height: height * upright,
     };
     is_ring.then_some((ring, rest))
+}
+
+/// Whether the box stands upright, or leans away from the middle (m).
+fn leans_outwards(stave: &PlacedShape, middle: [f64; 3]) -> bool {
+    let up = stave.pose.rotation * Vector3::z();
+    let lean = libm::hypot(up.x, up.y);
+    let out = stave.pose.translation.vector - Vector3::from(middle);
+    let along = up.x * out.x + up.y * out.y;
+    up.z > 0.0 && (along - lean * libm::hypot(out.x, out.y)).abs() < RING_TOLERANCE
 }
 
 /// Half of the section through a vessel, as distances from the axis and heights (m): outwards
