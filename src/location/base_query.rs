@@ -27,6 +27,24 @@ pub(crate) struct Target {
     pub(crate) name: String,
 }
 
+/// How far (m) the base may be from the target.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Distances {
+    /// Least and greatest distance of something to be reached.
+    pub(crate) reach: [f64; 2],
+    /// Greatest distance of something to be seen.
+    pub(crate) sight: f64,
+}
+
+impl Default for Distances {
+    fn default() -> Self {
+        Self {
+            reach: [0.2, 1.05],
+            sight: 2.0,
+        }
+    }
+}
+
 /// A base pose from which something is within reach or in sight.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BaseQuery {
@@ -38,4 +56,8 @@ pub(crate) struct BaseQuery {
     pub(crate) grasps: Option<Vec<String>>,
     /// Whether the camera must see it.
     pub(crate) sees: bool,
+    /// How far away it may be.
+    pub(crate) distances: Distances,
+    /// Where the robot is (m, map frame): places near there are tried first.
+    pub(crate) from: [f64; 2],
 }

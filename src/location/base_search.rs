@@ -16,13 +16,12 @@ use crate::world::{RobotConfiguration, World, WorldError};
 
 /// Edge length (m) of a cell.
 const RESOLUTION: f64 = 0.05;
-/// Distances (m) of the base's axis from a target within reach, and the most comfortable one with
-/// its spread.
-const REACH: [f64; 2] = [0.2, 1.05];
+/// The most comfortable distance (m) of the base's axis from a target within reach, and its spread.
 const COMFORT: [f64; 2] = [0.65, 0.15];
-/// Distance (m) from which a target is seen at most, and the variance (m²) of the preferred ones.
-const SIGHT: f64 = 2.0;
+/// Variance (m²) of the distance to what is to be seen.
 const SIGHT_VARIANCE: f64 = 0.5;
+/// Distance (m) from where the robot is over which the preference for a place falls to 37 %.
+const NEAR: f64 = 0.8;
 /// Number of headings that are tried at a place, besides the one to the target.
 const HEADINGS: u32 = 24;
 /// A base pose is no higher (m) than this.
@@ -49,10 +48,9 @@ impl BaseSearch {
         draw: &mut Draw,
     ) -> Result<Result<Self, String>, WorldError> {
         let t = query.target.pose.translation;
-        let far = if query.arms.is_some() {
-            REACH[1]
-        } else {
-            SIGHT
+        let far = match &query.arms {
+            Some(_) => query.distances.reach[1],
+            None => query.distances.sight,
         };
         let limits = [[t.x - far, t.y - far], [t.x + far, t.y + far]];
         let map = match Costmap::product(RESOLUTION, limits, &factors(query, scene.world)) {
@@ -215,27 +213,33 @@ fn factors<'a>(query: &'a BaseQuery, world: &'a World) -> Vec<Factor<'a>> {
     let mut factors = Vec::new();
     if query.arms.is_some() {
         factors.push(Factor {
-            key: format!("within {} m of {name}", REACH[1]),
+            key: format!("within {} m of {name}", query.distances.reach[1]),
             value: Box::new(move |p| {
                 let [best, spread] = COMFORT;
                 let d = distance(p);
-                let is_in_reach = (REACH[0]..=REACH[1]).contains(&d);
+                let [least, most] = query.distances.reach;
+                let is_in_reach = (least..=most).contains(&d);
                 f64::from(u8::from(is_in_reach)) * gauss(d - best, spread * spread)
             }),
         });
     }
     if query.sees {
         factors.push(Factor {
-            key: format!("within {SIGHT} m of {name}"),
+            key: format!("within {} m of {name}", query.distances.sight),
             value: Box::new(move |p| {
                 let d = distance(p);
-                f64::from(u8::from(d <= SIGHT)) * gauss(d, SIGHT_VARIANCE)
+                f64::from(u8::from(d <= query.distances.sight)) * gauss(d, SIGHT_VARIANCE)
             }),
         });
     }
     factors.push(Factor {
         key: "on the map".to_owned(),
-        value: Box::new(move |p| f64::from(u8::from(world.models().map.contains(p)))),
+        value: Box::new(move |p| {
+            let [x, y] = query.from;
+            let way = libm::hypot(p[0] - x, p[1] - y);
+            let nearness = libm::exp(-way / NEAR).max(1e-3);
+            f64::from(u8::from(world.models().map.contains(p))) * nearness
+        }),
     });
     factors
 }
@@ -263,7 +267,7 @@ fn heading_to(query: &BaseQuery, [x, y]: [f64; 2], turn: u32) -> Pose {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::location::{Item, Target};
+    use crate::location::{Distances, Item, Target};
 
     #[test]
     fn every_heading_of_the_grid_is_tried_once() {
@@ -276,6 +280,8 @@ mod tests {
             arms: None,
             grasps: None,
             sees: true,
+            distances: Distances::default(),
+            from: [0.0, 0.0],
         };
         let yaws = (1..=HEADINGS).map(|turn| pose::yaw(&heading_to(&query, [0.0, 0.0], turn)));
         let mut steps: Vec<i32> = yaws

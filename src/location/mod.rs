@@ -23,10 +23,10 @@ mod stream;
 mod support;
 mod tally;
 
-pub(crate) use base_query::{BaseQuery, Item, Target};
-pub(crate) use constraint::{Constraint, Direction, Relation};
+pub(crate) use base_query::{BaseQuery, Distances, Item, Target};
+pub(crate) use constraint::{Beside, Constraint, Direction, Relation};
 pub(crate) use furniture::{containers, link_named, surfaces};
 pub(crate) use orientation::Orientation;
-pub(crate) use place_query::{PlaceQuery, What};
+pub(crate) use place_query::{Level, PlaceQuery, Position, What};
 pub(crate) use stream::{Query, Scene, Stream};
 pub(crate) use support::Support;

@@ -4,7 +4,7 @@ use super::constraint::inset;
 use super::costmap::{Costmap, Factor};
 use super::draw::Draw;
 use super::offered::Offered;
-use super::place_query::{PlaceQuery, What};
+use super::place_query::{PlaceQuery, Position, What};
 use super::stream::Scene;
 use super::tally::Tally;
 use crate::motion::interruption;
@@ -18,11 +18,18 @@ const MOST_CELLS: usize = 20_000;
 /// How far (m) what carries a thing may be above or below the upper face of the support.
 const SLACK: f64 = 0.02;
 
+/// Number of points along each side at which boards are looked for.
+const PROBES: u32 = 8;
+/// Room (m) that there must be above a board.
+const HEADROOM: f64 = 0.03;
+
 /// The search in one state of the world.
 pub(super) struct PlaceSearch {
     extent: Extent,
     ground: Ground,
     load: Option<Load>,
+    /// Heights (m) at which a thing is lowered, and how far (m) what carries it may be below.
+    starts: Vec<[f64; 2]>,
     map: Costmap,
     /// Which grid is in use.
     level: usize,
@@ -57,6 +64,7 @@ impl PlaceSearch {
             extent: query.support.extent(world)?,
             ground: query.support.ground(world)?,
             load,
+            starts: Vec::new(),
             map: Costmap::default(),
             level: 0,
             order: Vec::new(),
@@ -64,6 +72,9 @@ impl PlaceSearch {
             is_fruitful: false,
             is_level_fruitful: false,
         };
+        if let Err(why) = search.find_starts(query, world) {
+            return Ok(Err(why));
+        }
         let mut why = String::new();
         for level in 0..RESOLUTIONS.len() {
             match search.map_at(query, world, level) {
@@ -77,14 +88,71 @@ impl PlaceSearch {
         Ok(Err(why))
     }
 
+    /// Finds the heights at which a thing can be put down.
+    fn find_starts(&mut self, query: &PlaceQuery, world: &World) -> Result<(), String> {
+        let top = self.extent.top();
+        let level = match (self.ground, query.position) {
+            (Ground::Object(_), _) => {
+                self.starts = vec![[top + SLACK, self.extent.size()[2] + SLACK]];
+                return Ok(());
+            }
+            (Ground::Furniture, Position::On | Position::Above(_)) => {
+                self.starts = vec![[top + SLACK, 2.0 * SLACK]];
+                return Ok(());
+            }
+            (Ground::Furniture, Position::In(level)) => level,
+        };
+        let heights = self.boards(world);
+        let name = query.support.name(world);
+        if heights.is_empty() {
+            return Err(format!("There is no room in {name}."));
+        }
+        let chosen = level.of(&heights);
+        if chosen.is_empty() {
+            return Err(format!("{name} has {} levels.", heights.len()));
+        }
+        self.starts = chosen.iter().map(|h| [h + SLACK, 2.0 * SLACK]).collect();
+        Ok(())
+    }
+
+    /// Heights (m) of the boards inside of the support, from below.
+    fn boards(&self, world: &World) -> Vec<f64> {
+        let room = StandingRoom::new(world, self.limits(), None);
+        let (top, bottom) = (self.extent.top(), self.extent.top() - self.extent.size()[2]);
+        let Extent { frame, min, max } = &self.extent;
+        let share = |i: u32| (f64::from(i) + 0.5) / f64::from(PROBES);
+        let mut boards: Vec<(f64, u32)> = Vec::new();
+        for (i, j) in (0..PROBES).flat_map(|i| (0..PROBES).map(move |j| (i, j))) {
+            let x = min[0] + (max[0] - min[0]) * share(i);
+            let y = min[1] + (max[1] - min[1]) * share(j);
+            let point = frame * nalgebra::Point3::new(x, y, 0.0);
+            for level in room.levels([point.x, point.y], top - HEADROOM, bottom) {
+                match boards
+                    .iter_mut()
+                    .find(|(h, _)| (h - level).abs() < SLACK / 2.0)
+                {
+                    Some((_, count)) => *count += 1,
+                    None => boards.push((level, 1)),
+                }
+            }
+        }
+        boards.retain(|(_, count)| *count * 4 >= PROBES * PROBES);
+        boards.sort_by(|a, b| a.0.total_cmp(&b.0));
+        boards.into_iter().map(|(height, _)| height).collect()
+    }
+
     /// The map of where to look.
     pub(super) fn map(&self) -> &Costmap {
         &self.map
     }
 
-    /// Height (m) of the support's upper face.
+    /// Height (m) at which the map is shown.
     pub(super) fn height(&self) -> f64 {
-        self.extent.top()
+        let first = self.starts.first();
+        match self.ground {
+            Ground::Furniture => first.map_or(self.extent.top(), |[start, _]| start - SLACK),
+            Ground::Object(_) => self.extent.top(),
+        }
     }
 
     fn begin_level(&mut self, level: usize, map: Costmap, draw: &mut Draw) {
@@ -120,8 +188,7 @@ impl PlaceSearch {
                 2.0 * margin
             ));
         }
-        let on = if query.above.is_some() { "above" } else { "on" };
-        let factors = query.factors(&self.extent, on, margin);
+        let factors = query.factors(&self.extent, margin);
         Costmap::product(RESOLUTIONS[level], self.limits(), &factors).map_err(|emptied| {
             let keys = emptied.keys;
             match keys.split_last() {
@@ -209,24 +276,32 @@ impl PlaceSearch {
         room: &StandingRoom<'_>,
         pose: &Pose,
     ) -> Result<Pose, NoRoom> {
-        let below = match self.ground {
-            Ground::Furniture => SLACK,
-            Ground::Object(_) => self.extent.size()[2],
-        };
-        let t = pose.translation;
-        let top = self.extent.top();
-        let mut pose = *pose;
-        match &self.load {
-            None => {
-                pose.translation.z =
-                    room.point([t.x, t.y], top + SLACK, SLACK + below, self.ground)?;
-            }
-            Some(load) => {
-                pose = room.stand(load, &pose, top + SLACK, SLACK + below, self.ground)?
+        let mut cause = NoRoom::NoSupport;
+        for start in &self.starts {
+            match self.lower(query, room, pose, *start) {
+                Ok(pose) => return Ok(pose),
+                Err(reason) => cause = reason,
             }
         }
-        if let Some(above) = query.above {
-            pose.translation.z += above;
+        Err(cause)
+    }
+
+    /// The thing at the pose, lowered from a height (m) until at most `below` (m) lower.
+    fn lower(
+        &self,
+        query: &PlaceQuery,
+        room: &StandingRoom<'_>,
+        pose: &Pose,
+        [start, below]: [f64; 2],
+    ) -> Result<Pose, NoRoom> {
+        let t = pose.translation;
+        let mut pose = *pose;
+        match &self.load {
+            None => pose.translation.z = room.point([t.x, t.y], start, below, self.ground)?,
+            Some(load) => pose = room.stand(load, &pose, start, below, self.ground)?,
+        }
+        if let Position::Above(height) = query.position {
+            pose.translation.z += height;
             if let Some(load) = &self.load {
                 room.check_free(load, &pose)?;
             }
@@ -242,8 +317,7 @@ impl PlaceSearch {
         pose: &Pose,
     ) -> Result<(), String> {
         let t = pose.translation;
-        let on = if query.above.is_some() { "above" } else { "on" };
-        let factors = query.factors(&self.extent, on, self.margin());
+        let factors = query.factors(&self.extent, self.margin());
         let missed = factors.iter().find(|f| (f.value)([t.x, t.y]) <= 0.0);
         if let Some(factor) = missed {
             return Err(format!("not {}", factor.key));
@@ -270,7 +344,8 @@ impl PlaceQuery {
     }
 
     /// The factors of the map, the cheap ones first; things are `margin` (m) or more from edges.
-    fn factors<'a>(&'a self, extent: &'a Extent, on: &str, margin: f64) -> Vec<Factor<'a>> {
+    fn factors<'a>(&'a self, extent: &'a Extent, margin: f64) -> Vec<Factor<'a>> {
+        let on = self.position.key();
         let key = match &self.what {
             What::Point => format!("({on} …)"),
             _ => format!("({on} …) for {}", self.what_name()),

@@ -23,6 +23,8 @@ const DIRECTIONS: u32 = 16;
 const LEVEL: f64 = 0.0015;
 /// Gap (m) to everything beside it.
 const GAP: f64 = 0.003;
+/// Step (m) by which a search for levels goes down inside of something.
+const INSIDE_STEP: f64 = 0.01;
 /// How far (m) above the foot its rays begin.
 const ABOVE: f64 = 0.01;
 
@@ -189,6 +191,28 @@ impl<'w> StandingRoom<'w> {
         }
         self.check_ground(key, ground)?;
         Ok(top)
+    }
+
+    /// The heights (m) of what one could stand on at a point (m) of the map, from above: tops of
+    /// furniture between two heights (m).
+    pub(crate) fn levels(&self, [x, y]: [f64; 2], top: f64, bottom: f64) -> Vec<f64> {
+        let mut levels = Vec::new();
+        let mut height = top;
+        while height > bottom {
+            let found = self.ground(Vector::new(x, y, height), height - bottom);
+            match found {
+                None => break,
+                // Inside something.
+                Some((level, _)) if level >= height => height -= INSIDE_STEP,
+                Some((level, key)) => {
+                    if matches!(key, PartKey::Furniture(_)) {
+                        levels.push(level);
+                    }
+                    height = level - INSIDE_STEP;
+                }
+            }
+        }
+        levels
     }
 
     /// Lowers the load, from a height (m) of its lowest point, until something carries it. Returns

@@ -204,3 +204,192 @@ fn the_same_session_gives_the_same_locations() {
     };
     assert_eq!(run(), run());
 }
+
+#[test]
+fn things_are_put_beside_near_and_far_from_others() {
+    let mut cook = Cook::new();
+    cook.done("(btr-utils:spawn-object 'plate-1 :plate :pose '((-0.8 1.7 0.9) (0 0 0 1)))");
+    let plate = cook.pose("PLATE-1").translation.vector;
+    let at = |cook: &mut Cook, keys: &str| {
+        let cup = "(for (an object (type cup)))";
+        let at = reference(cook, &format!("(a location {ISLAND} {cup} {keys})"));
+        at.translation.vector - plate
+    };
+    let plate = "(an object (name plate-1))";
+    // The plate is nearest to the back edge, +x: there left is -y, and behind is -x.
+    assert!(at(&mut cook, &format!("(left-of {plate})")).y < 0.0);
+    assert!(at(&mut cook, &format!("(right-of {plate})")).y > 0.0);
+    let behind = at(&mut cook, &format!("(behind {plate}) (threshold 0.9)"));
+    assert!(
+        behind.x < 0.0 && behind.y.abs() < 0.5 * behind.x.abs(),
+        "{behind:?}"
+    );
+    let near = at(&mut cook, &format!("(near {plate})")).xy().norm();
+    let far = at(&mut cook, &format!("(far-from {plate})")).xy().norm();
+    assert!(near < 0.4 && far > near, "{near} {far}");
+    // Where it stands is found without being told.
+    let beside = reference(
+        &mut cook,
+        &format!("(a location (left-of {plate}) (for (an object (type cup))))"),
+    );
+    assert!((beside.translation.z - 0.9).abs() < 0.1);
+}
+
+#[test]
+fn things_are_put_into_drawers_and_onto_boards() {
+    let mut cook = Cook::new();
+    let drawer = "(in (an object (type drawer) (urdf-name sink-area-left-middle-drawer-main)))";
+    let at = reference(
+        &mut cook,
+        &format!("(a location {drawer} (for (an object (type cup))))"),
+    );
+    let t = at.translation;
+    assert!((0.38..0.55).contains(&t.z), "{t:?}");
+    assert!(
+        (1.25..1.8).contains(&t.x) && (0.5..1.29).contains(&t.y),
+        "{t:?}"
+    );
+    let boards = "(in (an object (urdf-name oven-area-area-right-drawer-main)))";
+    let mut height = |level: &str| {
+        let at = reference(&mut cook, &format!("(a location {boards} {level})"));
+        at.translation.z
+    };
+    let [top, second, bottom] =
+        ["(level topmost)", "(level 2)", "(level bottommost)"].map(&mut height);
+    assert!((top - 1.15).abs() < 0.03, "{top}");
+    assert!((second - 0.49).abs() < 0.03, "{second}");
+    assert!((bottom - 0.19).abs() < 0.04, "{bottom}");
+    let why = refusal(&mut cook, &format!("(a location {boards} (level 7))"));
+    assert!(why.ends_with("levels."), "{why}");
+    let tall = "(for (an object (type cereal)))";
+    let why = refusal(
+        &mut cook,
+        &format!(
+            "(a location (in (an object (urdf-name sink-area-left-upper-drawer-main))) {tall})"
+        ),
+    );
+    assert!(why.contains("were rejected"), "{why}");
+}
+
+#[test]
+fn a_table_is_set_in_slots() {
+    let mut cook = Cook::new();
+    let shown = cook.done(&format!(
+        "(loop repeat 4
+               for l = (a location {ISLAND} (for (an object (type plate)))
+                                   (context table-setting) (object-count 4))
+                 then (next-solution l)
+               for ?p = (reference l)
+               for i from 1
+               do (btr-utils:spawn-object (intern (format nil \"PLATE-~a\" i)) :plate :pose ?p)
+               collect (cl-transforms:x (cl-transforms:origin ?p)))"
+    ));
+    // Two at each long edge.
+    let xs: Vec<f64> = shown
+        .split(['(', ')', ' ', '\n'])
+        .filter_map(|n| n.trim_end_matches("d0").parse().ok())
+        .collect();
+    assert_eq!(xs.len(), 4, "{shown}");
+    assert!(xs.iter().all(|x| (x + 1.07).abs() > 0.03), "{xs:?}");
+}
+
+#[test]
+fn a_held_object_is_put_down_at_a_symbolic_target() {
+    let mut cook = Cook::at_table_with_bottle();
+    cook.take_bottle();
+    let why = refusal(
+        &mut cook,
+        "(let ((?o *bottle*)) (a location (reachable-for pr2) (object ?o)))",
+    );
+    assert_eq!(
+        why,
+        "BOTTLE-1 is in the right hand: add (location …), where it is to be put."
+    );
+    cook.done(&format!(
+        "(defparameter *there* (let ((?o *bottle*)) (a location {TABLE} (side right) (for ?o))))
+         (with-simulated-robot
+           (park-arms)
+           (let ((?l (let ((?t *there*) (?o *bottle*))
+                       (a location (reachable-for pr2) (location ?t) (object ?o)))))
+             (perform (an action (type going) (target ?l))))
+           (let ((?t *there*))
+             (perform (an action (type placing) (arm right) (target ?t)))))"
+    ));
+    let wanted = reference(&mut cook, "*there*");
+    assert!(cook.distance("BOTTLE-1", &wanted) < 0.05);
+    assert!(cook.lean("BOTTLE-1") < 3.0);
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn the_robot_stands_where_it_sees_past_what_is_in_the_way() {
+    let mut cook = Cook::at_table_with_bottle();
+    let here = cook.done("(get-robot-transformation)");
+    let here = read_pose(&here).translation.vector;
+    // A box between the robot and the bottle.
+    cook.done("(btr-utils:spawn-object 'cereal-1 :cereal :pose '((-1.58 -0.76 0.85) (0 0 0.7071 0.7071)))");
+    let at = reference(
+        &mut cook,
+        "(let ((?o *bottle*)) (a location (visible-for pr2) (object ?o)))",
+    );
+    assert!((at.translation.vector - here).norm() > 0.1, "{at:?}");
+    let found = cook.done(
+        "(let ((?l (let ((?o *bottle*)) (a location (visible-for pr2) (object ?o)))))
+           (with-simulated-robot
+             (park-arms)
+             (perform (an action (type going) (target ?l)))
+             (let ((?o *bottle*)) (perform (an action (type looking) (object ?o))))
+             (desig-prop-value (perform (a motion (type detecting) (object (an object (type bottle))))) :name)))",
+    );
+    assert!(found.contains("BOTTLE-1"), "{found}");
+}
+
+#[test]
+fn the_map_of_a_location_is_shown() {
+    let mut cook = Cook::new();
+    let said = cook.done(&format!(
+        "(defparameter *l* (a location {ISLAND} (side left)))
+         (reference *l*)
+         (visualize-costmap *l*)
+         (describe *l*)"
+    ));
+    assert!(said.contains("Area to look in: 0.9"), "{said}");
+    assert!(said.contains("Poses offered: 1"), "{said}");
+    let signs = |cook: &Cook| {
+        let scene = cook.session.simulation().scene();
+        let names = scene.bodies.iter().map(|b| b.owner.name.to_string());
+        names
+            .filter(|n| n.contains("pose") || n.contains("map"))
+            .count()
+    };
+    assert_eq!(signs(&cook), 2);
+    cook.done("(btr:clear-costmap-vis-object)");
+    assert_eq!(signs(&cook), 0);
+}
+
+#[test]
+fn a_location_can_be_forgotten_and_redefined() {
+    let mut cook = Cook::new();
+    let bottle = "(btr-utils:spawn-object 'bottle-1 :bottle :pose '((-1.6 -0.9 0.82) (0 0 0 1)))";
+    cook.done(bottle);
+    cook.done(&format!(
+        "(defparameter *l* (a location {TABLE} (for (an object (type cup)))))
+         (defparameter *p* (reference *l*))
+         (next-solution *l*)
+         (desig:reset *l*)"
+    ));
+    assert_eq!(cook.done("(null (desig:successor *l*))"), "T\n");
+    cook.done("(reference *l*)");
+    // A parameter is a fact that programs may redefine.
+    cook.done(
+        "(prolog:def-fact-group location-parameters ()
+           (prolog:<- (costmap::costmap-in-reach-distance 0.3))
+           (prolog:<- (costmap::costmap-reach-minimal-distance 0.25)))",
+    );
+    let why = refusal(
+        &mut cook,
+        "(let ((?p (make-pose \"map\" '((-1.4 -1.05 0.72) (0 0 0 1)))))
+           (a location (reachable-for pr2) (location (a location (pose ?p)))))",
+    );
+    assert!(why.contains("rejected"), "{why}");
+}

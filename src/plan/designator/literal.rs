@@ -22,6 +22,7 @@ pub(crate) fn note_mistakes(image: &mut Image, class: Class, properties: &[Value
     let is_whole = written.len() == properties.len();
     let mut mistakes = match class {
         Class::Action | Class::Motion if is_whole => of_type(image, class, &written),
+        Class::Location => misspelt_keys(&written),
         _ => Vec::new(),
     };
     mistakes.extend(written.iter().filter_map(|(key, value)| {
@@ -85,6 +86,21 @@ fn of_type(image: &Image, class: Class, written: &[(String, Value)]) -> Vec<(Str
         mistakes.push((class.name().to_owned(), text));
     }
     mistakes
+}
+
+/// Keys of a location that nearly are known ones. Others may be those of a user's generators.
+fn misspelt_keys(written: &[(String, Value)]) -> Vec<(String, String)> {
+    let names = || schema::LOCATION_KEYS.iter().map(|key| &*key.name);
+    let unknown = written.iter().filter(|(key, _)| {
+        !schema::COMMON_KEYS.contains(&key.as_str()) && !names().any(|name| name == key)
+    });
+    unknown
+        .filter_map(|(key, _)| {
+            let near = closest_name(key, names())?;
+            let text = asking(format!("A location has no key {key}"), Some(near));
+            Some((key.clone(), text))
+        })
+        .collect()
 }
 
 /// The name that a plain symbol stands for, unless it is a `?variable` or a global.

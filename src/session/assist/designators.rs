@@ -5,6 +5,7 @@ use super::{first_sentence, lower};
 use std::rc::Rc;
 
 use crate::lisp::image::Image;
+use crate::location::{Direction, Orientation, containers, surfaces};
 use crate::plan::designator::schema;
 use crate::plan::designator::schema::{Key, Kind, TypeRow};
 use crate::plan::designator::value::Class;
@@ -148,6 +149,30 @@ impl Session {
             ("direction", _) => ["forward", "left", "right", "up", "down"]
                 .map(|direction| candidate(direction, "where to look"))
                 .to_vec(),
+            ("urdf-name", Class::Object) => self.furniture_names(),
+            ("part-of", Class::Object) => vec![candidate("kitchen", "the furniture")],
+            ("side", Class::Location) => Direction::ALL
+                .map(|side| candidate(side.name(), "in the frame of the furniture"))
+                .to_vec(),
+            ("orientation", Class::Location) => Orientation::ALL
+                .map(|orientation| candidate(orientation.name(), "how it is turned"))
+                .to_vec(),
+            ("level" | "level-invert", Class::Location) => ["topmost", "middle", "bottommost"]
+                .map(|level| candidate(level, "which board"))
+                .to_vec(),
+            ("context", Class::Location) => {
+                vec![candidate("table-setting", "slots along the edges")]
+            }
+            ("reachable-for" | "visible-for", Class::Location) => {
+                vec![candidate("pr2", "the robot")]
+            }
+            (
+                "on" | "in" | "above" | "for" | "left-of" | "right-of" | "in-front-of" | "behind"
+                | "near" | "far-from",
+                Class::Location,
+            ) => {
+                vec![candidate("(an object ", "a description of an object")]
+            }
             ("object" | "of", _) => vec![candidate("(an object ", "a description of an object")],
             _ => match described
                 .key(&self.image, key)
@@ -174,6 +199,27 @@ impl Session {
         types
             .map(|kind| candidate(kind.name.clone(), format!("an object of {} kg", kind.mass)))
             .collect()
+    }
+
+    /// The furniture: surfaces and what can be opened first, then all else that has a shape.
+    fn furniture_names(&self) -> Vec<Candidate> {
+        let world = self.host.simulation.world();
+        let models = world.models();
+        let surfaces = surfaces(world).into_iter();
+        let surfaces = surfaces.map(|(link, _)| (link, "things can be put on it"));
+        let opened = containers(models).into_iter();
+        let opened = opened.map(|container| (container.link, "it can be opened"));
+        let links = models.kitchen.links();
+        let others = links.filter(|(_, link)| !link.collisions.is_empty());
+        let others = others.map(|(link, _)| (link, "furniture"));
+        let mut found: Vec<Candidate> = Vec::new();
+        for (link, doc) in surfaces.chain(opened).chain(others) {
+            let name = models.kitchen.link(link).name.replace('_', "-");
+            if !found.iter().any(|known| known.text == name) {
+                found.push(candidate(name, doc));
+            }
+        }
+        found
     }
 
     /// The objects in the world.

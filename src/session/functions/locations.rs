@@ -7,6 +7,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::location::{containers, surfaces};
 use crate::plan::Reply;
+use crate::plan::designator::value::{as_designator, first};
 use crate::plan::pose::value::{as_placement, pose_stamped};
 use crate::session::host::SimulationHost;
 use crate::session::host::call::{done, host};
@@ -19,28 +20,49 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 pub(crate) static TABLE: &[Builtin] = &[
     control(
         "NEXT-LOCATION-SAMPLE",
-        "location target",
-        "The next pose that fulfils the location's description, which has not been given before. A text that says why if there is none; NIL if this is no description of a place; :INTERRUPTED. The target is the pose of what is to be reached or seen, if that is a location, else NIL.",
+        "location references",
+        "The next pose that fulfils the location's description, which has not been given before. A text that says why if there is none; NIL if this is no description of a place; :INTERRUPTED. The references are what LOCATION-REFERENCES gives.",
         &["(costmap:next-location-sample (desig:a location) nil) => NIL"],
         host!(next_sample),
     ),
     control(
         "SUITABLE-ROBOT-POSE",
-        "location target",
+        "location references",
         "The pose of the robot if it fulfils the location's description, else NIL.",
         &["(costmap:suitable-robot-pose (desig:a location) nil) => NIL"],
         host!(suitable_robot_pose),
     ),
     control(
         "JUDGE-LOCATION-SAMPLE",
-        "location target pose",
+        "location references pose",
         "What a validator says of a pose: :ACCEPT if it fulfils the location's description, :UNKNOWN if there is none, else a text that says why not.",
         &["(costmap:judge-location-sample (desig:a location) nil nil) => :UNKNOWN"],
         host!(judge),
     ),
     control(
+        "LOCATION-SEARCH-BEGUN-P",
+        "location",
+        "Has the search for the location begun, so that its references are known?",
+        &["(costmap:location-search-begun-p (desig:a location)) => NIL"],
+        host!(has_begun),
+    ),
+    control(
+        "HORIZONTAL-SIZE",
+        "thing",
+        "The shorter of a thing's horizontal edges (m): of an object, a type of objects, or furniture; NIL if it is none of these.",
+        &["(> (costmap:horizontal-size :bowl) 0.1) => T"],
+        host!(horizontal_size),
+    ),
+    control(
+        "FURNITURE-EXTENT",
+        "thing",
+        "The limits of furniture in its own frame (m): least and greatest x, least and greatest y; NIL if it is none.",
+        &["(length (costmap:furniture-extent :table-area-main)) => 4"],
+        host!(furniture_extent),
+    ),
+    control(
         "SHOW-LOCATION-MAP",
-        "location target",
+        "location references",
         "Shows where a location may be in pictures and the live view: cells coloured by their values, and the poses offered so far as arrows, the last one in another colour. Writes how large the area is. It stays until another one is shown.",
         &[],
         host!(show_map),
@@ -122,6 +144,33 @@ fn judge(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Resu
         Some(Err(why)) => done(Value::from(why.as_str())),
         None => done(image.keyword("INTERRUPTED")),
     }
+}
+
+fn has_begun(_: &mut Simulation, _: &mut Image, args: &[Value]) -> Result<Reply> {
+    let oldest = first(&args[0]);
+    done(as_designator(&oldest).is_some_and(|d| d.memory.borrow().is_some()))
+}
+
+fn horizontal_size(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let size = simulation.size_of(image, &args[0]);
+    done(size.map_or(Value::NIL, |[x, y]| Value::Double(x.min(y))))
+}
+
+fn furniture_extent(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let extent = simulation.furniture_of(image, &args[0]);
+    let extent = extent.and_then(|link| simulation.world.furniture_extent(link));
+    done(extent.map_or(Value::NIL, |extent| {
+        let [min, max] = [extent.min, extent.max];
+        Value::list([min[0], max[0], min[1], max[1]].map(Value::Double))
+    }))
 }
 
 fn show_map(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::Simulation;
+use super::location_references::References;
 use super::motions::sides;
 use super::names::{name_text, type_text};
 use super::properties::property;
@@ -16,16 +17,20 @@ use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::location::{
-    BaseQuery, Constraint, Direction, Item, Orientation, PlaceQuery, Query, Relation, Scene,
-    Stream, Support, Target, What, link_named,
+    BaseQuery, Beside, Constraint, Direction, Distances, Item, Level, Orientation, PlaceQuery,
+    Position, Query, Relation, Scene, Stream, Support, Target, What, link_named,
 };
 use crate::motion::interruption::interruptible;
 use crate::picture::LocationMap;
 use crate::plan::designator::value::{Class, Designator, as_class, as_designator, current, first};
-use crate::robot::Side;
+use crate::plan::pose::value::as_placement;
+use crate::robot::{LinkId, Side};
 use crate::session::LogLevel;
 use crate::spatial::Pose;
-use crate::world::WorldError;
+use crate::world::{BodyName, Load, WorldError};
+
+/// Cosine of the angle to the wanted direction, at least, unless the location says another.
+const THRESHOLD: f64 = 0.2;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -120,13 +125,13 @@ impl Simulation {
     }
 
     /// The poses of a location as its chain of designators keeps them, begun if necessary; `None`
-    /// if its properties do not describe a place. `target` is where the location is that is to be
-    /// reached or seen.
+    /// if its properties do not describe a place. `references` are what Lisp has worked out: a list
+    /// of `(key pose number…)`.
     pub(in crate::session) fn location_stream(
         &mut self,
         image: &mut Image,
         location: &Value,
-        target: &Value,
+        references: &Value,
     ) -> Result<Option<Value>> {
         let oldest = first(location);
         let Some(designator) = as_class(&oldest, Class::Location) else {
@@ -138,11 +143,8 @@ impl Simulation {
         {
             return Ok(Some(memory));
         }
-        let target = match target.is_true() {
-            true => Some(self.pose_in_map(image, target)?),
-            false => None,
-        };
-        let Some(query) = self.location_query(image, designator, target)? else {
+        let references = References::read(self, image, references)?;
+        let Some(query) = self.location_query(image, designator, &references)? else {
             return Ok(None);
         };
         self.searches += 1;
@@ -202,7 +204,7 @@ impl Simulation {
         &self,
         image: &mut Image,
         location: &Designator,
-        target: Option<Pose>,
+        references: &References,
     ) -> Result<Option<Query>> {
         let given = |image: &Image, key: &str| {
             let value = location.property_named(image, key);
@@ -211,29 +213,221 @@ impl Simulation {
         let reaches = given(image, "REACHABLE-FOR").is_some();
         let sees = given(image, "VISIBLE-FOR").is_some();
         if reaches || sees {
-            let query = self.base_query(image, location, target, (reaches, sees))?;
+            let query = self.base_query(image, location, references, (reaches, sees))?;
             return Ok(Some(Query::Base(query)));
         }
-        let (on, above) = (given(image, "ON"), given(image, "ABOVE"));
-        let (key, support) = match (&on, &above) {
-            (Some(_), Some(_)) => {
-                return Err(Raise::simple(
-                    "A location is (on …) something or (above …) it, not both.",
-                ));
+        let places = ["ON", "ABOVE", "IN"].map(|key| given(image, key).map(|value| (key, value)));
+        let mut places = places.into_iter().flatten();
+        let constraints = self.constraints(image, location, references)?;
+        let (key, support) = match (places.next(), places.next()) {
+            (Some((one, _)), Some((other, _))) => {
+                let [one, other] = [one, other].map(str::to_lowercase);
+                return Err(Raise::simple(format!(
+                    "A location is ({one} …) something or ({other} …) it, not both."
+                )));
             }
-            (Some(on), None) => ("ON", on.clone()),
-            (None, Some(above)) => ("ABOVE", above.clone()),
-            (None, None) => return Ok(None),
+            (Some((key, value)), None) => (key, self.location_support(image, key, &value)?),
+            (None, _) => match self.support_of_neighbour(image, location)? {
+                Some(support) => ("ON", support),
+                None => return Ok(None),
+            },
         };
-        let offset = given(image, "Z-OFFSET");
-        let offset = offset.map(|z| metres(image, "Z-OFFSET", &z)).transpose()?;
+        if let Some(value) = ["ATTACHMENT", "ATTACHMENTS"]
+            .iter()
+            .find_map(|k| given(image, k))
+        {
+            let shown = print::to_string(image, &value, false);
+            return Err(Raise::simple(format!(
+                "There is no attachment {shown}: none are known for this furniture."
+            )));
+        }
+        let position = match key {
+            "ON" => Position::On,
+            "ABOVE" => {
+                let offset = given(image, "Z-OFFSET");
+                let offset = offset.map(|z| metres(image, "Z-OFFSET", &z)).transpose()?;
+                Position::Above(offset.unwrap_or(0.0))
+            }
+            _ => Position::In(level(image, location)?),
+        };
         Ok(Some(Query::Place(PlaceQuery {
-            support: self.location_support(image, key, &support)?,
-            above: above.map(|_| offset.unwrap_or(0.0)),
-            constraints: constraints(image, location)?,
+            support,
+            position,
+            constraints,
             what: self.what_for(image, location)?,
             orientation: self.orientation(image, location),
         })))
+    }
+
+    /// What something stands on beside which the location is, if it does not say itself on what.
+    fn support_of_neighbour(
+        &self,
+        image: &mut Image,
+        location: &Designator,
+    ) -> Result<Option<Support>> {
+        let keys = Beside::ALL.map(Beside::key).into_iter();
+        let mut keys = keys.chain(["NEAR", "FAR-FROM"]);
+        let value = keys.find_map(|key| location.property_named(image, key));
+        let Some(value) = value.map(|v| current(&v)) else {
+            return Ok(None);
+        };
+        let Some(name) = self.named_object(image, &value) else {
+            return Ok(None);
+        };
+        let pose = self.world.object_pose(&name).map_err(|e| raised(&e))?;
+        let below = self.world.below(&name, &pose).map_err(|e| raised(&e))?;
+        Ok(match below.map(|(_, body)| body) {
+            Some(BodyName::Furniture(link)) => Some(Support::Furniture(link.id)),
+            Some(BodyName::Object(name)) => Some(Support::Object(name)),
+            _ => None,
+        })
+    }
+
+    /// The name in the world of the object that a value describes or names.
+    fn named_object(&self, image: &Image, value: &Value) -> Option<String> {
+        let name = match as_designator(value) {
+            Some(_) => property(image, value, "NAME")?,
+            None => value.clone(),
+        };
+        let name = name_text(image, &name)?;
+        self.world.object(&name).is_ok().then_some(name)
+    }
+
+    /// The link of the kitchen that a value describes or names.
+    pub(in crate::session) fn furniture_of(&self, image: &Image, value: &Value) -> Option<LinkId> {
+        let value = current(value);
+        let name = match as_designator(&value) {
+            Some(_) => {
+                property(image, &value, "URDF-NAME").or_else(|| property(image, &value, "NAME"))?
+            }
+            None => value.clone(),
+        };
+        link_named(&self.models, &name_text(image, &name)?).ok()
+    }
+
+    /// The horizontal edges (m) of an object, a type of objects or furniture.
+    pub(in crate::session) fn size_of(&self, image: &mut Image, value: &Value) -> Option<[f64; 2]> {
+        let value = current(value);
+        if let Some(name) = self.named_object(image, &value) {
+            let size = self.world.object_extent(&name).ok()?.size();
+            return Some([size[0], size[1]]);
+        }
+        if let Some(link) = self.furniture_of(image, &value) {
+            let size = self.world.furniture_extent(link)?.size();
+            return Some([size[0], size[1]]);
+        }
+        let kind = match as_designator(&value) {
+            Some(_) => property(image, &value, "TYPE")?,
+            None => value.clone(),
+        };
+        let kind = self.models.objects.get(&type_text(image, &kind)?)?;
+        let size = Load::of_shapes(&kind.shapes).size(&Pose::identity());
+        Some([size[0], size[1]])
+    }
+
+    /// Where something is (m, map frame) to which a property refers.
+    fn referred(
+        &self,
+        image: &mut Image,
+        (key, value): (&str, &Value),
+        references: &References,
+    ) -> Result<[f64; 2]> {
+        let planar = |pose: &Pose| [pose.translation.x, pose.translation.y];
+        if let Some(pose) = references.pose(key) {
+            return Ok(planar(&pose));
+        }
+        let value = current(value);
+        if let Some(name) = self.named_object(image, &value) {
+            let pose = self.world.object_pose(&name).map_err(|e| raised(&e))?;
+            return Ok(planar(&pose));
+        }
+        match self.location_support(image, key, &value)? {
+            Support::Furniture(link) => Ok(planar(&self.world.furniture_pose(link))),
+            Support::Object(name) => {
+                let pose = self.world.object_pose(&name).map_err(|e| raised(&e))?;
+                Ok(planar(&pose))
+            }
+        }
+    }
+
+    /// What the properties demand of a point on a support.
+    fn constraints(
+        &self,
+        image: &mut Image,
+        location: &Designator,
+        references: &References,
+    ) -> Result<Vec<Constraint>> {
+        let mut all = plain_constraints(image, location)?;
+        let threshold = match location.property_named(image, "THRESHOLD") {
+            Some(value) => metres(image, "THRESHOLD", &value)?,
+            None => THRESHOLD,
+        };
+        let mut add = |image: &Image, key: &str, value: &Value, relation: Relation| {
+            all.push(Constraint {
+                key: written(image, key, value),
+                relation,
+            });
+        };
+        for side in Beside::ALL {
+            for value in values(image, location, side.key()) {
+                let of = self.referred(image, (side.key(), &value), references)?;
+                let beside = Relation::Beside {
+                    of,
+                    side,
+                    threshold,
+                };
+                add(image, side.key(), &self.short(image, &value), beside);
+            }
+        }
+        for (key, ring) in [("NEAR", "NEAR-RING"), ("FAR-FROM", "FAR-FROM-RING")] {
+            for value in values(image, location, key) {
+                let of = self.referred(image, (key, &value), references)?;
+                let [least, most] = *references.numbers(ring) else {
+                    continue;
+                };
+                let distances = [least, most];
+                let value = self.short(image, &value);
+                add(image, key, &value, Relation::Ring { of, distances });
+            }
+        }
+        if let Some(context) = location
+            .property_named(image, "CONTEXT")
+            .filter(Value::is_true)
+        {
+            let slots = references.numbers("SLOTS");
+            let slots: Vec<[f64; 2]> = slots.as_chunks().0.to_vec();
+            if !slots.is_empty() {
+                add(image, "CONTEXT", &context, Relation::Slots(slots));
+            }
+        }
+        if let Some(from) = location.property_named(image, "REACHABLE-FROM")
+            && from.is_true()
+        {
+            let base = match references.pose("REACHABLE-FROM") {
+                Some(pose) => pose,
+                None if as_placement(&from).is_some() => self.pose_in_map(image, &from)?,
+                None => self.base(),
+            };
+            let of = [base.translation.x, base.translation.y];
+            let distances = distances_of(references).reach;
+            let value = self.short(image, &from);
+            add(
+                image,
+                "REACHABLE-FROM",
+                &value,
+                Relation::Ring { of, distances },
+            );
+        }
+        Ok(all)
+    }
+
+    /// A value as reports name it: an object by its name, a location not at all.
+    fn short(&self, image: &Image, value: &Value) -> Value {
+        match self.named_object(image, &current(value)) {
+            Some(name) => Value::from(name.as_str()),
+            None if as_designator(value).is_some() => Value::from("…"),
+            None => value.clone(),
+        }
     }
 
     /// What a property such as `(on …)` names: furniture or an object.
@@ -327,12 +521,12 @@ impl Simulation {
         &self,
         image: &mut Image,
         location: &Designator,
-        target: Option<Pose>,
+        references: &References,
         (reaches, sees): (bool, bool),
     ) -> Result<BaseQuery> {
         let object = location.property_named(image, "OBJECT");
         let object = object.filter(Value::is_true).map(|o| current(&o));
-        let target = match (&object, target) {
+        let target = match (&object, references.pose("LOCATION")) {
             (Some(object), Some(pose)) => {
                 let what = self.object_or_kind(image, object)?;
                 target_of(what, pose, reaches)
@@ -383,6 +577,8 @@ impl Simulation {
             arms: reaches.then_some(arms),
             grasps,
             sees,
+            distances: distances_of(references),
+            from: [self.base().translation.x, self.base().translation.y],
         })
     }
 
@@ -400,6 +596,55 @@ impl Simulation {
     }
 }
 
+/// The distances that users may redefine.
+fn distances_of(references: &References) -> Distances {
+    let usual = Distances::default();
+    let number = |key: &str, otherwise: f64| {
+        references
+            .numbers(key)
+            .first()
+            .copied()
+            .unwrap_or(otherwise)
+    };
+    Distances {
+        reach: [
+            number("COSTMAP-REACH-MINIMAL-DISTANCE", usual.reach[0]),
+            number("COSTMAP-IN-REACH-DISTANCE", usual.reach[1]),
+        ],
+        sight: number("VISIBILITY-COSTMAP-SIZE", usual.sight),
+    }
+}
+
+/// Which board a location is on.
+fn level(image: &Image, location: &Designator) -> Result<Level> {
+    for (key, is_inverted) in [("LEVEL", false), ("LEVEL-INVERT", true)] {
+        let Some(value) = location.property_named(image, key).filter(Value::is_true) else {
+            continue;
+        };
+        if let Value::Int(n) = value
+            && let Ok(n) = usize::try_from(n)
+        {
+            return Ok(match is_inverted {
+                true => Level::FromAbove(n),
+                false => Level::FromBelow(n),
+            });
+        }
+        let name = |level: Level| match level {
+            Level::Topmost => "topmost",
+            Level::Middle => "middle",
+            _ => "bottommost",
+        };
+        let choices = [Level::Topmost, Level::Middle, Level::FromBelow(1)];
+        let found = one_of(image, (key, &value), &choices, name).map_err(Raise::simple)?;
+        return Ok(match (found, is_inverted) {
+            (Level::Topmost, true) => Level::FromBelow(1),
+            (Level::FromBelow(_), true) => Level::Topmost,
+            (found, _) => found,
+        });
+    }
+    Ok(Level::Any)
+}
+
 /// The target at a pose. What is only to be seen need not be there yet.
 fn target_of(what: What, pose: Pose, reaches: bool) -> Target {
     let t = pose.translation;
@@ -415,8 +660,8 @@ fn target_of(what: What, pose: Pose, reaches: bool) -> Target {
     Target { item, pose, name }
 }
 
-/// What the properties demand of a point on a support.
-fn constraints(image: &Image, location: &Designator) -> Result<Vec<Constraint>> {
+/// The demands that refer to nothing else.
+fn plain_constraints(image: &Image, location: &Designator) -> Result<Vec<Constraint>> {
     let mut all = Vec::new();
     let mut add = |key: &str, value: &Value, relation: Relation| {
         all.push(Constraint {

@@ -42,6 +42,31 @@ pub(crate) static LOCATION_KEYS: &[Key] = &[
     optional("VISIBLE-FOR", Kind::Anything, "who is to see it"),
     optional("SIDE", Kind::Anything, "left, right, front or back"),
     optional("RANGE", Kind::Anything, "how far away at most (m)"),
+    optional(
+        "LEVEL",
+        Kind::Anything,
+        "which board: topmost, middle, bottommost, or its number from below",
+    ),
+    optional(
+        "LEVEL-INVERT",
+        Kind::Anything,
+        "which board, counted from above",
+    ),
+    optional(
+        "THRESHOLD",
+        Kind::Number,
+        "how exactly left-of, right-of, in-front-of and behind are meant, 0 to 1",
+    ),
+    optional(
+        "REACHABLE-FROM",
+        Kind::Anything,
+        "robot, or the base pose from which it is to be within reach",
+    ),
+    optional(
+        "ATTACHMENT",
+        Kind::Anything,
+        "how it is fixed to what it is on",
+    ),
     optional("Z-OFFSET", Kind::Number, "how high above it (m)"),
     optional(
         "ORIENTATION",
