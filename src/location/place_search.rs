@@ -136,7 +136,8 @@ impl PlaceSearch {
                 }
             }
         }
-        boards.retain(|(_, count)| *count * 4 >= PROBES * PROBES);
+        // The rest are rails and fronts.
+        boards.retain(|(_, count)| *count * 3 >= PROBES * PROBES);
         boards.sort_by(|a, b| a.0.total_cmp(&b.0));
         boards.into_iter().map(|(height, _)| height).collect()
     }

@@ -33,7 +33,7 @@ pub(crate) struct Scene<'a> {
 
 /// A search in one state of the world.
 enum Search {
-    Place(PlaceSearch),
+    Place(Box<PlaceSearch>),
     Base(Box<BaseSearch>),
     /// There is nothing to search, for this reason.
     Nothing(String),
@@ -85,9 +85,8 @@ impl Stream {
         }
         self.tally = Tally::default();
         let search = match &self.query {
-            Query::Place(query) => {
-                PlaceSearch::new(query, scene.world, &mut self.draw)?.map(Search::Place)
-            }
+            Query::Place(query) => PlaceSearch::new(query, scene.world, &mut self.draw)?
+                .map(|search| Search::Place(Box::new(search))),
             Query::Base(query) => BaseSearch::new(query, scene, &mut self.draw)?
                 .map(|search| Search::Base(Box::new(search))),
         };

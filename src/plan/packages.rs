@@ -136,7 +136,7 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
     row(
         "CRAM-LOCATION-COSTMAP",
         &["COSTMAP", "LOCATION-COSTMAP"],
-        "",
+        "COSTMAP-IN-REACH-DISTANCE COSTMAP-REACH-MINIMAL-DISTANCE VISIBILITY-COSTMAP-SIZE",
     ),
     row("ROSLISP", &[], "ROS-INFO ROS-WARN ROS-ERROR ROS-DEBUG"),
     row("ROSLISP-UTILITIES", &[], ""),

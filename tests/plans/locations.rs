@@ -382,9 +382,9 @@ fn a_location_can_be_forgotten_and_redefined() {
     cook.done("(reference *l*)");
     // A parameter is a fact that programs may redefine.
     cook.done(
-        "(prolog:def-fact-group location-parameters ()
-           (prolog:<- (costmap::costmap-in-reach-distance 0.3))
-           (prolog:<- (costmap::costmap-reach-minimal-distance 0.25)))",
+        "(prolog:def-fact-group my-robot ()
+           (prolog:<- (costmap:costmap-in-reach-distance 0.3))
+           (prolog:<- (costmap:costmap-reach-minimal-distance 0.25)))",
     );
     let why = refusal(
         &mut cook,

@@ -7,6 +7,7 @@ mod designators;
 mod exercises;
 mod grasping;
 mod language;
+mod location_measurements;
 mod locations;
 mod noise;
 mod occasions;

@@ -564,13 +564,17 @@ impl Simulation {
             Some(arm) => sides(image, &arm)?,
             None => Side::BOTH.to_vec(),
         };
-        let mut grasps = None;
+        let named = ["GRASP", "GRASPS"]
+            .map(|key| values(image, location, key))
+            .concat();
+        let named = named.iter().filter_map(|name| type_text(image, name));
+        let mut grasps = Some(named.collect::<Vec<_>>()).filter(|names| !names.is_empty());
         if let Item::Moved(name) = &target.item
             && let Some(side) = self.hand_of(name)
         {
             arms = vec![side];
             let held = self.held.get(name).and_then(|held| held.grasp.clone());
-            grasps = held.map(|grasp| vec![grasp]);
+            grasps = held.map(|grasp| vec![grasp]).or(grasps);
         }
         Ok(BaseQuery {
             target,

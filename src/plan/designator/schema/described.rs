@@ -33,6 +33,11 @@ pub(crate) static LOCATION_KEYS: &[Key] = &[
     optional("POSES", Kind::Poses, "the poses, in this order"),
     optional("OBJECT", Kind::Object, "the object to reach or see"),
     optional("ARM", Kind::Keywords, "the arms one of which is to reach"),
+    optional(
+        "GRASP",
+        Kind::Keywords,
+        "the grasps one of which is to be possible",
+    ),
     optional("OF", Kind::Anything, "the object whose location it is"),
     optional("ON", Kind::Anything, "the surface it is on"),
     optional("IN", Kind::Anything, "the container it is in"),
