@@ -6,8 +6,10 @@ use super::draw::Draw;
 use super::offered::Offered;
 use super::place_query::{PlaceQuery, Position, What};
 use super::stream::Scene;
+use super::support::Support;
 use super::tally::Tally;
 use crate::motion::interruption;
+use crate::robot::LinkId;
 use crate::spatial::Pose;
 use crate::world::{Extent, Ground, Load, NoRoom, StandingRoom, World, WorldError};
 
@@ -102,7 +104,10 @@ impl PlaceSearch {
             }
             (Ground::Furniture, Position::In(level)) => level,
         };
-        let heights = self.boards(world);
+        let Support::Furniture(link) = &query.support else {
+            return Ok(());
+        };
+        let heights = self.boards(world, *link);
         let name = query.support.name(world);
         if heights.is_empty() {
             return Err(format!("There is no room in {name}."));
@@ -116,7 +121,7 @@ impl PlaceSearch {
     }
 
     /// Heights (m) of the boards inside of the support, from below.
-    fn boards(&self, world: &World) -> Vec<f64> {
+    fn boards(&self, world: &World, link: LinkId) -> Vec<f64> {
         let room = StandingRoom::new(world, self.limits(), None);
         let (top, bottom) = (self.extent.top(), self.extent.top() - self.extent.size()[2]);
         let Extent { frame, min, max } = &self.extent;
@@ -126,7 +131,8 @@ impl PlaceSearch {
             let x = min[0] + (max[0] - min[0]) * share(i);
             let y = min[1] + (max[1] - min[1]) * share(j);
             let point = frame * nalgebra::Point3::new(x, y, 0.0);
-            for level in room.levels([point.x, point.y], top - HEADROOM, bottom) {
+            let heights = [top - HEADROOM, bottom];
+            for level in room.levels(link, [point.x, point.y], heights) {
                 match boards
                     .iter_mut()
                     .find(|(h, _)| (h - level).abs() < SLACK / 2.0)

@@ -8,11 +8,12 @@ use parry3d_f64::query::Ray;
 use super::body_name::BodyName;
 use super::error::WorldError;
 use super::object::Object;
-use super::part_key::PartKey;
+use super::part_key::{PartKey, index};
 use super::scene::World;
 use super::separation::{lowest_point, separation};
 use super::solid::{Solid, to_parry};
 use super::spawn::{Neighbour, drop_onto, first_overlap};
+use crate::robot::LinkId;
 use crate::spatial::{PlacedShape, Pose, trig};
 
 /// Height (m) above the lowest point up to which parts of a thing count as what it stands on.
@@ -193,9 +194,15 @@ impl<'w> StandingRoom<'w> {
         Ok(top)
     }
 
-    /// The heights (m) of what one could stand on at a point (m) of the map, from above: tops of
-    /// furniture between two heights (m).
-    pub(crate) fn levels(&self, [x, y]: [f64; 2], top: f64, bottom: f64) -> Vec<f64> {
+    /// The heights (m) at which a link of the kitchen could carry something at a point (m) of the
+    /// map, from above, between two heights (m).
+    pub(crate) fn levels(
+        &self,
+        link: LinkId,
+        [x, y]: [f64; 2],
+        [top, bottom]: [f64; 2],
+    ) -> Vec<f64> {
+        let own = PartKey::Furniture(index(link));
         let mut levels = Vec::new();
         let mut height = top;
         while height > bottom {
@@ -205,7 +212,7 @@ impl<'w> StandingRoom<'w> {
                 // Inside something.
                 Some((level, _)) if level >= height => height -= INSIDE_STEP,
                 Some((level, key)) => {
-                    if matches!(key, PartKey::Furniture(_)) {
+                    if key == own {
                         levels.push(level);
                     }
                     height = level - INSIDE_STEP;
