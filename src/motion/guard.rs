@@ -7,6 +7,8 @@
 //! separate them or slide along are still taken, or the robot could never get away; but no
 //! step may exceed [`GREATEST_DEPTH`].
 
+use serde::{Deserialize, Serialize};
+
 use super::failure::MotionFailure;
 use super::payload::overload;
 use crate::robot::{LinkId, Side};
@@ -70,7 +72,7 @@ pub(super) fn trouble_with_held(
 }
 
 /// A held object that does not follow the hand as it should.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct StuckObject {
     /// Name of the object.
     pub(crate) object: String,

@@ -1,5 +1,7 @@
 //! What all motions have in common: a job that is polled once per simulation step.
 
+use serde::{Deserialize, Serialize};
+
 use super::failure::MotionFailure;
 pub(crate) use super::process_module::ProcessModule;
 use super::trajectory::Trajectory;
@@ -37,7 +39,7 @@ pub(crate) enum MotionOutcome {
 }
 
 /// An object that a camera sees.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct DetectedObject {
     /// Name in the world.
     pub(crate) name: String,

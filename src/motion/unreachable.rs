@@ -2,12 +2,14 @@
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
+
 use crate::robot::{self, Side};
 use crate::spatial::Pose;
 use crate::world::CollisionHit;
 
 /// A pose to which the arm cannot bring its hand at any height of the torso.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct UnreachablePose {
     /// The arm.
     pub(crate) side: Side,
@@ -24,7 +26,7 @@ pub(crate) struct UnreachablePose {
 }
 
 /// Why no configuration will do.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum UnreachableReason {
     /// The arm is too short, or joints would have to exceed their ranges.
     Arm {

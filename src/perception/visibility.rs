@@ -3,6 +3,7 @@
 use std::fmt;
 
 use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
 
 use super::camera::Camera;
 use super::mesh::Mesh;
@@ -11,7 +12,7 @@ use crate::spatial::trig;
 use crate::world::{BodyName, Object, PartKey, World, WorldError};
 
 /// A side of the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Border {
     /// The left border.
     Left,
@@ -35,7 +36,7 @@ impl fmt::Display for Border {
 }
 
 /// The result of looking at an object.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Visibility {
     /// The object's name.
     pub(crate) object: String,

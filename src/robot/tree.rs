@@ -6,6 +6,7 @@
 //! [`JointPositions`].
 
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::ids::{JointId, LinkId};
 use super::joint_positions::JointPositions;
@@ -42,7 +43,7 @@ pub(crate) enum JointKind {
 }
 
 /// A closed range of joint positions (rad or m), `lower <= upper`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Limits {
     /// Least position.
     pub(crate) lower: f64,

@@ -20,6 +20,8 @@ mod queries;
 mod record;
 mod recovery;
 pub(crate) mod simulation;
+pub(crate) mod tape;
+mod taping;
 mod text;
 
 use std::path::Path;
@@ -49,6 +51,8 @@ pub use options::{SessionError, SessionOptions};
 
 /// A session.
 pub struct Session {
+    /// What it began with.
+    options: SessionOptions,
     image: Image,
     scheduler: Scheduler,
     host: SimulationHost,
@@ -82,6 +86,7 @@ impl Session {
                 .map_err(|error| SessionError::Models(error.to_string()))?;
         simulation.set_noise(options.noise_levels()?);
         let mut session = Session {
+            options: options.clone(),
             image,
             scheduler: Scheduler::new(),
             host: SimulationHost::new(simulation, Audience::new(options.realtime)),
@@ -92,6 +97,8 @@ impl Session {
         session.image.limits.heap.set_limit(options.heap);
         session.image.output.set_shown(true);
         session.load_plans()?;
+        // Nobody takes the world back to before the built-in plans.
+        session.host.person.snapshots = person::Snapshots::default();
         Ok(session)
     }
 
@@ -200,7 +207,7 @@ impl Session {
         self.host
             .person
             .snapshots
-            .begin_form(&self.host.simulation, form);
+            .begin_form(&mut self.host.simulation, &self.image, form);
         let tells_progress = self.console.is_interactive;
         let mut host = LiveHost::new(&mut self.host, sink, tells_progress);
         let evaluation = self.scheduler.evaluate(&mut self.image, &mut host, form);

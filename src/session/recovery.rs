@@ -23,7 +23,10 @@ impl Session {
         self.image.nesting = 0;
         self.image.output.set_shown(true);
         let simulation = &mut self.host.simulation;
-        self.host.person.snapshots.go_back_to_form(simulation);
+        self.host
+            .person
+            .snapshots
+            .go_back_to_form(simulation, &mut self.image);
         self.flush(sink);
         let report = format!("planwright failed: {defect}.\n{REQUEST}");
         let told = WatchEvent::Aborted(report.clone());

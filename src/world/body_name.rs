@@ -3,10 +3,12 @@
 use std::fmt;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use crate::robot::LinkId;
 
 /// A link with its name.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct LinkName {
     /// The link in its tree.
     pub(crate) id: LinkId,
@@ -23,7 +25,7 @@ impl PartialEq for LinkName {
 impl Eq for LinkName {}
 
 /// Anything in the world that can be touched.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum BodyName {
     /// A link of the robot.
     Robot(LinkName),

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use parry3d_f64::bounding_volume::Aabb;
+use serde::{Deserialize, Serialize};
 
 use super::holding::Hold;
 use super::part_key::PartKey;
@@ -12,7 +13,7 @@ use crate::robot::LinkId;
 use crate::spatial::{PlacedShape, Pose};
 
 /// The attachment of an object to a link.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Attachment {
     /// The link that carries the object.
     pub(crate) link: LinkId,

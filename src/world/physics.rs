@@ -27,6 +27,7 @@ use rapier3d_f64::geometry::{
 };
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::PhysicsPipeline;
+use serde::{Deserialize, Serialize};
 
 use super::hash::Hasher;
 use super::object_library::FRICTION;
@@ -59,11 +60,11 @@ const ROBOT: Group = Group::GROUP_3;
 const HANDS: [Group; 2] = [Group::GROUP_4, Group::GROUP_5];
 
 /// A body of the engine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct BodyHandle(RigidBodyHandle);
 
 /// A soft weld between two bodies.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct WeldHandle(ImpulseJointHandle);
 
 /// The role of a body.
@@ -125,7 +126,7 @@ pub(crate) struct Physics {
 }
 
 /// The state of the engine. Shapes are shared, so a clone takes about 25 µs.
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 pub(crate) struct Sets {
     bodies: RigidBodySet,
     colliders: ColliderSet,

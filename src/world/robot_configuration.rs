@@ -1,10 +1,12 @@
 //! The configuration of a robot: base pose and joint positions.
 
+use serde::{Deserialize, Serialize};
+
 use crate::robot::JointPositions;
 use crate::spatial::Pose;
 
 /// Everything that decides where the robot's links are.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct RobotConfiguration {
     /// Pose of the robot's root link in the map frame.
     pub(crate) base: Pose,

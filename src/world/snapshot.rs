@@ -7,8 +7,8 @@ use super::scene::{State, World};
 /// bits as before.
 #[derive(Clone)]
 pub(crate) struct Snapshot {
-    physics: Sets,
-    state: State,
+    pub(super) physics: Sets,
+    pub(super) state: State,
 }
 
 impl World {

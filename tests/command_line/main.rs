@@ -6,4 +6,6 @@
 mod pseudo_terminal;
 #[cfg(unix)]
 mod terminal;
+#[cfg(unix)]
+mod torture;
 mod usage;

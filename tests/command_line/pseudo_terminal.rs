@@ -71,7 +71,8 @@ impl Terminal {
         Terminal::spawn(state, &["--resume"])
     }
 
-    fn spawn(state: &State, arguments: &[&str]) -> Terminal {
+    /// Starts the program.
+    pub(crate) fn spawn(state: &State, arguments: &[&str]) -> Terminal {
         let (pty, pts) = open().expect("a pseudo-terminal");
         pty.resize(Size::new(ROWS, COLUMNS)).expect("it has a size");
         let child = Command::new(env!("CARGO_BIN_EXE_planwright"))

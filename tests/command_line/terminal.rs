@@ -316,7 +316,7 @@ fn an_input_that_ended_the_program_is_left_out_and_not_asked_about_again() {
     resumed.wait_for(";   (progn (open ");
     resumed.wait_for("Evaluate it again?");
     resumed.line("n");
-    resumed.wait_for("; Resumed 1 inputs;");
+    resumed.wait_for("; Resumed 1 input;");
     resumed.wait_for_last_line("CL-USER>");
     resumed.evaluate("(defvar *later* (1+ *precious*))");
     resumed.kill();

@@ -2,4 +2,6 @@
 
 mod recovery;
 mod reference;
+mod resume;
 mod session;
+mod soak;

@@ -51,6 +51,8 @@ pub(crate) fn evaluate_standard_input(
             false,
         )?;
         session.set_interactive(false);
+    } else {
+        keeper.begin_fresh_tape(&session);
     }
     let stdin = io::stdin().lock();
     let status = evaluate_lines(stdin, &mut session, &mut screen, &mut keeper, number)?;
@@ -77,7 +79,7 @@ fn evaluate_lines(
             number += 1;
             // Nobody could decide how to continue: conditions end this input also when it is
             // resumed.
-            keeper.begun(&text, false);
+            keeper.begun(&text, false, session);
             let outcome = evaluate_on(screen, session, &input_name(number), &text)?;
             keeper.ended(session);
             match outcome {

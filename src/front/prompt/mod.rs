@@ -13,6 +13,7 @@ mod journal;
 mod keeper;
 mod keys;
 mod pasted;
+mod quick;
 mod resume;
 
 use std::cell::RefCell;
@@ -121,8 +122,9 @@ pub(crate) fn run(
         keeper: Keeper::new(journal),
         number: options.inputs_before,
     };
-    if let Some(mut earlier) = earlier {
-        repl.resume(&mut earlier, &mut editor)?;
+    match earlier {
+        Some(mut earlier) => repl.resume(&mut earlier, &mut editor)?,
+        None => repl.keeper.begin_fresh_tape(&*repl.evaluator.borrow()),
     }
     let status = repl.converse(&mut editor)?;
     if let Err(reason) = repl.evaluator.borrow_mut().finish() {
@@ -216,10 +218,10 @@ impl Repl {
     }
 
     fn evaluate(&mut self, input: &str, stops: bool) -> Result<Outcome, ReplError> {
-        self.keeper.begun(input, stops);
+        let mut evaluator = self.evaluator.borrow_mut();
+        self.keeper.begun(input, stops, &mut *evaluator);
         self.number += 1;
         let name = input_name(self.number);
-        let mut evaluator = self.evaluator.borrow_mut();
         evaluator.set_interactive(stops);
         self.is_evaluating.store(true, Ordering::Relaxed);
         let outcome = evaluate_on(&mut self.screen, &mut *evaluator, &name, input);
@@ -227,7 +229,7 @@ impl Repl {
         evaluator.set_interactive(true);
         // What ended because nobody sees its output was not interrupted by the user.
         let outcome = outcome?;
-        self.keeper.ended(&*evaluator);
+        self.keeper.ended(&mut *evaluator);
         Ok(outcome)
     }
 

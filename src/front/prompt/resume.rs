@@ -4,8 +4,9 @@ use std::io::{self, Write};
 
 use super::journal::{Earlier, End, Recorded};
 use super::keeper::Keeper;
-use crate::session::dialogue::Converse;
+use super::quick::{Played, Quick};
 use crate::session::dialogue::screen::input_name;
+use crate::session::dialogue::{Converse, Event};
 
 /// What to do with an input of which nobody knows whether it ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -31,8 +32,37 @@ pub(crate) fn settle_doubts(
     Ok(())
 }
 
+/// How a resume goes on, told on one line of a terminal that is written again and again.
+pub(super) struct Progress<W> {
+    out: W,
+    is_shown: bool,
+    count: usize,
+}
+
+impl<W: Write> Progress<W> {
+    /// What takes away the line.
+    fn erase(&self) -> &'static str {
+        if self.is_shown { "\r\x1b[2K" } else { "" }
+    }
+
+    /// Tells which input is being evaluated, by its index, and what happens in it.
+    fn show(&mut self, at: usize, what: &str) -> io::Result<()> {
+        if self.is_shown {
+            let (erase, count) = (self.erase(), self.count);
+            write!(self.out, "{erase}; Input {} of {count} … {what}", at + 1)?;
+            self.out.flush()?;
+        }
+        Ok(())
+    }
+
+    fn tell(&mut self, text: &str) -> io::Result<()> {
+        writeln!(self.out, "{}{text}", self.erase())
+    }
+}
+
 /// Evaluates the inputs of an earlier session again without showing their output; `number`
-/// becomes the number of the last one.
+/// becomes the number of the last one. As far as there is a tape of the session, the world's
+/// answers come from it.
 ///
 /// Where the user interrupts, the session continues without the inputs after that. With
 /// `shows_progress`, a line says how far it is.
@@ -41,69 +71,165 @@ pub(crate) fn resume(
     keeper: &mut Keeper,
     earlier: &Earlier,
     number: &mut usize,
-    mut out: impl Write,
+    out: impl Write,
     shows_progress: bool,
 ) -> io::Result<()> {
+    let mut progress = Progress {
+        out,
+        is_shown: shows_progress,
+        count: earlier.inputs.len(),
+    };
+    let first = *number;
+    let mut quick = Quick::new(evaluator, &earlier.path, &earlier.inputs);
+    let mut end = earlier.inputs.len();
+    loop {
+        *number = first + end;
+        let inputs = earlier.inputs.get(..end).unwrap_or_default();
+        match quick.run(evaluator, keeper, inputs, first, &mut progress)? {
+            Played::Whole(differs) => {
+                tell_end(evaluator, inputs, differs, &mut progress)?;
+                if end < earlier.inputs.len() {
+                    let text = format!("; Interrupted at input {} of {}.", end + 1, progress.count);
+                    progress.tell(&text)?;
+                    let remark = keeper.part_of(earlier, inputs.to_vec());
+                    progress.tell(&remark)?;
+                }
+                return Ok(());
+            }
+            Played::Stopped(at, interrupted_at) => {
+                *number = first + at + 1;
+                keeper.stopped(evaluator);
+                let state = (at, interrupted_at, evaluator.world_hash());
+                return tell_interrupt(keeper, earlier, state, &mut progress);
+            }
+            Played::Lost(at) => {
+                // The state before it is known.
+                end = at;
+                if !evaluator.begin_anew() {
+                    return progress.tell("; The session cannot begin anew.");
+                }
+            }
+            Played::Failed => {
+                progress.tell(
+                    "; The tape beside the journal does not fit: every input is evaluated with the physics.",
+                )?;
+                if !evaluator.begin_anew() {
+                    return progress.tell("; The session cannot begin anew.");
+                }
+                break;
+            }
+            Played::None => break,
+        }
+    }
+    *number = first;
+    with_physics(evaluator, keeper, earlier, number, &mut progress)
+}
+
+/// Evaluates the inputs again, with the physics.
+fn with_physics(
+    evaluator: &mut dyn Converse,
+    keeper: &mut Keeper,
+    earlier: &Earlier,
+    number: &mut usize,
+    progress: &mut Progress<impl Write>,
+) -> io::Result<()> {
     let inputs = &earlier.inputs;
-    let skips = inputs.iter().any(|input| input.end == End::Skipped);
-    let count = inputs.len();
-    let erase = if shows_progress { "\r\x1b[2K" } else { "" };
-    let mut differs_from = None;
-    let mut resumed = 0;
+    keeper.begin_fresh_tape(evaluator);
+    let mut differs = None;
     for (at, input) in inputs.iter().enumerate() {
         *number += 1;
         if input.end == End::Skipped {
             continue;
         }
-        if shows_progress {
-            write!(out, "{erase}; Input {} of {count} …", at + 1)?;
-            out.flush()?;
-        }
-        keeper.again(at + 1);
-        let interrupted_at = evaluate_again(evaluator, &input_name(*number), input);
+        keeper.again(at + 1, input, evaluator);
+        let name = input_name(*number);
+        let interrupted_at = evaluate_again(evaluator, &name, input, at, progress)?;
         let hash = evaluator.world_hash();
         keeper.ended(evaluator);
-        resumed += 1;
         if interrupted_at.is_some() && interrupted_at != input.interrupted_at {
-            writeln!(out, "{erase}; Interrupted at input {} of {count}.", at + 1)?;
-            if at + 1 < count {
-                let end = End::Ended(Some(hash));
-                writeln!(
-                    out,
-                    "{}",
-                    keeper.part_from(earlier, at, interrupted_at, end)
-                )?;
-            }
-            return Ok(());
+            let state = (at, interrupted_at.unwrap_or_default(), hash);
+            return tell_interrupt(keeper, earlier, state, progress);
         }
         if matches!(input.end, End::Ended(Some(recorded)) if recorded != hash) {
-            differs_from.get_or_insert(at + 1);
+            differs.get_or_insert(at + 1);
         }
     }
-    if count > 0 {
-        let hash = evaluator.world_hash();
-        writeln!(
-            out,
-            "{erase}; Resumed {resumed} inputs; the world's hash is {hash:016x}."
-        )?;
-    }
-    if let Some(number) = differs_from.filter(|_| !skips) {
-        writeln!(
-            out,
-            "; The world is not the same as in the earlier session since input {number}: a loaded file or planwright itself may have changed."
-        )?;
+    tell_end(evaluator, inputs, differs, progress)
+}
+
+/// The user has interrupted the input with that index, at that place and with that hash of the
+/// world: the session is what was evaluated up to there.
+fn tell_interrupt(
+    keeper: &mut Keeper,
+    earlier: &Earlier,
+    (at, interrupted_at, hash): (usize, u64, u64),
+    progress: &mut Progress<impl Write>,
+) -> io::Result<()> {
+    let count = progress.count;
+    progress.tell(&format!("; Interrupted at input {} of {count}.", at + 1))?;
+    if at + 1 < count {
+        let mut part = earlier.inputs.get(..=at).unwrap_or_default().to_vec();
+        if let Some(last) = part.last_mut() {
+            last.interrupted_at = Some(interrupted_at);
+            last.end = End::Ended(Some(hash));
+        }
+        let remark = keeper.part_of(earlier, part);
+        progress.tell(&remark)?;
     }
     Ok(())
 }
 
-/// Returns where the evaluation was interrupted.
-fn evaluate_again(evaluator: &mut dyn Converse, name: &str, input: &Recorded) -> Option<u64> {
+/// Tells what has been resumed, and since which input, by its number, the world differs.
+fn tell_end(
+    evaluator: &dyn Converse,
+    inputs: &[Recorded],
+    differs: Option<usize>,
+    progress: &mut Progress<impl Write>,
+) -> io::Result<()> {
+    if inputs.is_empty() {
+        return Ok(());
+    }
+    let resumed = inputs.iter().filter(|input| input.end != End::Skipped);
+    let resumed = match resumed.count() {
+        1 => "1 input".to_owned(),
+        count => format!("{count} inputs"),
+    };
+    let hash = evaluator.world_hash();
+    progress.tell(&format!(
+        "; Resumed {resumed}; the world's hash is {hash:016x}."
+    ))?;
+    let skips = inputs.iter().any(|input| input.end == End::Skipped);
+    if let Some(number) = differs.filter(|_| !skips) {
+        progress.tell(&format!(
+            "; The world is not the same as in the earlier session since input {number}: a loaded file or planwright itself may have changed."
+        ))?;
+    }
+    Ok(())
+}
+
+/// Evaluates an input again; `at` is its index. Returns where the evaluation was interrupted.
+pub(super) fn evaluate_again(
+    evaluator: &mut dyn Converse,
+    name: &str,
+    input: &Recorded,
+    at: usize,
+    progress: &mut Progress<impl Write>,
+) -> io::Result<Option<u64>> {
+    progress.show(at, "")?;
     evaluator.set_interactive(input.stops);
     if let Some(at) = input.interrupted_at {
         evaluator.interrupt_next_at(at);
     }
-    evaluator.evaluate(name, &input.text, &mut |_| {});
-    evaluator.interrupted_at()
+    let mut told = Ok(());
+    evaluator.evaluate(name, &input.text, &mut |event| {
+        if let Event::Progress(text) = event
+            && told.is_ok()
+        {
+            told = progress.show(at, &text);
+        }
+    });
+    told?;
+    Ok(evaluator.interrupted_at())
 }
 
 /// The first lines of an input, to be shown.

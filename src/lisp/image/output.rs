@@ -41,6 +41,16 @@ impl Output {
         self.column
     }
 
+    /// Number of bytes that have been written and not been taken.
+    pub(crate) fn len(&self) -> usize {
+        self.text.len()
+    }
+
+    /// What has been written since there were so many bytes, if nothing has been taken since.
+    pub(crate) fn written_since(&self, len: usize) -> Option<&str> {
+        self.text.get(len..)
+    }
+
     /// Sets whether somebody shows what is written as soon as it is due.
     pub(crate) fn set_shown(&mut self, is_shown: bool) -> bool {
         std::mem::replace(&mut self.is_shown, is_shown)

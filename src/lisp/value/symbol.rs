@@ -111,7 +111,6 @@ impl SymbolTable {
     }
 
     /// Number of symbols.
-    #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
         self.entries.len()
     }

@@ -31,7 +31,7 @@ impl Audience {
         mut follower: Box<dyn Follower>,
     ) -> FollowerId {
         Plan::of(image).keep_journal();
-        let trajectories = simulation.jobs.trajectories();
+        let trajectories = simulation.shown().jobs.trajectories();
         follower.see(&observation(simulation, &trajectories), Cause::Rest);
         self.followers.last += 1;
         let id = FollowerId(self.followers.last);
@@ -51,11 +51,12 @@ impl Audience {
 
     /// Shows the followers the present state of the world.
     pub(crate) fn show(&mut self, simulation: &Simulation, cause: Cause) {
-        if self.followers.all.is_empty() {
+        // A state that is an old one is not shown.
+        if self.followers.all.is_empty() || simulation.tape.is_stale() {
             return;
         }
         let mut followers = std::mem::take(&mut self.followers.all);
-        let trajectories = simulation.jobs.trajectories();
+        let trajectories = simulation.shown().jobs.trajectories();
         let observation = observation(simulation, &trajectories);
         for (_, follower) in &mut followers {
             follower.see(&observation, cause);
@@ -123,12 +124,17 @@ fn observation<'a>(
 ) -> Observation<'a> {
     Observation {
         time: simulation.now,
-        world: &simulation.world,
-        axes: simulation.axes.as_ref().map(|axes| (axes.pose, axes.size)),
+        world: &simulation.shown().world,
+        axes: simulation
+            .shown()
+            .axes
+            .as_ref()
+            .map(|axes| (axes.pose, axes.size)),
         location: simulation
+            .shown()
             .location_map
             .as_ref()
-            .or(simulation.resolved_map.as_ref()),
+            .or(simulation.shown().resolved_map.as_ref()),
         trajectories,
     }
 }

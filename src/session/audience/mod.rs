@@ -47,6 +47,11 @@ impl Audience {
         }
     }
 
+    /// Whether a film or a recording is being made.
+    pub(super) fn writes_files(&self) -> bool {
+        self.film.is_some() || self.recording.is_some()
+    }
+
     /// Sets a function to be called after every step of a motion.
     #[cfg(test)]
     pub(crate) fn set_observer(&mut self, observer: Observer) {

@@ -61,8 +61,9 @@ impl Audience {
             .get_or_insert_with(|| Pace::new(PaceControl::new(Speed::Times(1.0))));
         let control = pace.control().clone();
         let history = History::new(Origin::Session);
-        let witness = FrameBuilder::new(&simulation.world);
-        let views = Views::new(&simulation.world, |link| witness.node_named(link));
+        let world = &simulation.shown().world;
+        let witness = FrameBuilder::new(world);
+        let views = Views::new(world, |link| witness.node_named(link));
         let server =
             Server::start(history.clone(), Some(control), views).map_err(WatchError::View)?;
         let address = server.address();

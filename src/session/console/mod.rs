@@ -238,7 +238,7 @@ impl Session {
                     self.host
                         .person
                         .snapshots
-                        .go_back_to_form(&mut self.host.simulation);
+                        .go_back_to_form(&mut self.host.simulation, &mut self.image);
                 }
                 self.evaluate_first(base, sink)
             }

@@ -4,12 +4,16 @@
 use super::choices::Choice;
 use super::stack_frames::Told;
 use crate::lisp::compile;
+use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::plan::Reply;
 use crate::plan::designator::perform::Performance;
 use crate::plan::designator::value::{Class, as_class};
 use crate::plan::packages;
+use crate::session::host::call::done;
+use crate::session::simulation::Simulation;
 use crate::session::{Session, on_one_line};
 
 /// Maximum number of actions for which a repetition is offered.
@@ -43,11 +47,16 @@ impl Session {
             .iter()
             .find(|a| self.type_of_action(a) == "PICKING-UP")
         {
-            for (arm, grasp) in self
-                .host
-                .simulation
-                .reachable_grasps(&mut self.image, &picking.designator)
-            {
+            let grasps = self.found_in_world(&picking.designator, |simulation, image, action| {
+                let grasps = simulation.reachable_grasps(image, action).into_iter();
+                Value::list(
+                    grasps
+                        .map(|(arm, grasp)| Value::list([arm, grasp]))
+                        .collect::<Vec<_>>(),
+                )
+            });
+            for grasp in grasps.iter_list() {
+                let (arm, grasp) = (grasp.car_or_nil(), grasp.cdr_or_nil().car_or_nil());
                 let others = [("ARM", arm.clone()), ("GRASP", grasp.clone())];
                 let designator = self.with_properties(&picking.designator, &others);
                 let shown = |value: &Value| print::to_string(&self.image, value, true);
@@ -105,7 +114,7 @@ impl Session {
         let Some(designator) = as_class(action, Class::Action) else {
             return action.clone();
         };
-        let is_other = |key: &Value, image: &crate::lisp::image::Image| {
+        let is_other = |key: &Value, image: &Image| {
             let name = key.as_symbol().map(|sym| image.name(sym).to_owned());
             name.is_some_and(|name| others.iter().any(|(other, _)| *other == name))
         };
@@ -130,12 +139,34 @@ impl Session {
         Value::foreign(copy)
     }
 
+    /// What the world tells about an action.
+    fn found_in_world(
+        &mut self,
+        action: &Value,
+        find: impl FnOnce(&mut Simulation, &mut Image, &Value) -> Value,
+    ) -> Value {
+        let given = std::slice::from_ref(action);
+        let reply = self
+            .host
+            .answered(&mut self.image, "choices", given, |host, image| {
+                done(find(&mut host.simulation, image, action))
+            });
+        match reply {
+            Ok(Reply::Now(Ok(found))) => found,
+            _ => Value::NIL,
+        }
+    }
+
     /// Driving to where the object can be grasped, then repeating the action.
     fn base_choice(&mut self, picking: &Action) -> Option<(Choice, String)> {
-        let (pose, arm, grasp) = self
-            .host
-            .simulation
-            .place_to_grasp_from(&mut self.image, &picking.designator)?;
+        let found = self.found_in_world(&picking.designator, |simulation, image, action| {
+            let found = simulation.place_to_grasp_from(image, action);
+            found.map_or(Value::NIL, |(pose, arm, grasp)| {
+                Value::list([pose, arm, grasp])
+            })
+        });
+        let found = found.list_to_vec()?;
+        let [pose, arm, grasp]: [Value; 3] = found.try_into().ok()?;
         let others = [("ARM", arm.clone()), ("GRASP", grasp.clone())];
         let designator = self.with_properties(&picking.designator, &others);
         let function = self.drive_and_perform()?;

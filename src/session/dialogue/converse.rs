@@ -2,9 +2,10 @@
 //! what could be typed next.
 
 use super::repeat::Repeat;
+use super::taping::Taping;
 
 /// An evaluator for interactive use.
-pub(crate) trait Converse: Repeat {
+pub(crate) trait Converse: Repeat + Taping {
     /// Number of stopped evaluations.
     fn level(&self) -> usize;
 

@@ -12,6 +12,7 @@ mod input;
 pub(crate) mod prompt_line;
 pub(crate) mod repeat;
 pub(crate) mod screen;
+mod taping;
 
 pub(crate) use converse::{Candidate, Completions, Converse};
 pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
@@ -19,3 +20,4 @@ pub(crate) use evaluate_on::{evaluate_keeping_abort, evaluate_on};
 pub(crate) use input::{ends_in_quotes, is_whole};
 pub(crate) use repeat::Repeat;
 pub(crate) use screen::Screen;
+pub(crate) use taping::Taping;

@@ -84,7 +84,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "name arm",
         "Lets go of an object and waits until it rests.",
         &[],
-        host!(detach_object),
+        host!(answered detach_object),
     ),
     control(
         "OBJECT-TO-PLACE",

@@ -186,8 +186,7 @@ fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
             if grasps.is_empty() { "none" } else { &grasps }
         ));
     }
-    if host.simulation.world.object(&name).is_ok() {
-        let view = View::of(host, image, &args[0]);
+    if let Some(view) = View::in_world(host, image, &args[0]) {
         text.push_str(&format!("An object in the world:\n{}", view.text(image)));
     }
     if text.is_empty() {

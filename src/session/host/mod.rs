@@ -8,6 +8,7 @@
 pub(crate) mod call;
 pub(super) mod parts;
 mod request;
+mod taped;
 
 use crate::lisp::image::Image;
 use crate::plan::TaskId;
@@ -43,5 +44,5 @@ impl SimulationHost {
 /// Tells the image how many motions have begun, by which it distinguishes later events from
 /// earlier ones.
 fn note_motions(simulation: &Simulation, image: &mut Image) {
-    image.extend(MotionsBegun(simulation.jobs.begun));
+    image.extend(MotionsBegun(simulation.motions_begun()));
 }

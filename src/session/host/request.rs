@@ -11,6 +11,7 @@ use crate::motion::{Motion, MotionStatus};
 use crate::plan::designator::MotionRequest;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
 use crate::session::simulation::jobs::Completion;
+use crate::session::tape::{Done, RaiseData};
 use crate::watch::{Cause, TaskState};
 use crate::world::physics::STEP_SECONDS;
 
@@ -28,6 +29,41 @@ impl Host for SimulationHost {
     }
 
     fn idle(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
+        let passed = self.taped_time(image, now, Some(until), |host, image| Advance {
+            now: host.rest(image, now, until),
+            done: Vec::new(),
+        });
+        passed.now
+    }
+
+    fn cancel(&mut self, _: &mut Image, ticket: Ticket) {
+        if self.simulation.tape.is_playing() {
+            self.simulation.tape.end_motion(ticket.0);
+            return;
+        }
+        if let Some(job) = self.simulation.jobs.cancel(ticket) {
+            let now = self.simulation.now;
+            self.audience
+                .tell_motion(now, &job, TaskState::Evaporated, "");
+        }
+    }
+
+    fn pause(&mut self, _: &mut Image, ticket: Ticket) {
+        if !self.simulation.tape.is_playing() {
+            self.simulation.jobs.set_paused(ticket, true);
+        }
+    }
+
+    fn wake(&mut self, _: &mut Image, ticket: Ticket) {
+        if !self.simulation.tape.is_playing() {
+            self.simulation.jobs.set_paused(ticket, false);
+        }
+    }
+}
+
+impl SimulationHost {
+    /// Lets time pass in which nothing is carried out; returns the time then.
+    fn rest(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
         let mut steps = 0u32;
         self.simulation.now = now;
         // A world at rest does not need to be stepped.
@@ -56,26 +92,21 @@ impl Host for SimulationHost {
         until
     }
 
-    fn cancel(&mut self, _: &mut Image, ticket: Ticket) {
-        if let Some(job) = self.simulation.jobs.cancel(ticket) {
-            let now = self.simulation.now;
-            self.audience
-                .tell_motion(now, &job, TaskState::Evaporated, "");
-        }
-    }
-
-    fn pause(&mut self, _: &mut Image, ticket: Ticket) {
-        self.simulation.jobs.set_paused(ticket, true);
-    }
-
-    fn wake(&mut self, _: &mut Image, ticket: Ticket) {
-        self.simulation.jobs.set_paused(ticket, false);
-    }
-}
-
-impl SimulationHost {
     /// As [`Host::advance`]; `watch` is called after every step.
     pub(in crate::session) fn advance_watched(
+        &mut self,
+        image: &mut Image,
+        now: f64,
+        until: Option<f64>,
+        watch: &mut dyn FnMut(&SimulationHost),
+    ) -> Advance {
+        self.taped_time(image, now, until, |host, image| {
+            host.carry_out(image, now, until, watch)
+        })
+    }
+
+    /// Lets time pass while motions are carried out.
+    fn carry_out(
         &mut self,
         image: &mut Image,
         now: f64,
@@ -115,22 +146,37 @@ impl SimulationHost {
     fn reply(&mut self, image: &mut Image, request: Box<dyn Any>) -> Reply {
         let request = match request.downcast::<HostCall>() {
             Ok(call) => {
-                let reply = (call.call)(self, image, &call.args);
+                let reply = if call.is_answered {
+                    self.answered(image, call.name, &call.args, |host, image| {
+                        (call.call)(host, image, &call.args)
+                    })
+                } else {
+                    self.simulation.tape.watch();
+                    let reply = (call.call)(self, image, &call.args);
+                    if self.simulation.tape.is_touched() {
+                        self.simulation.tape.note_lasting_effect();
+                    }
+                    reply
+                };
                 self.audience.show(&self.simulation, Cause::Edit);
                 return reply.unwrap_or_else(|raise| Reply::Now(Err(raise)));
             }
             Err(request) => request,
         };
         match request.downcast::<MotionRequest>() {
-            Ok(request) => match self.simulation.motion_for(image, &request) {
-                Ok((motion, subject)) => {
+            Ok(request) => {
+                let properties = request.properties.iter().map(|(_, value)| value);
+                let given = std::iter::once(&request.designator).chain(properties);
+                let given: Vec<Value> = given.cloned().collect();
+                let name = request.motion_type.to_lowercase();
+                let reply = self.answered(image, &name, &given, |host, image| {
+                    let (motion, subject) = host.simulation.motion_for(image, &request)?;
                     // Report the task before its actions.
-                    self.audience.tell_tasks(image);
-                    let name = request.motion_type.to_lowercase();
-                    Reply::Later(self.start(motion, subject, name))
-                }
-                Err(raise) => Reply::Now(Err(raise)),
-            },
+                    host.audience.tell_tasks(image);
+                    Ok(Reply::Later(host.start(motion, subject, name.clone())))
+                });
+                reply.unwrap_or_else(|raise| Reply::Now(Err(raise)))
+            }
             Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
         }
     }
@@ -172,7 +218,10 @@ impl SimulationHost {
                 MotionStatus::Done(outcome) => {
                     self.audience
                         .tell_motion(now, job, TaskState::Succeeded, "");
-                    Ok(simulation.outcome(image, &outcome, &job.subject))
+                    let value = simulation.outcome(image, &outcome, &job.subject);
+                    let done = simulation.done(image, &outcome, &value);
+                    simulation.tape.note_end(job.ticket.0, done);
+                    Ok(value)
                 }
                 MotionStatus::Failed(failure) => {
                     let report = failure.to_string();
@@ -181,7 +230,11 @@ impl SimulationHost {
                     if let Some(hit) = failure.hit() {
                         self.audience.tell_collision(now, hit);
                     }
-                    Err(simulation.failure(image, &failure, &job.subject))
+                    let raise = simulation.failure(image, &failure, &job.subject);
+                    let given = std::slice::from_ref(&job.subject);
+                    let done = RaiseData::of(image, &raise, given).map(Done::Raise);
+                    simulation.tape.note_end(job.ticket.0, done);
+                    Err(raise)
                 }
             };
             partial_step.completions.push((job.ticket, result));

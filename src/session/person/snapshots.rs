@@ -8,11 +8,12 @@ use std::rc::Rc;
 
 use indexmap::IndexMap;
 
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
-use crate::session::simulation::held::Held;
-use crate::session::simulation::{Axes, Simulation};
-use crate::world;
+use crate::session::simulation::Simulation;
+use crate::session::simulation::frames::Restored;
+use crate::session::tape::{Entry, Frame};
 
 /// Maximum number of forms at top level that can be undone.
 const MOST_FORMS: usize = 100;
@@ -21,12 +22,13 @@ const MOST_MOTIONS: usize = 64;
 
 /// The state at one time.
 #[derive(Clone)]
-pub(crate) struct Snapshot {
-    world: Rc<world::Snapshot>,
-    names: IndexMap<String, Value>,
-    held: IndexMap<String, Held>,
-    axes: Option<Axes>,
-    searches: u64,
+pub(crate) enum Snapshot {
+    /// In memory.
+    Here(Rc<Restored>),
+    /// As a frame of the tape, which takes little memory.
+    Stored(Rc<Frame>),
+    /// Nothing but that there was one: an answer of the tape needs no more.
+    Absent,
 }
 
 /// The state before a form at top level.
@@ -55,24 +57,61 @@ pub(crate) struct Snapshots {
 
 impl Snapshot {
     /// Takes a snapshot of the present state.
-    fn take(simulation: &Simulation) -> Self {
-        Self {
-            world: Rc::new(simulation.world.snapshot()),
+    fn take(simulation: &mut Simulation, image: &Image) -> Self {
+        if simulation.tape.is_playing() {
+            let number = match simulation.tape.next() {
+                Some(Entry::Snapshot(number)) => number,
+                _ => {
+                    simulation.tape.fail();
+                    None
+                }
+            };
+            let frame = number.and_then(|number| simulation.tape.frame(number));
+            return frame.map_or(Self::Absent, Self::Stored);
+        }
+        let frame = simulation.frame(image);
+        let number = frame.as_ref().map(|frame| frame.number);
+        simulation.tape.put(&Entry::Snapshot(number));
+        frame.map_or_else(|| Self::here(simulation), Self::Stored)
+    }
+
+    fn here(simulation: &Simulation) -> Self {
+        Self::Here(Rc::new(Restored {
+            world: simulation.world.snapshot(),
             names: simulation.names.clone(),
             held: simulation.held.clone(),
             axes: simulation.axes.clone(),
             searches: simulation.searches,
-        }
+        }))
     }
 
     /// Restores the state; ongoing motions end.
-    fn restore(&self, simulation: &mut Simulation) {
-        simulation.world.restore(&self.world);
-        simulation.names.clone_from(&self.names);
-        simulation.held.clone_from(&self.held);
-        simulation.axes.clone_from(&self.axes);
-        simulation.searches = self.searches;
-        simulation.jobs.clear();
+    fn restore(&self, simulation: &mut Simulation, image: &mut Image) {
+        if simulation.tape.is_playing() {
+            simulation.tape.make_stale();
+            return;
+        }
+        let stored;
+        let restored = match self {
+            Self::Here(restored) => restored.as_ref(),
+            Self::Stored(frame) => {
+                stored = simulation.restored(image, frame);
+                match &stored {
+                    Some(restored) => restored,
+                    None => return,
+                }
+            }
+            Self::Absent => return,
+        };
+        simulation.restore(restored);
+    }
+
+    /// The frame of the tape that it needs.
+    fn frame(&self) -> Option<u64> {
+        match self {
+            Self::Stored(frame) => Some(frame.number),
+            Self::Here(_) | Self::Absent => None,
+        }
     }
 }
 
@@ -88,7 +127,7 @@ impl Snapshots {
     }
 
     /// Call when a form at top level is about to be evaluated.
-    pub(crate) fn begin_form(&mut self, simulation: &Simulation, form: &Value) {
+    pub(crate) fn begin_form(&mut self, simulation: &mut Simulation, image: &Image, form: &Value) {
         self.motions.clear();
         if !self.is_touched
             && let Some(last) = self.forms.back_mut()
@@ -96,7 +135,7 @@ impl Snapshots {
             last.form = form.clone();
             return;
         }
-        let hash = simulation.world.hash();
+        let hash = simulation.state_hash();
         if self.forms.back().is_some_and(|last| last.hash == hash) {
             self.forms.pop_back();
         }
@@ -106,23 +145,23 @@ impl Snapshots {
         self.is_touched = false;
         let before = BeforeForm {
             form: form.clone(),
-            snapshot: Snapshot::take(simulation),
+            snapshot: Snapshot::take(simulation, image),
             hash,
         };
         self.forms.push_back(before);
     }
 
     /// Whether the world differs from before the last form at top level.
-    pub(crate) fn has_changed_since_form(&self, simulation: &Simulation) -> bool {
+    pub(crate) fn has_changed_since_form(&self, simulation: &mut Simulation) -> bool {
         let last = self.forms.back();
-        last.is_some_and(|before| before.hash != simulation.world.hash())
+        last.is_some_and(|before| before.hash != simulation.state_hash())
     }
 
     /// Restores the world to before the last form at top level.
-    pub(crate) fn go_back_to_form(&mut self, simulation: &mut Simulation) {
+    pub(crate) fn go_back_to_form(&mut self, simulation: &mut Simulation, image: &mut Image) {
         let last = self.forms.back();
         if let Some(snapshot) = last.map(|before| before.snapshot.clone()) {
-            snapshot.restore(simulation);
+            snapshot.restore(simulation, image);
         }
     }
 
@@ -136,11 +175,29 @@ impl Snapshots {
         if !self.keeps_motions {
             return;
         }
+        self.add_motion(simulation.jobs.begun, Snapshot::here(simulation));
+    }
+
+    /// Call when a motion has begun on the tape.
+    pub(crate) fn note_motion(&mut self, begun_before: u64) {
+        if self.keeps_motions {
+            self.add_motion(begun_before, Snapshot::Absent);
+        }
+    }
+
+    fn add_motion(&mut self, number: u64, snapshot: Snapshot) {
         if self.motions.len() == MOST_MOTIONS {
             self.motions.pop_front();
         }
-        let snapshot = (simulation.jobs.begun, Snapshot::take(simulation));
-        self.motions.push_back(snapshot);
+        self.motions.push_back((number, snapshot));
+    }
+
+    /// The numbers of the frames that the snapshots of forms and the named ones need; `None` if
+    /// one of these is absent.
+    pub(crate) fn frames(&self) -> Option<Vec<u64>> {
+        let forms = self.forms.iter().map(|before| &before.snapshot);
+        let all = forms.chain(self.named.values());
+        all.map(Snapshot::frame).collect()
     }
 
     /// Whether the world can be restored to before the motion with that number.
@@ -149,10 +206,15 @@ impl Snapshots {
     }
 
     /// Restores the world to before the motion with that number, if there is a snapshot.
-    pub(crate) fn go_back_to(&mut self, simulation: &mut Simulation, motion: u64) {
+    pub(crate) fn go_back_to(
+        &mut self,
+        simulation: &mut Simulation,
+        image: &mut Image,
+        motion: u64,
+    ) {
         let found = self.motions.iter().find(|(n, _)| *n == motion);
         if let Some((_, snapshot)) = found.cloned() {
-            snapshot.restore(simulation);
+            snapshot.restore(simulation, image);
         }
     }
 
@@ -161,6 +223,7 @@ impl Snapshots {
     pub(crate) fn rewind(
         &mut self,
         simulation: &mut Simulation,
+        image: &mut Image,
         count: usize,
     ) -> Result<Value, Box<Raise>> {
         check_idle(simulation)?;
@@ -171,7 +234,7 @@ impl Snapshots {
         } else {
             self.forms.pop_back()
         };
-        let mut hash = Some(simulation.world.hash());
+        let mut hash = Some(simulation.state_hash());
         let mut changing = 0;
         let mut found = None;
         for (at, before) in self.forms.iter().enumerate().rev() {
@@ -196,14 +259,14 @@ impl Snapshots {
         let Some(target) = target else {
             return Ok(Value::NIL);
         };
-        target.snapshot.restore(simulation);
+        target.snapshot.restore(simulation, image);
         self.touch();
         Ok(target.form)
     }
 
     /// Takes a named snapshot of the world.
-    pub(crate) fn keep(&mut self, simulation: &Simulation, name: &str) {
-        let snapshot = Snapshot::take(simulation);
+    pub(crate) fn keep(&mut self, simulation: &mut Simulation, image: &Image, name: &str) {
+        let snapshot = Snapshot::take(simulation, image);
         self.named.insert(name.to_owned(), snapshot);
     }
 
@@ -211,12 +274,13 @@ impl Snapshots {
     pub(crate) fn restore_kept(
         &mut self,
         simulation: &mut Simulation,
+        image: &mut Image,
         name: &str,
     ) -> Result<(), Box<Raise>> {
         check_idle(simulation)?;
         match self.named.get(name).cloned() {
             Some(snapshot) => {
-                snapshot.restore(simulation);
+                snapshot.restore(simulation, image);
                 self.touch();
                 Ok(())
             }
@@ -240,8 +304,8 @@ impl Snapshots {
     }
 }
 
-fn check_idle(simulation: &Simulation) -> Result<(), Box<Raise>> {
-    if simulation.jobs.is_idle() {
+fn check_idle(simulation: &mut Simulation) -> Result<(), Box<Raise>> {
+    if simulation.is_idle() {
         return Ok(());
     }
     Err(Raise::simple(

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use std::rc::Rc;
 
 use nalgebra::{Point3, Vector3};
 
@@ -17,6 +18,7 @@ use crate::motion::{
     pan_and_tilt, touching_at,
 };
 use crate::perception::{Sight, Visibility};
+use crate::session::tape::Frame;
 use crate::spatial::{Pose, pose};
 use crate::world::World;
 
@@ -33,6 +35,8 @@ pub(in crate::session) struct Remembered {
     /// Simulated time (s).
     pub(crate) time: f64,
     pub(crate) world: World,
+    /// The same on the tape, if that has been written.
+    pub(crate) frame: Option<Rc<Frame>>,
 }
 
 impl Simulation {
@@ -43,6 +47,7 @@ impl Simulation {
             failure: failure.clone(),
             time: self.now,
             world: self.world.clone(),
+            frame: None,
         }));
     }
 

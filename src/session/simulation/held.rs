@@ -1,5 +1,7 @@
 //! What the hands hold.
 
+use serde::{Deserialize, Serialize};
+
 use super::Simulation;
 use crate::lisp::image::Image;
 use crate::motion::MotionFailure;
@@ -8,7 +10,7 @@ use crate::session::LogLevel;
 use crate::spatial::Pose;
 
 /// How an object is held.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(in crate::session) struct Held {
     /// The hand.
     pub(crate) side: Side,

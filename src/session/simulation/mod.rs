@@ -2,6 +2,7 @@
 //! and how it was grasped, and the names by which users know the objects.
 
 mod explain;
+pub(super) mod frames;
 pub(super) mod grasp_search;
 pub(super) mod held;
 pub(super) mod imagined;
@@ -11,18 +12,21 @@ pub(super) mod locations;
 pub(super) mod motion_types;
 pub(super) mod motions;
 pub(super) mod names;
-mod outcome;
+pub(super) mod outcome;
 mod pose_argument;
 pub(super) mod properties;
 pub(super) mod seen;
 pub(super) mod transforms;
 
 use std::cell::OnceCell;
+use std::ops::{Deref, DerefMut};
 use std::sync::Arc;
 
 use indexmap::IndexMap;
+use serde::{Deserialize, Serialize};
 
 use super::log_level::LogLevel;
+use super::tape::Tape;
 use crate::lisp::value::Value;
 use crate::motion::DetectQuery;
 use crate::picture::{LocationMap, Looks};
@@ -36,7 +40,7 @@ use crate::world::{Models, RobotConfiguration, World};
 use jobs::Jobs;
 
 /// Coordinate axes that the user asked to see.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Axes {
     /// Their pose in the map frame.
     pub(crate) pose: Pose,
@@ -45,10 +49,26 @@ pub(crate) struct Axes {
 }
 
 /// The robot in its world.
+///
+/// Access to the physical state, as to the fields of this structure, is noted on the tape: while
+/// answers are played from a tape, the state is an old one.
 pub(crate) struct Simulation {
     pub(super) models: Arc<Models>,
-    pub(super) world: World,
     pub(super) grasps: GraspLibrary,
+    pub(super) log_level: LogLevel,
+    /// The seed of the session.
+    seed: u64,
+    /// Simulated time (s) last reported by the scheduler.
+    pub(super) now: f64,
+    /// What the world answers is recorded here, or comes from here.
+    pub(super) tape: Tape,
+    looks: OnceCell<Looks>,
+    physical: Physical,
+}
+
+/// The state that time and edits change.
+pub(crate) struct Physical {
+    pub(super) world: World,
     /// The symbol under which each object was spawned, by its name in the world.
     pub(super) names: IndexMap<String, Value>,
     pub(super) held: IndexMap<String, held::Held>,
@@ -59,21 +79,32 @@ pub(crate) struct Simulation {
     pub(super) location_map: Option<Arc<LocationMap>>,
     /// The map of the location that was resolved last, for followers.
     pub(super) resolved_map: Option<Arc<LocationMap>>,
-    pub(super) log_level: LogLevel,
     /// The last failure of a motion, to be explained on demand.
     last_failure: Option<Box<explain::Remembered>>,
     /// What the last failed action has told of its attempts, if that is newer.
     pub(super) last_account: Option<String>,
     /// The objects that the robot looked for last.
     sought: Option<DetectQuery>,
-    looks: OnceCell<Looks>,
     /// How many times the robot has begun to make errors.
     noises: u64,
-    /// Simulated time (s) last reported by the scheduler.
-    pub(super) now: f64,
-    /// The seed of the session, and how many searches for locations have begun in this world.
-    seed: u64,
+    /// How many searches for locations have begun in this world.
     pub(super) searches: u64,
+}
+
+impl Deref for Simulation {
+    type Target = Physical;
+
+    fn deref(&self) -> &Physical {
+        self.tape.note_read();
+        &self.physical
+    }
+}
+
+impl DerefMut for Simulation {
+    fn deref_mut(&mut self) -> &mut Physical {
+        self.tape.note_change();
+        &mut self.physical
+    }
 }
 
 impl Simulation {
@@ -85,24 +116,27 @@ impl Simulation {
     ) -> Result<Simulation, DataError> {
         let grasps = GraspLibrary::from_sexp(GRASPS, "grasps.sexp")?;
         Ok(Simulation {
-            world: starting_world(&models),
+            physical: Physical {
+                world: starting_world(&models),
+                names: IndexMap::new(),
+                held: IndexMap::new(),
+                jobs: Jobs::default(),
+                axes: None,
+                location_map: None,
+                resolved_map: None,
+                last_failure: None,
+                last_account: None,
+                sought: None,
+                noises: 0,
+                searches: 0,
+            },
             models,
             grasps,
-            names: IndexMap::new(),
-            held: IndexMap::new(),
-            jobs: Jobs::default(),
-            axes: None,
-            location_map: None,
-            resolved_map: None,
             log_level,
-            last_failure: None,
-            last_account: None,
-            sought: None,
-            looks: OnceCell::new(),
-            noises: 0,
-            now: 0.0,
             seed,
-            searches: 0,
+            now: 0.0,
+            tape: Tape::default(),
+            looks: OnceCell::new(),
         })
     }
 
@@ -140,6 +174,16 @@ impl Simulation {
     /// The world.
     pub(crate) fn world(&self) -> &World {
         &self.world
+    }
+
+    /// What followers are shown: possibly an old state, from which nobody may learn anything.
+    pub(super) fn shown(&self) -> &Physical {
+        &self.physical
+    }
+
+    /// The number of motions begun so far.
+    pub(super) fn motions_begun(&self) -> u64 {
+        self.physical.jobs.begun.max(self.tape.begun())
     }
 
     /// The appearance of everything.

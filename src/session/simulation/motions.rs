@@ -12,11 +12,9 @@ use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::motion::command::{self, Argument, ArgumentKind, Arguments, MotionCommand};
-use crate::motion::{DetectQuery, DetectedObject, Motion, PoseGoal};
+use crate::motion::{DetectQuery, Motion, PoseGoal};
 use crate::plan::designator::MotionRequest;
 use crate::plan::designator::failure::no_process_module;
-use crate::plan::designator::object;
-use crate::plan::designator::value::as_designator;
 use crate::plan::designator::value::current;
 use crate::plan::pose::value::frame_of;
 use crate::robot::Side;
@@ -188,33 +186,5 @@ impl Simulation {
                 .collect(),
             description: print::to_string(image, object, false),
         }
-    }
-
-    /// Designators of detected objects: the first one, or a list of all if all were requested.
-    pub(in crate::session) fn detected(
-        &mut self,
-        image: &mut Image,
-        objects: &[DetectedObject],
-        query: &Value,
-    ) -> Value {
-        let found: Vec<Value> = objects
-            .iter()
-            .map(|object| {
-                let kind = super::names::type_keyword(image, &object.type_name);
-                let name = self.symbol_of(&object.name);
-                object::perceived(
-                    image,
-                    query,
-                    name,
-                    kind,
-                    &object.pose_in_base,
-                    &object.pose_in_map,
-                )
-            })
-            .collect();
-        if as_designator(query).is_some_and(|d| d.is_all()) {
-            return Value::list(found);
-        }
-        found.into_iter().next().unwrap_or(Value::NIL)
     }
 }

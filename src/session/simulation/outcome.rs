@@ -1,11 +1,58 @@
 //! Results of motions as Lisp values and conditions.
 
 use super::Simulation;
+use super::names::type_keyword;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
-use crate::motion::{MotionFailure, MotionOutcome};
+use crate::motion::{DetectedObject, MotionFailure, MotionOutcome};
+use crate::plan::designator::object;
+use crate::plan::designator::value::as_designator;
+use crate::session::tape::{Data, Done, Name};
+
+/// The outcome of a motion that the tape tells; `None` if that does not fit what is known.
+pub(in crate::session) fn of_done(
+    image: &mut Image,
+    done: &Done,
+    subject: &Value,
+) -> Option<Result<Value, Box<Raise>>> {
+    let given = std::slice::from_ref(subject);
+    Some(match done {
+        Done::Value(data) => Ok(data.value(image, given)?),
+        Done::Raise(raise) => Err(raise.raise(image, given)?),
+        Done::Detected(objects) => {
+            let named = objects
+                .iter()
+                .map(|(name, o)| (name.symbol(image).into(), o));
+            let named: Vec<(Value, &DetectedObject)> = named.collect();
+            Ok(detected(image, &named, subject))
+        }
+    })
+}
+
+/// Designators of detected objects, each with the name by which users know it: the first one, or
+/// a list of all if all were requested.
+fn detected(image: &mut Image, objects: &[(Value, &DetectedObject)], query: &Value) -> Value {
+    let found: Vec<Value> = objects
+        .iter()
+        .map(|(name, object)| {
+            let kind = type_keyword(image, &object.type_name);
+            object::perceived(
+                image,
+                query,
+                name.clone(),
+                kind,
+                &object.pose_in_base,
+                &object.pose_in_map,
+            )
+        })
+        .collect();
+    if as_designator(query).is_some_and(|d| d.is_all()) {
+        return Value::list(found);
+    }
+    found.into_iter().next().unwrap_or(Value::NIL)
+}
 
 impl Simulation {
     /// The result of a motion as a value.
@@ -22,8 +69,32 @@ impl Simulation {
                 self.held.shift_remove(object);
                 Value::NIL
             }
-            MotionOutcome::Detected(objects) => self.detected(image, objects, subject),
+            MotionOutcome::Detected(objects) => {
+                let named = objects.iter().map(|o| (self.symbol_of(&o.name), o));
+                let named: Vec<(Value, &DetectedObject)> = named.collect();
+                detected(image, &named, subject)
+            }
         }
+    }
+
+    /// The result of a motion for the tape; `value` is the same as a value.
+    pub(in crate::session) fn done(
+        &self,
+        image: &Image,
+        outcome: &MotionOutcome,
+        value: &Value,
+    ) -> Option<Done> {
+        let MotionOutcome::Detected(objects) = outcome else {
+            return Some(Done::Value(Data::of(image, value, &[])?));
+        };
+        let named = objects.iter().map(|object| {
+            let name = match self.symbol_of(&object.name) {
+                Value::Symbol(sym) => Name::of(image, sym)?,
+                _ => return None,
+            };
+            Some((name, object.clone()))
+        });
+        Some(Done::Detected(named.collect::<Option<_>>()?))
     }
 
     /// The failure condition for a motion's failure; `subject` is the designator it is about.

@@ -7,7 +7,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use super::super::history::state_directory;
 use super::writing::{Journal, lock};
-use super::{Beginning, Recorded};
+use super::{Beginning, Recorded, tape};
 
 /// Number of journals that are always kept.
 const MOST_JOURNALS: usize = 20;
@@ -80,8 +80,9 @@ pub(super) fn forget_old(folder: &Path, now: SystemTime) {
             continue;
         };
         if lock(&file).unwrap_or(false) {
-            // A journal that cannot be removed does no harm.
+            // Files that cannot be removed do no harm.
             let _ = fs::remove_file(&path);
+            let _ = fs::remove_file(tape::path_beside(&path));
         }
     }
 }
