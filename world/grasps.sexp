@@ -6,38 +6,74 @@
 ; approaches through two pregrasps and leaves through two lifts, with the same rotation and
 ; with these offsets added to :translation, along the object's axes.
 
-; Rotations by name. The third column is the direction in which the hand approaches.
+; The tool point is 0.2 m beyond the wrist, where the pads of closed fingers end. The fingers
+; move on arcs: the pads lie 0 to 37 mm behind the tool point around something thin, and 10 to
+; 46 mm around something 70 mm wide. The widest gap is 92 mm.
+
+; Rotations by name. The first column is the direction in which the fingers close; the third column is the direction in which the hand approaches.
 (rotation back ((0 0 1) (1 0 0) (0 1 0)))
 (rotation front ((0 0 -1) (-1 0 0) (0 1 0)))
 (rotation left-side ((1 0 0) (0 0 -1) (0 1 0)))
 (rotation right-side ((-1 0 0) (0 0 1) (0 1 0)))
-; From above, with the fingers across x or across y.
+; From above, with the palm across x (the fingers close along y) or across y (along x).
 (rotation top-across-x ((0 1 0) (1 0 0) (0 0 -1)))
 (rotation top-across-y ((1 0 0) (0 -1 0) (0 0 -1)))
 ; The rim of a plate, from its left or right, 30 degrees off the vertical.
 (rotation left-rim ((0 1 0) (0.5 0 -0.8660254037844386) (-0.8660254037844386 0 -0.5)))
 (rotation right-rim ((0 -1 0) (-0.5 0 0.8660254037844386) (-0.8660254037844386 0 -0.5)))
+; From a side, with one finger above and one below.
+(rotation flat-from-back ((0 0 1) (0 1 0) (-1 0 0)))
+(rotation flat-from-front ((0 0 -1) (0 -1 0) (-1 0 0)))
+(rotation flat-from-left ((0 1 0) (0 0 -1) (-1 0 0)))
+(rotation flat-from-right ((0 -1 0) (0 0 1) (-1 0 0)))
 
 ; How hard to grip (N) and how wide to open the gripper beforehand (m).
 (default-grip :effort 35 :opening 0.1)
 (grip (cutlery spoon fork knife) :effort 100 :opening 0.04)
-(grip (plate tray) :effort 100 :opening 0.02)
+; CRAM opens to 0.02 m for plates and trays, too little for a rim from above.
+(grip (plate tray) :effort 100 :opening 0.06)
 (grip (bottle) :effort 60 :opening 0.1)
 (grip (cup) :effort 50 :opening 0.1)
 (grip (milk cereal) :effort 15 :opening 0.1)
 (grip (breakfast-cereal) :effort 20 :opening 0.1)
 (grip (bowl) :effort 100 :opening 0.1)
+(grip (red-metal-plate blue-metal-plate tray-base pot open-box) :effort 100 :opening 0.06)
+(grip (cube buttermilk mondamin sugar-box cereal-box) :effort 40 :opening 0.1)
+(grip (mug apple) :effort 50 :opening 0.109)
+(grip (orange) :effort 30 :opening 0.109)
+(grip (shoe) :effort 40 :opening 0.1)
+(grip (cap glasses glove) :effort 30 :opening 0.1)
+(grip (weisswurst spatula visualization-box) :effort 30 :opening 0.07)
 
 ; The grasps to try, in this order, if none is asked for.
 (order (bottle) left-side right-side back front)
 (order (cup) back front left-side right-side)
 (order (milk) back left-side right-side front)
 (order (cereal breakfast-cereal) back front)
-(order (plate tray) left-side right-side)
-(order (bowl cutlery spoon fork knife) top)
+(order (plate) left-side right-side top top-front top-left top-right)
+(order (red-metal-plate blue-metal-plate) top top-front top-left top-right)
+(order (tray) left-side right-side top top-front top-left top-right)
+(order (tray-base) front back left-side right-side)
+(order (bowl cutlery spoon fork knife spatula weisswurst glasses glove cap) top)
+(order (cube) top top2 back front left-side right-side)
+(order (buttermilk) left-side right-side back front top)
+(order (mug) back front top top-left top-right)
+(order (mondamin) back front top)
+(order (pot) left-side right-side top top-front)
+(order (shoe) top left-side right-side)
+(order (orange apple) top back front left-side right-side)
+(order (sugar-box) left-side right-side top)
+(order (cereal-box) left-side right-side top)
+(order (open-box) top top-front top-left top-right)
+(order (visualization-box) top)
 
-(grasp top :types (cutlery spoon fork knife) :arms (left right)
+(grasp top :types (cutlery spoon) :arms (left right)
        :translation (0 0 0) :rotation top-across-x
+       :pregrasp (0 0 0.2) :second-pregrasp (0 0 0.2)
+       :lift (0 0 0.2) :second-lift (0 0 0.2))
+; CRAM's forks and knives lie along x, these along y.
+(grasp top :types (fork knife) :arms (left right)
+       :translation (0 0 0) :rotation top-across-y
        :pregrasp (0 0 0.2) :second-pregrasp (0 0 0.2)
        :lift (0 0 0.2) :second-lift (0 0 0.2))
 
@@ -125,3 +161,287 @@
        :translation (-0.07 0 0.01) :rotation top-across-y
        :pregrasp (0 0 0.2) :second-pregrasp (0 0 0.2)
        :lift (0 0 0.2) :second-lift (0 0 0.2))
+
+; Grasps that CRAM does not have, for the shapes of world/objects.sexp.
+
+; The rims of plates, one finger inside and one outside.
+(grasp top :types (plate) :arms (left right)
+       :translation (-0.1155 0 0.0085) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front :types (plate) :arms (left right)
+       :translation (0.1155 0 0.0085) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left :types (plate) :arms (left right)
+       :translation (0 0.1155 0.0085) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right :types (plate) :arms (left right)
+       :translation (0 -0.1155 0.0085) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (red-metal-plate) :arms (left right)
+       :translation (-0.1183 0 0.0012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front :types (red-metal-plate) :arms (left right)
+       :translation (0.1183 0 0.0012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left :types (red-metal-plate) :arms (left right)
+       :translation (0 0.1183 0.0012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right :types (red-metal-plate) :arms (left right)
+       :translation (0 -0.1183 0.0012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (blue-metal-plate) :arms (left right)
+       :translation (-0.0937 0 0.003) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front :types (blue-metal-plate) :arms (left right)
+       :translation (0.0937 0 0.003) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left :types (blue-metal-plate) :arms (left right)
+       :translation (0 0.0937 0.003) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right :types (blue-metal-plate) :arms (left right)
+       :translation (0 -0.0937 0.003) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+; The walls of the tray.
+(grasp top :types (tray) :arms (left right)
+       :translation (-0.2102 0 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front :types (tray) :arms (left right)
+       :translation (0.2102 0 0.012) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left :types (tray) :arms (left right)
+       :translation (0 0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right :types (tray) :arms (left right)
+       :translation (0 -0.1755 0.012) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+; Flat and too wide for anything else: where an edge stands out over what carries it.
+(grasp front :types (tray-base) :arms (left right)
+       :translation (0.08 0 0.0116) :rotation flat-from-front
+       :pregrasp (0.1 0 0) :second-pregrasp (0.1 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp back :types (tray-base) :arms (left right)
+       :translation (-0.08 0 0.0116) :rotation flat-from-back
+       :pregrasp (-0.1 0 0) :second-pregrasp (-0.1 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp left-side :types (tray-base) :arms (left right)
+       :translation (0 0.08 0.0116) :rotation flat-from-left
+       :pregrasp (0 0.1 0) :second-pregrasp (0 0.1 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side :types (tray-base) :arms (left right)
+       :translation (0 -0.08 0.0116) :rotation flat-from-right
+       :pregrasp (0 -0.1 0) :second-pregrasp (0 -0.1 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp top :types (cube) :arms (left right)
+       :translation (0 0 -0.015) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top2 :types (cube) :arms (left right)
+       :translation (0 0 -0.015) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp back :types (cube) :arms (left right)
+       :translation (0.02 0 0.015) :rotation back
+       :pregrasp (-0.15 0 0.15) :second-pregrasp (-0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp front :types (cube) :arms (left right)
+       :translation (-0.02 0 0.015) :rotation front
+       :pregrasp (0.15 0 0.15) :second-pregrasp (0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp left-side :types (cube) :arms (left right)
+       :translation (0 -0.02 0.015) :rotation left-side
+       :pregrasp (0 0.15 0.15) :second-pregrasp (0 0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side :types (cube) :arms (left right)
+       :translation (0 0.02 0.015) :rotation right-side
+       :pregrasp (0 -0.15 0.15) :second-pregrasp (0 -0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp left-side :types (buttermilk) :arms (left right)
+       :translation (0 -0.02 -0.01) :rotation left-side
+       :pregrasp (0 0.15 0.15) :second-pregrasp (0 0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side :types (buttermilk) :arms (left right)
+       :translation (0 0.02 -0.01) :rotation right-side
+       :pregrasp (0 -0.15 0.15) :second-pregrasp (0 -0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp back :types (buttermilk) :arms (left right)
+       :translation (0.02 0 -0.01) :rotation back
+       :pregrasp (-0.15 0 0.15) :second-pregrasp (-0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp front :types (buttermilk) :arms (left right)
+       :translation (-0.02 0 -0.01) :rotation front
+       :pregrasp (0.15 0 0.15) :second-pregrasp (0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+; By its neck.
+(grasp top :types (buttermilk) :arms (left right)
+       :translation (0 0 0.06) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+; Around the mug, its handle away from the hand; by the handle; by the rim.
+(grasp back :types (mug) :arms (left right)
+       :translation (0.02 0 0.01) :rotation back
+       :pregrasp (-0.15 0 0.15) :second-pregrasp (-0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp front :types (mug) :arms (left right)
+       :translation (0.05 0 -0.005) :rotation front
+       :pregrasp (0.15 0 0.15) :second-pregrasp (0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp top :types (mug) :arms (left right)
+       :translation (-0.0383 0 0.015) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left :types (mug) :arms (left right)
+       :translation (0 0.0383 0.015) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right :types (mug) :arms (left right)
+       :translation (0 -0.0383 0.015) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp back :types (mondamin) :arms (left right)
+       :translation (0 0 0) :rotation back
+       :pregrasp (-0.15 0 0.15) :second-pregrasp (-0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp front :types (mondamin) :arms (left right)
+       :translation (0 0 0) :rotation front
+       :pregrasp (0.15 0 0.15) :second-pregrasp (0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+; By its cap.
+(grasp top :types (mondamin) :arms (left right)
+       :translation (0 0 0.089) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+; By the handles; by the rim.
+(grasp left-side :types (pot) :arms (left right)
+       :translation (0 0.145 0.0575) :rotation flat-from-left
+       :pregrasp (0 0.15 0.15) :second-pregrasp (0 0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side :types (pot) :arms (left right)
+       :translation (0 -0.145 0.0575) :rotation flat-from-right
+       :pregrasp (0 -0.15 0.15) :second-pregrasp (0 -0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp top :types (pot) :arms (left right)
+       :translation (-0.1225 0 0.045) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front :types (pot) :arms (left right)
+       :translation (0.1225 0 0.045) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (weisswurst) :arms (left right)
+       :translation (0 0.0012 -0.01) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (spatula) :arms (left right)
+       :translation (0 0 -0.004) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+; By its visor; the cap itself is too wide.
+(grasp top :types (cap) :arms (left right)
+       :translation (0 -0.0565 -0.005) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (glasses) :arms (left right)
+       :translation (0 0.0006 -0.002) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (glove) :arms (left right)
+       :translation (0.0099 0.0005 0.002) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+; By its heel.
+(grasp top :types (shoe) :arms (left right)
+       :translation (0 0.0039 0.045) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp left-side :types (shoe) :arms (left right)
+       :translation (0 0 0.07) :rotation left-side
+       :pregrasp (0 0.15 0.15) :second-pregrasp (0 0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side :types (shoe) :arms (left right)
+       :translation (0 0.015 0.08) :rotation right-side
+       :pregrasp (0 -0.15 0.15) :second-pregrasp (0 -0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp top :types (orange) :arms (left right)
+       :translation (0 0 -0.025) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (apple) :arms (left right)
+       :translation (0 0 -0.025) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp back :types (orange apple) :arms (left right)
+       :translation (0.02 0 0) :rotation back
+       :pregrasp (-0.15 0 0.15) :second-pregrasp (-0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp front :types (orange apple) :arms (left right)
+       :translation (-0.02 0 0) :rotation front
+       :pregrasp (0.15 0 0.15) :second-pregrasp (0.15 0 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp left-side :types (orange apple) :arms (left right)
+       :translation (0 -0.02 0) :rotation left-side
+       :pregrasp (0 0.15 0.15) :second-pregrasp (0 0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side :types (orange apple) :arms (left right)
+       :translation (0 0.02 0) :rotation right-side
+       :pregrasp (0 -0.15 0.15) :second-pregrasp (0 -0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp left-side :types (sugar-box) :arms (left right)
+       :translation (0 0 0) :rotation left-side
+       :pregrasp (0 0.15 0.15) :second-pregrasp (0 0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side :types (sugar-box) :arms (left right)
+       :translation (0 0 0) :rotation right-side
+       :pregrasp (0 -0.15 0.15) :second-pregrasp (0 -0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp top :types (sugar-box) :arms (left right)
+       :translation (0 0 0.06) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp left-side :types (cereal-box) :arms (left right)
+       :translation (0 0.045 0) :rotation left-side
+       :pregrasp (0 0.15 0.15) :second-pregrasp (0 0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp right-side :types (cereal-box) :arms (left right)
+       :translation (0 -0.045 0) :rotation right-side
+       :pregrasp (0 -0.15 0.15) :second-pregrasp (0 -0.15 0)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp top :types (cereal-box) :arms (left right)
+       :translation (0 0 0.09) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (open-box) :arms (left right)
+       :translation (-0.245 0 0.06) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-front :types (open-box) :arms (left right)
+       :translation (0.245 0 0.06) :rotation top-across-y
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-left :types (open-box) :arms (left right)
+       :translation (0 0.245 0.06) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top-right :types (open-box) :arms (left right)
+       :translation (0 -0.245 0.06) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))
+(grasp top :types (visualization-box) :arms (left right)
+       :translation (0 0 -0.004) :rotation top-across-x
+       :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
+       :lift (0 0 0.1) :second-lift (0 0 0.1))

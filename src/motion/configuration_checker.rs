@@ -4,7 +4,7 @@ use super::expected_contacts::ExpectedContacts;
 use super::guard::GUARD_DEPTH;
 use super::touching::TouchingPairs;
 use crate::robot::JointId;
-use crate::world::{CollisionChecker, CollisionHit, RobotConfiguration, World};
+use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration, World};
 
 /// Clearance (m) of planned configurations from everything.
 pub(super) const PLAN_MARGIN: f64 = 0.004;
@@ -22,8 +22,18 @@ pub(super) struct ConfigurationChecker<'w> {
 
 impl<'w> ConfigurationChecker<'w> {
     pub(super) fn new(world: &'w World, joints: Vec<JointId>, contacts: &ExpectedContacts) -> Self {
-        let mut checker = world.collision_checker();
         let robot = world.robot_configuration().clone();
+        Self::at(world, robot, joints, contacts)
+    }
+
+    /// As [`Self::new`], with the robot elsewhere, or in another posture.
+    pub(super) fn at(
+        world: &'w World,
+        robot: RobotConfiguration,
+        joints: Vec<JointId>,
+        contacts: &ExpectedContacts,
+    ) -> Self {
+        let mut checker = world.collision_checker();
         let touching = TouchingPairs::new(&mut checker, &robot, contacts, PLAN_MARGIN, TOUCH_DEPTH);
         Self {
             checker,
@@ -51,6 +61,14 @@ impl<'w> ConfigurationChecker<'w> {
         self.set(positions);
         self.touching
             .first_hit(&mut self.checker, &self.robot, PLAN_MARGIN)
+    }
+
+    /// The pairs that overlap by more than `depth` (m) in that configuration, whatever the motion
+    /// declares, the deepest first.
+    pub(super) fn overlaps(&mut self, positions: &[f64], depth: f64) -> Vec<CollisionHit> {
+        self.set(positions);
+        let none = AllowedPairs::none();
+        self.checker.all_hits(&self.robot, &none, -depth)
     }
 
     /// Whether the configuration would also be free with other joints at the given positions.

@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use super::base_path::BasePlace;
 use super::guard::StuckObject;
+use super::no_grasp::NoGrasp;
 use super::payload::Overload;
 use super::process_module::ProcessModule;
 use super::unreachable::{UnreachablePose, UnreachableReason};
@@ -167,6 +168,9 @@ pub(crate) enum MotionFailure {
     /// No posture of the arm brings the hand to the pose.
     #[error("{0}")]
     PoseUnreachable(Box<UnreachablePose>),
+    /// No grasp of the object works.
+    #[error("{0}")]
+    NoGrasp(Box<NoGrasp>),
     /// The goals of both hands need different heights of the torso.
     #[error(
         "In MOVE-TCP goals for the two arms require different torso angles).\n\
@@ -359,7 +363,7 @@ impl MotionFailure {
             Self::GripperLimit { .. } | Self::FingersBlocked { .. } | Self::GripEffort { .. } => {
                 "GRIPPER-GOAL-NOT-REACHED"
             }
-            Self::PoseUnreachable(_) | Self::TorsoConflict { .. } => {
+            Self::PoseUnreachable(_) | Self::NoGrasp(_) | Self::TorsoConflict { .. } => {
                 "MANIPULATION-POSE-UNREACHABLE"
             }
             Self::JointLimit { .. }

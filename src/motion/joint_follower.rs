@@ -59,6 +59,11 @@ impl JointFollower {
         }
     }
 
+    /// The robot at the end of the trajectory.
+    pub(super) fn end(&self, robot: &RobotConfiguration) -> RobotConfiguration {
+        with_joints(robot, &self.joints, self.follower.trajectory().last())
+    }
+
     pub(super) fn fraction(&self) -> f64 {
         self.follower.fraction()
     }

@@ -58,13 +58,8 @@ impl MoveTcp {
         path: TcpPath,
         mode: CollisionMode,
     ) -> Self {
-        Self::begin(JointMotion::to(HandGoal {
-            poses: [left, right],
-            path,
-            mode,
-            target: None,
-            has_erred: false,
-        }))
+        let goal = HandGoal::new([left, right], path, mode, None);
+        Self::begin(JointMotion::to(goal))
     }
 
     /// The motion with hands that may touch only the target, where they may touch any object.
@@ -76,6 +71,28 @@ impl MoveTcp {
 }
 
 impl HandGoal {
+    /// Goals of the left and of the right hand, which may touch only the target.
+    pub(super) fn new(
+        poses: [Option<PoseGoal>; 2],
+        path: TcpPath,
+        mode: CollisionMode,
+        target: Option<String>,
+    ) -> Self {
+        Self {
+            poses,
+            path,
+            mode,
+            target,
+            has_erred: false,
+        }
+    }
+
+    /// The same goals, which the hands do not miss.
+    pub(super) fn without_error(mut self) -> Self {
+        self.has_erred = true;
+        self
+    }
+
     /// Lets empty hands that approach an object miss their goals by as much as the robot does.
     fn err(&mut self, world: &World) {
         let Some(noise) = world.noise() else { return };

@@ -88,6 +88,11 @@ pub(super) struct ArmChain {
 }
 
 impl ArmChain {
+    /// Greatest distance (m) of the wrist from the shoulder's pan axis, where that begins.
+    pub(crate) fn length(&self) -> f64 {
+        self.shoulder_offset + self.upper_arm + self.forearm
+    }
+
     /// Reads the chain from `base` to `tip`.
     pub(crate) fn read(
         tree: &KinematicTree,

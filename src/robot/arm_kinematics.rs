@@ -99,6 +99,12 @@ impl ArmKinematics {
         found
     }
 
+    /// Whether there is a solution at all; faster than finding one.
+    pub(crate) fn reaches(&self, wrist: &Pose) -> bool {
+        let away = (wrist.translation.vector - self.chain.shoulder).norm();
+        away <= self.chain.length() && !ElbowCurve::new(&self.chain, wrist).stretches().is_empty()
+    }
+
     /// A solution near `seed`: continuous joints are within half a turn of the seed.
     ///
     /// "Near" means the least sum of squared joint differences among samples spread over all

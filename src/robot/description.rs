@@ -167,7 +167,6 @@ pub(crate) struct Gripper {
 
 impl Gripper {
     /// Gap (m) between the pads at a joint position (rad); slightly negative when closed.
-    #[cfg(test)]
     pub(crate) fn gap(&self, position: f64) -> f64 {
         let (s, c) = crate::spatial::trig::sin_cos(position);
         2.0 * (self.tip[0] * s + self.tip[1] * c + self.pad)

@@ -371,7 +371,7 @@ mod tests {
             library.grasps("cup"),
             ["back", "front", "left-side", "right-side"]
         );
-        assert!(library.grasps("mug").is_empty());
+        assert!(library.grasps("bread").is_empty());
     }
 
     #[test]
@@ -451,7 +451,7 @@ mod tests {
         let grip = |effort, opening| Grip { effort, opening };
         assert_eq!(library.grip("bottle"), grip(60.0, 0.1));
         assert_eq!(library.grip("fork"), grip(100.0, 0.04));
-        assert_eq!(library.grip("cube"), grip(35.0, 0.1));
+        assert_eq!(library.grip("bread"), grip(35.0, 0.1));
     }
 
     #[test]

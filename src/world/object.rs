@@ -61,6 +61,12 @@ impl Object {
         self.mass
     }
 
+    /// Extent (m) along its own x, y and z axes.
+    pub(crate) fn size(&self) -> [f64; 3] {
+        let extents = self.bounds.extents();
+        [extents.x, extents.y, extents.z]
+    }
+
     /// Shapes, in the object's own frame.
     pub(crate) fn shapes(&self) -> &[PlacedShape] {
         &self.shapes

@@ -30,6 +30,9 @@ pub(crate) struct ObjectType {
     pub(crate) friction: f64,
     /// Linear colour, red green blue alpha in 0..1.
     pub(crate) color: [f32; 4],
+    /// Whether it is the same from all sides: it can be grasped from any of them, and turned
+    /// when it is put down.
+    pub(crate) is_round: bool,
 }
 
 /// The kinds of objects, in the order of the file.
@@ -137,8 +140,14 @@ impl ObjectLibrary {
         if solids.is_empty() {
             return Err(shapes.expected("at least one shape"));
         }
+        let round: Vec<bool> = shapes
+            .list()?
+            .into_iter()
+            .map(is_round)
+            .collect::<Result<_, _>>()?;
         let object = ObjectType {
             name: name.clone(),
+            is_round: !round.contains(&false),
             shapes: solids,
             mass: record.required("mass")?.positive()?,
             friction: match record.optional("friction") {
@@ -164,6 +173,26 @@ const SHAPES: &[(&str, &[&str])] = &[
     ("sphere", &["at", "rpy", "radius"]),
     ("ring", &["at", "rpy", "count", "radius", "stave", "lean"]),
 ];
+
+/// Distance (m) of an axis from the object's up to which it counts as the same.
+const OFF_AXIS: f64 = 0.0025;
+
+/// Whether a shape is round about the object's z axis; a ring of boxes stands for a round wall.
+fn is_round(node: Node<'_>) -> Result<bool, DataError> {
+    let record = node.record("shape", SHAPES)?;
+    let numbers = |key: &str| {
+        record
+            .optional(key)
+            .map_or(Ok([0.0; 3]), |n| n.numbers::<3>())
+    };
+    let ([x, y, _], [roll, pitch, _]) = (numbers("at")?, numbers("rpy")?);
+    let is_centred = libm::hypot(x, y) < OFF_AXIS;
+    Ok(match record.head() {
+        "box" => false,
+        "sphere" => is_centred,
+        _ => is_centred && roll == 0.0 && pitch == 0.0,
+    })
+}
 
 fn add_shape(node: Node<'_>, solids: &mut Vec<PlacedShape>) -> Result<(), DataError> {
     let record = node.record("shape", SHAPES)?;

@@ -4,6 +4,7 @@ mod clutter;
 mod cook;
 mod deliveries;
 mod designators;
+mod every_type;
 mod exercises;
 mod grasping;
 mod language;

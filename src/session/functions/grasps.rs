@@ -25,7 +25,7 @@ pub(crate) static TABLE: &[Builtin] = &[control(
     "types arms grasp &key grasp-translation grasp-rot-matrix pregrasp-offsets 2nd-pregrasp-offsets lift-offsets 2nd-lift-offsets lift-translation lift-rotation 2nd-lift-translation 2nd-lift-rotation location-type",
     "Defines how objects of the types (one or a list) are grasped by the arms (one or a list). Offsets are relative to the translation, along the object's axes (m); LIFT-TRANSLATION and LIFT-ROTATION (a quaternion) move hand and object along the axes of the robot's base. A grasp that exists is replaced.",
     &[
-        "(progn (obj-int:def-object-type-to-gripper-transforms :mug '(:left :right) :from-above :grasp-translation '(0 0 0.02) :grasp-rot-matrix '((0 1 0) (1 0 0) (0 0 -1)) :pregrasp-offsets '(0 0 0.15) :lift-offsets '(0 0 0.15)) (pp-tut:list-defined-grasps :mug)) => (:FROM-ABOVE)",
+        "(progn (obj-int:def-object-type-to-gripper-transforms :bread '(:left :right) :from-above :grasp-translation '(0 0 0.02) :grasp-rot-matrix '((0 1 0) (1 0 0) (0 0 -1)) :pregrasp-offsets '(0 0 0.15) :lift-offsets '(0 0 0.15)) (pp-tut:list-defined-grasps :bread)) => (:FROM-ABOVE)",
     ],
     host!(repeated define_grasp),
 )];

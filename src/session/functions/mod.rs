@@ -1,5 +1,6 @@
 //! The builtins that act on the world, one table per topic.
 
+mod choosing;
 mod explaining;
 mod grasps;
 mod leaving;

@@ -18,13 +18,13 @@ use crate::session::LogLevel;
 use crate::session::host::SimulationHost;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
+use crate::session::simulation::grasp_choice::about_z;
 use crate::session::simulation::held::Held;
 use crate::session::simulation::imagined::Imagined;
 use crate::session::simulation::motions::{side, side_keyword};
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
-use crate::spatial::{Pose, Shape, trig};
+use crate::spatial::{Pose, pose, trig};
 use crate::world::grasp_library::{GraspDefinition, Grip, Lift};
-use crate::world::object_library::ObjectType;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -184,10 +184,8 @@ impl Simulation {
         grasp: &Value,
     ) -> Result<GraspDefinition> {
         let wanted = type_text(image, grasp).unwrap_or_default();
-        let mut kinds = self.models.objects.lineage(kind);
-        let found = kinds.find_map(|k| self.grasps.get(k, arm, &wanted));
-        if let Some(definition) = found {
-            return Ok(definition.clone());
+        if let Some(definition) = self.definition(kind, arm, &wanted) {
+            return Ok(definition);
         }
         let defined: Vec<String> = self.defined_grasps(kind, arm);
         let near = suggestion(&wanted, defined.iter().map(String::as_str), |n| {
@@ -210,6 +208,12 @@ impl Simulation {
         )))
     }
 
+    /// The definition of a grasp of a type, or of the nearest of its supertypes that has it.
+    pub(crate) fn definition(&self, kind: &str, arm: Side, grasp: &str) -> Option<GraspDefinition> {
+        let mut kinds = self.models.objects.lineage(kind);
+        kinds.find_map(|k| self.grasps.get(k, arm, grasp)).cloned()
+    }
+
     /// Names of the grasps defined for a type and an arm, in the order in which they are
     /// tried.
     pub(crate) fn defined_grasps(&self, kind: &str, arm: Side) -> Vec<String> {
@@ -227,6 +231,23 @@ impl Simulation {
             }
         }
         Vec::new()
+    }
+
+    /// By how much (rad) the hand that holds a round object is turned about its axis from the
+    /// grasp as it is defined.
+    fn turn_of(&self, object: &Perceived, side: Side, grasp: &GraspDefinition) -> f64 {
+        let is_round = self.models.objects.get(&object.kind);
+        if !is_round.is_some_and(|kind| kind.is_round) {
+            return 0.0;
+        }
+        let (Ok(orientation), Ok(at)) = (grasp.orientation(), self.world.object_pose(&object.name))
+        else {
+            return 0.0;
+        };
+        let arm = self.models.description.arm(side);
+        let tool = at.inverse() * arm.tool_for_wrist(&self.world.link_pose(arm.wrist));
+        let turn = tool.rotation * (orientation * arm.tool_axes).inverse();
+        pose::yaw(&Pose::from_parts(Translation3::identity(), turn))
     }
 
     pub(crate) fn grip(&self, kind: &str) -> Grip {
@@ -361,9 +382,14 @@ fn attach_object(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     let side = side(image, &args[1])?;
     take_hold(&mut simulation.world, side, &object.name)
         .map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
+    let grasp = type_text(image, &args[2]);
+    let definition = grasp
+        .as_ref()
+        .and_then(|grasp| simulation.definition(&object.kind, side, grasp));
     let held = Held {
         side,
-        grasp: type_text(image, &args[2]),
+        turn: definition.map_or(0.0, |d| simulation.turn_of(&object, side, &d)),
+        grasp,
         taken_from: simulation.base() * object.in_base,
     };
     simulation.held.insert(object.name, held);
@@ -449,20 +475,6 @@ fn placing_target(simulation: &mut Simulation, image: &mut Image, args: &[Value]
     done(in_base(&object.in_base))
 }
 
-/// Whether the object is rotationally symmetric.
-fn is_round(kind: &ObjectType) -> bool {
-    kind.shapes.iter().all(|placed| {
-        let t = &placed.pose.translation.vector;
-        let is_centred = t.x.hypot(t.y) < 2e-3;
-        let up = placed.pose.rotation * Vector3::z();
-        match placed.shape {
-            Shape::Cylinder { .. } => is_centred && up.z.abs() > 0.999,
-            Shape::Sphere { .. } => is_centred,
-            _ => false,
-        }
-    })
-}
-
 fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let name = simulation.object_named(image, &args[0])?;
     let side = side(image, &args[1])?;
@@ -493,14 +505,22 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         .map_or((Lift::along_object(up), up, up), |d| {
             (d.lift, d.second_pregrasp, d.pregrasp)
         });
-    let is_round = simulation.models.objects.get(&kind).is_some_and(is_round);
+    let is_round = simulation
+        .models
+        .objects
+        .get(&kind)
+        .is_some_and(|kind| kind.is_round);
     let headings: &[f64] = if is_round { &HEADINGS } else { &HEADINGS[..1] };
     let turned = |heading: f64| {
         let (s, c) = trig::sin_cos(heading.to_radians() / 2.0);
         target * UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(c, 0.0, 0.0, s))
     };
+    let turn = about_z(held.as_ref().map_or(0.0, |held| held.turn));
     let poses_for = |object: &Pose| {
-        let tool = |offset: [f64; 3]| object * Translation3::from(offset) * tool_in_object;
+        let tool = |offset: [f64; 3]| {
+            let offset = turn * Vector3::from(offset);
+            object * Translation3::from(offset) * tool_in_object
+        };
         [
             lift.in_base * tool(lift.offset),
             tool([0.0; 3]),

@@ -11,6 +11,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("CRAM-PICK-PLACE-TUTORIAL", functions::tutorial::TABLE),
     ("CRAM-PICK-PLACE-TUTORIAL", functions::reaching::TABLE),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::plans::TABLE),
+    ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::choosing::TABLE),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::scene::TABLE),
     ("CRAM-ROBOT-INTERFACES", functions::robot_state::TABLE),
     ("CRAM-BULLET-REASONING-UTILITIES", functions::objects::TABLE),

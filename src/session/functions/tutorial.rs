@@ -57,7 +57,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "The grasps that are defined for a type of objects; with an arm, those for that arm.",
         &[
             "(pp-tut:list-defined-grasps :cup) => (:BACK :FRONT :LEFT-SIDE :RIGHT-SIDE)",
-            "(pp-tut:list-defined-grasps :plate :left) => (:LEFT-SIDE)",
+            "(pp-tut:list-defined-grasps :plate :left) => (:LEFT-SIDE :TOP :TOP-FRONT :TOP-LEFT :TOP-RIGHT)",
         ],
         host!(list_defined_grasps),
     ),

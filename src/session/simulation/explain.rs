@@ -19,6 +19,7 @@ use crate::motion::{
 };
 use crate::perception::{Sight, Visibility};
 use crate::session::tape::Frame;
+use crate::robot::Side;
 use crate::spatial::{Pose, pose};
 use crate::world::World;
 
@@ -93,6 +94,7 @@ impl Simulation {
                 facts.extend(candidates.iter().filter_map(|c| self.whereabouts(c)));
             }
             MotionFailure::PoseUnreachable(pose) => facts.extend(self.about_hand(pose)),
+            MotionFailure::NoGrasp(nothing) => facts.extend(nothing.table()),
             _ => {}
         }
         facts
@@ -170,6 +172,7 @@ impl Simulation {
                 candidates.iter().map(|c| self.where_to_look(c)).collect()
             }
             MotionFailure::PoseUnreachable(pose) => self.other_reach(image, pose),
+            MotionFailure::NoGrasp(nothing) => self.elsewhere(image, &nothing.object),
             _ => Vec::new(),
         }
     }
@@ -241,15 +244,33 @@ impl Simulation {
                 grasp.to_lowercase()
             ));
         }
-        if let Some((base, arm, grasp)) = self.place_to_grasp(image, &wanted) {
-            let t = base.translation;
-            let place = place_form(&[t.x, t.y, pose::yaw(&base)]);
-            lines.push(format!(
-                "picking {name} up with (arm {arm}) (grasp {}), standing at {place}",
-                grasp.to_lowercase()
-            ));
-        }
+        let place = self.place_to_grasp(image, &wanted);
+        lines.extend(place.map(|place| place_to_grasp_line(&name, &place)));
         lines
+    }
+
+    /// From where an object could be grasped.
+    fn elsewhere(&self, image: &mut Image, name: &str) -> Vec<String> {
+        let object = self
+            .world
+            .object(name)
+            .ok()
+            .zip(self.world.object_pose(name).ok());
+        let Some((object, in_map)) = object else {
+            return Vec::new();
+        };
+        let wanted = Wanted {
+            name: name.to_owned(),
+            kind: object.type_name().to_owned(),
+            in_map,
+            arm: None,
+            grasp: None,
+        };
+        let place = self.place_to_grasp(image, &wanted);
+        place
+            .map(|place| place_to_grasp_line(name, &place))
+            .into_iter()
+            .collect()
     }
 
     /// The free object that the hand was meant for.
@@ -272,6 +293,15 @@ impl Simulation {
             (object.name().to_owned(), wanted)
         })
     }
+}
+
+fn place_to_grasp_line(name: &str, (base, arm, grasp): &(Pose, Side, String)) -> String {
+    let t = base.translation;
+    let place = place_form(&[t.x, t.y, pose::yaw(base)]);
+    format!(
+        "picking {name} up with (arm {arm}) (grasp {}), standing at {place}",
+        grasp.to_lowercase()
+    )
 }
 
 fn section(text: &mut String, title: &str, lines: impl IntoIterator<Item = impl AsRef<str>>) {

@@ -11,6 +11,7 @@ use crate::motion::{CollisionMode, can_reach};
 use crate::plan::pose::value::pose_stamped;
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
+use crate::session::simulation::grasp_choice::{GraspChooser, GraspQuestion};
 use crate::session::simulation::imagined::Imagined;
 use crate::session::simulation::motions::{side, side_keyword};
 use crate::session::simulation::names::{type_keyword, type_text};
@@ -186,24 +187,42 @@ impl Simulation {
     }
 
     /// A base pose in the map frame, arm and grasp for an object: the pose is near, free and
-    /// reachable by a path. The requested arm and grasp are preferred.
+    /// reachable by a path. The requested arm is used, and the requested grasp preferred.
     pub(in crate::session) fn place_to_grasp(
         &self,
         image: &mut Image,
         wanted: &Wanted,
     ) -> Option<(Pose, Side, String)> {
-        let arm = wanted.arm.unwrap_or(Side::Right);
-        let grasps = self.defined_grasps(&wanted.kind, arm);
-        let own = wanted.grasp.clone().or_else(|| grasps.first().cloned())?;
-        let others = grasps.iter().filter(|grasp| **grasp != own);
+        let arms: Vec<Side> = wanted
+            .arm
+            .map_or(vec![Side::Right, Side::Left], |arm| vec![arm]);
+        let mut all: Vec<String> = Vec::new();
+        for arm in &arms {
+            let names = self.defined_grasps(&wanted.kind, *arm).into_iter();
+            all.extend(names.filter(|name| !all.contains(name)).collect::<Vec<_>>());
+        }
+        let own = wanted.grasp.iter().map(|grasp| vec![grasp.clone()]);
+        let places = self.places_around(&wanted.in_map);
         let mut ways = 0;
-        for grasp in std::iter::once(&own).chain(others) {
-            for base in self.places_around(&wanted.in_map) {
-                if !self.can_grasp_from(image, wanted, (arm, grasp), &base) {
+        // Grasps by name, since an action is to be repeated with one.
+        for grasps in own.chain([all]).filter(|names| !names.is_empty()) {
+            let question = GraspQuestion {
+                object: wanted.name.clone(),
+                kind: wanted.kind.clone(),
+                in_map: wanted.in_map,
+                arms: arms.clone(),
+                grasps,
+                torso_moves: true,
+                target: None,
+                failed: Vec::new(),
+            };
+            let chooser = GraspChooser::new(self, &self.world, &question);
+            for base in &places {
+                let Ok(choice) = chooser.with_base_at(base) else {
                     continue;
-                }
+                };
                 let t = base.translation.vector;
-                let goal = [t.x, t.y, pose::yaw(&base)];
+                let goal = [t.x, t.y, pose::yaw(base)];
                 ways += 1;
                 let ends_there = |path: Vec<[f64; 3]>| {
                     path.last().is_some_and(|end| {
@@ -213,7 +232,7 @@ impl Simulation {
                 // Ctrl-C ends a long search; nothing is offered then.
                 let way = interruptible(image.interrupt(), || plan_drive(&self.world, goal))?;
                 if way.is_ok_and(ends_there) {
-                    return Some((base, arm, grasp.clone()));
+                    return Some((*base, choice.side, choice.grasp));
                 }
                 if ways == MOST_WAYS {
                     return None;
@@ -225,7 +244,7 @@ impl Simulation {
 
     /// Collision-free base poses around a thing and facing it, those nearest to the current
     /// base pose first.
-    fn places_around(&self, thing: &Pose) -> Vec<Pose> {
+    pub(in crate::session) fn places_around(&self, thing: &Pose) -> Vec<Pose> {
         let here = self.base();
         let centre = thing.translation.vector;
         let mut checker = self.world.collision_checker();

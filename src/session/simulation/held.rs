@@ -16,6 +16,8 @@ pub(in crate::session) struct Held {
     pub(crate) side: Side,
     /// The grasp by which it was picked up, if known.
     pub(crate) grasp: Option<String>,
+    /// The angle (rad) by which that grasp was turned about the axis of a round object.
+    pub(crate) turn: f64,
     /// Where it was detected before that, in the map.
     pub(crate) taken_from: Pose,
 }

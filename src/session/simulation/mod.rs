@@ -3,6 +3,7 @@
 
 mod explain;
 pub(super) mod frames;
+pub(super) mod grasp_choice;
 pub(super) mod grasp_search;
 pub(super) mod held;
 pub(super) mod imagined;

@@ -1,0 +1,137 @@
+//! `choose-grasp`: an arm and a grasp that work.
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtins::keywords;
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::motion::interruption::interruptible;
+use crate::plan::Reply;
+use crate::plan::pose::value::pose_stamped;
+use crate::robot::Side;
+use crate::session::host::call::{done, host};
+use crate::session::simulation::Simulation;
+use crate::session::simulation::grasp_choice::{GraspQuestion, PlacingTarget};
+use crate::session::simulation::motions::{side, side_keyword, sides};
+use crate::session::simulation::names::{type_keyword, type_text};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
+pub(crate) static TABLE: &[Builtin] = &[control(
+    "CHOOSE-GRASP",
+    "object &key arms grasps base-pose target target-base-pose failed",
+    "The nearest arm and grasp by which a perceived object can be picked up from where the robot stands, or from a base pose: the arm, the grasp, the poses of the hand (pregrasp, second pregrasp, grasp, lift, second lift), the angle (rad) by which the grasp is turned about the axis of a round object, the cost of the choice (less is better: how far, in m, the wrist is from the shoulder), and the height (m) of the torso. Only the given arms and grasps are used, and only those with which the object can be put down at the target. FAILED is a list of arms, grasps and angles that have failed already. If there is no such grasp, fails with MANIPULATION-POSE-UNREACHABLE, and EXPLAIN tells why each of them does not work.",
+    &[],
+    host!(choose_grasp),
+)];
+
+/// One thing or a list of things.
+fn listed(value: Option<Value>) -> Vec<Value> {
+    match value {
+        None => Vec::new(),
+        Some(value) if value.is_nil() => Vec::new(),
+        Some(value) if matches!(value, Value::Cons(_)) => value.iter_list().collect(),
+        Some(value) => vec![value],
+    }
+}
+
+fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let keys = [
+        "ARMS",
+        "GRASPS",
+        "BASE-POSE",
+        "TARGET",
+        "TARGET-BASE-POSE",
+        "FAILED",
+    ]
+    .map(|name| image.keyword(name));
+    let [arms, grasps, base, target, target_base, failed] =
+        keywords::parse(image, &args[1..], keys)?;
+    let object = simulation.perceived(image, &args[0])?;
+    let arms = match arms.filter(Value::is_true) {
+        Some(arms) => sides(image, &arms)?,
+        None => vec![Side::Right, Side::Left],
+    };
+    let mut names = Vec::new();
+    for grasp in listed(grasps) {
+        let known = arms
+            .iter()
+            .find_map(|arm| simulation.grasp(image, &object.kind, *arm, &grasp).ok());
+        if known.is_none() {
+            // An error that lists the grasps that there are.
+            simulation.grasp(image, &object.kind, arms[0], &grasp)?;
+        }
+        names.extend(type_text(image, &grasp));
+    }
+    let mut pose_of = |pose: Option<Value>| match pose.filter(Value::is_true) {
+        None => Ok(None),
+        Some(pose) => {
+            let pose = Simulation::location_pose(image, &pose)?;
+            simulation.pose_in_map(image, &pose).map(Some)
+        }
+    };
+    let (base, target, target_base) = (pose_of(base)?, pose_of(target)?, pose_of(target_base)?);
+    let question = GraspQuestion {
+        in_map: simulation.base() * object.in_base,
+        object: object.name,
+        kind: object.kind,
+        arms,
+        grasps: names,
+        torso_moves: true,
+        target: target.map(|pose| PlacingTarget {
+            pose,
+            base: target_base,
+        }),
+        failed: listed(failed)
+            .iter()
+            .map(|one| failed_grasp(image, one))
+            .collect::<Result<_>>()?,
+    };
+    let chosen = interruptible(image.interrupt(), || {
+        simulation.choose_grasp(&question, base.as_ref())
+    });
+    let Some(chosen) = chosen else {
+        // Ctrl-C stops the plan at its next step.
+        return done(Value::values(Vec::new()));
+    };
+    let choice = chosen.map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
+    let poses = [
+        choice.poses.pregrasp,
+        choice.poses.second_pregrasp,
+        choice.poses.grasp,
+        choice.poses.lift,
+        choice.poses.second_lift,
+    ];
+    let poses = poses.map(|pose| pose_stamped("base_footprint", &pose));
+    done(Value::values(vec![
+        side_keyword(image, choice.side),
+        type_keyword(image, &choice.grasp),
+        Value::list(poses),
+        Value::Double(choice.turn),
+        Value::Double(choice.cost),
+        Value::Double(choice.torso),
+    ]))
+}
+
+/// An arm, a grasp and an angle (rad).
+fn failed_grasp(image: &Image, value: &Value) -> Result<(Side, String, f64)> {
+    let parts: Vec<Value> = value.iter_list().collect();
+    let [arm, grasp, turn] = parts.as_slice() else {
+        return Err(Raise::simple(format!(
+            "{} is no list of an arm, a grasp and an angle.",
+            print::to_string(image, value, true)
+        )));
+    };
+    let Some(grasp) = type_text(image, grasp) else {
+        return Err(Raise::type_error(grasp, known::SYMBOL));
+    };
+    Ok((
+        side(image, arm)?,
+        grasp,
+        number::to_f64(turn).unwrap_or(0.0),
+    ))
+}
