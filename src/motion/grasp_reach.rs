@@ -3,6 +3,8 @@
 //! Cheap tests come first: inverse kinematics for all poses of the hand, then collisions. The
 //! answers agree with those of the motions; whether a path leads there is another question.
 
+use serde::{Deserialize, Serialize};
+
 use super::configuration_checker::ConfigurationChecker;
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::hand::hand_names;
@@ -54,7 +56,7 @@ pub(crate) struct Station {
 }
 
 /// The parts of a grasp for which the hand has to be somewhere.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum GraspPart {
     /// Beside the object, touching nothing.
     Approach,
@@ -65,7 +67,7 @@ pub(crate) enum GraspPart {
 }
 
 /// Why a hand cannot grasp an object in some way.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) enum GraspObstacle {
     /// The hand holds something else.
     HandFull {

@@ -18,8 +18,8 @@ use crate::motion::{
     pan_and_tilt, touching_at,
 };
 use crate::perception::{Sight, Visibility};
-use crate::session::tape::Frame;
 use crate::robot::Side;
+use crate::session::tape::Frame;
 use crate::spatial::{Pose, pose};
 use crate::world::World;
 
