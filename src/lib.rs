@@ -55,6 +55,7 @@ pub use spatial::Pose;
 #[path = "../tests"]
 #[allow(clippy::print_stdout)]
 mod tests {
+    mod fuzz;
     mod language;
     pub(crate) mod motion;
     mod plans;

@@ -197,7 +197,9 @@ impl<'a> Printer<'a> {
 
     fn list(&mut self, list: Value, style: Style, depth: usize) {
         let form = match style {
-            Style::List(shape) if self.settings.pretty => Form::Shape(shape),
+            Style::List(shape) if self.settings.pretty && !shape::is_backquote_part(&list) => {
+                Form::Shape(shape)
+            }
             _ if self.settings.pretty => shape::form(self.image, &list),
             _ => match shape::prefix(&list) {
                 // Backquotes are always printed with their prefix.

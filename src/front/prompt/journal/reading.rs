@@ -39,7 +39,7 @@ struct Line<'a> {
 impl Earlier {
     /// The journal in a file with these bytes. What comes after a damaged record is left out;
     /// so is a last line without a line break, since writing it was cut short.
-    pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Earlier, JournalError> {
+    pub(crate) fn parse(path: &Path, bytes: &[u8]) -> Result<Earlier, JournalError> {
         let mut lines = whole_lines(bytes);
         let first = lines.next();
         let has_checksums = match first.as_ref().map(|line| line.bytes) {

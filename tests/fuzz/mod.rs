@@ -1,0 +1,65 @@
+//! Fuzzing: whatever the parts of the program that read get to read ends in a value or an error,
+//! never in a panic, an abort or a hang.
+//!
+//! Inputs are made of the project's own files, by a seeded generator: an input depends only on
+//! its target, the seed and its number, so each can be made again. The short run is part of the
+//! usual tests. The long one is
+//!
+//! ```text
+//! FUZZ_EXECUTIONS=10000000 cargo test --lib -- fuzz::long_run --ignored --nocapture
+//! ```
+//!
+//! `FUZZ_TARGET` selects one target, `FUZZ_SEED` other inputs and `FUZZ_FROM` the number of the
+//! first one. The number under way is in `target/fuzz/position`, in case an input ends the
+//! process; inputs that fail are saved beside it.
+
+mod corpus;
+mod files;
+mod found;
+mod language;
+mod mutation;
+mod run;
+
+use run::Target;
+
+/// All targets. Shares are of a thousand executions.
+fn targets() -> Vec<Target> {
+    [language::targets(), files::targets()]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+#[test]
+fn the_shares_of_all_targets_are_the_whole() {
+    let sum: u64 = targets().iter().map(|target| target.share).sum();
+    assert_eq!(sum, 1000);
+}
+
+/// Enough to notice a target that does not work any more.
+const SHORT_RUN: u64 = 8_000;
+
+#[test]
+fn short_run() {
+    let found = run::with_large_stack(|| {
+        let plan = run::Plan {
+            executions: SHORT_RUN,
+            ..run::Plan::default()
+        };
+        run::all(&targets(), &plan, &mut |_| {})
+    });
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+#[test]
+#[ignore = "runs as long as it is asked to"]
+fn long_run() {
+    crate::defect::keep_caught_panics_quiet();
+    run::abort_when_stuck();
+    let found = run::with_large_stack(|| {
+        run::all(&targets(), &run::Plan::of_environment(), &mut |line| {
+            println!("{line}");
+        })
+    });
+    assert!(found.is_empty(), "{found:#?}");
+}
