@@ -9,6 +9,7 @@ mod console;
 mod converse;
 pub(crate) mod dialogue;
 pub(crate) mod functions;
+mod halting;
 mod host;
 mod live_host;
 mod log_level;
@@ -38,7 +39,7 @@ use crate::picture::ViewError;
 use crate::picture::animation::Shot;
 use crate::plan::{Evaluation, Scheduler};
 use crate::session::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
-use crate::watch::{Cause, WatchEvent};
+use crate::watch::Cause;
 use host::SimulationHost;
 use live_host::LiveHost;
 use simulation::Simulation;
@@ -89,7 +90,10 @@ impl Session {
             options: options.clone(),
             image,
             scheduler: Scheduler::new(),
-            host: SimulationHost::new(simulation, Audience::new(options.realtime)),
+            host: SimulationHost::new(
+                simulation,
+                Audience::new(options.realtime, options.view_port),
+            ),
             checked: check::KnownNames::default(),
             console: console::Console::default(),
             _rest: FreesAll,
@@ -208,6 +212,8 @@ impl Session {
             .person
             .snapshots
             .begin_form(&mut self.host.simulation, &self.image, form);
+        let now = self.host.simulation.now();
+        self.host.audience.tell_resumed(now);
         let tells_progress = self.console.is_interactive;
         let mut host = LiveHost::new(&mut self.host, sink, tells_progress);
         let evaluation = self.scheduler.evaluate(&mut self.image, &mut host, form);
@@ -220,8 +226,6 @@ impl Session {
             Evaluation::Unhandled(condition) => {
                 let abort = self.describe(&condition);
                 self.abort(sink);
-                let report = WatchEvent::Aborted(abort.report.clone());
-                self.host.audience.tell(self.host.simulation.now, &report);
                 Ended::Aborted(Box::new(abort))
             }
             Evaluation::Interrupted => {
@@ -312,17 +316,23 @@ impl Evaluate for Session {
         self.image.polls().begin(self.console.interrupt_next.take());
         // A user who asked to leave and then continues has changed their mind.
         self.host.person.quit = None;
+        let was_stopped = self.console.level() > 0;
         if text.trim().is_empty() {
             // It only shows a stopped evaluation again.
-            return self.evaluate_or_recover(source_name, text, sink);
+            let outcome = self.evaluate_or_recover(source_name, text, sink);
+            self.tell_halt(was_stopped, None);
+            return outcome;
         }
         let record = self.image.extension::<record::Record>();
         let record = record.unwrap_or_else(|| self.image.extend(record::Record::default()));
         record.begin(self.prompt(), source_name, text);
+        let mut aborted = None;
         let outcome = self.evaluate_or_recover(source_name, text, &mut |event| {
             record.note(&event);
+            aborted = halting::end_of(&event).or(aborted.take());
             sink(event);
         });
+        self.tell_halt(was_stopped, aborted);
         record.end(outcome, self.image.polls().seen_at());
         outcome
     }

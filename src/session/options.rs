@@ -31,6 +31,8 @@ pub struct SessionOptions {
     pub log_level: LogLevel,
     /// How many simulated seconds pass per real second; as many as possible if `None`.
     pub realtime: Option<f64>,
+    /// The port of the live view; any that is free if `None`.
+    pub view_port: Option<u16>,
     /// How much memory may be in use before a condition `HEAP-EXHAUSTED-ERROR` is signalled; as
     /// much as there is if `None`, and then the process is aborted.
     pub heap: Option<HeapLimit>,
@@ -46,6 +48,7 @@ impl Default for SessionOptions {
             noise: None,
             log_level: LogLevel::Info,
             realtime: None,
+            view_port: None,
             heap: None,
         }
     }

@@ -9,6 +9,7 @@ use crate::lisp::guard::stoppable;
 use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::print;
 use crate::lisp::source::Location;
+use crate::lisp::types::type_of::type_of;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::{Raise, is_interrupt};
@@ -52,9 +53,16 @@ impl Session {
         let place = places.next();
         let is_own = place.as_ref().is_some_and(is_built_in);
         let user_place = places.find(|place| is_own && !is_built_in(place));
+        let is_interrupt = is_interrupt(condition);
         Abort {
             report: self.printed_by(known::PRINC_TO_STRING, condition),
-            condition: if is_interrupt(condition) {
+            class: if is_interrupt {
+                String::new()
+            } else {
+                let class = type_of(&self.image, condition);
+                print::to_string(&self.image, &class, false)
+            },
+            condition: if is_interrupt {
                 INTERRUPT.to_owned()
             } else {
                 self.printed(condition)

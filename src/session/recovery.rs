@@ -3,7 +3,7 @@
 use super::Session;
 use super::dialogue::{Abort, Event, Outcome};
 use crate::defect::Defect;
-use crate::watch::{Cause, WatchEvent};
+use crate::watch::Cause;
 
 /// What people are asked to do.
 const REQUEST: &str = "This is a defect of planwright, not of your program. The world is as it was \
@@ -29,8 +29,6 @@ impl Session {
             .go_back_to_form(simulation, &mut self.image);
         self.flush(sink);
         let report = format!("planwright failed: {defect}.\n{REQUEST}");
-        let told = WatchEvent::Aborted(report.clone());
-        self.host.audience.tell(self.host.simulation.now, &told);
         self.host.audience.show(&self.host.simulation, Cause::Rest);
         sink(Event::Aborted(Box::new(Abort {
             report,

@@ -7,6 +7,7 @@
 
 mod frame;
 mod frame_builder;
+mod halt;
 pub(crate) mod live;
 mod node;
 pub(crate) mod recording;
@@ -15,6 +16,7 @@ mod watch_event;
 
 pub(crate) use frame::{Frame, Hit, Hold, Path, Placed};
 pub(crate) use frame_builder::FrameBuilder;
+pub(crate) use halt::{Halt, HaltKind};
 pub(crate) use node::{Kind, Node, Vertex, VisualMesh};
 pub(crate) use watch_event::{TaskId, TaskNews, TaskState, WatchEvent};
 

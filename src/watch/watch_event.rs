@@ -1,5 +1,7 @@
 //! What happens in a session besides motion.
 
+use super::halt::Halt;
+
 /// Identifies a task or a motion of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum TaskId {
@@ -14,8 +16,10 @@ pub(crate) enum TaskId {
 pub(crate) enum WatchEvent {
     /// Text was printed, not necessarily whole lines.
     Output(String),
-    /// An unhandled condition ended an evaluation; this is its report.
-    Aborted(String),
+    /// An evaluation does not go on: it has stopped or ended at a condition or an interrupt.
+    Halted(Halt),
+    /// The session goes on after a halt.
+    Resumed,
     /// A task began, or its state changed.
     Task(TaskNews),
 }
@@ -31,7 +35,7 @@ pub(crate) struct TaskNews {
     pub(crate) name: String,
     /// Its new state.
     pub(crate) state: TaskState,
-    /// Why it failed; empty otherwise.
+    /// Why it failed or stopped; empty otherwise.
     pub(crate) failure: String,
 }
 
@@ -42,6 +46,8 @@ pub(crate) enum TaskState {
     Running,
     /// It is suspended.
     Suspended,
+    /// It stands still at an unhandled condition, or waits for a task that does.
+    Stopped,
     /// It has succeeded.
     Succeeded,
     /// It has failed.
@@ -52,9 +58,10 @@ pub(crate) enum TaskState {
 
 impl TaskState {
     /// All states.
-    pub(crate) const ALL: [Self; 5] = [
+    pub(crate) const ALL: [Self; 6] = [
         Self::Running,
         Self::Suspended,
+        Self::Stopped,
         Self::Succeeded,
         Self::Failed,
         Self::Evaporated,
@@ -65,6 +72,7 @@ impl TaskState {
         match self {
             Self::Running => "running",
             Self::Suspended => "suspended",
+            Self::Stopped => "stopped",
             Self::Succeeded => "succeeded",
             Self::Failed => "failed",
             Self::Evaporated => "evaporated",

@@ -8,6 +8,7 @@ import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { Browser, sleep } from './browser.mjs';
+import { connections } from './connection.mjs';
 
 const [program, chromium, pictures = 'target/browser'] = process.argv.slice(2);
 const PLAN = 'plans/tutorial/move-bottle.plan';
@@ -212,6 +213,7 @@ try {
   check(made.status === 0, 'a run is recorded');
   await dark(browser, join(folder, 'run.mcap'));
   await stranger(browser);
+  await connections({ browser, start, check, pictures, program, children, plan: PLAN });
 } catch (error) {
   check(false, error.stack);
 } finally {

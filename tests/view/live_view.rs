@@ -7,86 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use crate::session::dialogue::{Evaluate, Event, Outcome};
+use super::viewed::viewed;
+use crate::session::dialogue::{Evaluate, Outcome};
 use crate::session::{Session, SessionOptions};
-
-/// A session with its live view open, and where that is.
-struct Viewed {
-    session: Session,
-    /// `127.0.0.1:PORT`
-    host: String,
-    /// `/TOKEN/`
-    path: String,
-}
-
-fn viewed() -> Viewed {
-    let mut session = Session::new(&SessionOptions::default()).unwrap();
-    let address = session.open_view().unwrap();
-    let rest = address.strip_prefix("http://").unwrap();
-    let (host, path) = rest.split_at(rest.find('/').unwrap());
-    Viewed {
-        session,
-        host: host.to_owned(),
-        path: path.to_owned(),
-    }
-}
-
-impl Viewed {
-    fn connect(&self) -> TcpStream {
-        TcpStream::connect(&self.host).unwrap()
-    }
-
-    /// Sends bytes and reads until the server ends the connection.
-    fn send(&self, bytes: &[u8]) -> Vec<u8> {
-        let mut stream = self.connect();
-        // A server that has closed early takes no more.
-        let _ = stream.write_all(bytes);
-        let mut answer = Vec::new();
-        let _ = stream.read_to_end(&mut answer);
-        answer
-    }
-
-    /// Status of the answer to a request with these header lines.
-    fn status(&self, method: &str, path: &str, headers: &str, body: &str) -> String {
-        let text = format!(
-            "{method} {path} HTTP/1.1\r\n{headers}Content-Length: {}\r\n\r\n{body}",
-            body.len()
-        );
-        let answer = self.send(text.as_bytes());
-        let answer = String::from_utf8_lossy(&answer).into_owned();
-        answer.split(' ').nth(1).unwrap_or("none").to_owned()
-    }
-
-    fn get(&self, name: &str) -> Vec<u8> {
-        let (path, host) = (&self.path, &self.host);
-        let text = format!("GET {path}{name} HTTP/1.1\r\nHost: {host}\r\n\r\n");
-        let answer = self.send(text.as_bytes());
-        let end = answer.windows(4).position(|w| w == b"\r\n\r\n").unwrap();
-        assert!(answer.starts_with(b"HTTP/1.1 200 OK\r\n"), "{name}");
-        answer[end + 4..].to_vec()
-    }
-
-    /// Asks for another pace, as the page does.
-    fn ask(&self, what: &str) -> String {
-        let host = &self.host;
-        let headers = format!("Host: {host}\r\nOrigin: http://{host}\r\n");
-        self.status("POST", &format!("{}pace", self.path), &headers, what)
-    }
-
-    fn evaluate(&mut self, text: &str) {
-        let mut told = String::new();
-        let outcome = self.session.evaluate("test", text, &mut |event| {
-            if let Event::Aborted(abort) = event {
-                told = abort.report;
-            }
-        });
-        assert_eq!(outcome, Outcome::Finished, "{told}");
-    }
-
-    fn hash(&self) -> u64 {
-        self.session.simulation().world().hash()
-    }
-}
 
 /// Moves arms and torso for some simulated seconds.
 const EXERCISE: &str = "(in-package :pp-tut)

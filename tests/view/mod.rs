@@ -1,6 +1,9 @@
 //! What can be seen: pictures, live view, recordings.
 
+mod halts;
+mod hostile_clients;
 mod live_view;
 mod pictures;
 mod pictures_at_the_prompt;
 mod recording;
+mod viewed;

@@ -89,6 +89,15 @@ pub(crate) struct Options {
         value_parser = positive_factor
     )]
     pub(crate) realtime: Option<f64>,
+    /// Port of the page of the live view, which only this machine can reach [default: any that is
+    /// free]
+    #[arg(
+        long,
+        global = true,
+        value_name = "N",
+        value_parser = clap::value_parser!(u16).range(1..)
+    )]
+    pub(crate) view_port: Option<u16>,
     /// Memory that may be in use, such as 500M or 2G; beyond it, a program gets a condition
     /// HEAP-EXHAUSTED-ERROR [default: half of the machine's memory]
     #[arg(long, global = true, value_name = "SIZE", value_parser = heap::bytes)]
@@ -233,6 +242,15 @@ mod tests {
         };
         assert!(watch.view && watch.record.is_some());
         assert!(parsed(&["view", "a.mcap"]).is_ok() && parsed(&["view"]).is_err());
+    }
+
+    #[test]
+    fn the_port_of_the_view_is_one_that_there_is() {
+        let port = |text: &str| parsed(&["run", "a.plan", "--view-port", text]);
+        assert!(port("8000").is_ok_and(|a| a.options.view_port == Some(8000)));
+        for text in ["0", "65536", "-1", "http"] {
+            assert!(port(text).is_err(), "{text}");
+        }
     }
 
     #[test]

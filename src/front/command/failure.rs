@@ -8,6 +8,7 @@ use thiserror::Error;
 use crate::front::prompt::{JournalError, ReplError};
 use crate::picture::ViewError;
 use crate::session::WatchError;
+use crate::watch::live::PlaceError;
 use crate::watch::recording::RecordingError;
 
 /// How a command ended that could do its work.
@@ -55,9 +56,9 @@ pub(crate) enum CommandError {
         path: PathBuf,
         error: RecordingError,
     },
-    /// No port is free for the page.
-    #[error("the page cannot be served: {0}")]
-    Serve(io::Error),
+    /// The page of a recording cannot be served.
+    #[error("{0}")]
+    Serve(PlaceError),
     /// The session cannot be watched.
     #[error("{0}")]
     Watch(#[from] WatchError),

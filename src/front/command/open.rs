@@ -44,6 +44,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
             LogLevel::None => session::LogLevel::None,
         },
         realtime: options.realtime,
+        view_port: options.view_port,
         heap: heap::limit(options.heap),
     };
     set_stack_budget(COMPILER_STACK);

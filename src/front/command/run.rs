@@ -58,7 +58,7 @@ pub(crate) fn run_in<E: Evaluate>(
                 screen.fresh_line()?;
                 screen.flush()?;
                 // If standard error is closed, the exit status must do.
-                let _ = io::stderr().write_all(text.describe(abort.as_ref(), paint).as_bytes());
+                let _ = io::stderr().write_all(text.describe(abort.as_deref(), paint).as_bytes());
                 return Ok((Status::Bad, session));
             }
         }
@@ -98,7 +98,7 @@ struct Text {
 enum Ended {
     Finished,
     Quit(u8),
-    Aborted(Option<Abort>),
+    Aborted(Option<Box<Abort>>),
 }
 
 impl Text {
@@ -128,7 +128,7 @@ impl Text {
         Ok(match outcome {
             Outcome::Finished => Ended::Finished,
             Outcome::Quit(code) => Ended::Quit(code),
-            Outcome::Aborted | Outcome::Stopped => Ended::Aborted(abort),
+            Outcome::Aborted | Outcome::Stopped => Ended::Aborted(abort.map(Box::new)),
         })
     }
 

@@ -9,7 +9,7 @@ use std::thread;
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
-use crate::watch::live::{History, Origin, Server, Views, open_in_browser};
+use crate::watch::live::{History, Origin, Place, Server, Views, open_in_browser};
 use crate::watch::recording::{RecordingError, read_recording};
 
 /// Serves the page with the recording until interrupted.
@@ -31,7 +31,9 @@ pub(crate) fn view(options: &Options, file: &Path) -> Result<Status, CommandErro
     let session = open_session(options)?;
     let world = session.simulation().world();
     let views = Views::new(world, |link| history.link_named(link));
-    let server = Server::start(history.clone(), None, views).map_err(CommandError::Serve)?;
+    let mut place = Place::new(options.view_port);
+    let server = Server::start(&mut place, history.clone(), None, views);
+    let server = server.map_err(CommandError::Serve)?;
     let address = server.address();
     let mut out = io::stdout();
     let cut_off = if found.is_cut_off {

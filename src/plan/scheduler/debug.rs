@@ -1,9 +1,12 @@
 //! Tasks that stop at an unhandled condition, so that the user can examine them and decide how to
 //! continue.
 
+use indexmap::IndexMap;
+
 use super::Scheduler;
 use super::group::{unwrapped, wrapped};
 use super::live::{Answer, Slot, Wait};
+use super::overview::TaskInfo;
 use super::root::Evaluation;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -34,6 +37,28 @@ impl Scheduler {
     /// Identifies the task or root that stopped last.
     pub(crate) fn stopped_id(&self) -> Option<TaskId> {
         self.live(self.stopped()?).map(|live| live.id)
+    }
+
+    /// The tasks that stand still at unhandled conditions and those that wait for them, in order
+    /// of creation, each with the condition.
+    pub(crate) fn stopped_tasks(&self, image: &Image) -> Vec<(TaskInfo, Value)> {
+        if self.stops.is_empty() {
+            return Vec::new();
+        }
+        let mut conditions: IndexMap<TaskId, &Value> = IndexMap::new();
+        for (slot, condition) in self.stops.iter().rev() {
+            let chain = std::iter::successors(Some(*slot), |slot| self.live(*slot)?.parent);
+            for live in chain.filter_map(|slot| self.live(slot)) {
+                conditions.entry(live.id).or_insert(condition);
+            }
+        }
+        let tasks = self.tasks(image).into_iter();
+        tasks
+            .filter_map(|task| {
+                let condition = conditions.get(&task.id)?;
+                Some((task, Value::clone(condition)))
+            })
+            .collect()
     }
 
     /// The stopped entry and those above it, the root last.

@@ -8,7 +8,7 @@ use crate::motion::PlannedTrajectory;
 use crate::plan::{Plan, Status};
 use crate::session::simulation::Simulation;
 use crate::session::simulation::jobs::Job;
-use crate::watch::{Cause, Follower, Observation, TaskId, TaskNews, TaskState, WatchEvent};
+use crate::watch::{Cause, Follower, Halt, Observation, TaskId, TaskNews, TaskState, WatchEvent};
 use crate::world::CollisionHit;
 
 /// The followers of a session.
@@ -16,6 +16,10 @@ use crate::world::CollisionHit;
 pub(crate) struct Followers {
     all: Vec<(FollowerId, Box<dyn Follower>)>,
     last: u64,
+    /// Why the session does not go on, as followers know it.
+    halt: Option<Halt>,
+    /// The tasks that followers know to be stopped, parents first.
+    stopped: Vec<TaskNews>,
 }
 
 /// Identifies a follower.
@@ -33,6 +37,13 @@ impl Audience {
         Plan::of(image).keep_journal();
         let trajectories = simulation.shown().jobs.trajectories();
         follower.see(&observation(simulation, &trajectories), Cause::Rest);
+        let now = simulation.now();
+        for news in &self.followers.stopped {
+            follower.hear(now, &WatchEvent::Task(news.clone()));
+        }
+        if let Some(halt) = &self.followers.halt {
+            follower.hear(now, &WatchEvent::Halted(halt.clone()));
+        }
         self.followers.last += 1;
         let id = FollowerId(self.followers.last);
         self.followers.all.push((id, follower));
@@ -72,6 +83,37 @@ impl Audience {
         }
     }
 
+    /// Notifies the followers that the session does not go on, with the tasks that have stopped,
+    /// or that it does.
+    pub(crate) fn tell_halt(&mut self, now: f64, halt: Option<Halt>, stopped: Vec<TaskNews>) {
+        let before = std::mem::replace(&mut self.followers.stopped, stopped.clone());
+        let is_still = |news: &&TaskNews| stopped.iter().any(|task| task.id == news.id);
+        for news in before.iter().filter(|news| !is_still(news)) {
+            let goes_on = TaskNews {
+                state: TaskState::Running,
+                failure: String::new(),
+                ..news.clone()
+            };
+            self.tell(now, &WatchEvent::Task(goes_on));
+        }
+        for news in stopped.into_iter().filter(|news| !before.contains(news)) {
+            self.tell(now, &WatchEvent::Task(news));
+        }
+        if self.followers.halt == halt {
+            return;
+        }
+        let event = halt.clone().map_or(WatchEvent::Resumed, WatchEvent::Halted);
+        self.followers.halt = halt;
+        self.tell(now, &event);
+    }
+
+    /// Notifies the followers that the session goes on, if they do not know.
+    pub(crate) fn tell_resumed(&mut self, now: f64) {
+        if self.followers.halt.is_some() {
+            self.tell_halt(now, None, Vec::new());
+        }
+    }
+
     /// Notifies the followers of changes in the states of tasks.
     pub(crate) fn tell_tasks(&mut self, image: &Image) {
         if self.followers.all.is_empty() {
@@ -80,8 +122,11 @@ impl Audience {
         for change in Plan::of(image).fetch_journal() {
             let report = |f| aside(image, || print::report::report(image, &f));
             let failure = change.failure.map(report);
+            // Whatever has become of it, it is not stopped any more.
+            let id = TaskId::Task(change.id.0);
+            self.followers.stopped.retain(|task| task.id != id);
             let news = WatchEvent::Task(TaskNews {
-                id: TaskId::Task(change.id.0),
+                id,
                 parent: change.parent.map(|parent| TaskId::Task(parent.0)),
                 name: change.name,
                 state: state(change.status),

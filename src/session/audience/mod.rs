@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use crate::picture::Image;
 use crate::session::simulation::Simulation;
-use crate::watch::live::{PaceControl, Speed};
+use crate::watch::live::{PaceControl, Place, Speed};
 use crate::world::World;
 use film::Film;
 pub(crate) use film::Filming;
@@ -31,6 +31,8 @@ pub(crate) struct Audience {
     film: Option<Film>,
     followers: Followers,
     view: Option<LiveView>,
+    /// Where the live view is whenever it is open.
+    place: Place,
     recording: Option<OpenRecording>,
     /// Pictures that have not been reported as events yet.
     pictures: Vec<Arc<Image>>,
@@ -38,11 +40,12 @@ pub(crate) struct Audience {
 
 impl Audience {
     /// An audience for which simulated time passes at that multiple of real time, or as fast
-    /// as possible.
-    pub(super) fn new(realtime: Option<f64>) -> Self {
+    /// as possible, with the port of its live view, or any.
+    pub(super) fn new(realtime: Option<f64>, view_port: Option<u16>) -> Self {
         let control = realtime.map(|factor| PaceControl::new(Speed::Times(factor)));
         Self {
             pace: control.map(Pace::new),
+            place: Place::new(view_port),
             ..Self::default()
         }
     }

@@ -1,6 +1,5 @@
 //! The live view and recordings.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -10,7 +9,9 @@ use super::following::FollowerId;
 use super::pace::Pace;
 use crate::lisp::image::Image;
 use crate::session::simulation::Simulation;
-use crate::watch::live::{History, LiveFollower, Origin, PaceControl, Server, Speed, Views};
+use crate::watch::live::{
+    History, LiveFollower, Origin, PaceControl, PlaceError, Server, Speed, Views,
+};
 use crate::watch::recording::{Recorder, RecordingError, RecordingResult};
 use crate::watch::{Cause, FrameBuilder};
 
@@ -34,7 +35,7 @@ pub(crate) struct LiveView {
 pub(crate) enum WatchError {
     /// The server cannot be started.
     #[error("the live view cannot be opened: {0}")]
-    View(io::Error),
+    View(PlaceError),
     /// The recording cannot be written.
     #[error("cannot record into {}: {error}", path.display())]
     Record {
@@ -56,16 +57,18 @@ impl Audience {
             return Ok(view.server.address());
         }
         let had_pace = self.pace.is_some();
-        let pace = self
-            .pace
-            .get_or_insert_with(|| Pace::new(PaceControl::new(Speed::Times(1.0))));
-        let control = pace.control().clone();
+        let control = match &self.pace {
+            Some(pace) => pace.control().clone(),
+            None => PaceControl::new(Speed::Times(1.0)),
+        };
         let history = History::new(Origin::Session);
         let world = &simulation.shown().world;
         let witness = FrameBuilder::new(world);
         let views = Views::new(world, |link| witness.node_named(link));
-        let server =
-            Server::start(history.clone(), Some(control), views).map_err(WatchError::View)?;
+        let shown = Some(control.clone());
+        let server = Server::start(&mut self.place, history.clone(), shown, views);
+        let server = server.map_err(WatchError::View)?;
+        self.pace.get_or_insert_with(|| Pace::new(control));
         let address = server.address();
         let follower = Box::new(LiveFollower::new(history, witness));
         let follower = self.add_follower(simulation, image, follower);

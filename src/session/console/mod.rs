@@ -20,6 +20,8 @@ use crate::lisp::value::Value;
 use crate::plan::TaskId;
 
 use super::Session;
+use super::halting::halt_of;
+use crate::watch::{Halt, HaltKind};
 use choices::Choice;
 use commands::Command;
 
@@ -74,6 +76,22 @@ enum Cause {
     Interrupt,
 }
 
+impl Level {
+    /// The choices as they are shown.
+    fn labels(&self) -> Vec<String> {
+        match self.cause {
+            Cause::Interrupt => ["Continue.", "Abort.", "Abort, and park the arms."]
+                .map(str::to_owned)
+                .to_vec(),
+            Cause::Condition(_) => self
+                .choices
+                .iter()
+                .map(|(_, label)| label.clone())
+                .collect(),
+        }
+    }
+}
+
 impl Console {
     pub(crate) fn level(&self) -> usize {
         self.levels.len()
@@ -85,6 +103,20 @@ impl Console {
             is_interactive: self.is_interactive,
             ..Console::default()
         };
+    }
+
+    /// Why the evaluation does not go on, and the choices.
+    pub(super) fn halt(&self) -> Option<Halt> {
+        let level = self.levels.last()?;
+        let kind = match level.cause {
+            Cause::Condition(_) => HaltKind::Stopped,
+            Cause::Interrupt => HaltKind::Interrupted,
+        };
+        Some(Halt {
+            choices: level.labels(),
+            level: self.levels.len(),
+            ..halt_of(kind, &level.abort)
+        })
     }
 
     pub(crate) fn take_draft(&mut self) -> Option<String> {

@@ -143,24 +143,14 @@ impl Session {
         let Some(last) = self.console.levels.last() else {
             return Outcome::Finished;
         };
-        let (choices, remark) = match last.cause {
-            Cause::Interrupt => (
-                vec![
-                    "Continue.".to_owned(),
-                    "Abort.".to_owned(),
-                    "Abort, and park the arms.".to_owned(),
-                ],
-                INTERRUPT_REMARK,
-            ),
-            Cause::Condition(_) => {
-                let labels = last.choices.iter().map(|(_, label)| label.clone());
-                (labels.collect(), DEBUGGER_REMARK)
-            }
+        let remark = match last.cause {
+            Cause::Interrupt => INTERRUPT_REMARK,
+            Cause::Condition(_) => DEBUGGER_REMARK,
         };
         let stop = Stop {
             level,
             abort: last.abort.clone(),
-            choices,
+            choices: last.labels(),
             remark,
         };
         sink(Event::Stopped(Box::new(stop)));

@@ -44,6 +44,8 @@ pub struct Stop {
 pub struct Abort {
     /// The report of the condition; may span several lines.
     pub report: String,
+    /// The name of the condition's class, `TYPE-ERROR`; empty for an interrupt.
+    pub class: String,
     /// The condition as printed, `#<TYPE-ERROR …>`.
     pub condition: String,
     /// The innermost form with a known place.

@@ -66,6 +66,7 @@ impl SimulationHost {
     fn rest(&mut self, image: &mut Image, now: f64, until: f64) -> f64 {
         let mut steps = 0u32;
         self.simulation.now = now;
+        self.audience.tell_resumed(now);
         // A world at rest does not need to be stepped.
         while self.simulation.now < until && !self.simulation.world.is_at_rest() {
             if image.is_interrupted() {
@@ -114,6 +115,7 @@ impl SimulationHost {
         watch: &mut dyn FnMut(&SimulationHost),
     ) -> Advance {
         self.simulation.now = now;
+        self.audience.tell_resumed(now);
         let mut done = Vec::new();
         let mut steps = 0u32;
         while done.is_empty()

@@ -2,13 +2,15 @@
 
 use serde_json::{Value, json};
 
-use crate::watch::{Node, TaskId, WatchEvent};
+use crate::watch::{Halt, Node, TaskId, WatchEvent};
 
 /// An event with its simulated time (s).
 pub(crate) fn news((time, event): &(f64, WatchEvent)) -> Value {
     match event {
         WatchEvent::Output(text) => json!({"t": time, "text": text}),
-        WatchEvent::Aborted(text) => json!({"t": time, "aborted": text}),
+        WatchEvent::Halted(halt) => json!({"t": time, "halted": halt.report}),
+        // It is told as the end of a halt, not as news.
+        WatchEvent::Resumed => Value::Null,
         WatchEvent::Task(news) => json!({
             "t": time,
             "task": id(news.id),
@@ -18,6 +20,18 @@ pub(crate) fn news((time, event): &(f64, WatchEvent)) -> Value {
             "failure": news.failure,
         }),
     }
+}
+
+/// Why the session does not go on.
+pub(crate) fn halt(halt: &Halt) -> Value {
+    json!({
+        "kind": halt.kind.name(),
+        "class": halt.class,
+        "report": halt.report,
+        "place": halt.place,
+        "choices": halt.choices,
+        "level": halt.level,
+    })
 }
 
 /// What the page needs to know of a node besides its mesh.

@@ -5,13 +5,16 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use super::timeline::Timeline;
-use crate::watch::{Frame, Kind, Node, WatchEvent};
+use crate::watch::{Frame, Halt, Kind, Node, WatchEvent};
 
 /// Number of news items that are kept; the oldest are forgotten first.
 const MOST_NEWS: usize = 40_000;
 
 /// Number of characters that are kept of a news item.
 const MOST_TEXT: usize = 4_000;
+
+/// Number of ways to continue that are kept.
+const MOST_CHOICES: usize = 60;
 
 /// Where a history comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +45,8 @@ struct State {
     news: VecDeque<Arc<(f64, WatchEvent)>>,
     /// Number of forgotten news items.
     forgotten: usize,
+    /// Why the session does not go on.
+    halt: Option<Arc<Halt>>,
     /// Counts changes.
     version: u64,
     is_over: bool,
@@ -69,6 +74,7 @@ pub(crate) struct Unread {
     pub(crate) newest: Option<Arc<Frame>>,
     pub(crate) news: Vec<Arc<(f64, WatchEvent)>>,
     pub(crate) span: Option<[f64; 2]>,
+    pub(crate) halt: Option<Arc<Halt>>,
     pub(crate) is_over: bool,
 }
 
@@ -103,19 +109,24 @@ impl History {
         });
     }
 
-    /// Adds a news item with its simulated time (s).
+    /// Adds a news item with its simulated time (s). A halt lasts until the session is resumed.
     pub(crate) fn add_news(&self, time: f64, event: &WatchEvent) {
-        let event = match event {
-            WatchEvent::Output(text) => WatchEvent::Output(shortened(text)),
-            WatchEvent::Aborted(text) => WatchEvent::Aborted(shortened(text)),
+        let (event, halt) = match event {
+            WatchEvent::Output(text) => (WatchEvent::Output(shortened(text)), None),
+            WatchEvent::Halted(halt) => {
+                let halt = shortened_halt(halt);
+                (WatchEvent::Halted(halt.clone()), Some(Arc::new(halt)))
+            }
+            WatchEvent::Resumed => return self.change(|state| state.halt = None),
             WatchEvent::Task(news) => {
                 let mut news = news.clone();
                 news.name = shortened(&news.name);
                 news.failure = shortened(&news.failure);
-                WatchEvent::Task(news)
+                (WatchEvent::Task(news), None)
             }
         };
         self.change(|state| {
+            state.halt = halt.or(state.halt.take());
             if state.news.len() >= MOST_NEWS {
                 state.news.pop_front();
                 state.forgotten += 1;
@@ -127,6 +138,11 @@ impl History {
     /// Tells the readers that nothing more will come.
     pub(crate) fn close(&self) {
         self.change(|state| state.is_over = true);
+    }
+
+    /// Whether nothing more will come.
+    pub(crate) fn is_over(&self) -> bool {
+        self.state().is_over
     }
 
     /// What is new to a reader, at most `most` news items, as soon as there is anything or the
@@ -151,6 +167,7 @@ impl History {
             newest: state.newest.clone(),
             news,
             span: state.past.span(),
+            halt: state.halt.clone(),
             is_over: state.is_over,
         }
     }
@@ -200,8 +217,20 @@ fn shortened(text: &str) -> String {
     }
 }
 
+fn shortened_halt(halt: &Halt) -> Halt {
+    let choices = halt.choices.iter().take(MOST_CHOICES);
+    Halt {
+        class: shortened(&halt.class),
+        report: shortened(&halt.report),
+        place: shortened(&halt.place),
+        choices: choices.map(|choice| shortened(choice)).collect(),
+        ..*halt
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use crate::watch::HaltKind;
     use crate::watch::live::history::*;
 
     fn add_output(history: &History, text: &str) {
@@ -229,6 +258,22 @@ mod tests {
         assert!(read(&history, &mut mark).is_empty());
         add_output(&history, "e");
         assert_eq!(read(&history, &mut mark), ["e"]);
+    }
+
+    #[test]
+    fn a_halt_lasts_until_the_session_is_resumed_whatever_is_printed_meanwhile() {
+        let history = History::new(Origin::Session);
+        let halt = || {
+            history
+                .read(&mut ReadPosition::default(), 3, Duration::ZERO)
+                .halt
+        };
+        let reported = Halt::new(HaltKind::Stopped, "x".repeat(10 * MOST_TEXT));
+        history.add_news(0.0, &WatchEvent::Halted(reported));
+        (0..MOST_NEWS + 5).for_each(|i| add_output(&history, &i.to_string()));
+        assert!(halt().is_some_and(|halt| halt.report.len() < MOST_TEXT + 9));
+        history.add_news(0.0, &WatchEvent::Resumed);
+        assert_eq!(halt(), None);
     }
 
     #[test]

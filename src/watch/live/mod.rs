@@ -6,13 +6,14 @@
 //!   viewer has its own thread, which may be slow, stuck or gone.
 //! - A viewer can request only a pause or another speed, see [`PaceControl`]. Nothing is
 //!   evaluated, no file is read, and malformed requests are dropped.
-//! - Only requests that contain the random word, are addressed to the server itself and come
-//!   from its own page are answered.
+//! - Only requests that contain the random word, are addressed to this machine and come from the
+//!   server's own page are answered. Others cannot use up the connections of these.
 //! - Memory is bounded: the past is thinned out and old news is forgotten. Only the nodes of
 //!   objects stay for ever.
 
 mod browser;
 mod connection;
+mod door;
 mod event_json;
 mod follower;
 mod frame_json;
@@ -21,6 +22,7 @@ mod http;
 mod mesh_bytes;
 mod pace_control;
 mod page;
+mod place;
 mod server;
 mod stream;
 mod timeline;
@@ -31,5 +33,6 @@ pub(crate) use browser::open_in_browser;
 pub(crate) use follower::LiveFollower;
 pub(crate) use history::{History, Origin};
 pub(crate) use pace_control::{PaceControl, Speed};
+pub(crate) use place::{Place, PlaceError};
 pub(crate) use server::Server;
 pub(crate) use views::Views;

@@ -1,7 +1,7 @@
 //! The page, assembled from its parts.
 
 /// Parts of the page's script, in the order of definition.
-const SCRIPTS: [&str; 15] = [
+const SCRIPTS: [&str; 16] = [
     include_str!("page/algebra.js"),
     include_str!("page/program.js"),
     include_str!("page/orbit.js"),
@@ -11,6 +11,7 @@ const SCRIPTS: [&str; 15] = [
     include_str!("page/log.js"),
     include_str!("page/past.js"),
     include_str!("page/state.js"),
+    include_str!("page/halt.js"),
     include_str!("page/session.js"),
     include_str!("page/views.js"),
     include_str!("page/pointer.js"),

@@ -1,28 +1,28 @@
 //! The server of the page.
 
-use std::io;
-use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
 use super::connection;
+use super::door::Door;
 use super::history::History;
 use super::pace_control::PaceControl;
-use super::token::random_word;
+use super::place::{Place, PlaceError};
 use super::views::Views;
-
-/// Greatest number of simultaneous connections; further ones are closed at once.
-const MOST_CONNECTIONS: usize = 48;
 
 /// Bytes of stack for a connection's thread.
 const STACK_BYTES: usize = 512 << 10;
 
 /// How long after the last viewer has left a pause ends.
 const GONE: Duration = Duration::from_secs(3);
+
+/// How long viewers may take to hear that the session is over.
+const FAREWELL: Duration = Duration::from_millis(300);
 
 /// Serves the page until it is dropped.
 pub(crate) struct Server {
@@ -39,29 +39,28 @@ pub(crate) struct Shared {
     pub(crate) views: Value,
     /// The random word in the page's address.
     pub(crate) token: String,
-    pub(crate) port: u16,
-    connections: AtomicUsize,
+    door: Arc<Door>,
     viewers: AtomicUsize,
     had_viewer: AtomicBool,
     is_stopped: AtomicBool,
 }
 
 impl Server {
-    /// Starts serving on 127.0.0.1, on any free port.
+    /// Starts serving at a place on this machine.
     pub(crate) fn start(
+        place: &mut Place,
         history: History,
         pace: Option<PaceControl>,
         views: Views,
-    ) -> io::Result<Self> {
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
-        let address = listener.local_addr()?;
+    ) -> Result<Self, PlaceError> {
+        let listener = place.listen()?;
+        let address = listener.local_addr().map_err(PlaceError::Other)?;
         let shared = Arc::new(Shared {
             history,
             pace,
             views: views.0,
-            token: random_word(),
-            port: address.port(),
-            connections: AtomicUsize::new(0),
+            token: place.token().to_owned(),
+            door: Arc::default(),
             viewers: AtomicUsize::new(0),
             had_viewer: AtomicBool::new(false),
             is_stopped: AtomicBool::new(false),
@@ -69,7 +68,8 @@ impl Server {
         let accepting = Arc::clone(&shared);
         let thread = thread::Builder::new()
             .name("live view".to_owned())
-            .spawn(move || accept(&listener, &accepting))?;
+            .spawn(move || accept(&listener, &accepting))
+            .map_err(PlaceError::Other)?;
         Ok(Self {
             shared,
             address,
@@ -95,6 +95,10 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
+        let begin = Instant::now();
+        while self.shared.history.is_over() && self.viewers() > 0 && begin.elapsed() < FAREWELL {
+            thread::sleep(Duration::from_millis(5));
+        }
         self.shared.is_stopped.store(true, Ordering::Relaxed);
         // A connection wakes the thread that waits in `accept`.
         drop(TcpStream::connect(self.address));
@@ -139,23 +143,16 @@ fn accept(listener: &TcpListener, shared: &Arc<Shared>) {
         if shared.is_stopped() {
             return;
         }
-        let Ok(stream) = stream else {
-            // Most likely out of file descriptors; some will be closed soon.
+        let admitted = stream.and_then(|stream| {
+            let stranger = shared.door.admit(&stream)?;
+            let own = Arc::clone(shared);
+            let serve = move || connection::serve(&own, stranger, stream);
+            let thread = thread::Builder::new().stack_size(STACK_BYTES);
+            thread.spawn(serve).map(drop)
+        });
+        if admitted.is_err() {
+            // Most likely out of file descriptors or threads; some will be given back soon.
             thread::sleep(Duration::from_millis(50));
-            continue;
-        };
-        if shared.connections.fetch_add(1, Ordering::Relaxed) >= MOST_CONNECTIONS {
-            shared.connections.fetch_sub(1, Ordering::Relaxed);
-            continue;
-        }
-        let own = Arc::clone(shared);
-        let serve = move || {
-            connection::serve(&own, stream);
-            own.connections.fetch_sub(1, Ordering::Relaxed);
-        };
-        let thread = thread::Builder::new().stack_size(STACK_BYTES).spawn(serve);
-        if thread.is_err() {
-            shared.connections.fetch_sub(1, Ordering::Relaxed);
         }
     }
 }

@@ -14,12 +14,13 @@ use super::history::{Origin, ReadPosition};
 use super::http::begin_events;
 use super::pace_control::Speed;
 use super::server::Shared;
-use crate::watch::Frame;
+use crate::watch::{Frame, Halt};
 
 /// Least time between two frames.
 const BETWEEN_FRAMES: Duration = Duration::from_millis(15);
 
-/// How long to stay silent before sending a sign of life, which reveals a viewer that has left.
+/// How long to stay silent before sending a sign of life, by which each side notices that the
+/// other is gone.
 const SIGN_OF_LIFE: Duration = Duration::from_millis(500);
 
 /// Greatest number of news items in one message.
@@ -32,6 +33,7 @@ pub(crate) fn stream(shared: &Shared, to: &mut TcpStream) -> io::Result<()> {
     let mut mark = ReadPosition::default();
     let mut shown: Option<Arc<Frame>> = None;
     let mut pace = None;
+    let mut halt: Option<Arc<Halt>> = None;
     let hello = json!({
         "recording": shared.history.origin() == Origin::Recording,
         "views": shared.views,
@@ -63,12 +65,22 @@ pub(crate) fn stream(shared: &Shared, to: &mut TcpStream) -> io::Result<()> {
             text += &message("frame", &frame_json(&newest, shown.as_deref()));
             shown = Some(newest);
         }
+        let is_same = match (&halt, &pages.halt) {
+            (Some(told), Some(new)) => Arc::ptr_eq(told, new),
+            (told, new) => told.is_none() && new.is_none(),
+        };
+        // How a recorded session has ended says nothing about the times before.
+        if !is_same && shared.history.origin() == Origin::Session {
+            let new = pages.halt.as_deref().map(event_json::halt);
+            text += &message("halt", &json!(new).to_string());
+            halt = pages.halt;
+        }
         let is_over = shared.history.origin() == Origin::Session && pages.is_over;
         if is_over && mark.is_read() {
             text += &message("over", "{}");
         }
         if text.is_empty() {
-            text += ": still here\n\n";
+            text += &message("alive", "{}");
         }
         to.write_all(text.as_bytes())?;
         if (is_over && mark.is_read()) || shared.is_stopped() {

@@ -15,7 +15,8 @@ use super::message::{FrameTransform, FrameTransforms, Log, SceneUpdate, Shown, T
 use super::shapes::{frame_of, node, path_name};
 use crate::watch::live::History;
 use crate::watch::{
-    Frame, Hit, Hold, Kind, Node, Path, Placed, TaskId, TaskNews, TaskState, WatchEvent,
+    Frame, Halt, HaltKind, Hit, Hold, Kind, Node, Path, Placed, TaskId, TaskNews, TaskState,
+    WatchEvent,
 };
 
 /// What was read from a recording.
@@ -121,9 +122,9 @@ impl Reader<'_> {
             Channel::Log => {
                 let log: Log = parsed(data)?;
                 let level = ["", "DEBUG", "INFO", "WARN", "ERROR"].get(usize::from(log.level));
-                let event = match level {
-                    _ if log.name == "aborted" => WatchEvent::Aborted(log.message),
-                    Some(&level) if !level.is_empty() => WatchEvent::Output(format!(
+                let event = match (HaltKind::named(&log.name), level) {
+                    (Some(kind), _) => WatchEvent::Halted(Halt::new(kind, log.message)),
+                    (None, Some(&level)) if !level.is_empty() => WatchEvent::Output(format!(
                         "[({}) {level}] {time:.3}: {}\n",
                         log.name, log.message
                     )),

@@ -255,7 +255,8 @@ impl<W: Write + Seek> RecordingWriter<W> {
                 }
                 Ok(())
             }
-            WatchEvent::Aborted(report) => self.log_at(time, 4, "aborted", report),
+            WatchEvent::Halted(halt) => self.log_at(time, 4, halt.kind.name(), &halt.report),
+            WatchEvent::Resumed => Ok(()),
             WatchEvent::Task(news) => self.task(time, news),
         }
     }

@@ -5,11 +5,13 @@ const seconds = (t) => `${t.toFixed(2)} s`;
 function showTime() {
   const slider = $('slider');
   const [start, end] = past.span;
+  // The clock tells the time of the scene that is shown, also while another one is fetched.
+  const shown = page.isKnown ? page.time ?? page.shown.t : page.shown.t;
   // A plan that has just begun must not make the slider jump.
   slider.min = start;
   slider.max = Math.max(end, start + 0.01);
-  slider.value = page.time ?? end;
-  $('now').textContent = seconds(page.time ?? scene.live.t);
+  slider.value = page.time ?? slider.max;
+  $('now').textContent = seconds(shown);
   $('end').textContent = page.time === null ? '' : `of ${seconds(end)}`;
 }
 
@@ -23,7 +25,7 @@ function tick(now) {
     page.isDirty = true;
     if (page.time >= past.span[1]) {
       page.isPlaying = false;
-      if (!page.isRecording && !page.isOver) goLive();
+      if (!page.isRecording && page.link === 'live') goLive();
       showTransport();
     }
   }
@@ -36,8 +38,9 @@ function tick(now) {
   isRefined = isFine;
   if (!isFine) lastDraw = now;
   page.isDirty = false;
-  if (page.time === null) page.shown = scene.live;
-  else page.shown = past.at(page.time, () => { page.isDirty = true; }) ?? page.shown;
+  const found = page.time === null ? scene.live : past.at(page.time, fetched);
+  page.isKnown = !!found;
+  if (found) page.shown = found;
   if (stage) {
     const { eye, matrix, fov } = bodyView(page.shown);
     stage.resize(isFine);
@@ -52,6 +55,18 @@ function tick(now) {
   log.render(page.time ?? Infinity);
 }
 
+// A part of the past has come, or cannot be had: without a connection, the page goes to the last
+// time that it knows.
+function fetched(isHere) {
+  page.isDirty = true;
+  const isLost = !isHere && page.link !== 'live';
+  notice('past', isLost ? 'That part of the past is not on this page.' : '');
+  if (!isLost || page.time === null) return;
+  page.isPlaying = false;
+  page.time = past.lastKnown(page.time);
+  showTransport();
+}
+
 // On slow graphics hardware the picture gets coarser rather than late.
 function adapt(passed) {
   slow = passed > 0.045 ? slow + passed : Math.max(0, slow - passed);
@@ -63,4 +78,5 @@ function adapt(passed) {
 new ResizeObserver(() => { page.isDirty = true; }).observe(canvas);
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { page.isDirty = true; });
 showTransport();
+connect();
 requestAnimationFrame(tick);

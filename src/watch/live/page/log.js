@@ -20,8 +20,8 @@ class Log {
   }
 
   hear(news) {
-    if (news.aborted !== undefined) {
-      this.add(news.t, news.aborted, 'aborted');
+    if (news.halted !== undefined) {
+      this.add(news.t, news.halted, 'halted');
       return;
     }
     // Text arrives in pieces, not in lines.

@@ -11,13 +11,25 @@ class Past {
     this.span = [0, 0];
   }
 
-  // The state at a time if it is here; otherwise it is fetched and `come` is called then.
+  // The state at a time if it is here; otherwise null. It is fetched then, and `come` is called
+  // with whether that succeeded.
   at(time, come) {
     const number = Math.floor(time / PIECE);
     const piece = this.pieces.get(number);
     if (piece && piece.states && (piece.isWhole || time <= piece.until)) return this.pick(piece, time);
     if (!piece || (piece.states && !piece.isLoading)) this.fetch(number, come);
-    return piece && piece.states ? this.pick(piece, time) : null;
+    return null;
+  }
+
+  // The last time that is here and not after another; null if there is none.
+  lastKnown(time) {
+    let last = null;
+    for (const [number, { states, isWhole, until }] of this.pieces) {
+      const begin = number * PIECE;
+      if (!states || begin > time) continue;
+      last = Math.max(last ?? begin, Math.min(time, isWhole ? begin + PIECE - 1e-6 : until));
+    }
+    return last;
   }
 
   pick(piece, time) {
@@ -34,21 +46,25 @@ class Past {
   async fetch(number, come) {
     const until = Math.min((number + 1) * PIECE, this.span[1]);
     const isWhole = this.span[1] > (number + 1) * PIECE + 0.1;
-    const before = this.pieces.get(number);
-    this.pieces.set(number, { ...before, isLoading: true });
+    const { pieces } = this;
+    const before = pieces.get(number);
+    pieces.set(number, { ...before, isLoading: true });
     try {
       const answer = await fetch(`past?from=${number * PIECE}&to=${(number + 1) * PIECE}`);
+      if (!answer.ok) throw new Error(answer.statusText);
       const frames = await answer.json();
       const states = [];
       for (const frame of frames) states.push(follow(states.at(-1) || EMPTY, frame));
-      this.pieces.delete(number);
-      this.pieces.set(number, { states, isWhole, until, isLoading: false });
-      while (this.pieces.size > MOST_PIECES) this.pieces.delete(this.pieces.keys().next().value);
-      come();
+      pieces.delete(number);
+      pieces.set(number, { states, isWhole, until, isLoading: false });
+      while (pieces.size > MOST_PIECES) pieces.delete(pieces.keys().next().value);
+      come(true);
     } catch {
-      // The session is gone; what has been fetched can still be shown.
-      if (before && before.states) this.pieces.set(number, { ...before, isWhole: true });
-      else this.pieces.delete(number);
+      // What has been fetched before can still be shown.
+      if (before?.states) pieces.set(number, { ...before, isLoading: false });
+      else pieces.delete(number);
+      // Others may have taken the connection: it is tried again, but not at once.
+      setTimeout(() => come(false), 300);
     }
   }
 }

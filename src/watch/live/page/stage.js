@@ -82,10 +82,11 @@ class Stage {
     if (!node || !indices.length || node.mesh) return;
     const { gl } = this;
     const array = gl.createVertexArray();
+    const buffers = [gl.createBuffer(), gl.createBuffer()];
     gl.bindVertexArray(array);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffers[0]);
     gl.bufferData(gl.ARRAY_BUFFER, corners, gl.STATIC_DRAW);
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers[1]);
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
     const parts = [[3, gl.FLOAT, false, 0], [3, gl.BYTE, true, 12], [1, gl.UNSIGNED_BYTE, true, 15], [4, gl.UNSIGNED_BYTE, true, 16]];
     parts.forEach(([size, type, normed, offset], place) => {
@@ -102,7 +103,15 @@ class Stage {
         most[axis] = Math.max(most[axis], v);
       }
     }
-    node.mesh = { array, count: indices.length, middle: between(least, most, 0.5), top: most[2] };
+    node.mesh = { array, buffers, count: indices.length, middle: between(least, most, 0.5), top: most[2] };
+  }
+
+  // Frees the mesh of a node.
+  unload(node) {
+    if (!node.mesh) return;
+    this.gl.deleteVertexArray(node.mesh.array);
+    node.mesh.buffers.forEach((buffer) => this.gl.deleteBuffer(buffer));
+    node.mesh = null;
   }
 
   // The nodes visible in a state, with their poses.

@@ -8,11 +8,12 @@ const past = new Past();
 const tasks = new Tasks($('task-list'), $('task-count'));
 const log = new Log($('log-lines'));
 
+const notices = new Map();
 let stage = null;
 try {
   stage = new Stage(canvas, scene);
 } catch (error) {
-  notice(error.message);
+  notice('stage', error.message);
 }
 
 const page = {
@@ -20,7 +21,10 @@ const page = {
   time: null,
   isPlaying: false,
   isRecording: false,
-  isOver: false,
+  // `live` while there is a connection to the session, else why there is none.
+  link: 'connecting',
+  // Why the session does not go on; null while it does.
+  halt: null,
   pace: null,
   pastSpeed: 1,
   // A view that follows the robot.
@@ -28,6 +32,8 @@ const page = {
   selected: null,
   views: null,
   shown: EMPTY,
+  // Whether `shown` is how the world was at the time that the page shows.
+  isKnown: true,
   isDirty: true,
 };
 
@@ -36,12 +42,22 @@ const counts = { updates: 0, drawn: 0, errors: 0 };
 window.planwright = { counts, page, orbit, scene, past, screenOf };
 window.addEventListener('error', () => { counts.errors += 1; });
 
-function notice(text) {
-  $('notice').textContent = text;
-  $('notice').hidden = !text;
+// Shows a notice about something, or with an empty text none any more.
+function notice(about, text) {
+  notices.set(about, text);
+  const texts = [...notices.values()].filter(Boolean);
+  $('notice').textContent = texts.join(' ');
+  $('notice').hidden = !texts.length;
 }
 
 function linked(state, text) {
   $('link').dataset.state = state;
   $('link-text').textContent = text;
 }
+
+// A canvas that shows nothing any more must not look like a kitchen at rest.
+canvas.addEventListener('webglcontextlost', (event) => {
+  event.preventDefault();
+  notice('stage', 'The browser has lost its graphics.');
+});
+canvas.addEventListener('webglcontextrestored', () => location.reload());

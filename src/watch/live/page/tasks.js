@@ -3,6 +3,9 @@
 const MOST_TASKS = 3000;
 const MOST_ROWS = 400;
 
+// States of tasks that have not ended.
+const UNFINISHED = ['running', 'suspended', 'stopped'];
+
 class Tasks {
   constructor(list, count) {
     this.list = list;
@@ -113,11 +116,12 @@ class Tasks {
     const kind = `task ${state}${task.isMotion ? ' motion' : ''}${task.children.length ? ' parent' : ''}${isFolded ? ' folded' : ''}`;
     if (row.className !== kind) row.className = kind;
     const [, ...parts] = row.children;
-    const end = task.changes.findLast(([t, s]) => t <= time && s !== 'running' && s !== 'suspended');
+    const end = task.changes.findLast(([t]) => t <= time);
+    const hasEnded = end && !UNFINISHED.includes(end[1]);
     // A failure is shown where it originates; the tasks around it failed for the same reason.
     const isOwn = !task.children.some((child) => child.failure === task.failure);
-    const why = state === 'failed' && (isOwn || isFolded) ? task.failure : '';
-    const texts = [task.name, end ? `${(end[0] - task.since).toFixed(1)} s` : '', why];
+    const why = (state === 'failed' || state === 'stopped') && (isOwn || isFolded) ? task.failure : '';
+    const texts = [task.name, hasEnded ? `${(end[0] - task.since).toFixed(1)} s` : '', why];
     parts.forEach((part, i) => {
       if (part.textContent !== texts[i]) part.textContent = texts[i];
       if (i === 2) part.hidden = !texts[i];

@@ -16,16 +16,14 @@ for (const [text, speed] of SPEEDS) {
 
 // Asks the session to change its pace, the only thing it can be asked for.
 async function ask(what) {
-  try {
-    await fetch('pace', { method: 'POST', body: what });
-  } catch {
-    linked('lost', 'disconnected');
-  }
+  // What it has changed comes as a message; without a connection, nothing can be asked for.
+  const answer = await fetch('pace', { method: 'POST', body: what }).catch(() => null);
+  notice('pace', answer?.ok || page.link !== 'live' ? '' : 'The session has not heard that; try again.');
 }
 
 function play() {
   if (page.time === null) {
-    if (page.pace) ask(page.pace.paused ? 'go' : 'pause');
+    if (page.pace && page.link === 'live') ask(page.pace.paused ? 'go' : 'pause');
   } else {
     page.isPlaying = !page.isPlaying;
     if (page.isPlaying && page.time >= past.span[1] - 1e-3) page.time = past.span[0];
@@ -48,16 +46,21 @@ function goLive() {
 
 function showTransport() {
   const isNow = page.time === null;
-  const isGoing = isNow ? !(page.pace?.paused) && !page.isOver : page.isPlaying;
+  const isLinked = page.link === 'live';
+  const isFixed = isNow && (!page.pace || !isLinked);
+  const isGoing = isNow ? !page.pace?.paused && isLinked : page.isPlaying;
   $('play').classList.toggle('go', !isGoing);
   $('play').title = `${isGoing ? 'Pause' : 'Resume'} (space)`;
-  $('play').disabled = isNow && (!page.pace || page.isOver);
-  $('live').setAttribute('aria-pressed', String(isNow && !page.isOver));
+  $('play').disabled = isFixed;
+  $('live').setAttribute('aria-pressed', String(isNow && isLinked));
+  $('live').disabled = isNow && !isLinked;
+  $('live').textContent = isLinked ? 'live' : 'last';
+  $('live').title = isLinked ? 'Back to the present (End)' : 'The last that was seen (End)';
   $('live').hidden = page.isRecording;
   const speed = isNow ? page.pace?.speed ?? null : (page.pastSpeed === 16 ? null : page.pastSpeed);
   [...$('speeds').children].forEach((button, i) => {
     button.setAttribute('aria-pressed', String(SPEEDS[i][1] === speed && (!isNow || !!page.pace)));
-    button.disabled = isNow && (!page.pace || page.isOver);
+    button.disabled = isFixed;
   });
 }
 
