@@ -20,7 +20,7 @@ pub(crate) static TABLE: &[Builtin] = &[control(
     "&rest settings",
     "Sets the errors of the robot's sensors and motors, and returns the former settings. Settings are names and numbers: :POSITION (m) and :YAW (rad) are standard deviations of what is detected, :MISSES and :FALSE-TYPES the probabilities that an object is overlooked or taken for another, :ODOMETRY-POSITION (m) and :ODOMETRY-YAW (rad) standard deviations of where a drive ends, :GRASP-POSITION (m) and :GRASP-YAW (rad) of where a hand approaches an object. What is not named is zero; without settings there are no errors. :USUAL stands for the errors of a common robot. The same seed gives the same errors.",
     &[
-        "(progn (pw:set-noise :position 0.01 :misses 0.1) (pw:set-noise)) => (:POSITION 0.01d0 :MISSES 0.1d0)",
+        "(progn (pw:set-noise :position 0.125 :misses 0.25) (pw:set-noise)) => (:POSITION 0.125d0 :MISSES 0.25d0)",
         "(pw:set-noise) => NIL",
     ],
     host!(set_noise),
