@@ -44,12 +44,17 @@ const BOTTLE = '[...scene.nodes.values()].find((node) => node.type === "bottle")
 
 async function liveView(browser) {
   const { child, address } = await start('run', PLAN, '--view');
+  // The plan waits for the page, however long a browser takes to open it.
+  const paused = await fetch(`${address}pace`, { method: 'POST', body: 'pause', headers: { Origin: new URL(address).origin } });
+  check(paused.ok, 'the run is paused before the page is open');
   const tab = await browser.open(address);
   await tab.until('!!window.planwright && planwright.counts.drawn > 2 && planwright.scene.nodes.size > 60');
   await until(tab, '[...scene.nodes.values()].filter((node) => node.mesh).length > 60');
   check(await tab.value('document.querySelector("#link").dataset.state') === 'live', 'the page opens and is connected');
 
   // Movement.
+  await until(tab, 'page.pace.paused', 5);
+  await tab.press('#play');
   const before = await get(tab, BASE);
   const measured = await tab.value(`new Promise((done) => {
     const [from, begin, drawn] = [planwright.counts.updates, performance.now(), planwright.counts.drawn];
@@ -60,11 +65,13 @@ async function liveView(browser) {
   })`);
   const [updates, drawn] = measured.map((rate) => rate.toFixed(1));
   check(measured[0] >= 30, `${updates} scene updates per second (at least 30), ${drawn} pictures per second drawn in software`);
-  // The page may have opened between two drives.
   const moved = async () => far(before, await get(tab, BASE)) > 0.2;
   for (let i = 0; i < 200 && !await moved(); i++) await sleep(0.2);
   check(await moved(), 'the robot drives');
   await tab.picture(join(pictures, 'live.png'));
+  await tab.press('#play');
+  await until(tab, 'page.pace.paused', 5);
+  const stopped = await get(tab, 'past.span[1]');
 
   // The mouse.
   const [x, y] = [430, 420];
@@ -91,10 +98,7 @@ async function liveView(browser) {
     if (name === 'top' || name === 'robot') await tab.picture(join(pictures, `${name}.png`));
   }
 
-  // A click names the bottle, wherever it is by now.
-  await tab.press('#play');
-  await until(tab, 'page.pace.paused', 5);
-  await sleep(0.5);
+  // A click names the bottle, wherever it is.
   const at = await tab.value(`planwright.screenOf(${BOTTLE.replaceAll('scene', 'planwright.scene')}.id)`);
   await tab.click(...at);
   await sleep(0.5);
@@ -103,8 +107,6 @@ async function liveView(browser) {
   await tab.picture(join(pictures, 'bottle.png'));
 
   // Pause and speed.
-  const stopped = await get(tab, 'past.span[1]');
-  await sleep(1);
   check(await get(tab, 'past.span[1]') === stopped, 'a pause stops simulated time');
   await tab.press('#play');
   await until(tab, `past.span[1] > ${stopped}`, 10);
