@@ -1,5 +1,6 @@
 //! The description of a place for the robot.
 
+use crate::motion::HeldGrip;
 use crate::robot::Side;
 use crate::spatial::Pose;
 
@@ -54,6 +55,8 @@ pub(crate) struct BaseQuery {
     pub(crate) arms: Option<Vec<Side>>,
     /// The grasps by which it may be held; `None` for all that are known.
     pub(crate) grasps: Option<Vec<String>>,
+    /// How a hand holds it, if it is to be put down at the target.
+    pub(crate) held: Option<Box<HeldGrip>>,
     /// Whether the camera must see it.
     pub(crate) sees: bool,
     /// How far away it may be.

@@ -6,13 +6,13 @@ use super::base_query::BaseQuery;
 use super::costmap::{Costmap, Factor};
 use super::draw::Draw;
 use super::offered::Offered;
-use super::reach::{NoReach, Reach, imagined};
+use super::reach::{Goal, NoReach, Reach, imagined};
 use super::sight::hidden;
 use super::stream::Scene;
 use super::tally::Tally;
 use crate::motion::{BaseChecker, interruption};
 use crate::spatial::{Pose, pose, trig};
-use crate::world::{RobotConfiguration, World, WorldError};
+use crate::world::{World, WorldError};
 
 /// Edge length (m) of a cell.
 const RESOLUTION: f64 = 0.05;
@@ -24,16 +24,22 @@ const SIGHT_VARIANCE: f64 = 0.5;
 const NEAR: f64 = 0.8;
 /// Number of headings that are tried at a place, besides the one to the target.
 const HEADINGS: u32 = 24;
+/// A search ends when so many base poses in a row, free and near enough, have been checked in vain.
+const MOST_CHECKS: u32 = 1000;
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
 
 /// The search in one state of the world.
 pub(super) struct BaseSearch {
     map: Costmap,
-    /// The world as it would be, with the robot where it was tested last.
+    /// The world as it would be.
     imagined: World,
-    /// The robot as it is.
-    robot: RobotConfiguration,
+    /// The same, with the robot where it was tested last.
+    looking: World,
+    /// What is to be reached there.
+    goal: Goal,
+    /// Number of base poses for which it was checked whether the target can be reached.
+    checks: u32,
     order: Vec<usize>,
     next: usize,
     /// Which heading is tried: 0 for the one to the target, then others, the nearest first.
@@ -64,8 +70,10 @@ impl BaseSearch {
         };
         let imagined = imagined(query, scene)?;
         let mut search = Self {
-            robot: imagined.robot_configuration().clone(),
+            goal: Goal::new(query, scene, &imagined),
+            looking: imagined.clone(),
             imagined,
+            checks: 0,
             map,
             order: Vec::new(),
             next: 0,
@@ -95,30 +103,47 @@ impl BaseSearch {
         offered: &Offered,
         tally: &mut Tally,
     ) -> Result<Option<Pose>, WorldError> {
-        let robot = self.robot.clone();
-        let mut test = Test::new(query, scene, &robot, &self.imagined);
+        let Self {
+            map,
+            imagined,
+            looking,
+            goal,
+            order,
+            next,
+            turn,
+            checks,
+        } = self;
+        let mut test = Test::new(query, scene, goal, imagined, looking)?;
         loop {
             interruption::look();
-            let Some(cell) = self.order.get(self.next) else {
-                if self.turn == HEADINGS {
+            let Some(cell) = order.get(*next) else {
+                if *turn == HEADINGS {
                     return Ok(None);
                 }
-                self.begin_turn(self.turn + 1, draw);
+                *turn += 1;
+                *order = draw.order(map.cells.iter().map(|(_, value)| *value));
+                *next = 0;
                 continue;
             };
+            *next += 1;
             // The order consists of indices of this list.
-            let (point, _) = self.map.cells[*cell];
-            let base = heading_to(query, point, self.turn);
-            if !offered.has(&base) {
-                match test.run(&mut self.imagined, &base)? {
-                    Ok(()) => {
-                        self.next += 1;
-                        return Ok(Some(base));
-                    }
-                    Err(cause) => tally.add(cause),
-                }
+            let (point, _) = map.cells[*cell];
+            let base = heading_to(query, point, *turn);
+            if offered.has(&base) {
+                continue;
             }
-            self.next += 1;
+            match test.run(&base, checks)? {
+                Ok(()) => {
+                    *checks = 0;
+                    return Ok(Some(base));
+                }
+                Err(cause) => tally.add(cause),
+            }
+            if *checks >= MOST_CHECKS {
+                // Whatever is asked next, the search is at its end.
+                (*turn, *next) = (HEADINGS, order.len());
+                tally.give_up();
+            }
         }
     }
 
@@ -139,8 +164,8 @@ impl BaseSearch {
             return Ok(Err(format!("not {}", factor.key)));
         }
         let on_floor = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
-        let mut test = Test::new(query, scene, &self.robot, &self.imagined);
-        test.run(&mut self.imagined, &on_floor)
+        let (imagined, looking) = (&self.imagined, &mut self.looking);
+        Test::new(query, scene, &self.goal, imagined, looking)?.run(&on_floor, &mut 0)
     }
 }
 
@@ -148,48 +173,47 @@ impl BaseSearch {
 struct Test<'a> {
     query: &'a BaseQuery,
     checker: BaseChecker<'a>,
-    robot: &'a RobotConfiguration,
     reach: Reach<'a>,
+    looking: &'a mut World,
 }
 
 impl<'a> Test<'a> {
     fn new(
         query: &'a BaseQuery,
         scene: Scene<'a>,
-        robot: &'a RobotConfiguration,
-        imagined: &World,
-    ) -> Self {
-        Self {
+        goal: &'a Goal,
+        imagined: &'a World,
+        looking: &'a mut World,
+    ) -> Result<Self, WorldError> {
+        Ok(Self {
             query,
             checker: BaseChecker::new(scene.world),
-            robot,
-            reach: Reach::new(query, scene, robot, imagined),
-        }
+            reach: Reach::new(goal, scene, imagined)?,
+            looking,
+        })
     }
 
-    fn run(&mut self, world: &mut World, base: &Pose) -> Result<Result<(), String>, WorldError> {
+    /// Why the base pose is no solution, if it is none; counts the checks that take long.
+    fn run(&mut self, base: &Pose, checks: &mut u32) -> Result<Result<(), String>, WorldError> {
+        if let Err(cause) = self.reach.is_near(base) {
+            return Ok(Err(self.cause(&cause)));
+        }
         let t = base.translation;
         let place = [t.x, t.y, pose::yaw(base)];
         if let Some(hit) = self.checker.blocked(&place, 0.0) {
             return Ok(Err(format!("in collision with {}", hit.other)));
         }
-        if self.query.arms.is_some()
-            && let Err(cause) = self.reach.is_near(&self.query.target.pose, base)
-        {
+        *checks += 1;
+        if let Err(cause) = self.reach.test(base) {
             return Ok(Err(self.cause(&cause)));
         }
-        let mut robot = self.robot.clone();
-        robot.base = *base;
-        world.teleport_robot(&robot);
-        if self.query.arms.is_some()
-            && let Err(cause) = self.reach.test(world, &self.query.target.pose)
-        {
-            return Ok(Err(self.cause(&cause)));
-        }
-        if self.query.sees
-            && let Some(cause) = hidden(world, self.query)?
-        {
-            return Ok(Err(cause));
+        if self.query.sees {
+            let mut robot = self.looking.robot_configuration().clone();
+            robot.base = *base;
+            self.looking.teleport_robot(&robot);
+            if let Some(cause) = hidden(self.looking, self.query)? {
+                return Ok(Err(cause));
+            }
         }
         Ok(Ok(()))
     }
@@ -279,6 +303,7 @@ mod tests {
             },
             arms: None,
             grasps: None,
+            held: None,
             sees: true,
             distances: Distances::default(),
             from: [0.0, 0.0],

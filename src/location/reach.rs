@@ -1,23 +1,22 @@
 //! Whether the robot could pick something up, or put it down, from a base pose.
 
-use nalgebra::Point3;
-
 use super::base_query::{BaseQuery, Item};
 use super::stream::Scene;
-use crate::motion::{CollisionMode, can_reach, held_objects};
-use crate::robot::torso_search::TorsoSearch;
-use crate::robot::{ARM_JOINTS, RobotDescription, Side};
+use crate::motion::{
+    Candidates, Effort, GraspChooser, GraspObstacle, GraspPart, GraspQuestion, GraspReach,
+    HeldGrip, PutReach, Station, held_objects,
+};
+use crate::robot::Side;
 use crate::spatial::{Pose, pose, trig};
-use crate::world::grasp_library::GraspDefinition;
-use crate::world::{Models, RobotConfiguration, World, WorldError};
+use crate::world::{World, WorldError};
 
-/// How high (m) above a bare place the tool must be able to be, and from where (m) it comes.
+/// How high (m) above a bare place the tool must be able to be.
 const OVER: f64 = 0.1;
 /// Name of an object that is only imagined.
 const IMAGINED: &str = "the object that is to be there";
 
 /// Why a target cannot be reached.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum NoReach {
     /// No wanted grasp of such an object is known.
     NoGrasp,
@@ -25,29 +24,6 @@ pub(super) enum NoReach {
     TooFar,
     /// Something is in the way.
     InTheWay,
-}
-
-/// One way to hold the target.
-struct Grip {
-    side: Side,
-    definition: GraspDefinition,
-}
-
-/// An arm, where it can get at all.
-struct ArmReach<'a> {
-    side: Side,
-    search: TorsoSearch<'a>,
-    /// The shoulder (m) in the frame of the base, and how far (m) from it the wrist can be.
-    shoulder: Point3<f64>,
-    length: f64,
-}
-
-/// Tests base poses for one target.
-pub(super) struct Reach<'a> {
-    models: &'a Models,
-    arms: Vec<ArmReach<'a>>,
-    grips: Vec<Grip>,
-    object: Option<String>,
 }
 
 /// The world as it would be: with the target where it is to be, and open hands.
@@ -66,9 +42,12 @@ pub(super) fn imagined(query: &BaseQuery, scene: Scene<'_>) -> Result<World, Wor
     }
     let mut robot = world.robot_configuration().clone();
     if let Some(kind) = kind_of(query, &world) {
-        let opening = scene.grasps.grip(&kind).opening;
+        let opening = match &query.held {
+            Some(_) => f64::INFINITY,
+            None => scene.grasps.grip(&kind).opening,
+        };
         for side in query.arms.iter().flatten() {
-            if held_objects(scene.world, *side).is_empty() {
+            if held_objects(&world, *side).is_empty() {
                 let gripper = &world.models().description.arm(*side).gripper;
                 let fingers = gripper.position_for_opening(opening);
                 robot.joints.set(gripper.joint, fingers);
@@ -95,182 +74,148 @@ pub(super) fn object_of(query: &BaseQuery) -> Option<&str> {
     }
 }
 
-impl<'a> Reach<'a> {
-    /// Prepares tests in an imagined world.
-    pub(super) fn new(
-        query: &BaseQuery,
-        scene: Scene<'a>,
-        robot: &'a RobotConfiguration,
-        imagined: &World,
-    ) -> Self {
-        let models = &**scene.world.models();
-        let sides = query.arms.iter().flatten().copied();
-        let kind = kind_of(query, imagined);
-        let mut grips = Vec::new();
-        for side in sides.clone() {
-            let Some(kind) = &kind else { continue };
-            let lineage = models.objects.lineage(kind);
-            let known = lineage.map(|kind| {
-                let names = scene.grasps.grasps(kind).iter();
-                names
-                    .filter_map(|name| Some((name, scene.grasps.get(kind, side, name)?)))
-                    .collect::<Vec<_>>()
-            });
-            // A type without grasps of its own has those of its supertype.
-            let known = known.into_iter().find(|known| !known.is_empty());
-            for (name, definition) in known.into_iter().flatten() {
-                let is_wanted = query.grasps.as_ref().is_none_or(|g| g.contains(name));
-                if is_wanted {
-                    grips.push(Grip {
-                        side,
-                        definition: definition.clone(),
-                    });
-                }
-            }
-        }
-        Self {
-            models,
-            arms: sides
-                .map(|side| ArmReach::new(models, robot, side))
-                .collect(),
-            grips,
-            object: object_of(query).map(str::to_owned),
-        }
-    }
+/// What is to be reached, and what has been found out about it.
+pub(super) enum Goal {
+    /// An object is to be grasped.
+    Grasp(Box<(GraspQuestion, Candidates)>),
+    /// A held object is to be put down.
+    Put(Box<HeldGrip>),
+    /// A hand is to be over a bare place.
+    Point(Pose, Vec<Side>),
+    /// Nothing is to be reached.
+    Nothing,
+}
 
-    /// Whether the target at the pose may be near enough to the base pose, both in the map frame.
-    /// Cheap.
-    pub(super) fn is_near(&self, target: &Pose, base: &Pose) -> Result<(), NoReach> {
-        let in_base = base.inverse() * target;
-        let description = &self.models.description;
-        if self.object.is_none() {
-            return Ok(());
-        }
-        if self.grips.is_empty() {
-            return Err(NoReach::NoGrasp);
-        }
-        let is_near = |grip: &Grip| {
-            let axes = description.arm(grip.side).tool_axes;
-            let poses = grip.definition.tool_poses(&in_base, &axes);
-            let arm = self.arm(grip.side);
-            poses.is_ok_and(|poses| arm.is_some_and(|arm| arm.is_near(description, &poses.grasp)))
+impl Goal {
+    /// In an imagined world.
+    pub(super) fn new(query: &BaseQuery, scene: Scene<'_>, world: &World) -> Self {
+        let Some(arms) = query.arms.clone() else {
+            return Self::Nothing;
         };
-        match self.grips.iter().any(is_near) {
-            true => Ok(()),
-            false => Err(NoReach::TooFar),
+        if let Some(held) = &query.held {
+            return Self::Put(held.clone());
         }
-    }
-
-    /// Whether the target at the pose (map frame) can be reached; the robot stands there already in
-    /// the imagined world.
-    pub(super) fn test(&self, world: &World, target: &Pose) -> Result<(), NoReach> {
-        let base = world.robot_configuration().base;
-        let in_base = base.inverse() * target;
-        match &self.object {
-            Some(name) => self.test_object(world, &in_base, name),
-            None => self.test_point(world, &in_base),
-        }
-    }
-
-    fn arm(&self, side: Side) -> Option<&ArmReach<'a>> {
-        self.arms.iter().find(|arm| arm.side == side)
-    }
-
-    fn test_object(&self, world: &World, in_base: &Pose, name: &str) -> Result<(), NoReach> {
-        if self.grips.is_empty() {
-            return Err(NoReach::NoGrasp);
-        }
-        let mut worst = NoReach::TooFar;
-        let description = &self.models.description;
-        for grip in &self.grips {
-            let (Some(arm), axes) = (self.arm(grip.side), description.arm(grip.side).tool_axes)
-            else {
-                continue;
-            };
-            let Ok(poses) = grip.definition.tool_poses(in_base, &axes) else {
-                continue;
-            };
-            let way = [
-                (poses.grasp, CollisionMode::AllowHand),
-                (poses.pregrasp, CollisionMode::AvoidAll),
-                (poses.second_pregrasp, CollisionMode::AvoidAll),
-                (poses.lift, CollisionMode::AllowHand),
-            ];
-            if !way.iter().all(|(tool, _)| arm.is_near(description, tool))
-                || !way.iter().all(|(tool, _)| arm.gets_to(description, tool))
-            {
-                continue;
-            }
-            let is_free = way
-                .iter()
-                .all(|(tool, mode)| can_reach(world, grip.side, tool, *mode, Some(name)));
-            if is_free {
-                return Ok(());
-            }
-            worst = NoReach::InTheWay;
-        }
-        Err(worst)
-    }
-
-    /// Whether the tool can be over a bare place, pointing down or forward.
-    fn test_point(&self, world: &World, in_base: &Pose) -> Result<(), NoReach> {
-        let mut worst = NoReach::TooFar;
-        let p = in_base.translation;
-        let ahead = trig::atan2(p.y, p.x);
-        let down = std::f64::consts::FRAC_PI_2;
-        let tools = [
-            [0.0, down, ahead],
-            [0.0, 0.0, ahead],
-            [0.0, 0.0, ahead + 0.7],
-            [0.0, 0.0, ahead - 0.7],
-        ];
-        let tools = tools.map(|rpy| pose::from_xyz_rpy([p.x, p.y, p.z + OVER], rpy));
-        for arm in &self.arms {
-            for tool in &tools {
-                let description = &self.models.description;
-                if !arm.is_near(description, tool) || !arm.gets_to(description, tool) {
-                    continue;
-                }
-                if can_reach(world, arm.side, tool, CollisionMode::AvoidAll, None) {
-                    return Ok(());
-                }
-                worst = NoReach::InTheWay;
-            }
-        }
-        Err(worst)
+        let (Some(name), Some(kind)) = (object_of(query), kind_of(query, world)) else {
+            return Self::Point(query.target.pose, arms);
+        };
+        // An object that is imagined elsewhere stands on what is there.
+        let in_map = match &query.target.item {
+            Item::Object(_) => query.target.pose,
+            _ => world.object_pose(name).unwrap_or(query.target.pose),
+        };
+        let question = GraspQuestion {
+            object: name.to_owned(),
+            kind,
+            in_map,
+            arms,
+            grasps: query.grasps.clone().unwrap_or_default(),
+            torso_moves: true,
+            failed: Vec::new(),
+        };
+        let candidates = Candidates::new(world.models(), scene.grasps, &question);
+        Self::Grasp(Box::new((question, candidates)))
     }
 }
 
-impl<'a> ArmReach<'a> {
-    fn new(models: &'a Models, robot: &'a RobotConfiguration, side: Side) -> Self {
-        let description = &models.description;
-        let arm = description.arm(side);
-        let tree = &models.robot;
-        let joints: &[_; ARM_JOINTS] = arm.joints();
-        let first = tree.joint(joints[0]).child;
-        let shoulder = tree
-            .relative_pose(description.base.frame, first, &robot.joints)
-            .unwrap_or_default();
-        let parts = joints[1..].iter();
-        let length = parts.map(|joint| tree.joint(*joint).origin.translation.vector.norm());
-        Self {
-            side,
-            search: description.torso_search(tree, &robot.joints, side),
-            shoulder: Point3::from(shoulder.translation.vector),
-            length: length.sum(),
+/// Tests base poses for one target.
+pub(super) enum Reach<'a> {
+    Grasp(Box<GraspChooser<'a>>, &'a Candidates),
+    Put(Box<PutReach<'a>>),
+    Point(Box<GraspReach<'a>>, Pose, &'a [Side]),
+    Nothing,
+}
+
+impl<'a> Reach<'a> {
+    /// Prepares tests in an imagined world.
+    pub(super) fn new(
+        goal: &'a Goal,
+        scene: Scene<'_>,
+        imagined: &'a World,
+    ) -> Result<Self, WorldError> {
+        Ok(match goal {
+            Goal::Grasp(grasp) => {
+                let (question, candidates) = &**grasp;
+                let chooser = GraspChooser::new(imagined, scene.grasps, question, candidates);
+                Self::Grasp(Box::new(chooser), candidates)
+            }
+            Goal::Put(grip) => Self::Put(Box::new(PutReach::new(imagined, grip)?)),
+            Goal::Point(point, arms) => {
+                let reach = GraspReach::new(imagined, None, f64::INFINITY, true);
+                Self::Point(Box::new(reach), *point, arms)
+            }
+            Goal::Nothing => Self::Nothing,
+        })
+    }
+
+    /// Whether the target may be near enough to the base pose (map frame). Cheap.
+    pub(super) fn is_near(&self, base: &Pose) -> Result<(), NoReach> {
+        let is_near = match self {
+            Self::Grasp(_, candidates) if candidates.is_empty() => return Err(NoReach::NoGrasp),
+            Self::Grasp(chooser, _) => chooser.is_near(base),
+            Self::Put(put) => put.is_near(base),
+            Self::Point(..) | Self::Nothing => true,
+        };
+        is_near.then_some(()).ok_or(NoReach::TooFar)
+    }
+
+    /// Whether the target can be reached with the base at a pose (map frame).
+    pub(super) fn test(&self, base: &Pose) -> Result<(), NoReach> {
+        match self {
+            Self::Grasp(chooser, _) => chooser.with_base_at(base).map(|_| ()).map_err(|nothing| {
+                let mut obstacles = nothing.tried.iter().map(|tried| &tried.obstacle);
+                match obstacles.all(is_far) {
+                    true => NoReach::TooFar,
+                    false => NoReach::InTheWay,
+                }
+            }),
+            Self::Put(put) => put.with_base_at(base).map_err(|obstacle| cause(&obstacle)),
+            Self::Point(reach, point, arms) => test_point(reach, base, point, arms),
+            Self::Nothing => Ok(()),
         }
     }
+}
 
-    /// Whether the wrist is near enough for some height of the torso. Cheap.
-    fn is_near(&self, description: &RobotDescription, tool: &Pose) -> bool {
-        let wrist = description.arm(self.side).wrist_for_tool(tool);
-        let way = wrist.translation.vector - self.shoulder.coords;
-        way.xy().norm() <= self.length
-    }
+fn is_far(obstacle: &GraspObstacle) -> bool {
+    matches!(obstacle, GraspObstacle::OutOfReach { .. })
+}
 
-    /// Whether the arm gets the tool there at some height of the torso.
-    fn gets_to(&self, description: &RobotDescription, tool: &Pose) -> bool {
-        let wrist = description.arm(self.side).wrist_for_tool(tool);
-        self.search.reach(&wrist).is_ok()
+fn cause(obstacle: &GraspObstacle) -> NoReach {
+    match is_far(obstacle) {
+        true => NoReach::TooFar,
+        false => NoReach::InTheWay,
     }
+}
+
+/// Whether a tool can be over a bare place, pointing down or forward.
+fn test_point(
+    reach: &GraspReach<'_>,
+    base: &Pose,
+    point: &Pose,
+    arms: &[Side],
+) -> Result<(), NoReach> {
+    let mut worst = NoReach::TooFar;
+    let p = (base.inverse() * point).translation;
+    let ahead = trig::atan2(p.y, p.x);
+    let down = std::f64::consts::FRAC_PI_2;
+    let tools = [
+        [0.0, down, ahead],
+        [0.0, 0.0, ahead],
+        [0.0, 0.0, ahead + 0.7],
+        [0.0, 0.0, ahead - 0.7],
+    ];
+    let mut from = reach.with_base_at(base, Effort::QUICK);
+    for side in arms {
+        for rpy in tools {
+            let station = Station {
+                part: GraspPart::Approach,
+                tool: pose::from_xyz_rpy([p.x, p.y, p.z + OVER], rpy),
+            };
+            match from.check(*side, &[station]) {
+                Ok(_) => return Ok(()),
+                Err(obstacle) if is_far(&obstacle) => {}
+                Err(_) => worst = NoReach::InTheWay,
+            }
+        }
+    }
+    Err(worst)
 }

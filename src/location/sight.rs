@@ -6,7 +6,7 @@ use super::base_query::{BaseQuery, Target};
 use super::reach::object_of;
 use crate::motion::pan_and_tilt;
 use crate::perception::Sight;
-use crate::world::{World, WorldError};
+use crate::world::{PartKey, World, WorldError};
 
 /// Share of an object that must be in sight.
 const SHARE: f64 = 0.9;
@@ -61,10 +61,27 @@ pub(super) fn hidden(world: &mut World, query: &BaseQuery) -> Result<Option<Stri
                 let (width, height) = (camera.width as f64, camera.height as f64);
                 let is_inside = (0.0..width).contains(&column) && (0.0..height).contains(&row);
                 // Both are within the picture, so that the casts are exact.
-                let depth = sight.picture().depth(column as usize, row as usize);
-                is_inside && depth.is_none_or(|depth| depth >= away - SLACK)
+                let (column, row) = (column as usize, row as usize);
+                let depth = sight.picture().depth(column, row);
+                let key = sight.picture().keys().get(row * camera.width + column);
+                is_inside
+                    && (depth.is_none_or(|depth| depth >= away - SLACK)
+                        || key.is_some_and(|key| is_at(world, *key, &point)))
             });
             Ok((!is_seen).then_some(does_not_see))
         }
     }
+}
+
+/// Whether what is seen is an object that stands at the point (m, map frame), and so does not hide
+/// it.
+fn is_at(world: &World, key: Option<PartKey>, point: &Point3<f64>) -> bool {
+    let object = world.objects().find(|object| Some(object.key()) == key);
+    let extent = object.and_then(|object| world.object_extent(object.name()).ok());
+    extent.is_some_and(|extent| {
+        let [x, y] = extent.local([point.x, point.y]);
+        let z = point.z - extent.frame.translation.z;
+        let within = |i: usize, at: f64| at >= extent.min[i] - SLACK && at <= extent.max[i] + SLACK;
+        within(0, x) && within(1, y) && within(2, z)
+    })
 }

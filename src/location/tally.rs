@@ -8,12 +8,18 @@ use indexmap::IndexMap;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tally {
     causes: IndexMap<String, u32>,
+    has_given_up: bool,
 }
 
 impl Tally {
     /// Counts one candidate.
     pub(super) fn add(&mut self, cause: impl Into<String>) {
         *self.causes.entry(cause.into()).or_default() += 1;
+    }
+
+    /// Notes that there are candidates that have not been tried.
+    pub(super) fn give_up(&mut self) {
+        self.has_given_up = true;
     }
 
     /// Number of candidates.
@@ -30,6 +36,9 @@ impl fmt::Display for Tally {
         for (i, (cause, n)) in causes.into_iter().enumerate() {
             let comma = if i == 0 { "" } else { ", " };
             write!(f, "{comma}{n} {cause}")?;
+        }
+        if self.has_given_up {
+            f.write_str("; the others were not tried any more")?;
         }
         Ok(())
     }

@@ -110,7 +110,7 @@ pub(crate) enum GraspObstacle {
 /// What the hands may touch for the parts of a grasp, for any base pose.
 pub(crate) struct GraspReach<'w> {
     world: &'w World,
-    object: &'w str,
+    object: Option<&'w str>,
     hands: [Hand<'w>; 2],
     heights: Vec<f64>,
 }
@@ -127,13 +127,17 @@ struct Hand<'w> {
 }
 
 impl<'w> GraspReach<'w> {
-    /// For an object of the world, and hands that open as far as given (m). The torso stays as it
+    /// For an object of the world, if it is about one, and hands that open as far as given (m). The torso stays as it
     /// is, unless it may move.
-    pub(crate) fn new(world: &'w World, object: &'w str, opening: f64, torso_moves: bool) -> Self {
+    pub(crate) fn new(
+        world: &'w World,
+        object: Option<&'w str>,
+        opening: f64,
+        torso_moves: bool,
+    ) -> Self {
         let description = &world.models().description;
         let hands = Side::BOTH.map(|side| {
-            let contacts =
-                |mode| ExpectedContacts::of(world, [side].into_iter(), mode, Some(object));
+            let contacts = |mode| ExpectedContacts::of(world, [side].into_iter(), mode, object);
             let models = world.models();
             let joints = &world.robot_configuration().joints;
             Hand {
@@ -161,6 +165,11 @@ impl<'w> GraspReach<'w> {
             hands,
             heights,
         }
+    }
+
+    /// Names of the links of a hand.
+    pub(crate) fn hand_links(&self, side: Side) -> &[BodyName] {
+        &self.hands[side.index()].links
     }
 
     /// The robot with its base at a pose in the map frame; everything else is as it is.
@@ -287,7 +296,8 @@ impl<'w> GraspReachFrom<'w> {
                     return Ok(());
                 }
                 let is_own = |hit: &CollisionHit| {
-                    hit.other.object() == Some(object) && hand.links.contains(&hit.moving)
+                    hit.other.object().is_some_and(|name| Some(name) == object)
+                        && hand.links.contains(&hit.moving)
                 };
                 let mut overlaps = checker.overlaps(&positions, TIGHT_FIT).into_iter();
                 return match overlaps.find(is_own) {

@@ -142,9 +142,13 @@ impl PutPlan<'_> {
             }
             lower(&mut task, self.depth);
             let reached = path.points.last().cloned().unwrap_or_default();
-            let (down, _) = task.follow(&reached, None, None);
-            let below = self.contact_on(&task, &down, &group, &reached);
-            return below.map_or(Meeting::Nothing, Meeting::At);
+            let (down, met) = task.follow(&reached, None, None);
+            match self.contact_on(&task, &down, &group, &reached) {
+                Some(below) => return Meeting::At(below),
+                None if matches!(met, CartesianEnd::Complete) => return Meeting::Nothing,
+                // The arm does not get far enough down from this height.
+                None => {}
+            }
         }
         Meeting::Unknown
     }

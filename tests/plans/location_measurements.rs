@@ -184,6 +184,7 @@ fn reachable(pose: &Pose) -> BaseQuery {
         },
         arms: Some(Side::BOTH.to_vec()),
         grasps: None,
+        held: None,
         sees: false,
         distances: Distances::default(),
         from: [0.0, 0.0],
@@ -223,6 +224,7 @@ fn base_poses_are_found_fast_and_none_is_missed() {
             continue;
         }
         none += 1;
+        println!("bottle at {}: {}", pose.translation, stream.why());
         let mut judge = Stream::new(Query::Base(reachable(&pose)), 1);
         let t = pose.translation;
         let mut grid = (-21..=21).flat_map(|i| (-21..=21).map(move |j| (i, j)));

@@ -8,13 +8,14 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
+use crate::motion::GraspQuestion;
 use crate::motion::interruption::interruptible;
 use crate::plan::Reply;
 use crate::plan::pose::value::pose_stamped;
 use crate::robot::Side;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
-use crate::session::simulation::grasp_choice::{GraspQuestion, PlacingTarget};
+use crate::session::simulation::grasp_choice::PlacingTarget;
 use crate::session::simulation::motions::{side, side_keyword, sides};
 use crate::session::simulation::names::{type_keyword, type_text};
 
@@ -82,17 +83,17 @@ fn choose_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         arms,
         grasps: names,
         torso_moves: true,
-        target: target.map(|pose| PlacingTarget {
-            pose,
-            base: target_base,
-        }),
         failed: listed(failed)
             .iter()
             .map(|one| failed_grasp(image, one))
             .collect::<Result<_>>()?,
     };
+    let target = target.map(|pose| PlacingTarget {
+        pose,
+        base: target_base,
+    });
     let chosen = interruptible(image.interrupt(), || {
-        simulation.choose_grasp(&question, base.as_ref())
+        simulation.choose_grasp(&question, target.as_ref(), base.as_ref())
     });
     let Some(chosen) = chosen else {
         // Ctrl-C stops the plan at its next step.

@@ -2,7 +2,7 @@
 
 use crate::plan::designator::value::current;
 use crate::session::simulation::properties::property;
-use nalgebra::{Translation3, UnitQuaternion, Vector3};
+use nalgebra::Translation3;
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
@@ -10,7 +10,7 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
-use crate::motion::{CollisionMode, LetGo, can_reach, take_hold};
+use crate::motion::{CollisionMode, HeldGrip, LetGo, about_z, can_reach, take_hold};
 use crate::plan::Reply;
 use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
 use crate::robot::Side;
@@ -18,13 +18,12 @@ use crate::session::LogLevel;
 use crate::session::host::SimulationHost;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
-use crate::session::simulation::grasp_choice::about_z;
 use crate::session::simulation::held::Held;
 use crate::session::simulation::imagined::Imagined;
 use crate::session::simulation::motions::{side, side_keyword};
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
-use crate::spatial::{Pose, pose, trig};
-use crate::world::grasp_library::{GraspDefinition, Grip, Lift};
+use crate::spatial::{Pose, pose};
+use crate::world::grasp_library::{GraspDefinition, Grip};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -114,13 +113,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[],
         host!(raise_pose),
     ),
-];
-
-/// Headings (degrees, relative to the wanted one) at which a rotationally symmetric object
-/// may be put down, the nearest first.
-const HEADINGS: [f64; 24] = [
-    0.0, 15.0, -15.0, 30.0, -30.0, 45.0, -45.0, 60.0, -60.0, 75.0, -75.0, 90.0, -90.0, 105.0,
-    -105.0, 120.0, -120.0, 135.0, -135.0, 150.0, -150.0, 165.0, -165.0, 180.0,
 ];
 
 /// An object as described by perception.
@@ -269,13 +261,8 @@ impl Simulation {
 impl Simulation {
     /// Whether the hand could open around an object at a pose in the frame of the base, and be
     /// at all the poses that go with it, without touching anything else.
-    fn is_free_around(
-        &self,
-        side: Side,
-        name: &str,
-        object: &Pose,
-        poses_for: impl Fn(&Pose) -> [Pose; 4],
-    ) -> bool {
+    fn is_free_around(&self, grip: &HeldGrip, object: &Pose) -> bool {
+        let (name, side) = (&grip.object, grip.side);
         let imagined = Imagined {
             object: name,
             object_pose: Some(self.base() * object),
@@ -289,7 +276,7 @@ impl Simulation {
         let Ok(stands) = world.object_pose(name) else {
             return false;
         };
-        poses_for(&(self.base().inverse() * stands))
+        grip.poses(&(self.base().inverse() * stands))
             .iter()
             .all(|tool| can_reach(&world, side, tool, CollisionMode::AllowHand, Some(name)))
     }
@@ -482,53 +469,12 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         Some("base_footprint") => simulation.pose_as_given(image, &args[2])?,
         _ => simulation.base().inverse() * simulation.pose_in_map(image, &args[2])?,
     };
-    let object_in_map = simulation
-        .world
-        .object_pose(&name)
+    let grip = simulation
+        .grip_on(&name, side)
         .map_err(|error| Raise::simple(format!("{error}.")))?;
-    // The grasps use a tool frame of their own, ahead of the wrist.
-    let arm = simulation.models.description.arm(side);
-    let wrist_in_map = simulation.world.link_pose(arm.wrist);
-    let tool_in_object = object_in_map.inverse() * arm.tool_for_wrist(&wrist_in_map);
-    let object = simulation.world.object(&name);
-    let kind = object.map(|o| o.type_name().to_owned()).unwrap_or_default();
-    let held = simulation.held.get(&name).cloned();
-    let definition = match held.as_ref().and_then(|h| h.grasp.as_ref()) {
-        Some(grasp) => {
-            let grasp = type_keyword(image, grasp);
-            Some(simulation.grasp(image, &kind, side, &grasp)?)
-        }
-        None => None,
-    };
-    let up = [0.0, 0.0, 0.15];
-    let (lift, second_pregrasp, pregrasp) = definition
-        .map_or((Lift::along_object(up), up, up), |d| {
-            (d.lift, d.second_pregrasp, d.pregrasp)
-        });
-    let is_round = simulation
-        .models
-        .objects
-        .get(&kind)
-        .is_some_and(|kind| kind.is_round);
-    let headings: &[f64] = if is_round { &HEADINGS } else { &HEADINGS[..1] };
-    let turned = |heading: f64| {
-        let (s, c) = trig::sin_cos(heading.to_radians() / 2.0);
-        target * UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(c, 0.0, 0.0, s))
-    };
-    let turn = about_z(held.as_ref().map_or(0.0, |held| held.turn));
-    let poses_for = |object: &Pose| {
-        let tool = |offset: [f64; 3]| {
-            let offset = turn * Vector3::from(offset);
-            object * Translation3::from(offset) * tool_in_object
-        };
-        [
-            lift.in_base * tool(lift.offset),
-            tool([0.0; 3]),
-            tool(second_pregrasp),
-            tool(pregrasp),
-        ]
-    };
-    let with_poses = |heading: &f64| (*heading, poses_for(&turned(*heading)));
+    let headings = grip.headings();
+    let turned = |heading: f64| target * about_z(heading);
+    let with_poses = |heading: &f64| (*heading, grip.poses(&turned(*heading)));
     // Prefer a heading at which the hand can also open and retract, ideally without touching
     // anything; a pose that cannot be reached at any heading fails later, with a reason.
     let reachable = |count: usize| {
@@ -537,16 +483,17 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
     };
     let free = headings.iter().find_map(|heading| {
         let object = turned(*heading);
-        let poses = poses_for(&object);
-        let free = simulation.is_reachable(side, &poses)
-            && simulation.is_free_around(side, &name, &object, poses_for);
+        let poses = grip.poses(&object);
+        let free =
+            simulation.is_reachable(side, &poses) && simulation.is_free_around(&grip, &object);
         free.then_some((*heading, poses))
     });
     let (heading, poses) = free
         .or_else(|| reachable(4))
         .or_else(|| reachable(2))
-        .unwrap_or_else(|| (0.0, poses_for(&target)));
+        .unwrap_or_else(|| (0.0, grip.poses(&target)));
     if heading != 0.0 {
+        let heading = heading.to_degrees().round();
         let text = format!("{name} is round: it is put down turned by {heading} degrees.");
         simulation.log(image, LogLevel::Info, "(PICK-PLACE PLACE)", &text);
     }

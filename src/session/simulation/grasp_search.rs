@@ -7,11 +7,10 @@ use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::motion::drive_plan::plan_drive;
 use crate::motion::interruption::interruptible;
-use crate::motion::{CollisionMode, can_reach};
+use crate::motion::{Candidates, CollisionMode, GraspChooser, GraspQuestion, can_reach};
 use crate::plan::pose::value::pose_stamped;
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
-use crate::session::simulation::grasp_choice::{GraspChooser, GraspQuestion};
 use crate::session::simulation::imagined::Imagined;
 use crate::session::simulation::motions::{side, side_keyword};
 use crate::session::simulation::names::{type_keyword, type_text};
@@ -213,10 +212,10 @@ impl Simulation {
                 arms: arms.clone(),
                 grasps,
                 torso_moves: true,
-                target: None,
                 failed: Vec::new(),
             };
-            let chooser = GraspChooser::new(self, &self.world, &question);
+            let candidates = Candidates::new(&self.models, &self.grasps, &question);
+            let chooser = GraspChooser::new(&self.world, &self.grasps, &question, &candidates);
             for base in &places {
                 let Ok(choice) = chooser.with_base_at(base) else {
                     continue;

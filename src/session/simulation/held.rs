@@ -4,10 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::Simulation;
 use crate::lisp::image::Image;
-use crate::motion::MotionFailure;
+use crate::motion::{HeldGrip, MotionFailure};
 use crate::robot::Side;
 use crate::session::LogLevel;
 use crate::spatial::Pose;
+use crate::world::WorldError;
 
 /// How an object is held.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,5 +47,18 @@ impl Simulation {
         [Side::Left, Side::Right]
             .into_iter()
             .find(|side| self.held_by(*side).iter().any(|name| name == object))
+    }
+
+    /// How a hand holds an object.
+    pub(in crate::session) fn grip_on(
+        &self,
+        object: &str,
+        side: Side,
+    ) -> Result<HeldGrip, WorldError> {
+        let held = self.held.get(object);
+        let kind = self.world.object(object)?.type_name();
+        let grasp = held.and_then(|held| self.definition(kind, side, held.grasp.as_ref()?));
+        let turn = held.map_or(0.0, |held| held.turn);
+        HeldGrip::of(&self.world, side, object, grasp.as_ref(), turn)
     }
 }

@@ -571,18 +571,21 @@ impl Simulation {
             .map(|key| values(image, location, key))
             .concat();
         let named = named.iter().filter_map(|name| type_text(image, name));
-        let mut grasps = Some(named.collect::<Vec<_>>()).filter(|names| !names.is_empty());
-        if let Item::Moved(name) = &target.item
-            && let Some(side) = self.hand_of(name)
-        {
-            arms = vec![side];
-            let held = self.held.get(name).and_then(|held| held.grasp.clone());
-            grasps = held.map(|grasp| vec![grasp]).or(grasps);
+        let grasps = Some(named.collect::<Vec<_>>()).filter(|names| !names.is_empty());
+        let held = match &target.item {
+            Item::Moved(name) if reaches => self.hand_of(name).map(|side| (name, side)),
+            _ => None,
+        };
+        let held = held.map(|(name, side)| self.grip_on(name, side).map(Box::new));
+        let held = held.transpose().map_err(|e| raised(&e))?;
+        if let Some(grip) = &held {
+            arms = vec![grip.side];
         }
         Ok(BaseQuery {
             target,
             arms: reaches.then_some(arms),
             grasps,
+            held,
             sees,
             distances: distances_of(references),
             from: [self.base().translation.x, self.base().translation.y],
