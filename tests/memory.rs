@@ -57,6 +57,12 @@ fn memory_stays_flat_over_a_million_circles_of_each_kind() {
         "(let ((n (make-node))) (setf (node-next n) n))",
         "(let ((x (make-instance 'thing))) (setf (part x) x))",
         "(let ((h (make-hash-table))) (setf (gethash 1 h) h))",
+        "(let ((f (cpl:make-fluent :value 0))) (setf (cpl:value f) (list f)))",
+        "(let ((f (cpl:make-fluent)))
+           (cpl:register-update-callback f 'it (lambda (v) (declare (ignore v)) f)))",
+        "(desig:equate (desig:make-designator :object '((:type :bottle)))
+                       (desig:make-designator :object '((:type :bottle))))",
+        "(let ((l (list :a 1))) (setf (second l) (desig:make-designator :object (list l))))",
     ] {
         let before = run(&format!("(dotimes (i 100000) {circle})"));
         let after = run(&format!("(dotimes (i 900000) {circle})"));

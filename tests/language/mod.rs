@@ -5,3 +5,4 @@ mod examples;
 mod library;
 mod limits;
 mod reader_round_trip;
+mod standard;

@@ -85,7 +85,12 @@ fn type_name(array: &Value) -> String {
         }
         Value::Str(s) => format!("(SIMPLE-ARRAY CHARACTER ({}))", s.len()),
         Value::Array(a) => {
-            let dimensions: Vec<String> = a.dimensions.iter().map(ToString::to_string).collect();
+            let dimensions: Vec<String> = a
+                .dimensions
+                .borrow()
+                .iter()
+                .map(ToString::to_string)
+                .collect();
             format!(
                 "(SIMPLE-ARRAY {} ({}))",
                 of_type(a.element_type),

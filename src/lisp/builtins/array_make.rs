@@ -4,10 +4,10 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::keywords;
-use super::lists::{MAX_LENGTH, size};
+use super::lists::size;
 use super::sequence_access::default_element;
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::guard::reserve;
+use crate::lisp::guard::{MOST_ELEMENTS, reserve};
 use crate::lisp::image::Image;
 use crate::lisp::types::sequence_types::upgraded;
 use crate::lisp::value::Value;
@@ -111,7 +111,7 @@ pub(crate) fn shape(value: &Value) -> Result<Vec<usize>, Box<Raise>> {
     let total = shape
         .iter()
         .try_fold(1_usize, |total, size| total.checked_mul(*size));
-    if total.is_none_or(|total| total > MAX_LENGTH) {
+    if total.is_none_or(|total| total > MOST_ELEMENTS) {
         return Err(Raise::new(
             known::HEAP_EXHAUSTED_ERROR,
             "An array of that size does not fit in memory.",
@@ -206,7 +206,8 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
         return Err(Raise::simple("Only vectors can have fill pointers."));
     }
     Ok(Value::Array(Rc::new(Array {
-        dimensions: shape,
+        dimensions: RefCell::new(shape),
+        adjustable: options.adjustable,
         items: RefCell::new(items),
         element_type: of_type,
     })))

@@ -11,7 +11,7 @@ use crate::lisp::value::array::Array;
 use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::{checked_element, index};
+use crate::lisp::value::sequence::{checked_element, index, text_of};
 use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;
@@ -21,7 +21,7 @@ pub(crate) fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
     match array {
         Value::Vector(v) => Ok(vec![v.items.borrow().len()]),
         Value::Str(s) => Ok(vec![s.capacity()]),
-        Value::Array(a) => Ok(a.dimensions.clone()),
+        Value::Array(a) => Ok(a.dimensions.borrow().clone()),
         _ => Err(Raise::type_error(array, known::ARRAY)),
     }
 }
@@ -228,6 +228,7 @@ fn is_adjustable(array: &Value) -> bool {
     match array {
         Value::Vector(v) => v.adjustable || v.fill_pointer.get().is_some(),
         Value::Str(s) => s.has_fill_pointer.get() || s.adjustable.get(),
+        Value::Array(a) => a.adjustable,
         _ => false,
     }
 }
@@ -302,6 +303,17 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
         checked_element(of_type, item.clone())?;
     }
     match &args[0] {
+        Value::Str(s) if is_adjustable(&args[0]) => {
+            let count = items.len();
+            let pointer = options.fill_pointer(count)?;
+            let length = match pointer {
+                Some(pointer) => pointer,
+                None if s.has_fill_pointer.get() => s.len().min(count),
+                None => count,
+            };
+            s.replace(&text_of(&items)?, length);
+            Ok(args[0].clone())
+        }
         Value::Vector(v) if is_adjustable(&args[0]) => {
             let count = items.len();
             *v.items.borrow_mut() = items;
@@ -311,8 +323,14 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
             }
             Ok(args[0].clone())
         }
+        Value::Array(a) if a.adjustable => {
+            *a.dimensions.borrow_mut() = shape;
+            *a.items.borrow_mut() = items;
+            Ok(args[0].clone())
+        }
         Value::Array(a) => Ok(Value::Array(Rc::new(Array {
-            dimensions: shape,
+            dimensions: std::cell::RefCell::new(shape),
+            adjustable: options.adjustable,
             items: std::cell::RefCell::new(items),
             element_type: a.element_type,
         }))),

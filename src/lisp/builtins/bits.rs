@@ -37,6 +37,7 @@ fn deliver(operand: &Value, result: Option<&Value>, bits: &[bool]) -> Outcome {
             if let Value::Array(a) = operand {
                 return Ok(Value::Array(Rc::new(Array {
                     dimensions: a.dimensions.clone(),
+                    adjustable: false,
                     items: RefCell::new(items),
                     element_type: known::BIT,
                 })));

@@ -80,7 +80,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     ),
     pure(
         "MODIFY-PLACE",
-        "place function arguments",
+        "place function arguments environment",
         "The form that sets a place to a function of it and of forms.",
         &[],
         modify_place,
@@ -212,7 +212,11 @@ fn set_setf_expander(image: &mut Image, args: &[Value]) -> Result<Value> {
 }
 
 fn get_setf_expansion(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let expansion = setf::expansion(image, &args[0])?;
+    let environment = args.get(1).cloned().unwrap_or(Value::NIL);
+    let outside = std::mem::replace(&mut image.environment, environment);
+    let expansion = setf::expansion(image, &args[0]);
+    image.environment = outside;
+    let expansion = expansion?;
     Ok(Value::values(vec![
         Value::list(expansion.temps),
         Value::list(expansion.values),
@@ -223,10 +227,22 @@ fn get_setf_expansion(image: &mut Image, args: &[Value]) -> Result<Value> {
 }
 
 fn modify_place(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let (function, arguments) = (args[1].clone(), args[2].clone());
-    setf::modify(image, &args[0], Vec::new(), |_, getter| {
-        Value::cons(function, Value::cons(getter, arguments))
-    })
+    let function = args[1].clone();
+    let (mut operands, mut arguments) = (Vec::new(), Vec::new());
+    let has_effects = args[2]
+        .iter_list()
+        .any(|form| matches!(form, Value::Cons(_)));
+    for form in args[2].iter_list() {
+        let (bound, argument) = setf::operand(image, "ARG", form, has_effects);
+        operands.extend(bound);
+        arguments.push(argument);
+    }
+    let outside = std::mem::replace(&mut image.environment, args[3].clone());
+    let form = setf::modify(image, &args[0], None, operands, |_, getter| {
+        Value::cons(function, Value::cons(getter, Value::list(arguments)))
+    });
+    image.environment = outside;
+    form
 }
 
 fn proclaim(image: &mut Image, args: &[Value]) -> Result<Value> {

@@ -187,12 +187,11 @@ pub(crate) fn evaluate(machine: &mut Machine<'_>, form: &Value) -> Result<Step> 
             Some(known::PROGN) => return evaluate_sequence(machine, cons.cdr()),
             Some(known::EVAL_WHEN) => {
                 let inner = Value::cons(known::PROGN.into(), cons.cdr().cdr_or_nil());
-                let compiled = cons.cdr().car_or_nil().iter_list().any(|s| {
-                    matches!(
-                        s.as_symbol(),
-                        Some(known::K_EXECUTE | known::K_LOAD_TOPLEVEL | known::EVAL | known::LOAD)
-                    )
-                });
+                let compiled = cons
+                    .cdr()
+                    .car_or_nil()
+                    .iter_list()
+                    .any(|s| matches!(s.as_symbol(), Some(known::K_EXECUTE | known::EVAL)));
                 if compiled {
                     return evaluate(machine, &inner);
                 }
@@ -316,7 +315,8 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
         FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {
             Some(expand) => {
                 Value::Function(Function::made(name, (1, Some(2)), move |image, args| {
-                    expand(image, &args[0])
+                    let environment = args.get(1).cloned().unwrap_or(Value::NIL);
+                    image.expand_with(expand, &args[0], environment)
                 }))
             }
             None => Value::NIL,

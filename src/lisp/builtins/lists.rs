@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::keywords;
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::guard::{Pace, reserve};
+use crate::lisp::guard::{MOST_ELEMENTS, Pace, reserve};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::cons::Cons;
@@ -14,10 +14,6 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{self, ListBuilder, ListWalk, last_pair};
 
 type Outcome = Result<Value, Box<Raise>>;
-
-/// The longest list that `make-list` makes, and the largest array: more does not fit in
-/// memory.
-pub(crate) const MAX_LENGTH: usize = 1 << 25;
 
 fn list(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(args.iter().cloned()))
@@ -39,7 +35,7 @@ fn make_list(image: &mut Image, args: &[Value]) -> Outcome {
 /// A number of elements that fits in memory.
 pub(crate) fn size(value: &Value) -> Result<usize, Box<Raise>> {
     let size = sequence::index(value)?;
-    if size > MAX_LENGTH {
+    if size > MOST_ELEMENTS {
         return Err(Raise::new(
             known::HEAP_EXHAUSTED_ERROR,
             format!("{size} elements do not fit in memory."),

@@ -35,6 +35,7 @@ pub(crate) mod printing;
 pub(crate) mod property_lists;
 pub(crate) mod reading;
 pub(crate) mod registry;
+pub(crate) mod restarts;
 pub(crate) mod sequence_access;
 pub(crate) mod sequence_change;
 pub(crate) mod sequence_duplicates;

@@ -73,6 +73,7 @@ fn map_into(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
     // A vector with a fill pointer is filled up to its full size.
     let room = match &target {
         Sequence::Vector(vector) => vector.items.borrow().len(),
+        Sequence::Str(string) => string.capacity(),
         other => other.len()?,
     };
     run(machine, "MAP-INTO", |calls| async move {
@@ -88,7 +89,10 @@ fn map_into(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
             vector.fill_pointer.set(Some(items.len()));
         }
         let count = items.len();
-        if let Sequence::Str(_) = &target {
+        if let Sequence::Str(string) = &target {
+            if string.has_fill_pointer.get() {
+                string.set_fill_pointer(count);
+            }
             items.extend(target.items(Bounds {
                 start: count,
                 end: None,

@@ -1,7 +1,6 @@
-//! Signalling conditions, restarts, and throwing.
+//! Signalling conditions, and throwing.
 
 use crate::lisp::builtin::{Builtin, control, pure};
-use crate::lisp::evaluator::restart::Restart;
 use crate::lisp::evaluator::signal::Declined;
 use crate::lisp::image::Image;
 use crate::lisp::print;
@@ -32,22 +31,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         |m, args| signal_with(m, args, known::SIMPLE_ERROR, Declined::Stop),
     ),
     control(
-        "INVOKE-RESTART",
-        "restart &rest arguments",
-        "Calls the function of a restart.",
-        &["(restart-case (invoke-restart 'r 1) (r (x) x)) => 1"],
-        invoke_restart,
-    ),
-    control(
-        "INVOKE-RESTART-INTERACTIVELY",
-        "restart",
-        "Calls the function of a restart with the arguments that its :interactive function returns.",
-        &[
-            "(restart-case (invoke-restart-interactively 'r) (r (x) :interactive (lambda () (list 1)) x)) => 1",
-        ],
-        invoke_restart_interactively,
-    ),
-    control(
         "INVOKE-DEBUGGER",
         "condition",
         "Stops with a condition.",
@@ -61,27 +44,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[],
         |m, args| signal_break(m, &args),
     ),
-    control(
-        "FIND-RESTART",
-        "restart &optional condition",
-        "The innermost restart of a name, or NIL.",
-        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
-        |m, args| Ok(Step::Return(m.find_restart(&args[0]).unwrap_or(Value::NIL))),
-    ),
-    control(
-        "COMPUTE-RESTARTS",
-        "&optional condition",
-        "All restarts in force, innermost first.",
-        &["(restart-case (restart-name (first (compute-restarts))) (r () 1)) => R"],
-        |m, _| Ok(Step::Return(Value::list(m.restarts()))),
-    ),
-    pure(
-        "RESTART-NAME",
-        "restart",
-        "The name of a restart.",
-        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
-        restart_name,
-    ),
 ];
 
 /// Builtins of package `SYSTEM`.
@@ -92,13 +54,6 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         "Leaves the innermost CATCH of the tag with the values.",
         &["(catch 'x (system:throw-values 'x 1 2)) => 1 ; 2"],
         |m, args| m.throw(&args[0], Value::values(args[1..].to_vec())),
-    ),
-    pure(
-        "MAKE-RESTART",
-        "name function report interactive",
-        "A restart object.",
-        &[],
-        make_restart,
     ),
     control(
         "CASE-FAILED",
@@ -183,64 +138,6 @@ fn signal_break(machine: &mut Machine<'_>, args: &[Value]) -> Result<Step> {
     })
 }
 
-fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let restart = active_restart(machine, &args[0])?;
-    Ok(call_restart(&restart, args[1..].to_vec()))
-}
-
-fn invoke_restart_interactively(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let restart = active_restart(machine, &args[0])?;
-    let asks = restart.as_foreign::<Restart>();
-    let asks = asks.map_or(Value::NIL, |restart| restart.interactive.clone());
-    if asks.is_nil() {
-        return Ok(call_restart(&restart, Vec::new()));
-    }
-    run(
-        machine,
-        "INVOKE-RESTART-INTERACTIVELY",
-        |calls| async move {
-            let args = calls.call(&asks, Args::Many(Vec::new())).await;
-            let args = args
-                .list_to_vec()
-                .ok_or_else(|| Raise::type_error(&args, known::LIST))?;
-            Ok(call_restart(&restart, args))
-        },
-    )
-}
-
-fn active_restart(machine: &mut Machine<'_>, designator: &Value) -> Result<Value> {
-    machine.find_restart(designator).ok_or_else(|| {
-        let shown = print::to_string(machine.image, designator, true);
-        Raise::control(format!("No restart {shown} is active."))
-    })
-}
-
-fn call_restart(restart: &Value, args: Vec<Value>) -> Step {
-    let function = restart
-        .as_foreign::<Restart>()
-        .map_or(Value::NIL, |r| r.function.clone());
-    Step::TailCall { function, args }
-}
-
-fn restart_name(_: &mut Image, args: &[Value]) -> Result<Value> {
-    match args[0].as_foreign::<Restart>() {
-        Some(restart) => Ok(restart.name.into()),
-        None => Err(Raise::type_error(&args[0], known::RESTART)),
-    }
-}
-
-fn make_restart(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
-    };
-    Ok(Value::foreign(Restart {
-        name,
-        function: args[1].clone(),
-        report: args[2].clone(),
-        interactive: args[3].clone(),
-    }))
-}
-
 fn case_failed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let image = &mut *machine.image;
     let show = |v: &Value| print::to_string(image, v, true);
@@ -250,7 +147,12 @@ fn case_failed(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
         show(&args[1]),
         show(&args[2])
     );
-    let expected = Value::cons(known::MEMBER.into(), args[2].clone());
+    let is_by_type = matches!(
+        args[1].as_symbol(),
+        Some(known::ETYPECASE | known::CTYPECASE)
+    );
+    let kind = if is_by_type { known::OR } else { known::MEMBER };
+    let expected = Value::cons(kind.into(), args[2].clone());
     Err(Raise::new(known::TYPE_ERROR, report)
         .with(known::K_DATUM, args[0].clone())
         .with(known::K_EXPECTED_TYPE, expected))

@@ -7,7 +7,6 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::index;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
@@ -227,11 +226,7 @@ fn intern(image: &mut Image, args: &[Value]) -> Outcome {
         Some((sym, _)) => sym,
         None => image.intern(package, &name),
     };
-    let mut status = super::packages::status(found.map(|(_, access)| access));
-    // A new keyword is external from the start.
-    if found.is_none() && package == PackageTable::KEYWORD {
-        status = known::K_EXTERNAL.into();
-    }
+    let status = super::packages::status(found.map(|(_, access)| access));
     Ok(Value::values(vec![sym.into(), status]))
 }
 

@@ -328,7 +328,11 @@ impl<'a> Compiler<'a> {
                 let expander = self.image.operator(name).and_then(|o| o.expand);
                 match expander {
                     Some(expand) => {
-                        let expansion = expand(self.image, form).map_err(|r| r.at(self.place))?;
+                        let environment = Environment::value(scope);
+                        let expansion = self
+                            .image
+                            .expand_with(expand, form, environment)
+                            .map_err(|r| r.at(self.place))?;
                         self.analyze(&expansion, scope)
                     }
                     None => {

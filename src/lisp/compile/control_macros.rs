@@ -1,6 +1,7 @@
 //! The conditionals and loops that programs use most, in Rust because each expansion takes time
 //! when a file is loaded. The others are in Lisp, in `library/control.lisp`.
 
+use crate::lisp::guard::Pace;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -58,19 +59,11 @@ pub(super) fn ecase(image: &mut Image, form: &Value) -> Expansion {
     case_form(image, form, Otherwise::Error, false)
 }
 
-pub(super) fn ccase(image: &mut Image, form: &Value) -> Expansion {
-    case_form(image, form, Otherwise::Error, false)
-}
-
 pub(super) fn typecase(image: &mut Image, form: &Value) -> Expansion {
     case_form(image, form, Otherwise::Nil, true)
 }
 
 pub(super) fn etypecase(image: &mut Image, form: &Value) -> Expansion {
-    case_form(image, form, Otherwise::Error, true)
-}
-
-pub(super) fn ctypecase(image: &mut Image, form: &Value) -> Expansion {
     case_form(image, form, Otherwise::Error, true)
 }
 
@@ -81,7 +74,9 @@ fn case_form(image: &mut Image, form: &Value, otherwise: Otherwise, by_type: boo
     let clauses: Vec<Value> = clauses.iter_list().collect();
     let mut wanted = Vec::new();
     let mut cond_clauses = Vec::new();
+    let mut pace = Pace::default();
     for (i, clause) in clauses.iter().enumerate() {
+        pace.step();
         let Value::Cons(cons) = clause else {
             let shown = print::to_string(image, clause, true);
             return Err(Raise::program(format!(
@@ -141,20 +136,50 @@ pub(super) fn do_star(image: &mut Image, form: &Value) -> Expansion {
 fn do_form(image: &mut Image, form: &Value, binder: Sym, stepper: Sym) -> Expansion {
     let (specs, rest) = first_rest(form);
     let (end, body) = (rest.car_or_nil(), rest.cdr_or_nil());
+    let malformed = |image: &Image, wrong: &Value, wanted: &str| {
+        Raise::program(format!(
+            "{} in {}: {wanted} was expected.",
+            print::to_string(image, wrong, true),
+            print::to_string(image, &form.car_or_nil(), true)
+        ))
+    };
     let mut bindings = Vec::new();
     let mut steps = Vec::new();
-    for spec in specs.iter_list() {
-        match &spec {
-            Value::Cons(cons) => {
-                let init = cons.cdr();
-                bindings.push(form![cons.car(), init.car_or_nil()]);
-                if let Value::Cons(step) = init.cdr_or_nil() {
-                    steps.push(cons.car());
-                    steps.push(step.car());
-                }
+    let Some(specs) = specs.list_to_vec() else {
+        return Err(malformed(
+            image,
+            &specs,
+            "a list of variables, ((variable first next)…),",
+        ));
+    };
+    for spec in specs {
+        let parts = match &spec {
+            Value::Cons(_) => spec.list_to_vec().unwrap_or_default(),
+            name => vec![name.clone()],
+        };
+        match parts.as_slice() {
+            [name @ Value::Symbol(_)] => bindings.push(form![name.clone()]),
+            [name @ Value::Symbol(_), init] => bindings.push(form![name.clone(), init.clone()]),
+            [name @ Value::Symbol(_), init, step] => {
+                bindings.push(form![name.clone(), init.clone()]);
+                steps.extend([name.clone(), step.clone()]);
             }
-            name => bindings.push(form![name.clone()]),
+            _ => {
+                return Err(malformed(
+                    image,
+                    &spec,
+                    "a variable, (variable first next),",
+                ));
+            }
         }
+    }
+    let is_end = matches!(&end, Value::Cons(_)) && end.list_to_vec().is_some();
+    if !is_end {
+        return Err(malformed(
+            image,
+            &end,
+            "when to end and with what values, (test form…),",
+        ));
     }
     let split = split_body(&body);
     let again = gensym(image, "AGAIN");

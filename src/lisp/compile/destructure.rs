@@ -207,13 +207,13 @@ pub(crate) fn macro_function(
     let mut let_form = vec![known::LET_STAR.into(), Value::list(bindings.list)];
     let_form.extend(parts.declarations);
     let_form.push(block);
-    Ok(Value::list([
+    let ignored = Value::list([known::IGNORE.into(), environment.clone()]);
+    let mut lambda = vec![
         known::LAMBDA.into(),
-        Value::list([whole, environment.clone()]),
-        Value::list([
-            known::DECLARE.into(),
-            Value::list([known::IGNORE.into(), environment]),
-        ]),
-        Value::list(let_form),
-    ]))
+        Value::list([whole, environment]),
+        Value::list([known::DECLARE.into(), ignored]),
+    ];
+    lambda.extend(parts.doc.map(|doc| Value::string(doc.as_ref())));
+    lambda.push(Value::list(let_form));
+    Ok(Value::list(lambda))
 }

@@ -36,7 +36,7 @@ pub(crate) fn macroexpand_1_in(
                     nested::call_nested(image, function, args)?
                 }
                 FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {
-                    Some(expand) => expand(image, form)?,
+                    Some(expand) => image.expand_with(expand, form, environment.clone())?,
                     None => return Ok(None),
                 },
                 _ => return Ok(None),

@@ -274,13 +274,6 @@ pub(crate) static OPERATORS: &[Operator] = &[
         control_macros::ecase,
     ),
     macro_(
-        "CCASE",
-        "place &rest clauses",
-        "Like ECASE.",
-        &["(let ((x 1)) (ccase x (1 :one))) => :ONE"],
-        control_macros::ccase,
-    ),
-    macro_(
         "TYPECASE",
         "key &rest clauses",
         "The clause whose type the key has.",
@@ -293,13 +286,6 @@ pub(crate) static OPERATORS: &[Operator] = &[
         "Like TYPECASE; an error if the key has none of the types.",
         &["(etypecase \"x\" (string :s)) => :S"],
         control_macros::etypecase,
-    ),
-    macro_(
-        "CTYPECASE",
-        "place &rest clauses",
-        "Like ETYPECASE.",
-        &["(let ((x \"x\")) (ctypecase x (string :s))) => :S"],
-        control_macros::ctypecase,
     ),
     macro_(
         "DO",

@@ -7,7 +7,7 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// A setf expansion: evaluate `values` into `temps` in order, bind `stores` to the new values, then
 /// evaluate `setter`; `getter` reads the place.
@@ -28,6 +28,9 @@ pub(crate) struct Expansion {
 pub(crate) fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
     let cons = match place {
         Value::Symbol(_) => {
+            if let Some(inner) = symbol_macro(image, place)? {
+                return expansion(image, &inner);
+            }
             let store = gensym(image, "NEW");
             return Ok(Expansion {
                 temps: Vec::new(),
@@ -46,6 +49,12 @@ pub(crate) fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, B
     let Some(args) = cons.cdr().list_to_vec() else {
         return Err(not_a_place(image, place));
     };
+    let environment = image.environment.clone();
+    match super::environment::expand_locally(image, place, &environment)? {
+        Some(Some(inner)) => return expansion(image, &inner),
+        Some(None) => return function_expansion(image, place, name, args),
+        None => {}
+    }
     if let Some(expander) = image.setf_expanders.get(&name).cloned() {
         return user_expansion(image, place, args, expander);
     }
@@ -73,6 +82,22 @@ pub(crate) fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, B
     {
         return expansion(image, &inner);
     }
+    function_expansion(image, place, name, args)
+}
+
+/// The form that a symbol stands for as a variable, if it is a symbol macro.
+fn symbol_macro(image: &mut Image, name: &Value) -> Result<Option<Value>, Box<Raise>> {
+    let environment = image.environment.clone();
+    super::macroexpand_1_in(image, name, &environment)
+}
+
+/// A place whose setter is a function.
+fn function_expansion(
+    image: &mut Image,
+    place: &Value,
+    name: Sym,
+    args: Vec<Value>,
+) -> Result<Expansion, Box<Raise>> {
     let temps: Vec<Value> = args.iter().map(|_| gensym(image, "ARG")).collect();
     let store = gensym(image, "NEW");
     let getter = Value::cons(name.into(), Value::list(temps.clone()));
@@ -292,8 +317,10 @@ fn user_expansion(
             })
         }
         SetfExpander::Expander(function) => {
-            let result =
-                nested::call_nested_values(image, function, vec![place.clone(), Value::NIL])?;
+            let result = {
+                let environment = image.environment.clone();
+                nested::call_nested_values(image, function, vec![place.clone(), environment])?
+            };
             let mut parts = result.into_iter();
             let mut next = || parts.next().unwrap_or(Value::NIL);
             let (temps, values, stores) = (next(), next(), next());
@@ -394,23 +421,33 @@ fn pairs(expanded: &Expansion) -> impl Iterator<Item = Value> + '_ {
 }
 
 /// A form that replaces a place's value by a function of it: `new_value` maps the form that reads
-/// the place to the form for the new value. The variables in `before` are bound first.
+/// the place to the form for the new value. The variable in `before` is bound before the place's
+/// parts are evaluated, those in `operands` after that, and before the place is read.
 pub(crate) fn modify(
     image: &mut Image,
     place: &Value,
-    before: Vec<(Value, Value)>,
+    before: Option<(Value, Value)>,
+    operands: Vec<(Value, Value)>,
     new_value: impl FnOnce(&mut Image, Value) -> Value,
 ) -> Result<Value, Box<Raise>> {
-    if let (Value::Symbol(_), true) = (place, before.is_empty()) {
+    let bound = |(var, form)| Value::list([var, form]);
+    let mut bindings: Vec<Value> = before.into_iter().map(bound).collect();
+    if matches!(place, Value::Symbol(_)) && symbol_macro(image, place)?.is_none() {
+        bindings.extend(operands.into_iter().map(bound));
         let new = new_value(image, place.clone());
-        return Ok(Value::list([known::SETQ.into(), place.clone(), new]));
+        let set = Value::list([known::SETQ.into(), place.clone(), new]);
+        if bindings.is_empty() {
+            return Ok(set);
+        }
+        return Ok(Value::list([
+            known::LET_STAR.into(),
+            Value::list(bindings),
+            set,
+        ]));
     }
     let expanded = expansion(image, place)?;
-    let mut bindings: Vec<Value> = before
-        .into_iter()
-        .map(|(var, form)| Value::list([var, form]))
-        .collect();
     bindings.extend(pairs(&expanded));
+    bindings.extend(operands.into_iter().map(bound));
     let new = new_value(image, expanded.getter.clone());
     let store = expanded.stores.first().cloned().unwrap_or(Value::NIL);
     bindings.push(Value::list([store, new]));
@@ -428,18 +465,34 @@ fn incremented(image: &mut Image, form: &Value, operator: Sym) -> Result<Value, 
         Value::Cons(c) => c.car(),
         _ => Value::Int(1),
     };
-    let is_constant = !matches!(delta, Value::Cons(_) | Value::Symbol(_));
-    let (before, delta) = if is_constant || matches!(place, Value::Symbol(_)) {
-        (Vec::new(), delta)
-    } else {
-        let var = gensym(image, "DELTA");
-        (vec![(var.clone(), delta)], var)
+    let (bound, delta) = operand(image, "DELTA", delta, false);
+    modify(
+        image,
+        &place,
+        None,
+        bound.into_iter().collect(),
+        |_, getter| Value::list([operator.into(), getter, delta]),
+    )
+}
+
+/// A form that is evaluated before what comes after it, as a variable and its binding; it stays as
+/// it is if that makes no difference. `may_change`: may what comes after it assign variables?
+pub(crate) fn operand(
+    image: &mut Image,
+    name: &str,
+    form: Value,
+    may_change: bool,
+) -> (Option<(Value, Value)>, Value) {
+    let is_bound = match &form {
+        Value::Cons(_) => form.car_or_nil().as_symbol() != Some(known::QUOTE),
+        Value::Symbol(name) => may_change && image.symbol(*name).kind != VariableKind::Constant,
+        _ => false,
     };
-    // `(incf place delta)` should evaluate the place's subforms before the delta. Binding the delta
-    // to a variable first makes a difference only if the subforms have effects on it.
-    modify(image, &place, before, |_, getter| {
-        Value::list([operator.into(), getter, delta])
-    })
+    if !is_bound {
+        return (None, form);
+    }
+    let var = gensym(image, name);
+    (Some((var.clone(), form)), var)
 }
 
 pub(super) fn expand_incf(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
@@ -459,9 +512,9 @@ pub(super) fn expand_push(image: &mut Image, form: &Value) -> Result<Value, Box<
         let new = Value::list([known::CONS.into(), item, place.clone()]);
         return Ok(Value::list([known::SETQ.into(), place, new]));
     }
-    let var = gensym(image, "ITEM");
-    modify(image, &place, vec![(var.clone(), item)], |_, getter| {
-        Value::list([known::CONS.into(), var, getter])
+    let (before, item) = operand(image, "ITEM", item, true);
+    modify(image, &place, before, Vec::new(), |_, getter| {
+        Value::list([known::CONS.into(), item, getter])
     })
 }
 

@@ -532,10 +532,8 @@ fn progv(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
 fn eval_when(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
     let evaluated = rest.car_or_nil().iter_list().any(|situation| {
         situation.as_symbol().is_some_and(|s| {
-            matches!(
-                s,
-                known::K_EXECUTE | known::K_LOAD_TOPLEVEL | known::EVAL | known::LOAD
-            )
+            // Whatever is loaded is loaded as a source.
+            matches!(s, known::K_EXECUTE | known::EVAL)
         })
     });
     if evaluated {

@@ -23,8 +23,9 @@ pub(super) enum Next {
     Stop(Event),
 }
 
-/// The number of operations between two polls of the interrupt flag.
-pub(super) const INTERRUPT_INTERVAL: u32 = 4096;
+/// The number of calls and jumps backwards between two polls of the interrupt flag: few, since
+/// builtins that take long may be among them.
+pub(super) const INTERRUPT_INTERVAL: u32 = 256;
 
 impl Machine<'_> {
     /// Starts a call in an idle fiber and runs it.
@@ -123,11 +124,10 @@ impl Machine<'_> {
             // Code that calls builtins that call code passes here more often than it jumps back.
             budget -= 1;
             if budget == 0 {
-                next = self.or_interrupt(next, budget);
-                budget = INTERRUPT_INTERVAL;
+                next = self.or_interrupt(next, &mut budget);
             }
             next = match next {
-                Next::Run => self.run_code(),
+                Next::Run => self.run_code(&mut budget),
                 Next::Deliver(value) => self.deliver(value),
                 Next::Stop(event) => return event,
             };
@@ -138,7 +138,7 @@ impl Machine<'_> {
     /// an interrupt.
     fn left(&mut self, reason: Stopped) -> Next {
         let raise = Box::<Raise>::from(reason);
-        if reason == Stopped::HeapExhausted {
+        if reason != Stopped::Interrupted {
             return self.raise(raise);
         }
         match condition::make(self.image, &raise) {
@@ -227,9 +227,13 @@ impl Machine<'_> {
         });
     }
 
-    /// The next step; if the budget is used up, that may be to stop.
-    pub(super) fn or_interrupt(&mut self, next: Next, budget: u32) -> Next {
-        if budget > 0 || matches!(next, Next::Stop(_)) {
+    /// The next step; if the budget is used up, that may be to stop, and there is a new budget.
+    pub(super) fn or_interrupt(&mut self, next: Next, budget: &mut u32) -> Next {
+        if *budget > 0 {
+            return next;
+        }
+        *budget = INTERRUPT_INTERVAL;
+        if matches!(next, Next::Stop(_)) {
             return next;
         }
         let Some(stop) = self.pause() else {
@@ -252,7 +256,7 @@ impl Machine<'_> {
             Some(Stopped::HeapExhausted) if !frees_more() => {
                 Some(self.raise(Stopped::HeapExhausted.into()))
             }
-            Some(Stopped::HeapExhausted) | None => {
+            Some(Stopped::HeapExhausted | Stopped::TooLong) | None => {
                 // What stands on a line that is not whole is shown as well.
                 self.image.output.finish();
                 let is_due = self.image.output.is_due();

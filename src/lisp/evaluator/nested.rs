@@ -37,6 +37,10 @@ fn run_nested(image: &mut Image, function: Value, args: Vec<Value>) -> Result<Va
             "Macro expansion is nested too deeply. Does a macro expand into itself?",
         ));
     }
+    // A macro that expands into itself makes many short calls.
+    if let Some(reason) = image.limits.reason() {
+        return Err(reason.into());
+    }
     image.nesting += 1;
     // Nobody can show what is written before the call has ended.
     let was_shown = image.output.set_shown(false);

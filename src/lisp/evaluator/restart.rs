@@ -1,5 +1,7 @@
 //! Restarts: named ways to continue, which a condition's handler or the user may choose.
 
+use std::cell::RefCell;
+
 use crate::lisp::value::Value;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::function::Function;
@@ -18,6 +20,18 @@ pub(crate) struct Restart {
     pub(crate) report: Value,
     /// A function that asks for the arguments; `NIL` if there is none.
     pub(crate) interactive: Value,
+    /// A function of a condition, or of `NIL`, that says whether it applies; `NIL` if there is none.
+    pub(crate) test: Value,
+    /// The conditions that it belongs to.
+    pub(crate) conditions: RefCell<Vec<Value>>,
+}
+
+impl Restart {
+    /// May it be offered for this condition (`NIL`: for none in particular), its test aside?
+    pub(crate) fn may_apply_to(&self, condition: &Value) -> bool {
+        let conditions = self.conditions.borrow();
+        condition.is_nil() || conditions.is_empty() || conditions.iter().any(|c| c.is_eq(condition))
+    }
 }
 
 impl Foreign for Restart {
@@ -107,6 +121,8 @@ impl Machine<'_> {
                 function: Value::Function(function),
                 report: report.into(),
                 interactive: Value::NIL,
+                test: Value::NIL,
+                conditions: RefCell::default(),
             })
         };
         let shown = self.image.name(name).to_owned();
@@ -143,15 +159,5 @@ impl Machine<'_> {
             })
             .flatten()
             .collect()
-    }
-
-    /// The innermost restart of a name, or the restart object itself if it is in force.
-    pub(crate) fn find_restart(&self, designator: &Value) -> Option<Value> {
-        self.restarts().into_iter().find(|restart| {
-            restart.is_eq(designator)
-                || restart
-                    .as_foreign::<Restart>()
-                    .is_some_and(|r| designator.as_symbol() == Some(r.name) && r.name != known::NIL)
-        })
     }
 }

@@ -26,8 +26,8 @@ enum Called {
 }
 
 impl Machine<'_> {
-    pub(super) fn run_code(&mut self) -> Next {
-        let mut budget = INTERRUPT_INTERVAL;
+    /// `budget`: how many calls and jumps backwards there may be before the next pause.
+    pub(super) fn run_code(&mut self, budget: &mut u32) -> Next {
         loop {
             if self.image.output.is_due() {
                 return Next::Stop(Event::Output);
@@ -102,13 +102,13 @@ impl Machine<'_> {
                     Op::Jump(target) => {
                         let target = target as usize;
                         if target < pc {
-                            budget -= 1;
-                            if budget == 0 {
+                            *budget -= 1;
+                            if *budget == 0 {
+                                *budget = INTERRUPT_INTERVAL;
                                 self.save_pc(target);
                                 if let Some(next) = self.pause() {
                                     return next;
                                 }
-                                budget = INTERRUPT_INTERVAL;
                             }
                         }
                         pc = target;
@@ -138,7 +138,7 @@ impl Machine<'_> {
 
                     Op::Call(sym, count) | Op::CallMulti(sym, count) => {
                         let multi = matches!(op, Op::CallMulti(..));
-                        match self.call_symbol(sym, usize::from(count), multi, pc, &mut budget) {
+                        match self.call_symbol(sym, usize::from(count), multi, pc, budget) {
                             Called::Here => {}
                             Called::Frame => break,
                             Called::Elsewhere(next) => return next,
@@ -147,7 +147,7 @@ impl Machine<'_> {
                     Op::CallValue(count) | Op::CallValueMulti(count) => {
                         let multi = matches!(op, Op::CallValueMulti(_));
                         self.save_pc(pc);
-                        match self.call_top(usize::from(count), multi, &mut budget) {
+                        match self.call_top(usize::from(count), multi, budget) {
                             Called::Here => {}
                             Called::Frame => break,
                             Called::Elsewhere(next) => return next,
@@ -202,8 +202,8 @@ impl Machine<'_> {
                         self.save_pc(pc);
                         let next = self.go(&id, tag);
                         // A loop through closures can be interrupted, too.
-                        budget -= 1;
-                        if budget == 0 {
+                        *budget -= 1;
+                        if *budget == 0 {
                             return self.or_interrupt(next, budget);
                         }
                         leave!(next);
@@ -264,7 +264,7 @@ impl Machine<'_> {
         *budget -= 1;
         match self.call_on_stack(called, count, cut, multi) {
             Next::Run if *budget > 0 => Called::Frame,
-            next => Called::Elsewhere(self.or_interrupt(next, *budget)),
+            next => Called::Elsewhere(self.or_interrupt(next, budget)),
         }
     }
 
@@ -285,7 +285,7 @@ impl Machine<'_> {
         *budget -= 1;
         match self.call_on_stack(called, count, cut, multi) {
             Next::Run if *budget > 0 => Called::Frame,
-            next => Called::Elsewhere(self.or_interrupt(next, *budget)),
+            next => Called::Elsewhere(self.or_interrupt(next, budget)),
         }
     }
 

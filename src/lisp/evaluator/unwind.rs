@@ -87,7 +87,7 @@ impl Machine<'_> {
     fn arrive(&mut self, target: Target, value: Value) -> Next {
         match target {
             Target::Everything => {
-                self.fiber.frames.clear();
+                self.fiber.cut_frames(0);
                 self.fiber.stack.clear();
                 self.fiber.pending.clear();
                 return Next::Stop(Event::Unwound);
@@ -98,7 +98,7 @@ impl Machine<'_> {
                 };
                 let (cut, multi, dynamic) = (frame.cut, frame.multi, frame.dynamic);
                 self.fiber.pending.retain(|p| p.dynamic <= dynamic);
-                self.fiber.frames.truncate(i);
+                self.fiber.cut_frames(i);
                 self.fiber.stack.truncate(cut);
                 let args = value.cdr_or_nil().iter_list().collect();
                 return self.call_value(value.car_or_nil(), args, multi);
@@ -160,7 +160,7 @@ impl Machine<'_> {
     }
 
     fn cut_to(&mut self, frame: usize, height: usize) {
-        self.fiber.frames.truncate(frame + 1);
+        self.fiber.cut_frames(frame + 1);
         self.fiber.stack.truncate(height);
     }
 

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use super::{CURRENT, Stopped, leave};
+use super::{CURRENT, Stopped, leave, look};
 
 /// A limit to the memory in use.
 #[derive(Default)]
@@ -67,9 +67,27 @@ impl Heap {
     }
 }
 
-/// Leaves the calling function by unwinding if there is no room for so many bytes more. To be
-/// called before a single allocation whose size a program decides.
+/// The most elements that a sequence may have, so that nothing that is done with a sequence takes
+/// longer than people wait for Ctrl-C.
+pub(crate) const MOST_ELEMENTS: usize = 1 << 25;
+
+/// Bytes from which on an allocation is worth a look: to fill them takes longer than that.
+const LARGE: usize = 1 << 16;
+
+/// Leaves the calling function by unwinding if a sequence may not have so many elements.
+pub(crate) fn permit_length(elements: usize) {
+    if elements > MOST_ELEMENTS && CURRENT.with_borrow(Option::is_some) {
+        leave(Stopped::TooLong);
+    }
+}
+
+/// Leaves the calling function by unwinding if there is no room for so many bytes more, or if there
+/// is another reason to stop and they are many. To be called before a single allocation whose size
+/// a program decides.
 pub(crate) fn reserve(bytes: usize) {
+    if bytes > LARGE {
+        look();
+    }
     let is_too_much =
         CURRENT.with_borrow(|limits| limits.as_ref().is_some_and(|l| l.heap.would_exhaust(bytes)));
     if is_too_much {

@@ -16,7 +16,7 @@ use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::rc::Rc;
 
-pub(crate) use heap::{Heap, reserve};
+pub(crate) use heap::{Heap, MOST_ELEMENTS, permit_length, reserve};
 use polls::Polls;
 pub(crate) use stack::{TooDeep, descend, set_stack_budget};
 
@@ -41,6 +41,8 @@ pub(crate) enum Stopped {
     Interrupted,
     /// More memory is in use than may be.
     HeapExhausted,
+    /// A sequence would have more than [`MOST_ELEMENTS`].
+    TooLong,
 }
 
 /// Puts limits in force on this thread until it is dropped.

@@ -22,7 +22,7 @@ use self::notes::{Note, NoteKind};
 pub(crate) use self::output::Output;
 use self::setf_expander::SetfExpander;
 use self::signalled::Signalled;
-use super::builtin::{Builtin, Entry, Operator};
+use super::builtin::{Builtin, Entry, Expander, Operator};
 use super::guard::Limits;
 use super::guard::polls::Polls;
 use super::native::BuiltinCall;
@@ -56,6 +56,8 @@ pub(crate) struct Image {
     pub(crate) limits: Rc<Limits>,
     /// What the compiler notices; `None` unless notes are wanted.
     pub(crate) notes: Option<Vec<Note>>,
+    /// The environment of the macro call that is being expanded.
+    pub(crate) environment: Value,
     /// How deeply runs of macro functions are nested.
     pub(crate) nesting: usize,
     signalled: Signalled,
@@ -101,6 +103,7 @@ impl Image {
             setf_expanders: IndexMap::new(),
             limits: Rc::default(),
             notes: None,
+            environment: Value::NIL,
             nesting: 0,
             signalled: Signalled::default(),
             identities: 0,
@@ -132,6 +135,19 @@ impl Image {
     /// Was the interrupt flag set? Clears it.
     pub(crate) fn take_interrupt(&self) -> bool {
         self.limits.polls.take()
+    }
+
+    /// Expands a form with a macro written in Rust, which may ask for the environment.
+    pub(crate) fn expand_with(
+        &mut self,
+        expand: Expander,
+        form: &Value,
+        environment: Value,
+    ) -> Result<Value, Box<Raise>> {
+        let outside = std::mem::replace(&mut self.environment, environment);
+        let expansion = expand(self, form);
+        self.environment = outside;
+        expansion
     }
 
     /// Takes a note about a form, if notes are wanted.

@@ -60,7 +60,8 @@
        (error (,condition) (values nil ,condition)))))
 
 (defmacro restart-case (form &rest clauses)
-  "The form, with restarts that unwind and evaluate their clause.
+  "The form, with restarts that unwind and evaluate their clause. If the form signals a
+  condition, they belong to that condition.
   Examples:
   (restart-case (invoke-restart 'go-on 1) (go-on (x) (list x))) => (1)"
   (let ((block (gensym "BLOCK"))
@@ -77,7 +78,8 @@
                                (setq ,arguments ,parameter)
                                (go ,tag))
                              ,(%report (getf options :report))
-                             ,(%function-form (getf options :interactive)))
+                             ,(%function-form (getf options :interactive))
+                             ,(%function-form (getf options :test)))
               restarts)
         (push tag statements)
         (push `(return-from ,block
@@ -86,8 +88,30 @@
     `(block ,block
        (let ((,arguments nil))
          (tagbody
-            (return-from ,block (with-restarts (list ,@(nreverse restarts)) ,form))
+            (return-from ,block ,(%with-restarts form (nreverse restarts)))
             ,@(nreverse statements))))))
+
+(defun %with-restarts (form restarts)
+  "The form of a form with restarts. If it is a call of a function that signals, they belong to
+  its condition."
+  (let ((variable (gensym "RESTARTS"))
+        (class (and (consp form)
+                    (cdr (assoc (car form) '((signal . simple-condition)
+                                             (error . simple-error)
+                                             (cerror . simple-error)
+                                             (warn . simple-warning)))))))
+    (if class
+        (let* ((before (if (eq (car form) 'cerror) (list (second form)) '()))
+               (arguments (nthcdr (length before) (cdr form)))
+               (continue-arguments (and before (cdr arguments))))
+          `(let ((,variable (list ,@restarts)))
+             (with-restarts ,variable
+               (,(car form) ,@before
+                (associate-restarts
+                 (%condition ,(car arguments) (list ,@(cdr arguments)) ',class)
+                 ,variable)
+                ,@continue-arguments))))
+        `(with-restarts (list ,@restarts) ,form))))
 
 (defun %after-options (list names)
   "What stands in a list after the keywords of these names and their values."
@@ -113,9 +137,8 @@
                              (name function &key report-function interactive-function
                                               test-function)
                              binding
-                           (declare (ignore test-function))
                            `(make-restart ',name ,function ,report-function
-                                          ,interactive-function)))
+                                          ,interactive-function ,test-function)))
                        bindings))
      ,@body))
 
@@ -128,10 +151,16 @@
        (values nil t))))
 
 (defmacro with-condition-restarts (condition restarts &body body)
-  "The body; the restarts belong to the condition.
+  "The body; meanwhile the restarts belong to the condition, and apply to no other.
   Examples:
-  (with-condition-restarts nil nil 1) => 1"
-  `(progn ,condition ,restarts ,@body))
+  (restart-case (let ((c (make-condition 'error)) (d (make-condition 'error))) (with-condition-restarts c (list (find-restart 'r)) (find-restart 'r d))) (r () 1)) => NIL"
+  (let ((object (gensym "CONDITION"))
+        (list (gensym "RESTARTS")))
+    `(let ((,object ,condition)
+           (,list ,restarts))
+       (associate-restarts ,object ,list)
+       (unwind-protect (progn ,@body)
+         (dissociate-restarts ,object ,list)))))
 
 (defun %condition (datum arguments class)
   "The condition that the arguments of ERROR and its kin designate; if they are a format
@@ -185,49 +214,97 @@
          nil)))
 
 (defmacro check-type (place type &optional string)
-  "An error unless the place's value has the type.
+  "An error unless the place's value has the type; its restart STORE-VALUE stores another one.
   Examples:
-  (let ((x 1)) (check-type x integer)) => NIL"
-  `(if (typep ,place ',type)
-       nil
-       (check-type-failed ,place ',place ',type ,string)))
+  (let ((x 1)) (check-type x integer)) => NIL
+  (let ((x 1)) (handler-bind ((type-error (lambda (c) (store-value \"a\" c)))) (check-type x string) x)) => \"a\""
+  (let ((value (gensym "VALUE"))
+        (again (gensym "AGAIN")))
+    `(prog (,value)
+        ,again
+        (setq ,value ,place)
+        (if (typep ,value ',type) (return nil))
+        (setf ,place
+              (%other-value ',place (lambda ()
+                                      (check-type-failed ,value ',place ',type ,string))))
+        (go ,again))))
+
+(defun %other-value (place fail)
+  "The value that somebody chooses to store in a place, after the error that a function signals."
+  (restart-case (funcall fail)
+    (store-value (value)
+      :report (lambda (stream) (format stream "Supply a new value for ~S." place))
+      value)))
+
+(defmacro ccase (place &rest clauses)
+  "Like ECASE, with a restart STORE-VALUE that stores another value in the place and tries again.
+  Examples:
+  (let ((x 3)) (handler-bind ((type-error (lambda (c) (store-value 1 c)))) (ccase x (1 :one) (2 :two)))) => :ONE"
+  (%correctable-case 'case place (mapcar #'%with-key-list clauses) 'ccase
+                     (mapcan (lambda (clause) (copy-list (car (%with-key-list clause))))
+                             clauses)))
+
+(defmacro ctypecase (place &rest clauses)
+  "Like ETYPECASE, with a restart STORE-VALUE that stores another value in the place and tries
+  again.
+  Examples:
+  (let ((x 1)) (ctypecase x (string :string) (integer :integer))) => :INTEGER"
+  (%correctable-case 'typecase place clauses 'ctypecase (mapcar #'car clauses)))
+
+(defun %with-key-list (clause)
+  "A clause of CASE with its keys as a list."
+  (cons (if (listp (car clause)) (car clause) (list (car clause)))
+        (cdr clause)))
+
+(defun %correctable-case (operator place clauses name wanted)
+  "The form of CCASE and CTYPECASE."
+  (let ((value (gensym "VALUE"))
+        (again (gensym "AGAIN"))
+        (block (gensym "BLOCK")))
+    `(block ,block
+       (let (,value)
+         (tagbody
+            ,again
+            (setq ,value ,place)
+            (return-from ,block
+              (,operator ,value
+                ,@clauses
+                (t (setf ,place
+                         (%other-value ',place (lambda ()
+                                                 (case-failed ,value ',name ',wanted))))
+                   (go ,again)))))))))
 
 (defun abort (&optional condition)
   "Invokes the restart ABORT.
   Examples:
   (restart-case (abort) (abort () 1)) => 1"
-  (declare (ignore condition))
-  (invoke-restart 'abort))
+  (invoke-restart (or (find-restart 'abort condition) 'abort)))
 
 (defun muffle-warning (&optional condition)
   "Invokes the restart MUFFLE-WARNING.
   Examples:
   (handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"
-  (declare (ignore condition))
-  (invoke-restart 'muffle-warning))
+  (invoke-restart (or (find-restart 'muffle-warning condition) 'muffle-warning)))
 
 (defun continue (&optional condition)
   "Invokes the restart CONTINUE, if there is one.
   Examples:
   (continue) => NIL"
-  (declare (ignore condition))
-  (%invoke-if-active 'continue))
+  (%invoke-if-active 'continue condition))
 
 (defun use-value (value &optional condition)
   "Invokes the restart USE-VALUE, if there is one.
   Examples:
   (restart-case (use-value 1) (use-value (v) v)) => 1"
-  (declare (ignore condition))
-  (%invoke-if-active 'use-value value))
+  (%invoke-if-active 'use-value condition value))
 
 (defun store-value (value &optional condition)
   "Invokes the restart STORE-VALUE, if there is one.
   Examples:
   (restart-case (store-value 1) (store-value (v) v)) => 1"
-  (declare (ignore condition))
-  (%invoke-if-active 'store-value value))
+  (%invoke-if-active 'store-value condition value))
 
-(defun %invoke-if-active (name &rest arguments)
-  "Invokes the innermost restart of a name, if there is one."
-  (let ((restart (find-restart name)))
+(defun %invoke-if-active (name condition &rest arguments)
+  "Invokes the innermost restart of a name that applies to the condition, if there is one."
+  (let ((restart (find-restart name condition)))
     (and restart (apply #'invoke-restart restart arguments))))

@@ -60,9 +60,10 @@
   (let ((place (gensym "PLACE"))
         (rest (cadr (member '&rest lambda-list)))
         (positional (ldiff lambda-list (member '&rest lambda-list))))
-    `(defmacro ,(%name name "a macro") (,place ,@lambda-list)
+    `(defmacro ,(%name name "a macro") (,place ,@lambda-list &environment environment)
        (modify-place ,place ',function
                      (list* ,@(mapcar (lambda (parameter)
                                         (if (consp parameter) (car parameter) parameter))
                                       (remove '&optional positional))
-                            ,rest)))))
+                            ,rest)
+                     environment))))

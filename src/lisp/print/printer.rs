@@ -425,7 +425,7 @@ impl<'a> Printer<'a> {
         if self.is_too_deep(depth) {
             return;
         }
-        let rank = array.dimensions.len();
+        let rank = array.dimensions.borrow().len();
         self.document.text(&format!("#{rank}A"));
         self.tasks.push(Task::Rows {
             array: array.clone(),
@@ -444,7 +444,7 @@ impl<'a> Printer<'a> {
         offset: usize,
         depth: usize,
     ) {
-        let Some(length) = array.dimensions.get(dimension).copied() else {
+        let Some(length) = array.dimensions.borrow().get(dimension).copied() else {
             let item = array.items.borrow().get(offset).cloned();
             let item = item.unwrap_or(Value::NIL);
             self.tasks.push(Task::Value(item, Style::Auto, depth + 1));
@@ -457,7 +457,7 @@ impl<'a> Printer<'a> {
         let is_cut = next < length && self.is_cut(next);
         if next > 0 && next < length {
             self.document.text(" ");
-            let is_last_dimension = dimension + 1 == array.dimensions.len();
+            let is_last_dimension = dimension + 1 == array.dimensions.borrow().len();
             self.document.newline(if is_last_dimension {
                 Newline::Fill
             } else {
@@ -472,7 +472,12 @@ impl<'a> Printer<'a> {
             self.document.text(")");
             return;
         }
-        let step: usize = array.dimensions.iter().skip(dimension + 1).product();
+        let step: usize = array
+            .dimensions
+            .borrow()
+            .iter()
+            .skip(dimension + 1)
+            .product();
         self.tasks.push(Task::Rows {
             array: array.clone(),
             dimension,

@@ -172,7 +172,8 @@ pub(crate) fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind>
         level = rows.into_iter().flatten().collect();
     }
     Ok(Value::Array(Rc::new(Array {
-        dimensions,
+        dimensions: RefCell::new(dimensions),
+        adjustable: false,
         items: RefCell::new(level),
         element_type: known::T,
     })))

@@ -33,6 +33,8 @@ pub(crate) fn coerce(
         None => None,
     };
     match converted {
+        // A rational number with an imaginary part of zero is no complex number.
+        Some(result) if name == Some(known::COMPLEX) && number::is_rational(&result) => Ok(result),
         // The result must satisfy a range or another restriction.
         Some(result) if typep_with(image, &result, &specifier, answers)? => Ok(result),
         _ => Err(cannot(image, value, &specifier).into()),
@@ -67,6 +69,13 @@ fn convert(
             Some(number::to_single(value)?)
         }
         known::DOUBLE_FLOAT | known::LONG_FLOAT if is_real => Some(number::to_double(value)?),
+        known::COMPLEX if is_real => {
+            let part = match specifier.cdr_or_nil().car_or_nil() {
+                any if any.is_nil() || any.as_symbol() == Some(known::TIMES) => value.clone(),
+                kind => coerce(image, value, &kind, answers)?,
+            };
+            Some(number::complex(&part, &Value::Int(0))?)
+        }
         known::CHARACTER => character(image, value),
         known::FUNCTION => function(image, value, answers)?,
         _ => match SequenceType::of(image, specifier) {

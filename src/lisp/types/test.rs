@@ -177,7 +177,7 @@ fn is_array(
             let own_simple = v.fill_pointer.get().is_none() && !v.adjustable;
             (own_simple, v.element_type, vec![v.items.borrow().len()])
         }
-        Value::Array(a) => (true, a.element_type, a.dimensions.clone()),
+        Value::Array(a) => (!a.adjustable, a.element_type, a.dimensions.borrow().clone()),
         _ => return false,
     };
     (own_simple || !simple)

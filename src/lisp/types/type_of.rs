@@ -25,7 +25,7 @@ pub(crate) fn type_of(image: &Image, value: &Value) -> Value {
             array_type(simple, known::CHARACTER, &[s.len()])
         }
         Value::Vector(v) => vector_type(v),
-        Value::Array(a) => array_type(true, a.element_type, &a.dimensions),
+        Value::Array(a) => array_type(!a.adjustable, a.element_type, &a.dimensions.borrow()),
         Value::Function(f) => match f.body {
             Body::Generic(_) => known::STANDARD_GENERIC_FUNCTION.into(),
             _ => known::COMPILED_FUNCTION.into(),

@@ -67,7 +67,9 @@ impl Vector {
 /// An array whose rank is not one.
 pub(crate) struct Array {
     /// Size of each dimension.
-    pub(crate) dimensions: Vec<usize>,
+    pub(crate) dimensions: RefCell<Vec<usize>>,
+    /// May its dimensions change?
+    pub(crate) adjustable: bool,
     /// The elements, the last index running fastest.
     pub(crate) items: RefCell<Vec<Value>>,
     /// `T`, or the element type the array was made with.

@@ -17,6 +17,7 @@ use super::Value;
 use super::array::{Array, Vector};
 use super::class::Instance;
 use super::cons::Cons;
+use super::foreign::ForeignBox;
 use super::function::Body;
 use super::hash_table::HashTable;
 use super::slot::Slot;
@@ -29,6 +30,7 @@ pub(crate) enum Suspect {
     Array(Weak<Array>),
     Hash(Weak<HashTable>),
     Instance(Weak<Instance>),
+    Foreign(Weak<ForeignBox>),
 }
 
 /// Suspects at which they are first examined.
@@ -52,6 +54,15 @@ where
     if is_walked(assigned) && Rc::weak_count(object) == 0 {
         let suspect = Suspect::from(object);
         // At the end of the thread nothing is examined any more.
+        let _ = SUSPECTS.try_with(|suspects| suspects.borrow_mut().push(suspect));
+    }
+}
+
+/// Notes that an object of another layer has been changed to hold a value.
+pub(crate) fn note_foreign(object: &Rc<ForeignBox>) {
+    // Such objects may have weak references of their own.
+    if !object.is_suspect.replace(true) {
+        let suspect = Suspect::from(object);
         let _ = SUSPECTS.try_with(|suspects| suspects.borrow_mut().push(suspect));
     }
 }
@@ -88,6 +99,7 @@ suspects! {
     Array Array,
     Hash HashTable,
     Instance Instance,
+    Foreign ForeignBox,
 }
 
 /// Examines the suspects if there are many.
@@ -215,7 +227,7 @@ fn is_walked(value: &Value) -> bool {
             | Value::Vector(_)
             | Value::Hash(_)
             | Value::Array(_)
-    )
+    ) || matches!(value, Value::Foreign(object) if object.object().may_be_in_circle())
 }
 
 fn for_each_reference(object: &Value, visit: &mut dyn FnMut(&Value)) {
@@ -236,6 +248,7 @@ fn for_each_reference(object: &Value, visit: &mut dyn FnMut(&Value)) {
         Value::Vector(vector) => vector.items.borrow().iter().for_each(visit),
         Value::Array(array) => array.items.borrow().iter().for_each(visit),
         Value::Hash(table) => table.for_each_reference(&mut visit),
+        Value::Foreign(object) => object.object().for_each_reference(&mut visit),
         _ => {}
     }
 }
@@ -259,6 +272,7 @@ fn address(object: &Value) -> usize {
         Value::Vector(r) => Rc::as_ptr(r).addr(),
         Value::Array(r) => Rc::as_ptr(r).addr(),
         Value::Hash(r) => Rc::as_ptr(r).addr(),
+        Value::Foreign(r) => Rc::as_ptr(r).addr(),
         _ => 0,
     }
 }
@@ -272,6 +286,7 @@ fn strong_count(object: &Value) -> usize {
         Value::Vector(r) => Rc::strong_count(r),
         Value::Array(r) => Rc::strong_count(r),
         Value::Hash(r) => Rc::strong_count(r),
+        Value::Foreign(r) => Rc::strong_count(r),
         _ => usize::MAX,
     }
 }
@@ -286,6 +301,7 @@ fn empty(object: &Value) {
         Value::Vector(vector) => drop(vector.items.take()),
         Value::Array(array) => drop(array.items.take()),
         Value::Hash(table) => table.clear(),
+        Value::Foreign(object) => object.object().let_go(),
         _ => {}
     }
 }

@@ -6,9 +6,10 @@ use std::rc::Rc;
 use super::Value;
 use super::array::Vector;
 use super::hash_table::HashTest;
+use super::known;
 use crate::lisp::guard::Pace;
 
-/// `equal`: same structure of pairs and strings, `eql` leaves.
+/// `equal`: same structure of pairs, strings and bit vectors, `eql` leaves.
 pub(crate) fn equal(a: &Value, b: &Value) -> bool {
     same(a, b, false)
 }
@@ -40,6 +41,15 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
                             .flat_map(char::to_lowercase)
                             .eq(y.chars().flat_map(char::to_lowercase));
                 if !equal {
+                    return false;
+                }
+            }
+            (Value::Vector(x), Value::Vector(y))
+                if x.element_type == known::BIT && y.element_type == known::BIT =>
+            {
+                let (x, y) = (x.to_vec(), y.to_vec());
+                let are_equal = x.len() == y.len() && x.iter().zip(&y).all(|(a, b)| a.is_eql(b));
+                if !are_equal {
                     return false;
                 }
             }
@@ -155,7 +165,14 @@ fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H, pending: &m
             pending.push(c.car());
         }
         Value::Vector(v) if loosely => hash_vector(v, state),
-        Value::Array(a) if loosely => a.dimensions.hash(state),
+        Value::Vector(v) if structural && v.element_type == known::BIT => {
+            for bit in v.to_vec() {
+                if let Value::Int(bit) = bit {
+                    bit.hash(state);
+                }
+            }
+        }
+        Value::Array(a) if loosely => a.dimensions.borrow().hash(state),
         Value::Instance(_) | Value::Hash(_) | Value::Foreign(_) if structural => {}
         Value::Package(p) => p.hash(state),
         other => address(other).hash(state),

@@ -1,6 +1,7 @@
 //! Values that layers above the language define: tasks, fluents, designators, poses.
 
 use std::any::Any;
+use std::cell::Cell;
 
 use super::Value;
 use super::release::{Dead, release};
@@ -44,6 +45,20 @@ pub(crate) trait Foreign: Any {
         String::new()
     }
 
+    /// Can it be a part of a circle of values that hold each other? Then it tells what it holds, and
+    /// lets go of it.
+    fn may_be_in_circle(&self) -> bool {
+        false
+    }
+
+    /// Visits the values that it holds.
+    fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+        let _ = visit;
+    }
+
+    /// Lets go of the values that it holds: nobody can see it any more.
+    fn let_go(&self) {}
+
     /// Is this `equal` to another value that is not identical to it?
     fn is_equal(&self, other: &Value) -> bool {
         let _ = other;
@@ -54,6 +69,8 @@ pub(crate) trait Foreign: Any {
 /// Owner of a foreign value.
 pub(crate) struct ForeignBox {
     object: Box<dyn Foreign>,
+    /// Is it among those that may be in a circle?
+    pub(super) is_suspect: Cell<bool>,
 }
 
 impl ForeignBox {
@@ -61,6 +78,7 @@ impl ForeignBox {
     pub(crate) fn new(object: impl Foreign) -> ForeignBox {
         ForeignBox {
             object: Box::new(object),
+            is_suspect: Cell::new(false),
         }
     }
 

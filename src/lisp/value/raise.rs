@@ -3,7 +3,7 @@
 
 use super::Value;
 use super::symbol::{Sym, known};
-use crate::lisp::guard::{Stopped, TooDeep};
+use crate::lisp::guard::{MOST_ELEMENTS, Stopped, TooDeep};
 use crate::lisp::source::Place;
 
 /// A condition that is to be signalled as by `error`.
@@ -148,6 +148,10 @@ impl From<Stopped> for Box<Raise> {
             Stopped::HeapExhausted => Raise::new(
                 known::HEAP_EXHAUSTED_ERROR,
                 "Heap exhausted: more memory would be in use than --heap allows.",
+            ),
+            Stopped::TooLong => Raise::new(
+                known::HEAP_EXHAUSTED_ERROR,
+                format!("A sequence has at most {MOST_ELEMENTS} elements."),
             ),
         }
     }

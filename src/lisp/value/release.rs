@@ -6,6 +6,7 @@
 //! is left after a while stays in the queue until the machine looks after it between operations
 //! ([`some`]), or until all is to be freed ([`all`]).
 
+use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::mem::ManuallyDrop;
 use std::rc::Rc;
@@ -19,6 +20,8 @@ pub(super) enum Dead {
     Values(Vec<Value>),
     Conses(Vec<Rc<Cons>>),
     Object(Box<dyn Foreign>),
+    /// Something else that holds values, and about how many objects that are.
+    Others(Box<dyn Any>, usize),
 }
 
 thread_local! {
@@ -46,6 +49,11 @@ pub(super) fn release(dead: Dead) {
 /// Keeps pairs in the queue that a loop has not come to.
 pub(super) fn put_off(conses: Vec<Rc<Cons>>) {
     QUEUE.with_borrow_mut(|queue| queue.push(Dead::Conses(conses)));
+}
+
+/// Keeps something in the queue that holds values, about so many.
+pub(crate) fn put_off_others(others: impl Any, count: usize) {
+    QUEUE.with_borrow_mut(|queue| queue.push(Dead::Others(Box::new(others), count)));
 }
 
 /// Frees some of what is in the queue.
@@ -88,6 +96,10 @@ fn free(dead: Dead) -> usize {
         Dead::Object(object) => {
             drop(object);
             1
+        }
+        Dead::Others(others, count) => {
+            drop(others);
+            count
         }
     }
 }

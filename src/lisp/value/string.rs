@@ -2,7 +2,7 @@
 
 use std::cell::{Cell, Ref, RefCell};
 
-use crate::lisp::guard::reserve;
+use crate::lisp::guard::{permit_length, reserve};
 
 /// Bytes of a text for which there may be no room.
 const LARGE: usize = 1 << 16;
@@ -30,8 +30,10 @@ pub(crate) struct LispString {
 impl LispString {
     /// A simple string.
     pub(crate) fn new(text: String) -> LispString {
+        let length = text.chars().count();
+        permit_length(length);
         LispString {
-            length: Cell::new(text.chars().count()),
+            length: Cell::new(length),
             text: RefCell::new(text),
             cursor: Cell::default(),
             has_fill_pointer: Cell::new(false),
@@ -144,13 +146,27 @@ impl LispString {
 
     /// Replaces the whole text.
     pub(crate) fn set_text(&self, text: String) {
-        self.length.set(text.chars().count());
+        let length = text.chars().count();
+        permit_length(length);
+        self.length.set(length);
         self.cursor.set((0, 0));
         *self.text.borrow_mut() = text;
     }
 
+    /// Gives the string other characters, of which so many are before the fill pointer.
+    pub(crate) fn replace(&self, text: &str, length: usize) {
+        let mut characters = text.chars();
+        let active: String = characters.by_ref().take(length).collect();
+        let mut beyond: Vec<char> = characters.collect();
+        beyond.reverse();
+        self.capacity.set(length + beyond.len());
+        self.set_text(active);
+        *self.beyond.borrow_mut() = beyond;
+    }
+
     /// Appends a character.
     pub(crate) fn push(&self, c: char) {
+        permit_length(self.length.get() + 1);
         self.length.set(self.length.get() + 1);
         self.text.borrow_mut().push(c);
         self.beyond.borrow_mut().pop();

@@ -6,6 +6,7 @@ use super::calls::Suspended;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Function;
+use crate::lisp::value::release::put_off_others;
 use crate::lisp::value::symbol::Sym;
 
 /// A call that has not returned.
@@ -149,7 +150,19 @@ pub(crate) struct Fiber {
     in_force: bool,
 }
 
+/// Frames that are cut off at once; more than these are freed later, a part at a time.
+const CUT_AT_ONCE: usize = 1000;
+
 impl Fiber {
+    /// Drops the innermost frames, down to so many.
+    pub(crate) fn cut_frames(&mut self, count: usize) {
+        while self.frames.len() > count + CUT_AT_ONCE {
+            let rest = self.frames.len() - CUT_AT_ONCE;
+            put_off_others(self.frames.split_off(rest), CUT_AT_ONCE);
+        }
+        self.frames.truncate(count);
+    }
+
     /// Puts the fiber's special bindings in force: it is about to run.
     pub(crate) fn enter(&mut self, image: &mut Image) {
         if self.in_force {
@@ -176,6 +189,12 @@ impl Fiber {
     /// runs.
     pub(crate) fn bind(&mut self, sym: Sym, value: Value) {
         self.dynamic.push(Dynamic::Bind(sym, value));
+    }
+}
+
+impl Drop for Fiber {
+    fn drop(&mut self) {
+        self.cut_frames(0);
     }
 }
 

@@ -231,7 +231,7 @@ fn register_callback(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step
     run(machine, "VALUE", |calls| async move {
         // Changes of a network are relative to its present value.
         fluent::value(&calls, &fluent).await?;
-        if fluent.get().add_callback(&args[1], &args[2]) {
+        if fluent.add_callback(&args[1], &args[2]) {
             return Ok(args[2].clone());
         }
         let name = args[1].clone();

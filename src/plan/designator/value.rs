@@ -8,6 +8,7 @@ use std::rc::Rc;
 
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::cycles;
 use crate::lisp::value::foreign::{Foreign, PrintContext};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -218,6 +219,9 @@ pub(crate) fn equate(parent: &Value, successor: &Value) -> bool {
     if let (Some(before), Some(after)) = (as_designator(&newest), as_designator(&oldest)) {
         *before.successor.borrow_mut() = Some(oldest.clone());
         *after.parent.borrow_mut() = Some(newest.clone());
+        if let Value::Foreign(newest) = &newest {
+            cycles::note_foreign(newest);
+        }
     }
     true
 }
@@ -260,14 +264,18 @@ impl Designator {
     /// Moves all the designator's references to `pending`.
     fn release(&self, pending: &mut Vec<Value>) {
         pending.push(self.description.replace(Value::NIL));
-        let links = [
+        pending.extend(self.links().into_iter().filter_map(|link| link.take()));
+    }
+
+    /// What it refers to besides its description.
+    fn links(&self) -> [&RefCell<Option<Value>>; 5] {
+        [
             &self.parent,
             &self.successor,
             &self.data,
             &self.solutions,
             &self.memory,
-        ];
-        pending.extend(links.into_iter().filter_map(|link| link.take()));
+        ]
     }
 }
 
@@ -320,6 +328,21 @@ impl Foreign for Designator {
         }
         text.push('>');
         text
+    }
+
+    fn may_be_in_circle(&self) -> bool {
+        true
+    }
+
+    fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+        visit(&self.description.borrow());
+        for link in self.links() {
+            link.borrow().iter().for_each(&mut *visit);
+        }
+    }
+
+    fn let_go(&self) {
+        self.release(&mut Vec::new());
     }
 
     fn describe(&self, context: &dyn PrintContext) -> String {

@@ -189,7 +189,7 @@ impl Fluent {
     }
 
     /// Adds a callback; false if the name is taken.
-    pub(crate) fn add_callback(&self, name: &Value, function: &Value) -> bool {
+    fn add_callback(&self, name: &Value, function: &Value) -> bool {
         if self.callback(name).is_some() {
             return false;
         }
@@ -229,6 +229,36 @@ impl Foreign for Fluent {
             }
             _ => format!("#<FLUENT {name}>"),
         }
+    }
+
+    fn may_be_in_circle(&self) -> bool {
+        true
+    }
+
+    fn for_each_reference(&self, visit: &mut dyn FnMut(&Value)) {
+        match &self.kind {
+            Kind::Value { value, .. } => value.with(|value| visit(value)),
+            Kind::Net { args, cache, .. } => {
+                args.borrow().iter().for_each(&mut *visit);
+                cache.with(|value| visit(value));
+            }
+            Kind::Change { old, .. } => old.with(|value| visit(value)),
+            Kind::Pulses { .. } => {}
+        }
+        for (name, function) in self.callbacks.borrow().iter() {
+            visit(name);
+            visit(function);
+        }
+    }
+
+    fn let_go(&self) {
+        match &self.kind {
+            Kind::Value { value, .. } => drop(value.take()),
+            Kind::Net { args, cache, .. } => drop((args.take(), cache.take())),
+            Kind::Change { old, .. } => drop(old.take()),
+            Kind::Pulses { .. } => {}
+        }
+        self.callbacks.take();
     }
 }
 

@@ -41,6 +41,7 @@ enum Purpose {
 pub(crate) fn store(machine: &mut Machine<'_>, fluent: &FluentRef, new: Value) -> Result<Step> {
     if let Kind::Value { value, .. } = &fluent.get().kind {
         value.set(new.clone());
+        fluent.note();
     }
     spread(machine, fluent, new)
 }
@@ -69,6 +70,7 @@ pub(crate) fn settle(image: &mut Image, fluent: &FluentRef, new: Value) -> Optio
     let plan = Plan::of(image);
     if let Kind::Value { value, .. } = &fluent.get().kind {
         value.set(new.clone());
+        fluent.note();
     }
     let mut propagation = Propagation::new(plan, Value::NIL);
     propagation.pulse(fluent, Some(new));

@@ -5,6 +5,7 @@ use std::rc::{Rc, Weak};
 
 use super::{Fluent, FluentName, Kind, Missed, Operation};
 use crate::lisp::value::Value;
+use crate::lisp::value::cycles;
 use crate::lisp::value::foreign::ForeignBox;
 use crate::lisp::value::slot::Slot;
 use crate::plan::state::Plan;
@@ -126,6 +127,17 @@ impl FluentRef {
         let fluent = FluentRef::make(plan, name, kind, rank);
         source.get().add_dependent(&fluent);
         fluent
+    }
+
+    /// Notes that the fluent holds something that may hold it.
+    pub(super) fn note(&self) {
+        cycles::note_foreign(&self.0);
+    }
+
+    /// Adds a callback; false if the name is taken.
+    pub(crate) fn add_callback(&self, name: &Value, function: &Value) -> bool {
+        self.note();
+        self.get().add_callback(name, function)
     }
 
     /// The fluent, if the value is one.

@@ -205,7 +205,7 @@ fn quaternion_of(matrix: &Matrix3<f64>) -> Quaternion {
 fn matrix_numbers(argument: &Value) -> Option<[f64; 9]> {
     let items: Vec<Value> = match argument {
         Value::Array(array) => {
-            let is_square = array.dimensions.as_slice() == [3, 3];
+            let is_square = array.dimensions.borrow().as_slice() == [3, 3];
             is_square.then(|| array.items.borrow().clone())?
         }
         Value::Cons(_) => argument

@@ -113,6 +113,21 @@ pub(crate) static TABLE: &[Functor] = &[
     ),
     functor("==", "a b", "Both terms are made equal.", unify),
     functor("EQUAL", "a b", "Both terms are made equal.", unify),
+    functor("=", "a b", "Both numbers are equal.", |call| {
+        compare(&call, known::NUM_EQUAL)
+    }),
+    functor("<", "a b", "The first number is less.", |call| {
+        compare(&call, known::LESS)
+    }),
+    functor(">", "a b", "The first number is greater.", |call| {
+        compare(&call, known::GREATER)
+    }),
+    functor("<=", "a b", "The first number is not greater.", |call| {
+        compare(&call, known::LESS_EQUAL)
+    }),
+    functor(">=", "a b", "The first number is not less.", |call| {
+        compare(&call, known::GREATER_EQUAL)
+    }),
     functor(
         "BOUND",
         "term",
@@ -308,6 +323,19 @@ fn or(call: Call<'_>) -> Result<Action> {
 fn unify(call: Call<'_>) -> Result<Action> {
     let (a, b) = (call.arg(0), call.arg(1));
     Ok(call.unify(&a, &b))
+}
+
+/// Compares two numbers; what is not known yet cannot be compared.
+fn compare(call: &Call<'_>, function: Sym) -> Result<Action> {
+    for term in call.args {
+        if !call.bindings.is_ground(term)? {
+            return Ok(Action::Fail);
+        }
+    }
+    Ok(Action::CallTest {
+        function: function.into(),
+        args: call.shown(call.args)?,
+    })
 }
 
 fn collect(call: &Call<'_>, kind: Collection) -> Action {

@@ -4,6 +4,7 @@
 use super::super::document::Document;
 use super::super::layout::lay_out;
 use super::super::settings::Settings;
+use crate::lisp::guard::reserve;
 
 /// Text under construction.
 pub(super) struct Output {
@@ -24,6 +25,7 @@ impl Output {
 
     /// Appends a text.
     pub(super) fn push(&mut self, text: &str) {
+        reserve(text.len());
         match &mut self.document {
             Some(document) => document.text(text),
             None => self.text.push_str(text),

@@ -13,6 +13,7 @@ mod complex;
 mod convert;
 mod division;
 pub(crate) mod error;
+mod exponential;
 mod float_parts;
 pub(crate) mod large;
 mod power;

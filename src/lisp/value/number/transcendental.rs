@@ -12,6 +12,7 @@ use super::compare::{is_minus, is_zero};
 use super::complex;
 use super::convert::to_f64;
 use super::error::{NumberResult, complex_result, division_by_zero, not_a_number};
+use super::exponential;
 use super::power::finite;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -59,7 +60,7 @@ pub(crate) fn exp(value: &Value) -> NumberResult {
     if complex::is_complex(value) {
         return complex::exponential(value);
     }
-    apply(value, known::EXP, libm::exp)
+    apply(value, known::EXP, exponential::exp)
 }
 
 /// A function that is real only where `holds` is true.

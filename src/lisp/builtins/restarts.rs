@@ -1,0 +1,224 @@
+//! Restarts: finding those that apply, and invoking them.
+
+use std::cell::RefCell;
+
+use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::evaluator::restart::Restart;
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::calls::{Args, Calls, run};
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `COMMON-LISP`.
+pub(crate) static TABLE: &[Builtin] = &[
+    control(
+        "INVOKE-RESTART",
+        "restart &rest arguments",
+        "Calls the function of a restart.",
+        &["(restart-case (invoke-restart 'r 1) (r (x) x)) => 1"],
+        invoke_restart,
+    ),
+    control(
+        "INVOKE-RESTART-INTERACTIVELY",
+        "restart",
+        "Calls the function of a restart with the arguments that its :interactive function returns.",
+        &[
+            "(restart-case (invoke-restart-interactively 'r) (r (x) :interactive (lambda () (list 1)) x)) => 1",
+        ],
+        invoke_restart_interactively,
+    ),
+    control(
+        "FIND-RESTART",
+        "restart &optional condition",
+        "The innermost restart of a name that applies to the condition, or NIL.",
+        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
+        find_restart,
+    ),
+    control(
+        "COMPUTE-RESTARTS",
+        "&optional condition",
+        "All restarts in force that apply to the condition, innermost first.",
+        &["(restart-case (restart-name (first (compute-restarts))) (r () 1)) => R"],
+        compute_restarts,
+    ),
+    pure(
+        "RESTART-NAME",
+        "restart",
+        "The name of a restart.",
+        &["(restart-case (restart-name (find-restart 'r)) (r () 1)) => R"],
+        restart_name,
+    ),
+];
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "MAKE-RESTART",
+        "name function report interactive &optional test",
+        "A restart object.",
+        &[],
+        make_restart,
+    ),
+    pure(
+        "ASSOCIATE-RESTARTS",
+        "condition restarts",
+        "Lets restarts belong to a condition; the condition.",
+        &[],
+        |image, args| {
+            change_conditions(image, args, |conditions, condition| {
+                conditions.push(condition)
+            })
+        },
+    ),
+    pure(
+        "DISSOCIATE-RESTARTS",
+        "condition restarts",
+        "Ends that restarts belong to a condition; the condition.",
+        &[],
+        |image, args| {
+            change_conditions(image, args, |conditions, condition| {
+                if let Some(at) = conditions.iter().rposition(|c| c.is_eq(&condition)) {
+                    conditions.remove(at);
+                }
+            })
+        },
+    ),
+];
+
+/// The restarts in force that apply to a condition, or to none in particular (`NIL`), innermost
+/// first: a restart that belongs to conditions applies to no others, and its test has to hold.
+async fn applicable(calls: &Calls, condition: Value) -> Vec<Value> {
+    let all = calls.with(|machine| machine.restarts()).await;
+    let mut applicable = Vec::new();
+    for restart in all {
+        let Some(known) = restart.as_foreign::<Restart>() else {
+            continue;
+        };
+        if !known.may_apply_to(&condition) {
+            continue;
+        }
+        let holds =
+            known.test.is_nil() || calls.call1(&known.test, condition.clone()).await.is_true();
+        if holds {
+            applicable.push(restart.clone());
+        }
+    }
+    applicable
+}
+
+fn condition_argument(args: &[Value], index: usize) -> Value {
+    args.get(index).cloned().unwrap_or(Value::NIL)
+}
+
+fn compute_restarts(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    run(machine, "COMPUTE-RESTARTS", |calls| async move {
+        let restarts = applicable(&calls, condition_argument(&args, 0)).await;
+        Ok(Step::Return(Value::list(restarts)))
+    })
+}
+
+fn find_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    run(machine, "FIND-RESTART", |calls| async move {
+        let condition = condition_argument(&args, 1);
+        let found = found(&calls, &args[0], condition).await;
+        Ok(Step::Return(found.unwrap_or(Value::NIL)))
+    })
+}
+
+/// The restart that a designator means: the object itself if it is in force, or the innermost one of
+/// that name that applies.
+async fn found(calls: &Calls, designator: &Value, condition: Value) -> Option<Value> {
+    let Some(name) = designator.as_symbol() else {
+        let all = calls.with(|machine| machine.restarts()).await;
+        return all.into_iter().find(|restart| restart.is_eq(designator));
+    };
+    let all = applicable(calls, condition).await;
+    all.into_iter().find(|restart| {
+        let restart = restart.as_foreign::<Restart>();
+        restart.is_some_and(|restart| restart.name == name && name != known::NIL)
+    })
+}
+
+async fn active(calls: &Calls, designator: Value) -> Result<Value> {
+    if let Some(restart) = found(calls, &designator, Value::NIL).await {
+        return Ok(restart);
+    }
+    let shown = calls.with(move |machine| print::to_string(machine.image, &designator, true));
+    let shown = shown.await;
+    Err(Raise::control(format!("No restart {shown} is active.")))
+}
+
+fn invoke_restart(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    run(machine, "INVOKE-RESTART", |calls| async move {
+        let restart = active(&calls, args[0].clone()).await?;
+        Ok(call_restart(&restart, args[1..].to_vec()))
+    })
+}
+
+fn invoke_restart_interactively(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
+    run(
+        machine,
+        "INVOKE-RESTART-INTERACTIVELY",
+        |calls| async move {
+            let restart = active(&calls, args[0].clone()).await?;
+            let asks = restart.as_foreign::<Restart>();
+            let asks = asks.map_or(Value::NIL, |restart| restart.interactive.clone());
+            if asks.is_nil() {
+                return Ok(call_restart(&restart, Vec::new()));
+            }
+            let args = calls.call(&asks, Args::Many(Vec::new())).await;
+            let args = args
+                .list_to_vec()
+                .ok_or_else(|| Raise::type_error(&args, known::LIST))?;
+            Ok(call_restart(&restart, args))
+        },
+    )
+}
+
+fn call_restart(restart: &Value, args: Vec<Value>) -> Step {
+    let function = restart
+        .as_foreign::<Restart>()
+        .map_or(Value::NIL, |r| r.function.clone());
+    Step::TailCall { function, args }
+}
+
+fn restart_name(_: &mut Image, args: &[Value]) -> Result<Value> {
+    match args[0].as_foreign::<Restart>() {
+        Some(restart) => Ok(restart.name.into()),
+        None => Err(Raise::type_error(&args[0], known::RESTART)),
+    }
+}
+
+fn make_restart(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let Some(name) = args[0].as_symbol() else {
+        return Err(Raise::type_error(&args[0], known::SYMBOL));
+    };
+    Ok(Value::foreign(Restart {
+        name,
+        function: args[1].clone(),
+        report: args[2].clone(),
+        interactive: args[3].clone(),
+        test: condition_argument(args, 4),
+        conditions: RefCell::default(),
+    }))
+}
+
+fn change_conditions(
+    _: &mut Image,
+    args: &[Value],
+    change: fn(&mut Vec<Value>, Value),
+) -> Result<Value> {
+    for restart in args[1].iter_list() {
+        let known = restart
+            .as_foreign::<Restart>()
+            .ok_or_else(|| Raise::type_error(&restart, known::RESTART))?;
+        change(&mut known.conditions.borrow_mut(), args[0].clone());
+    }
+    Ok(args[0].clone())
+}

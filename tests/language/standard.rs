@@ -1,0 +1,192 @@
+//! What the standard says, form by form: none of these may be silently wrong.
+
+use crate::session::dialogue::{Evaluate, Event};
+use crate::session::{Session, SessionOptions};
+
+/// What the prompt prints for the values of the last form, or the report of the condition.
+fn shown(session: &mut Session, form: &str) -> String {
+    let mut last = String::new();
+    session.evaluate("test", form, &mut |event| match event {
+        Event::Values(values) => last = values.join(" ; "),
+        Event::Aborted(abort) => last = format!("!! {}", abort.report),
+        _ => {}
+    });
+    last.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// Checks pairs of forms and what they show.
+fn check(cases: &[(&str, &str)]) {
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    let mut wrong = Vec::new();
+    for (form, expected) in cases {
+        let got = shown(&mut session, form);
+        if got != *expected {
+            wrong.push(format!("{form}\n  gives {got}\n  not   {expected}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn parts_of_places_are_evaluated_from_left_to_right() {
+    check(&[
+        (
+            "(let ((v (vector 0 0 0 0 0)) (i 1)) (incf (aref v (incf i)) (incf i)) v)",
+            "#(0 0 3 0 0)",
+        ),
+        (
+            "(let ((v (vector 0 0 0 0 0)) (i 1)) (decf (aref v (incf i)) (incf i)) v)",
+            "#(0 0 -3 0 0)",
+        ),
+        (
+            "(let ((l (list nil nil nil)) (i 0)) (push (incf i) (nth (incf i) l)) l)",
+            "(NIL NIL (1))",
+        ),
+        (
+            "(let ((l (list nil nil nil)) (i 0)) (push i (nth (incf i) l)) l)",
+            "(NIL (0) NIL)",
+        ),
+        (
+            "(let ((l (list nil nil nil)) (i 0)) (pushnew (incf i) (nth (incf i) l) :test (progn (incf i) #'eql)) (list l i))",
+            "((NIL NIL (1)) 3)",
+        ),
+        (
+            "(progn (define-modify-macro times (n) *) (let ((v (vector 1 2 3 4)) (i 0)) (times (aref v (incf i)) (incf i)) v))",
+            "#(1 4 3 4)",
+        ),
+        ("(let ((x 1)) (incf x (setq x 10)) x)", "20"),
+        (
+            "(let ((a (list 1 2)) (n 0)) (symbol-macrolet ((x (car (progn (incf n) a))) (y (cadr a))) (psetf x y y x) (list a n)))",
+            "((2 1) 2)",
+        ),
+        (
+            "(macrolet ((m (x) `(car ,x))) (let ((l (list 1 2))) (setf (m l) 5) (incf (m l)) (push 3 (m l)) (rotatef (m l) (cadr l)) l))",
+            "(2 (3 . 6))",
+        ),
+        (
+            "(flet (((setf car) (new list) (setf (first list) (* 2 new)) list)) (let ((l (list 1))) (setf (car l) 5) l))",
+            "(10)",
+        ),
+    ]);
+}
+
+#[test]
+fn restarts_apply_to_their_conditions() {
+    check(&[
+        (
+            "(restart-case (handler-bind ((error (lambda (c) (invoke-restart 'r)))) (error \"x\")) (r () :test (lambda (c) c) 1) (r () 2))",
+            "2",
+        ),
+        (
+            "(restart-case (let ((c (make-condition 'error)) (d (make-condition 'error))) (with-condition-restarts c (list (find-restart 'r)) (list (restart-name (find-restart 'r c)) (find-restart 'r d) (restart-name (find-restart 'r))))) (r () 2))",
+            "(R NIL R)",
+        ),
+        (
+            "(block nil (handler-bind ((error (lambda (c) (return (list (find-restart 'r (make-condition 'error)) (restart-name (find-restart 'r c))))))) (restart-case (error \"x\") (r () 1))))",
+            "(NIL R)",
+        ),
+        (
+            "(handler-bind ((error #'continue)) (list (cerror \"Go ~a.\" \"Stop ~a.\" 1)))",
+            "(NIL)",
+        ),
+        (
+            "(let ((x 1)) (handler-bind ((type-error (lambda (c) (store-value \"a\" c)))) (check-type x string) x))",
+            "\"a\"",
+        ),
+        (
+            "(let ((l (list 1))) (handler-bind ((type-error (lambda (c) (store-value \"a\")))) (list (ctypecase (car l) (string :s)) l)))",
+            "(:S (\"a\"))",
+        ),
+        (
+            "(let ((x 5)) (handler-bind ((type-error (lambda (c) (store-value 2)))) (list (ccase x ((1 2) :low) (3 :high)) x)))",
+            "(:LOW 2)",
+        ),
+        (
+            "(handler-case (etypecase 1 (string 1)) (type-error (c) (type-error-expected-type c)))",
+            "(OR STRING)",
+        ),
+    ]);
+}
+
+#[test]
+fn arrays_change_as_they_are_told() {
+    check(&[
+        (
+            "(list (equal #*101 #*101) (equal #*101 #*100) (equal #*10 #*101))",
+            "(T NIL NIL)",
+        ),
+        (
+            "(let ((h (make-hash-table :test 'equal))) (setf (gethash #*101 h) 1) (gethash (copy-seq #*101) h))",
+            "1 ; T",
+        ),
+        (
+            "(let ((a (make-array '(2 2) :initial-contents '((1 2) (3 4)) :adjustable t))) (list (eq a (adjust-array a '(3 3) :initial-element 0)) a))",
+            "(T #2A((1 2 0) (3 4 0) (0 0 0)))",
+        ),
+        (
+            "(let ((s (make-array 5 :element-type 'character :fill-pointer 0))) (map-into s #'char-upcase \"abc\") s)",
+            "\"ABC\"",
+        ),
+        (
+            "(let ((v (make-array 5 :fill-pointer 2 :initial-element 0))) (map-into v #'1+ '(1 2 3)) v)",
+            "#(2 3 4)",
+        ),
+        (
+            "(let ((s (make-array 3 :element-type 'character :adjustable t :initial-contents \"abc\"))) (list (eq s (adjust-array s 5 :initial-element #\\x)) s))",
+            "(T \"abcxx\")",
+        ),
+    ]);
+}
+
+#[test]
+fn control_is_as_written() {
+    check(&[
+        ("(eval-when (:load-toplevel) 5)", "NIL"),
+        ("(eval-when (:execute) 5)", "5"),
+        (
+            "(do x (t) 1)",
+            "!! X in DO: a list of variables, ((variable first next)…), was expected.",
+        ),
+        (
+            "(do () done)",
+            "!! DONE in DO: when to end and with what values, (test form…), was expected.",
+        ),
+        (
+            "(do* 10)",
+            "!! 10 in DO*: a list of variables, ((variable first next)…), was expected.",
+        ),
+        (
+            "(do ((x 1 2 3)) (t 1))",
+            "!! (X 1 2 3) in DO: a variable, (variable first next), was expected.",
+        ),
+        (
+            "(do ((i 0 (1+ i)) (s nil (cons i s))) ((= i 3) s))",
+            "(2 1 0)",
+        ),
+        (
+            "(progn (defmacro dm () \"doc m\" 1) (documentation 'dm 'function))",
+            "\"doc m\"",
+        ),
+        (
+            "(multiple-value-list (intern \"A-KEY-OF-NOBODY\" :keyword))",
+            "(:A-KEY-OF-NOBODY NIL)",
+        ),
+        (
+            "(multiple-value-list (intern \"A-KEY-OF-NOBODY\" :keyword))",
+            "(:A-KEY-OF-NOBODY :EXTERNAL)",
+        ),
+    ]);
+}
+
+#[test]
+fn numbers_are_as_exact_as_they_can_be() {
+    check(&[
+        ("(exp 1d0)", "2.718281828459045d0"),
+        ("(exp 1)", "2.7182817"),
+        ("(exp -1d0)", "0.36787944117144233d0"),
+        ("(coerce 5 'complex)", "5"),
+        ("(coerce 1/2 'complex)", "1/2"),
+        ("(coerce 5.0 'complex)", "#C(5.0 0.0)"),
+        ("(coerce 5 '(complex float))", "#C(5.0 0.0)"),
+    ]);
+}
