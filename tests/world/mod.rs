@@ -3,6 +3,7 @@
 mod collisions;
 pub(crate) mod fixture;
 mod kitchen_surfaces;
+mod link_shapes;
 mod motion;
 mod objects;
 mod sight;
