@@ -82,7 +82,7 @@ impl<'w> BaseChecker<'w> {
         }
         let near = self
             .checker
-            .first_hit_at(&self.in_map, self.touching.relaxed(), margin);
+            .first_hit_around(&self.in_map, self.touching.relaxed(), margin);
         if near.is_some() || self.touching.is_empty() {
             return near;
         }

@@ -1,16 +1,12 @@
 //! Search for a collision-free path of the robot's base over the floor.
 //!
 //! The base may move in any direction and turn in place. The straight path is tried
-//! first, then A* on a lattice of positions and headings whose origin is the start; states
-//! are checked only when the search reaches them, edges only when a path uses them. The
-//! result is shortened. Paths keep a distance from obstacles where they can: the search
-//! first requires a margin, then none. The caller's closure checks for collisions, so the
-//! robot's present posture and what its arms hold are taken into account.
+//! first, then A* on a lattice of positions and headings ([`Lattice`]). The result is shortened.
+//! Paths keep a distance from obstacles where they can: the search first requires a margin, then
+//! none. The caller's closure checks for collisions, so the robot's present posture and what its
+//! arms hold are taken into account.
 
-use std::cmp::Ordering;
-use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
-use std::f64::consts::FRAC_PI_8;
-
+use super::base_lattice::Lattice;
 use super::interruption;
 use crate::spatial::trig;
 
@@ -24,12 +20,6 @@ pub(crate) struct FloorArea {
     pub(crate) min: [f64; 2],
     /// Largest x and y (m).
     pub(crate) max: [f64; 2],
-}
-
-impl FloorArea {
-    fn contains(&self, p: &BasePlace) -> bool {
-        (0..2).all(|i| (self.min[i]..=self.max[i]).contains(&p[i]))
-    }
 }
 
 /// Why there is no path; `P` is what the caller's check returns.
@@ -54,15 +44,8 @@ const NO_MARGIN_WITHIN: f64 = 0.35;
 const RESOLUTION: f64 = 0.01;
 /// Lattice spacings (m), in the order in which they are tried.
 const SPACINGS: [(f64, f64); 2] = [(0.10, MARGIN), (0.05, 0.0)];
-/// Angle between neighbouring headings of the lattice.
-const TURN: f64 = FRAC_PI_8;
 /// Cost of a radian of turning, in metres of driving.
-const TURN_COST: f64 = 0.5;
-/// Weight of the heuristic; above 1 the search is faster, and the path may be longer by
-/// that factor.
-const GREED: f64 = 1.3;
-/// Extra cost (m) per pose in collision.
-const TOUCH_COST: f64 = 2.0;
+pub(super) const TURN_COST: f64 = 0.5;
 
 type Check<'a, P> = dyn FnMut(&BasePlace, f64) -> Option<P> + 'a;
 
@@ -109,17 +92,19 @@ pub(crate) fn find_base_path<P: Clone + PartialEq>(
     Err(BasePathFailure::Enclosed { blockers })
 }
 
-struct Search<'a, 'c, P> {
-    start: BasePlace,
-    goal: BasePlace,
-    area: FloorArea,
+/// A search with everything that it needs to know.
+pub(super) struct Search<'a, 'c, P> {
+    pub(super) start: BasePlace,
+    pub(super) goal: BasePlace,
+    pub(super) area: FloorArea,
     reach: f64,
     margin: f64,
     blocked: &'a mut Check<'c, P>,
 }
 
 impl<P: Clone + PartialEq> Search<'_, '_, P> {
-    fn place(&mut self, p: &BasePlace) -> Option<P> {
+    /// What blocks the pose.
+    pub(super) fn place(&mut self, p: &BasePlace) -> Option<P> {
         interruption::look();
         let near = |q: &BasePlace| libm::hypot(p[0] - q[0], p[1] - q[1]) < NO_MARGIN_WITHIN;
         let margin = if near(&self.start) || near(&self.goal) {
@@ -131,7 +116,7 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
     }
 
     /// What blocks the straight leg, coarse steps first; the ends are assumed to be free.
-    fn edge(&mut self, from: &BasePlace, to: &BasePlace) -> Option<P> {
+    pub(super) fn edge(&mut self, from: &BasePlace, to: &BasePlace) -> Option<P> {
         let way =
             libm::hypot(to[0] - from[0], to[1] - from[1]) + (to[2] - from[2]).abs() * self.reach;
         let parts = (way / RESOLUTION).ceil().max(1.0) as usize;
@@ -219,198 +204,6 @@ fn between(from: &BasePlace, to: &BasePlace, fraction: f64) -> BasePlace {
 fn step_cost(from: &BasePlace, to: &BasePlace) -> f64 {
     let drive = libm::hypot(to[0] - from[0], to[1] - from[1]);
     drive.max((to[2] - from[2]).abs() * TURN_COST)
-}
-
-/// A cell of the lattice: steps in x, y and heading from the start.
-type Cell = [i32; 3];
-
-/// The goal, which in general is between the lattice's cells.
-const GOAL: Cell = [i32::MAX; 3];
-/// Number of headings.
-const HEADINGS: i32 = 16;
-
-struct Lattice<'s, 'a, 'c, P> {
-    search: &'s mut Search<'a, 'c, P>,
-    spacing: f64,
-    /// Whether the path may pass through collisions, at extra cost.
-    through: bool,
-    free: BTreeMap<Cell, bool>,
-    bad_edges: BTreeSet<(Cell, Cell)>,
-}
-
-impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
-    fn new(search: &'s mut Search<'a, 'c, P>, spacing: f64, through: bool) -> Self {
-        Self {
-            search,
-            spacing,
-            through,
-            free: BTreeMap::new(),
-            bad_edges: BTreeSet::new(),
-        }
-    }
-
-    /// The cheapest path whose edges are free at full resolution.
-    fn path(mut self) -> Option<Vec<BasePlace>> {
-        loop {
-            let cells = self.cheapest()?;
-            let places = self.unwound(&cells);
-            if self.through {
-                return Some(places);
-            }
-            let mut good = true;
-            for (i, leg) in places.windows(2).enumerate() {
-                if self.search.edge(&leg[0], &leg[1]).is_some() {
-                    self.bad_edges.insert((cells[i], cells[i + 1]));
-                    self.bad_edges.insert((cells[i + 1], cells[i]));
-                    good = false;
-                }
-            }
-            if good {
-                return Some(places);
-            }
-        }
-    }
-
-    fn place(&self, cell: Cell) -> BasePlace {
-        if cell == GOAL {
-            return self.search.goal;
-        }
-        let [x, y, yaw] = self.search.start;
-        let [i, j, k] = cell.map(f64::from);
-        [x + i * self.spacing, y + j * self.spacing, yaw + k * TURN]
-    }
-
-    /// Poses of the cells, with headings that are continuous from one to the next.
-    fn unwound(&self, cells: &[Cell]) -> Vec<BasePlace> {
-        let mut yaw = self.search.start[2];
-        let unwind = |&cell: &Cell| {
-            let mut place = self.place(cell);
-            yaw += trig::wrap(place[2] - yaw);
-            place[2] = yaw;
-            place
-        };
-        cells.iter().map(unwind).collect()
-    }
-
-    fn is_free(&mut self, cell: Cell) -> bool {
-        if cell == GOAL || cell == [0; 3] {
-            return true;
-        }
-        if let Some(free) = self.free.get(&cell) {
-            return *free;
-        }
-        let place = self.place(cell);
-        let free = self.search.place(&place).is_none();
-        self.free.insert(cell, free);
-        free
-    }
-
-    /// Least cost from the pose to the goal if nothing were in the way.
-    fn estimate(&self, place: &BasePlace) -> f64 {
-        let goal = &self.search.goal;
-        let turn = trig::wrap(goal[2] - place[2]).abs() * TURN_COST;
-        libm::hypot(goal[0] - place[0], goal[1] - place[1]) + turn
-    }
-
-    fn neighbours(&self, cell: Cell) -> Vec<(Cell, f64)> {
-        let [i, j, k] = cell;
-        let turned = |by: i32| ([i, j, (k + by).rem_euclid(HEADINGS)], TURN * TURN_COST);
-        let mut all = vec![turned(1), turned(-1)];
-        for di in -1..=1 {
-            for dj in -1..=1 {
-                if (di, dj) != (0, 0) {
-                    let length = f64::from(di * di + dj * dj).sqrt() * self.spacing;
-                    all.push(([i + di, j + dj, k], length));
-                }
-            }
-        }
-        all.retain(|(c, _)| self.search.area.contains(&self.place(*c)));
-        let (place, goal) = (self.place(cell), &self.search.goal);
-        let near = libm::hypot(goal[0] - place[0], goal[1] - place[1]) <= self.spacing * 0.75;
-        if near && trig::wrap(goal[2] - place[2]).abs() <= TURN * 0.51 {
-            all.push((GOAL, self.estimate(&place)));
-        }
-        all
-    }
-
-    /// A* over free cells; edges are assumed to be free unless known otherwise.
-    fn cheapest(&mut self) -> Option<Vec<Cell>> {
-        let start: Cell = [0; 3];
-        let mut costs: BTreeMap<Cell, (f64, Cell)> = BTreeMap::from([(start, (0.0, start))]);
-        let mut done: BTreeSet<Cell> = BTreeSet::new();
-        let mut open = BinaryHeap::from([Candidate {
-            total: 0.0,
-            cell: start,
-        }]);
-        while let Some(Candidate { cell, .. }) = open.pop() {
-            if !done.insert(cell) {
-                continue;
-            }
-            if cell == GOAL {
-                return Some(trace(&costs));
-            }
-            let so_far = costs.get(&cell).map_or(0.0, |c| c.0);
-            for (next, step) in self.neighbours(cell) {
-                if done.contains(&next) || self.bad_edges.contains(&(cell, next)) {
-                    continue;
-                }
-                let known = costs.get(&next).map_or(f64::MAX, |c| c.0);
-                if so_far + step >= known {
-                    continue;
-                }
-                let touch = match (self.is_free(next), self.through) {
-                    (true, _) => 0.0,
-                    (false, true) => TOUCH_COST,
-                    (false, false) => continue,
-                };
-                let new = so_far + step + touch;
-                if new < known {
-                    costs.insert(next, (new, cell));
-                    let total = new + GREED * self.estimate(&self.place(next));
-                    open.push(Candidate { total, cell: next });
-                }
-            }
-        }
-        None
-    }
-}
-
-/// The cells from the start to the goal.
-fn trace(costs: &BTreeMap<Cell, (f64, Cell)>) -> Vec<Cell> {
-    let mut cells = vec![GOAL];
-    let mut cell = GOAL;
-    while let Some(&(_, before)) = costs.get(&cell)
-        && before != cell
-    {
-        cells.push(before);
-        cell = before;
-    }
-    cells.reverse();
-    cells
-}
-
-/// A cell to expand; the greatest is the one with the least total cost.
-#[derive(Debug, PartialEq)]
-struct Candidate {
-    total: f64,
-    cell: Cell,
-}
-
-impl Eq for Candidate {}
-
-impl Ord for Candidate {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other
-            .total
-            .total_cmp(&self.total)
-            .then_with(|| other.cell.cmp(&self.cell))
-    }
-}
-
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
 }
 
 #[cfg(test)]

@@ -4,11 +4,13 @@
 //! and with what it holds. Other jobs may move arms and torso meanwhile. While they do, the
 //! base keeps a larger distance from everything ahead; where it cannot, it slows down and
 //! stops, and continues once the posture is steady. If the path has become blocked, it then
-//! plans another one.
+//! plans another one. Whatever ends a drive before its goal, the base brakes first, within its
+//! limits of acceleration; only a step that would collide is not taken.
 
-use super::base_checker::at_place;
+use super::axis_group::AxisGroup;
+use super::base_checker::{BaseChecker, at_place};
 use super::base_path::BasePlace;
-use super::drive_plan::{is_trajectory_free, plan_drive};
+use super::drive_plan::plan_drive;
 use super::failure::MotionFailure;
 use super::guard;
 use super::job::{
@@ -16,17 +18,19 @@ use super::job::{
     TrajectoryAxes, check_finite,
 };
 use super::replanning::{Attempt, Replanning};
-use super::trajectory::{AxisGroup, Corners, Trajectory};
+use super::trajectory::Trajectory;
 use super::trajectory_follower::TrajectoryFollower;
 use crate::robot::JointId;
 use crate::spatial::{Pose, pose};
 use crate::world::physics::STEP_SECONDS;
 use crate::world::{AllowedPairs, CollisionHit, World};
 
-/// Times ahead (s) at which the path is checked while the posture changes.
+/// Times ahead (s) at which the path is checked: beyond the one that it takes to stop.
 const LOOK_AHEAD: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
-/// Steps between two such checks.
+/// Steps between two such checks while the posture changes or something is in the way, and
+/// otherwise.
 const LOOK_EVERY: u32 = 12;
+const LOOK_SOMETIMES: u32 = 24;
 /// Clearance (m) that is kept ahead while the posture changes.
 const CHANGING_MARGIN: f64 = 0.10;
 /// How many times the base slows down for that reason.
@@ -57,6 +61,8 @@ pub(crate) struct BaseMotion {
     ticks: u32,
     /// What the robot would come too close to on the path ahead.
     ahead: Option<CollisionHit>,
+    /// Why the drive ends as soon as the base has stopped.
+    trouble: Option<MotionFailure>,
     /// How many times the base has slowed down because of a changing posture.
     yields: u32,
     /// Whether the posture was steady when that was found.
@@ -80,6 +86,7 @@ impl Drive {
             steady: 0.0,
             ticks: 0,
             ahead: None,
+            trouble: None,
             yields: 0,
             ahead_is_sure: false,
             plans: 0,
@@ -117,14 +124,11 @@ impl BaseMotion {
         let turn = AxisGroup::single(2, base.turn.velocity, base.turn.acceleration);
         let limits = [drive, turn];
         let points: Vec<Vec<f64>> = path.iter().map(|p| p.to_vec()).collect();
-        let round = Trajectory::new(&points, &limits, Corners::Round);
-        // Rounding corners leaves the checked path, so the result is checked again.
-        let free = points.len() <= 2 || is_trajectory_free(world, &round);
-        let trajectory = if free {
-            round
-        } else {
-            Trajectory::new(&points, &limits, Corners::Stop)
+        let mut checker = BaseChecker::new(world);
+        let mut is_free = |place: &[f64]| {
+            <BasePlace>::try_from(place).is_ok_and(|place| checker.blocked(&place, 0.0).is_none())
         };
+        let trajectory = Trajectory::rounded(&points, &limits, &mut is_free);
         Ok(TrajectoryFollower::new(trajectory))
     }
 
@@ -158,9 +162,11 @@ impl BaseMotion {
         }
     }
 
-    /// Checks the path ahead as long as arms or torso move, or something was in the way.
+    /// Checks the path ahead, more often while arms or torso move, or something was in the way.
     fn look_ahead(&mut self, world: &World) {
-        if !self.ticks.is_multiple_of(LOOK_EVERY) || (self.is_steady() && self.ahead.is_none()) {
+        let is_calm = self.is_steady() && self.ahead.is_none();
+        let every = if is_calm { LOOK_SOMETIMES } else { LOOK_EVERY };
+        if !self.ticks.is_multiple_of(every) {
             return;
         }
         let Some(follower) = &self.follower else {
@@ -198,12 +204,17 @@ impl BaseMotion {
     fn follow(&mut self, world: &mut World) -> Option<MotionStatus> {
         self.look_ahead(world);
         let follower = self.follower.as_mut()?;
+        let began = *self.began.get_or_insert(world.steps());
+        if self.trouble.is_none() {
+            self.trouble = guard::trouble_with_held(world, began, |_| true);
+        }
+        if !follower.is_moving()
+            && let Some(failure) = self.trouble.take()
+        {
+            return Some(MotionStatus::failed(failure));
+        }
         if follower.is_at_end() {
             return Some(MotionStatus::Done(MotionOutcome::Arrived));
-        }
-        let began = *self.began.get_or_insert(world.steps());
-        if let Some(failure) = guard::trouble_with_held(world, began, |_| true) {
-            return Some(MotionStatus::failed(failure));
         }
         if follower.is_stopped()
             && self.ahead_is_sure
@@ -217,9 +228,12 @@ impl BaseMotion {
         }
         let next = at_place(world.robot_configuration(), &place);
         if let Some(hit) = guard::obstacle(world, &next, &AllowedPairs::none()) {
-            return self.give_up_trajectory(hit);
+            return match self.trouble.take() {
+                Some(failure) => Some(MotionStatus::failed(failure)),
+                None => self.give_up_trajectory(hit),
+            };
         }
-        if self.ahead.is_some() {
+        if self.ahead.is_some() || self.trouble.is_some() {
             follower.brake()
         } else {
             follower.advance()

@@ -5,25 +5,11 @@ use std::f64::consts::FRAC_PI_8;
 use super::base_checker::BaseChecker;
 use super::base_path::{BasePathFailure, BasePlace, FloorArea, find_base_path};
 use super::failure::MotionFailure;
-use super::trajectory::Trajectory;
 use crate::spatial::{pose, trig};
 use crate::world::{CollisionHit, MapArea, World};
 
-/// Time (s) between two checked points of a trajectory.
-const CHECK_EVERY: f64 = 0.04;
 /// Poses tried around an occupied goal: spacing (m) and number of rings.
 const NEARBY: (f64, u32) = (0.05, 16);
-
-/// Whether the robot touches nothing along the trajectory.
-pub(super) fn is_trajectory_free(world: &World, trajectory: &Trajectory) -> bool {
-    let mut checker = BaseChecker::new(world);
-    let parts = (trajectory.duration() / CHECK_EVERY).ceil().max(1.0) as u32;
-    (0..=parts).all(|i| {
-        let place = trajectory.position(trajectory.duration() * f64::from(i) / f64::from(parts));
-        let place = <BasePlace>::try_from(place);
-        place.is_ok_and(|place| checker.blocked(&place, 0.0).is_none())
-    })
-}
 
 /// The path of the base from its current pose, for the robot's present posture.
 pub(crate) fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace>, MotionFailure> {

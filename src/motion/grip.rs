@@ -11,6 +11,8 @@ use crate::robot::Side;
 use crate::world::physics::STEP_SECONDS;
 use crate::world::{BodyName, World};
 
+/// A finger just before the limit of its joint (rad/s).
+const SLOWEST: f64 = 0.01;
 /// How long (s) the fingers may press on different things before that counts as a failure.
 const UNEQUAL: f64 = 0.25;
 
@@ -21,6 +23,8 @@ pub(crate) struct Grip {
     object: Option<String>,
     /// The force (N) of each finger; as much as possible if none is given.
     effort: Option<f64>,
+    /// How fast (rad/s) the finger joint closes.
+    speed: f64,
     /// How long (s) they have pressed on different things.
     unequal: f64,
 }
@@ -32,6 +36,7 @@ impl Grip {
             side,
             object,
             effort,
+            speed: 0.0,
             unequal: 0.0,
         }
     }
@@ -74,7 +79,15 @@ impl Grip {
         if position <= gripper.limits.lower {
             return Some(MotionStatus::failed(MotionFailure::NothingGripped { side }));
         }
-        let closer = position - speeds::GRIP_VELOCITY * STEP_SECONDS;
+        let acceleration = world.models().description.speed(gripper.joint).acceleration;
+        // Nothing may be between the fingers, and then they stop at the limit.
+        let room = position - gripper.limits.lower;
+        // With half of the acceleration, since steps of time are not infinitely short.
+        let stopping = (acceleration * room).sqrt();
+        let speed = (self.speed + acceleration * STEP_SECONDS)
+            .min(speeds::GRIP_VELOCITY)
+            .min(stopping.max(SLOWEST));
+        let closer = position - speed * STEP_SECONDS;
         let next = with_joints(now, &[gripper.joint], &[closer.max(gripper.limits.lower)]);
         let allowed = hand_may_touch_objects(world, side);
         if let Some(hit) = guard::obstacle(world, &next, &allowed) {
@@ -84,6 +97,7 @@ impl Grip {
             }));
         }
         world.set_robot_configuration(&next);
+        self.speed = speed;
         None
     }
 

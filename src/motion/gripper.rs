@@ -11,7 +11,7 @@ use super::joint_follower::JointFollower;
 use super::joint_limit::violation;
 use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use super::speeds;
-use super::trajectory::{Corners, Trajectory};
+use super::trajectory::Trajectory;
 use crate::robot::{LinkId, Side};
 use crate::world::{AllowedPairs, BodyName, CollisionHit, World};
 
@@ -162,7 +162,7 @@ impl JointGoal for FingerGoal {
             vec![gripper.limits.clamp(goal)],
         ];
         let limits = speeds::limits_of(&world.models().description, &joints);
-        let trajectory = Trajectory::new(&path, &limits, Corners::Round);
+        let trajectory = Trajectory::new(&path, &limits);
         self.is_closing = path[0] > path[1];
         // Closing fingers may meet what is between them; opening ones push nothing away.
         let allowed = if self.is_closing {

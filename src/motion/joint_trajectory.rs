@@ -3,16 +3,14 @@
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::SeedableRng;
 
+use super::axis_group::AxisGroup;
 use super::configuration_checker::ConfigurationChecker;
 use super::failure::MotionFailure;
 use super::joint_path::{JointPathEffort, JointPathFailure, find_joint_path};
 use super::planning_group::PlanningGroup;
 use super::speeds;
-use super::trajectory::{AxisGroup, Corners, Trajectory};
+use super::trajectory::Trajectory;
 use crate::world::{CollisionHit, World};
-
-/// Time (s) between two checked points of a trajectory.
-const CHECK_EVERY: f64 = 0.02;
 
 /// A path of the axes from their current positions to the goal, as a trajectory.
 pub(super) fn plan_joint_trajectory(
@@ -38,25 +36,13 @@ pub(super) fn plan_joint_trajectory(
     Ok(smooth(&path, &limits, checker))
 }
 
-/// The path with rounded corners if that is collision-free, else with stops at the corners.
+/// The path as a trajectory, with corners rounded where that is collision-free.
 pub(super) fn smooth(
     path: &[Vec<f64>],
     limits: &[AxisGroup],
     checker: &mut ConfigurationChecker<'_>,
 ) -> Trajectory {
-    let round = Trajectory::new(path, limits, Corners::Round);
-    if path.len() <= 2 || is_free(&round, checker) {
-        return round;
-    }
-    Trajectory::new(path, limits, Corners::Stop)
-}
-
-fn is_free(trajectory: &Trajectory, checker: &mut ConfigurationChecker<'_>) -> bool {
-    let parts = (trajectory.duration() / CHECK_EVERY).ceil().max(1.0) as u32;
-    (1..parts).all(|i| {
-        let t = trajectory.duration() * f64::from(i) / f64::from(parts);
-        checker.blocked(&trajectory.position(t)).is_none()
-    })
+    Trajectory::rounded(path, limits, &mut |q| checker.blocked(q).is_none())
 }
 
 fn path_failure(failure: JointPathFailure<CollisionHit>) -> MotionFailure {

@@ -11,7 +11,7 @@ use super::joint_follower::{JointFollower, with_joints};
 use super::joint_limit::violation;
 use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use super::speeds;
-use super::trajectory::{Corners, Trajectory};
+use super::trajectory::Trajectory;
 use crate::robot::{JointId, LimitViolation, LinkId, RobotDescription};
 use crate::spatial::{Pose, trig};
 use crate::world::{AllowedPairs, CollisionHit, World};
@@ -148,7 +148,7 @@ impl JointGoal for LookGoal {
             .map(|j| world.robot_configuration().joints.get(*j))
             .collect();
         let limits = speeds::limits_of(&world.models().description, &joints);
-        let trajectory = Trajectory::new(&[now, goal], &limits, Corners::Round);
+        let trajectory = Trajectory::new(&[now, goal], &limits);
         Ok(JointFollower::new(joints, trajectory, AllowedPairs::none()))
     }
 

@@ -2,7 +2,9 @@
 //!
 //! Only this folder moves the robot. Nothing here knows of the plan language.
 
+pub(crate) mod axis_group;
 mod base_checker;
+mod base_lattice;
 pub(crate) mod base_path;
 pub(crate) mod cartesian_path;
 pub(crate) mod command;
@@ -41,9 +43,11 @@ mod put_plan;
 mod put_reach;
 pub(crate) mod reach;
 mod replanning;
+mod rounded_path;
 mod shoulder;
 pub(crate) mod speeds;
 mod standstill;
+mod time_scaling;
 mod together;
 mod touching;
 pub(crate) mod trajectory;

@@ -3,10 +3,10 @@
 use super::configuration_checker::ConfigurationChecker;
 use super::expected_contacts::ExpectedContacts;
 use super::failure::MotionFailure;
-use super::job::{Job, MotionOutcome, ProcessModule, check_finite};
-use super::joint_follower::{JointFollower, with_joints};
+use super::job::{Job, ProcessModule, check_finite};
+use super::joint_follower::JointFollower;
 use super::joint_limit::violation;
-use super::joint_motion::{Arrival, JointGoal, JointMotion};
+use super::joint_motion::{JointGoal, JointMotion};
 use super::joint_path::JointPathEffort;
 use super::joint_trajectory::plan_joint_trajectory;
 use super::planning_group::PlanningGroup;
@@ -73,14 +73,6 @@ impl ArmGoal {
         }
         Ok(goal)
     }
-
-    /// Sets the joints to exactly the requested numbers: continuous joints were unwound.
-    fn name_positions(&self, world: &mut World) {
-        let group = PlanningGroup::new(world, false, &self.sides());
-        let goal: Vec<f64> = self.positions.iter().flatten().flatten().copied().collect();
-        let exact = with_joints(world.robot_configuration(), &group.joints, &goal);
-        world.set_robot_configuration(&exact);
-    }
 }
 
 impl JointGoal for ArmGoal {
@@ -108,11 +100,6 @@ impl JointGoal for ArmGoal {
             JointPathEffort::default(),
         )?;
         Ok(JointFollower::new(group.joints, trajectory, none))
-    }
-
-    fn arrived(&mut self, world: &mut World) -> Arrival {
-        self.name_positions(world);
-        Arrival::Done(MotionOutcome::Arrived)
     }
 
     fn blocked(&self, _: &World, hit: CollisionHit) -> MotionFailure {

@@ -5,7 +5,7 @@ use super::job::{Job, MotionOutcome, ProcessModule, check_finite};
 use super::joint_follower::JointFollower;
 use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use super::speeds;
-use super::trajectory::{Corners, Trajectory};
+use super::trajectory::Trajectory;
 use crate::robot::Limits;
 use crate::world::{AllowedPairs, CollisionHit, World};
 
@@ -53,7 +53,7 @@ impl JointGoal for TorsoGoal {
         let joints = vec![world.models().description.torso.joint];
         let path = [vec![height(world)], vec![limits(world).clamp(self.height)]];
         let speeds = speeds::limits_of(&world.models().description, &joints);
-        let trajectory = Trajectory::new(&path, &speeds, Corners::Round);
+        let trajectory = Trajectory::new(&path, &speeds);
         Ok(JointFollower::new(joints, trajectory, AllowedPairs::none()))
     }
 

@@ -5,6 +5,7 @@
 //! height all configurations over the arm's redundant angle are considered; those in collision
 //! are left out, the rest are ranked by how far away they are and how much clearance they have.
 
+use super::axis_group::AxisGroup;
 use super::cartesian_path::{
     CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base, wrist_in_torso,
 };
@@ -17,7 +18,7 @@ use super::joint_path::{JointPathEffort, blocked_between};
 use super::joint_trajectory::{plan_joint_trajectory, smooth};
 use super::planning_group::PlanningGroup;
 use super::speeds;
-use super::trajectory::{AxisGroup, Corners, Trajectory};
+use super::trajectory::Trajectory;
 use super::unreachable::{UnreachablePose, UnreachableReason};
 use crate::robot::description::Speed;
 use crate::robot::{self, JointId, Limits, RobotDescription, Side};
@@ -256,7 +257,7 @@ impl PoseGoalTask<'_> {
             if met.is_none() {
                 let limits = speeds::limits_of(self.body(), &group.joints);
                 let path = [now, configuration.positions.clone()];
-                return Ok(Trajectory::new(&path, &limits, Corners::Round));
+                return Ok(Trajectory::new(&path, &limits));
             }
         }
         let mut result = None;

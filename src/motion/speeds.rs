@@ -1,6 +1,6 @@
 //! Speeds that the robot's description does not give.
 
-use super::trajectory::AxisGroup;
+use super::axis_group::AxisGroup;
 use crate::robot::description::Speed;
 use crate::robot::{JointId, RobotDescription};
 

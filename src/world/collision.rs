@@ -123,6 +123,23 @@ impl<'w> CollisionChecker<'w> {
         found.and_then(|near| self.report(&near))
     }
 
+    /// As [`Self::first_hit_at`], without the pairs of the robot's own links and of what it holds:
+    /// for a robot that moves as a whole, within which no distance changes.
+    pub(crate) fn first_hit_around(
+        &mut self,
+        link_poses: &[Pose],
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Option<CollisionHit> {
+        let mut found = None;
+        let wanted = Wanted::HowMuchToOthers;
+        self.search(link_poses, allowed, wanted, margin, |near, _| {
+            found = Some(near);
+            ControlFlow::Break(())
+        });
+        found.and_then(|near| self.report(&near))
+    }
+
     /// Every pair of bodies that is closer than `margin` (m) and not allowed, the deepest first.
     pub(crate) fn all_hits(
         &mut self,

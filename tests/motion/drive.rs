@@ -3,6 +3,7 @@
 use super::fixture::Kitchen;
 use crate::motion::drive_plan::plan_drive;
 use crate::motion::{Motion, MotionFailure, MotionOutcome, MotionStatus};
+use crate::robot::Side;
 use crate::spatial::pose::{from_xyz_rpy, yaw};
 
 /// Where the base is: x and y (m), heading (degrees).
@@ -143,4 +144,93 @@ fn the_arms_may_be_spread_on_the_way_into_a_passage_that_is_too_narrow_for_them(
         assert_eq!(end, Ok(MotionOutcome::Arrived));
     }
     assert_place(&kitchen, [-1.447, -0.15, -90.0]);
+}
+
+/// Ticks the drive to its end, or until `stop`; returns the greatest acceleration (m/s²) of the
+/// base, and the drive's end.
+fn drive_watching(
+    kitchen: &mut Kitchen,
+    drive: &mut impl Motion,
+    mut disturb: impl FnMut(&mut Kitchen, u32),
+) -> (f64, MotionStatus) {
+    let at = |kitchen: &Kitchen| place(kitchen);
+    let (mut before, mut velocity, mut most) = (at(kitchen), [0.0; 2], 0.0_f64);
+    for step in 0..240 * 60 {
+        disturb(kitchen, step);
+        let status = drive.tick(&mut kitchen.world);
+        kitchen.world.step();
+        let now = at(kitchen);
+        let next = [0, 1].map(|i| (now[i] - before[i]) * 240.0);
+        let change = (next[0] - velocity[0]).hypot(next[1] - velocity[1]) * 240.0;
+        most = most.max(change);
+        (before, velocity) = (now, next);
+        if status != MotionStatus::Running {
+            return (most, status);
+        }
+    }
+    panic!("the drive does not end");
+}
+
+/// The base's acceleration (m/s²), and what rounding adds to a difference of differences.
+const MOST: f64 = 1.0 + 0.03;
+
+#[test]
+fn the_base_keeps_its_acceleration_from_start_to_end() {
+    let mut kitchen = Kitchen::parked(-0.15, 1.0, 180.0, 0.0);
+    let mut drive = kitchen.drive(-2.6, 1.0, 0.0);
+    let (most, end) = drive_watching(&mut kitchen, &mut drive, |_, _| {});
+    assert_eq!(end, MotionStatus::Done(MotionOutcome::Arrived));
+    assert!(most < MOST, "{most} m/s²");
+}
+
+#[test]
+fn the_base_brakes_for_what_appears_in_its_way() {
+    let mut kitchen = Kitchen::parked(0.0, -0.5, 90.0, 0.3);
+    let mut drive = kitchen.drive(0.0, 2.0, 90.0);
+    let (most, end) = drive_watching(&mut kitchen, &mut drive, |kitchen, step| {
+        if step == 360 {
+            let [x, y, _] = place(kitchen);
+            let at = from_xyz_rpy([x, y + 0.65, 0.1], [0.0; 3]);
+            kitchen
+                .world
+                .spawn("cube-1", "cube", &at, None, None)
+                .unwrap();
+        }
+    });
+    // It goes around it, or says what is there.
+    assert!(!matches!(end, MotionStatus::Running));
+    assert!(most < MOST, "{most} m/s²");
+}
+
+#[test]
+fn the_base_brakes_when_it_loses_what_it_carries() {
+    let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.3);
+    let palm = kitchen
+        .world
+        .models()
+        .description
+        .arm(Side::Right)
+        .gripper
+        .palm;
+    let at = kitchen.world.link_pose(palm) * from_xyz_rpy([0.3, 0.0, 0.0], [0.0; 3]);
+    kitchen
+        .world
+        .spawn("bottle-1", "bottle", &at, None, None)
+        .unwrap();
+    kitchen.world.attach("bottle-1", palm).unwrap();
+    let mut drive = kitchen.drive(0.0, 1.5, 0.0);
+    let (most, end) = drive_watching(&mut kitchen, &mut drive, |kitchen, step| {
+        // It becomes too heavy.
+        if step == 400 {
+            let pose = kitchen.world.object_pose("bottle-1").unwrap();
+            let heavy = Some(30.0);
+            let spawned = kitchen
+                .world
+                .spawn("bottle-1", "bottle", &pose, None, heavy);
+            spawned.unwrap();
+            kitchen.world.attach("bottle-1", palm).unwrap();
+        }
+    });
+    assert!(matches!(end, MotionStatus::Failed(_)), "{end:?}");
+    assert!(most < MOST, "{most} m/s²");
 }

@@ -1,7 +1,10 @@
 //! Fingers: positions, limits, gripping something, nothing and something else.
 
 use super::fixture::Kitchen;
-use crate::motion::{GripperCommand, LetGo, MotionFailure, MotionOutcome, held_objects, take_hold};
+use crate::motion::{
+    GripperCommand, LetGo, Motion, MotionFailure, MotionOutcome, MotionStatus, held_objects,
+    take_hold,
+};
 use crate::robot::Side;
 use crate::spatial::pose::from_xyz_rpy;
 
@@ -159,4 +162,24 @@ fn a_sausage_on_the_floor_is_no_object_to_grip() {
         failure,
         Err(MotionFailure::NothingGripped { side: Side::Right })
     );
+}
+
+#[test]
+fn gripping_fingers_speed_up_and_slow_down_within_their_acceleration() {
+    let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.3);
+    command(&mut kitchen, GripperCommand::Open).unwrap();
+    let grip = GripperCommand::Grip {
+        object: None,
+        effort: None,
+    };
+    let mut grip = kitchen.gripper(Side::Right, grip);
+    let (mut before, mut velocity, mut most) = (finger(&kitchen, Side::Right), 0.0, 0.0_f64);
+    while grip.tick(&mut kitchen.world) == MotionStatus::Running {
+        kitchen.world.step();
+        let now = finger(&kitchen, Side::Right);
+        let next = (now - before) * 240.0;
+        most = most.max((next - velocity).abs() * 240.0);
+        (before, velocity) = (now, next);
+    }
+    assert!(most < 4.5, "{most} rad/s²");
 }

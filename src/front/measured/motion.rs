@@ -3,8 +3,9 @@
 use std::hint::black_box;
 
 use super::{AT_TABLE, Stopwatch, models, parked, spawn};
+use crate::motion::axis_group::AxisGroup;
 use crate::motion::drive_plan::plan_drive;
-use crate::motion::trajectory::{AxisGroup, Corners, Trajectory};
+use crate::motion::trajectory::Trajectory;
 use crate::motion::{CollisionMode, Motion, MoveJoints, MoveTcp, PoseGoal, TcpPath};
 use crate::robot::Side;
 use crate::spatial::Pose;
@@ -20,9 +21,9 @@ pub fn trajectories(stopwatch: &mut dyn Stopwatch) {
         .map(|axis| AxisGroup::single(axis, 1.5, 4.0))
         .collect();
     stopwatch.repeated("trajectory of 16 points and 8 axes", &mut || {
-        black_box(Trajectory::new(&points, &limits, Corners::Round));
+        black_box(Trajectory::rounded(&points, &limits, &mut |_| true));
     });
-    let trajectory = Trajectory::new(&points, &limits, Corners::Round);
+    let trajectory = Trajectory::rounded(&points, &limits, &mut |_| true);
     stopwatch.repeated("a place on it", &mut || {
         black_box(trajectory.position(trajectory.duration() / 2.0));
     });
