@@ -179,17 +179,26 @@ impl World {
     /// Lets time pass until every object is at rest, but at most `seconds` (s). Returns whether
     /// all have come to rest.
     pub(crate) fn settle(&mut self, seconds: f64) -> bool {
+        self.settle_without(&[], seconds)
+    }
+
+    /// As [`Self::settle`], whatever the objects with those keys do.
+    pub(super) fn settle_without(&mut self, restless: &[PartKey], seconds: f64) -> bool {
+        let is_at_rest = |world: &Self| {
+            let mut moving = world.moving_objects();
+            moving.all(|object| restless.contains(&object.key()))
+        };
         let mut quiet = 0;
         let mut left = steps_in(seconds);
         while left > 0 {
             self.step();
             left -= 1;
-            quiet = if self.is_at_rest() { quiet + 1 } else { 0 };
+            quiet = if is_at_rest(self) { quiet + 1 } else { 0 };
             if quiet >= QUIET_STEPS {
                 return true;
             }
         }
-        self.is_at_rest()
+        is_at_rest(self)
     }
 
     /// Whether no object moves faster than 2 mm/s or turns faster than 0.02 rad/s; one in a hand

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::body_name::BodyName;
 use super::error::WorldError;
+use super::object::Object;
 use super::physics::{Robot, STEP_SECONDS};
 use super::scene::World;
 use crate::spatial::pose::{angle_between, distance_between};
@@ -32,16 +33,19 @@ const CREEP_TURN: f64 = 0.003;
 
 impl World {
     /// Lets time pass until everything is at rest, the object for good, but about `seconds` (s) at
-    /// most. Returns whether it has come to that.
+    /// most. Returns whether it has come to that. What moved before is not waited for: it may be
+    /// something that never comes to rest.
     ///
     /// An object that balances on an edge moves too slowly at first to count as moving, and the
     /// engine puts it to sleep; it would fall over when the robot comes near. So it is watched in a
     /// copy of the world, in which it may not sleep.
     pub(crate) fn come_to_rest(&mut self, name: &str, seconds: f64) -> Result<bool, WorldError> {
+        let moving = self.moving_objects().filter(|object| object.name() != name);
+        let restless: Vec<_> = moving.map(Object::key).collect();
         let mut left = seconds;
         while left > 0.0 {
             let before = self.steps();
-            if !self.settle(left) {
+            if !self.settle_without(&restless, left) {
                 return Ok(false);
             }
             if self.clone().stays(name)? {

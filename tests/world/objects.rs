@@ -210,3 +210,22 @@ fn vessels_have_no_holes() {
         assert_eq!(gone.count(), 0, "{name}");
     }
 }
+
+#[test]
+fn a_spawned_object_does_not_wait_for_one_that_never_comes_to_rest() {
+    let mut world = world();
+    spawn(&mut world, "CUBE-1", "cube", &at(-1.4, -0.9, 0.8));
+    assert!(world.come_to_rest("CUBE-1", 20.0).unwrap());
+    // It falls, and would for a long time.
+    let body = spawn(&mut world, "BALL", "bottle", &at(0.9, 0.0, 9.0));
+    assert!(body.support.is_none(), "{body:?}");
+    world.step();
+    let before = world.steps();
+    spawn(&mut world, "CUBE-2", "cube", &at(-1.2, -0.9, 0.8));
+    assert!(world.come_to_rest("CUBE-2", 20.0).unwrap());
+    assert!(
+        world.steps() - before < 240,
+        "{} steps",
+        world.steps() - before
+    );
+}
