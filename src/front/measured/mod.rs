@@ -3,6 +3,7 @@
 //! A bench is a crate of its own and sees only the public face, so the work is set up here and
 //! handed over piece by piece, each piece with a name.
 
+mod clutter;
 mod kinematics;
 mod motion;
 mod pictures;
@@ -10,6 +11,7 @@ mod world;
 
 use std::sync::Arc;
 
+pub use clutter::{PlannedMotion, cluttered_arms, cluttered_drives};
 pub use kinematics::{kinematics, reading};
 pub use motion::{arms, drives, trajectories};
 pub use pictures::pictures;
