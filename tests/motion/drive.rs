@@ -234,3 +234,13 @@ fn the_base_brakes_when_it_loses_what_it_carries() {
     assert!(matches!(end, MotionStatus::Failed(_)), "{end:?}");
     assert!(most < MOST, "{most} m/s²");
 }
+
+#[test]
+fn a_tight_place_that_a_finer_search_reaches_is_reached() {
+    let mut kitchen = Kitchen::new();
+    let park = kitchen.park(true, true);
+    assert_eq!(kitchen.run_one(park), Ok(MotionOutcome::Arrived));
+    let heading = 2.0 * f64::atan2(0.98981, 0.14240);
+    let drive = kitchen.drive(-0.39496, 0.63927, heading.to_degrees());
+    assert_eq!(kitchen.run_one(drive), Ok(MotionOutcome::Arrived));
+}
