@@ -223,8 +223,11 @@ impl BaseMotion {
             return self.give_up_trajectory(hit);
         }
         let mut place = follower.next();
+        // A cubic, so that the drift changes the speed of the base nowhere at once.
+        let fraction = follower.fraction();
+        let share = fraction * fraction * (3.0 - 2.0 * fraction);
         for (axis, drift) in place.iter_mut().zip(self.drift) {
-            *axis += drift * follower.fraction();
+            *axis += drift * share;
         }
         let next = at_place(world.robot_configuration(), &place);
         if let Some(hit) = guard::obstacle(world, &next, &AllowedPairs::none()) {
