@@ -115,6 +115,10 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
+/// How much farther out and up (m) a hand must also be able to be where it puts something down:
+/// what it holds has moved a little in the hand, or comes to stand a little higher.
+const SLACK: f64 = 0.005;
+
 /// An object as described by perception.
 pub(crate) struct Perceived {
     /// Name in the world.
@@ -260,7 +264,8 @@ impl Simulation {
 
 impl Simulation {
     /// Whether the hand could open around an object at a pose in the frame of the base, and be
-    /// at all the poses that go with it, without touching anything else.
+    /// at all the poses that go with it, without touching anything else, also where the object
+    /// comes to stand a little farther away.
     fn is_free_around(&self, grip: &HeldGrip, object: &Pose) -> bool {
         let (name, side) = (&grip.object, grip.side);
         let imagined = Imagined {
@@ -276,10 +281,20 @@ impl Simulation {
         let Ok(stands) = world.object_pose(name) else {
             return false;
         };
+        let can_be_at =
+            |tool: &Pose| can_reach(&world, side, tool, CollisionMode::AllowHand, Some(name));
         grip.poses(&(self.base().inverse() * stands))
             .iter()
-            .all(|tool| can_reach(&world, side, tool, CollisionMode::AllowHand, Some(name)))
+            .all(|tool| can_be_at(tool) && can_be_at(&farther(tool)))
     }
+}
+
+/// The pose in the frame of the base, `SLACK` further out and up.
+fn farther(tool: &Pose) -> Pose {
+    let at = tool.translation.vector;
+    let out = Vector3::new(at.x, at.y, 0.0).try_normalize(1e-9);
+    let out = out.unwrap_or_else(Vector3::zeros);
+    Translation3::from((out + Vector3::z()) * SLACK) * tool
 }
 
 fn in_base(pose: &Pose) -> Value {
