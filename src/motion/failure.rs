@@ -292,6 +292,17 @@ pub(crate) enum MotionFailure {
         /// What would happen.
         trial: Box<StandTrial>,
     },
+    /// The arm cannot move a held object straight to where it is to be put down.
+    #[error(
+        "the {side} arm cannot put {object} down there: no way leads straight to that place, \
+         neither from where the hand is nor from above"
+    )]
+    NoWayDown {
+        /// The arm.
+        side: Side,
+        /// Name of the object, which stays in the hand.
+        object: String,
+    },
     /// The hand holds nothing.
     #[error("the {side} hand holds nothing")]
     HoldsNothing {
@@ -377,6 +388,7 @@ impl MotionFailure {
             | Self::TooHeavy(_)
             | Self::NothingBelow { .. }
             | Self::WouldNotStand { .. }
+            | Self::NoWayDown { .. }
             | Self::HoldsNothing { .. } => "MANIPULATION-GOAL-NOT-REACHED",
             Self::NotFinite { module } => match module {
                 ProcessModule::Navigation => "NAVIGATION-POSE-UNREACHABLE",

@@ -1,6 +1,6 @@
 //! Putting a held object down.
 //!
-//! The hand moves slowly and straight to the goal, and stops as soon as something carries the
+//! The hand moves slowly and straight to the goal, if need be from another posture, and stops as soon as something carries the
 //! object: before the goal if the surface is higher, below the goal if it is lower. If nothing
 //! within reach below the goal would carry the object, or if it would not stand there, the hand
 //! does not even begin, and keeps the object.
@@ -14,7 +14,7 @@ use super::joint_follower::JointFollower;
 use super::joint_motion::{Arrival, JointGoal, JointMotion};
 use super::move_tcp::{PoseGoal, in_base};
 use super::pose_goal::PoseGoalTask;
-use super::put_plan::{PutPlan, nothing_below};
+use super::put_plan::{PutMotion, PutPlan, no_way_down, nothing_below};
 use crate::robot::{LinkId, Side};
 use crate::world::{BodyName, CollisionHit, World};
 
@@ -36,6 +36,8 @@ pub(crate) struct PutGoal {
     pose: PoseGoal,
     /// Name of the object that the hand holds.
     object: String,
+    /// Whether the arm first moves to where it can begin.
+    is_detour: bool,
 }
 
 impl Put {
@@ -45,6 +47,7 @@ impl Put {
             side,
             pose,
             object: String::new(),
+            is_detour: false,
         }))
     }
 }
@@ -70,13 +73,14 @@ impl PutGoal {
 impl JointGoal for PutGoal {
     const MODULE: ProcessModule = ProcessModule::Arms;
     const BLOCKED_TIMEOUT: f64 = 0.3;
+    const MOST_PLANS: u32 = 3;
     const SEARCHES: bool = true;
 
     fn what(&self) -> &'static str {
         "putting down"
     }
 
-    fn plan(&mut self, world: &World, _: u32) -> Result<JointFollower, MotionFailure> {
+    fn plan(&mut self, world: &World, plans: u32) -> Result<JointFollower, MotionFailure> {
         let side = self.side;
         let held = held_objects(world, side).into_iter().next();
         self.object = held.ok_or(MotionFailure::HoldsNothing { side })?;
@@ -90,13 +94,18 @@ impl JointGoal for PutGoal {
             goals,
             contacts,
         };
-        PutPlan {
+        let plan = PutPlan {
             task,
             side,
             object: &self.object,
             depth: DEPTH,
-        }
-        .plan()
+        };
+        let (follower, is_detour) = match plan.plan(plans)? {
+            PutMotion::Down(follower) => (follower, false),
+            PutMotion::Detour(follower) => (follower, true),
+        };
+        self.is_detour = is_detour;
+        Ok(follower)
     }
 
     fn carriers(&self, world: &World) -> Vec<LinkId> {
@@ -104,12 +113,16 @@ impl JointGoal for PutGoal {
     }
 
     fn met(&self, world: &World, fraction: f64) -> Option<MotionOutcome> {
-        let support = self.support(world).filter(|_| fraction > LEAVING)?;
+        let is_down = !self.is_detour && fraction > LEAVING;
+        let support = self.support(world).filter(|_| is_down)?;
         Some(self.outcome(world, Some(support)))
     }
 
-    /// What was to carry the object is not there, or the path has been a detour.
+    /// What was to carry the object is not there, or the way down begins here.
     fn arrived(&mut self, world: &mut World) -> Arrival {
+        if self.is_detour {
+            return Arrival::Missed(no_way_down(self.side, &self.object));
+        }
         match nothing_below(world, &self.object, DEPTH) {
             Ok(failure) => Arrival::Failed(failure),
             Err(error) => Arrival::Failed(MotionFailure::UnknownName(error.to_string())),

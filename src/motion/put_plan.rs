@@ -1,9 +1,12 @@
 //! Planning how to put a held object down: where it meets a surface, and a path there.
 
+use nalgebra::Translation3;
+
 use super::cartesian_path::{
     CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base,
 };
 use super::configuration_checker::ConfigurationChecker;
+use super::expected_contacts::{CollisionMode, ExpectedContacts};
 use super::failure::MotionFailure;
 use super::joint_follower::{JointFollower, with_joints};
 use super::planning_group::PlanningGroup;
@@ -22,6 +25,8 @@ const GREATEST_MOTION: f64 = 0.02;
 const GREATEST_TILT: f64 = 0.1745;
 /// How many final configurations at one height are tried.
 const CONFIGURATIONS: usize = 6;
+/// How far (m) above its goal the hand begins anew if it cannot move there from where it is.
+const ABOVE: f64 = 0.05;
 
 /// Plans the path of a hand with an object: straight to the task's only goal, and from there
 /// straight down.
@@ -34,11 +39,19 @@ pub(super) struct PutPlan<'a> {
     pub(super) depth: f64,
 }
 
+/// The next motion of putting down.
+pub(super) enum PutMotion {
+    /// Straight to where the object meets something on which it will stand.
+    Down(JointFollower),
+    /// To where such a motion can begin; the object touches nothing.
+    Detour(JointFollower),
+}
+
 impl PutPlan<'_> {
-    /// The path to where the object meets something on which it will stand.
-    pub(super) fn plan(mut self) -> Result<JointFollower, MotionFailure> {
+    /// The next motion, after as many `detours`.
+    pub(super) fn plan(mut self, detours: u32) -> Result<PutMotion, MotionFailure> {
         let Some(&(side, goal)) = self.task.goals.first() else {
-            return self.task.plan_free();
+            return Err(MotionFailure::HoldsNothing { side: self.side });
         };
         let contact = match self.contact() {
             Meeting::At(contact) => Some(contact),
@@ -48,13 +61,27 @@ impl PutPlan<'_> {
         if let Some(contact) = &contact {
             self.check_stand(contact)?;
         }
-        self.task.goals = vec![(side, contact.unwrap_or(goal))];
+        let end = contact.unwrap_or(goal);
+        self.task.goals = vec![(side, end)];
         for height in self.task.heights(REASON_STEP) {
             if let Some(follow) = self.plan_at(height, contact.is_some()) {
-                return Ok(follow);
+                return Ok(PutMotion::Down(follow));
             }
         }
-        self.task.plan_free()
+        let sides = [self.side].into_iter();
+        let careful = ExpectedContacts::of(self.task.world, sides, CollisionMode::AvoidAll, None);
+        if detours == 0
+            && let Some(first) = self.task.plan_to_start_of_line(&careful)
+        {
+            return Ok(PutMotion::Detour(first));
+        }
+        if detours < 2 {
+            let above = Translation3::new(0.0, 0.0, ABOVE) * end;
+            self.task.goals = vec![(side, above)];
+            self.task.contacts = careful;
+            return self.task.plan_free().map(PutMotion::Detour);
+        }
+        Err(no_way_down(self.side, self.object))
     }
 
     /// Where the object will be, in the map frame, when the tool is at the pose in the frame of
@@ -187,6 +214,14 @@ impl PutPlan<'_> {
         }
         let line = task.lines.iter().find(|line| line.side == self.side)?;
         Some(pose::between(&line.from, &line.to, touching))
+    }
+}
+
+/// The failure of an arm that cannot move the object straight to its place.
+pub(super) fn no_way_down(side: Side, object: &str) -> MotionFailure {
+    MotionFailure::NoWayDown {
+        side,
+        object: object.to_owned(),
     }
 }
 

@@ -55,7 +55,7 @@ fn a_recording_shows_what_happened() {
 
     let (found, history) = read(&bytes);
     let found = found.unwrap();
-    assert!(found.frames > 90 && !found.is_cut_off, "{found:?}");
+    assert!(found.frames > 60 && !found.is_cut_off, "{found:?}");
     let nodes = history.nodes_from(0);
     let node = |name: &str| nodes.iter().find(|n| n.name == name).unwrap();
     let bottle = node("BOTTLE-1");
