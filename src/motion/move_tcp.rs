@@ -154,7 +154,7 @@ impl JointGoal for HandGoal {
                     touching: task.contacts.touching.clone(),
                 };
                 if plans == 0
-                    && let Some(first) = task.plan_to_start_of_line(&careful)
+                    && let Some(first) = task.plan_to_start_of_line(None, &careful)
                 {
                     return Ok(first);
                 }

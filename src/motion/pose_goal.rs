@@ -5,6 +5,8 @@
 //! height all configurations over the arm's redundant angle are considered; those in collision
 //! are left out, the rest are ranked by how far away they are and how much clearance they have.
 
+use nalgebra::Translation3;
+
 use super::axis_group::AxisGroup;
 use super::cartesian_path::{
     CartesianEnd, CartesianLine, CartesianPath, CartesianTask, tcp_in_base, wrist_in_torso,
@@ -326,10 +328,12 @@ impl PoseGoalTask<'_> {
         None
     }
 
-    /// A path to another configuration with the same tool poses, from which the tools can move
-    /// straight to the goals; on it the robot touches only what is given.
+    /// A path to a configuration from which the tools can move straight to the goals, with the
+    /// tools where they are now, or by an offset (m) from the goals, if one is given; on it the
+    /// robot touches only what is given.
     pub(super) fn plan_to_start_of_line(
         &self,
+        from: Option<Translation3<f64>>,
         contacts: &ExpectedContacts,
     ) -> Option<JointFollower> {
         let mut searches = 0;
@@ -343,13 +347,13 @@ impl PoseGoalTask<'_> {
                 ConfigurationChecker::new(self.world, group.joints.clone(), &self.contacts);
             let mut back = self.line_task(height, &group);
             for line in &mut back.lines {
-                std::mem::swap(&mut line.from, &mut line.to);
+                let start = from.map_or(line.from, |offset| offset * line.to);
+                (line.from, line.to) = (line.to, start);
             }
-            let free = configurations
-                .iter()
-                .filter(|p| checker.blocked(&p.positions).is_none());
-            let ends: Vec<&GoalConfiguration> = free.take(LINE_ENDS).collect();
-            for end in ends {
+            for end in &configurations {
+                if checker.blocked(&end.positions).is_some() {
+                    continue;
+                }
                 let (path, met) = back.follow(&end.positions, None, Some(&mut checker));
                 let (CartesianEnd::Complete, Some(start)) = (met, path.points.last()) else {
                     continue;

@@ -27,6 +27,8 @@ const GREATEST_TILT: f64 = 0.1745;
 const CONFIGURATIONS: usize = 6;
 /// How far (m) above its goal the hand begins anew if it cannot move there from where it is.
 const ABOVE: f64 = 0.05;
+/// How many detours there may be: other jobs may move the torso or the base meanwhile.
+const MOST_DETOURS: u32 = 2;
 
 /// Plans the path of a hand with an object: straight to the task's only goal, and from there
 /// straight down.
@@ -70,16 +72,13 @@ impl PutPlan<'_> {
         }
         let sides = [self.side].into_iter();
         let careful = ExpectedContacts::of(self.task.world, sides, CollisionMode::AvoidAll, None);
-        if detours == 0
-            && let Some(first) = self.task.plan_to_start_of_line(&careful)
-        {
-            return Ok(PutMotion::Detour(first));
-        }
-        if detours < 2 {
-            let above = Translation3::new(0.0, 0.0, ABOVE) * end;
-            self.task.goals = vec![(side, above)];
-            self.task.contacts = careful;
-            return self.task.plan_free().map(PutMotion::Detour);
+        if detours < MOST_DETOURS {
+            let above = Translation3::new(0.0, 0.0, ABOVE);
+            let starts = [None, Some(above)].into_iter();
+            let mut detours = starts.filter_map(|s| self.task.plan_to_start_of_line(s, &careful));
+            if let Some(detour) = detours.next() {
+                return Ok(PutMotion::Detour(detour));
+            }
         }
         Err(no_way_down(self.side, self.object))
     }
