@@ -2,7 +2,7 @@
 
 use crate::plan::designator::value::current;
 use crate::session::simulation::properties::property;
-use nalgebra::Translation3;
+use nalgebra::{Translation3, Vector3};
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
