@@ -24,6 +24,9 @@ const CHECK_EVERY: f64 = 0.005;
 /// A parabola that stays this close (rad or m) to its corner is not checked.
 const UNCHECKED: f64 = 2e-4;
 
+/// Tells whether a point of a path may be taken.
+pub(super) type IsFree<'a> = dyn FnMut(&[f64]) -> bool + 'a;
+
 /// A piece of a path, with constant curvature. Vectors have one number per axis (rad or m).
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Piece {
@@ -79,7 +82,7 @@ struct Leg {
 pub(super) fn rounded_path(
     points: &[Vec<f64>],
     limits: &[AxisGroup],
-    mut is_free: Option<&mut dyn FnMut(&[f64]) -> bool>,
+    mut is_free: Option<&mut IsFree<'_>>,
 ) -> Vec<Piece> {
     let legs = legs(points, limits);
     let mut pieces = Vec::new();
@@ -148,7 +151,7 @@ fn corner(
     leg: &Leg,
     next: &Leg,
     limits: &[AxisGroup],
-    is_free: &mut Option<&mut dyn FnMut(&[f64]) -> bool>,
+    is_free: &mut Option<&mut IsFree<'_>>,
 ) -> Corner {
     let turn: Vec<f64> = (leg.direction.iter().zip(&next.direction))
         .map(|(a, b)| b - a)
@@ -191,7 +194,7 @@ fn parabola(leg: &Leg, turn: &[f64], half: f64) -> Piece {
     }
 }
 
-fn is_piece_free(piece: &Piece, is_free: &mut dyn FnMut(&[f64]) -> bool) -> bool {
+fn is_piece_free(piece: &Piece, is_free: &mut IsFree<'_>) -> bool {
     // The cast saturates, and the length is that of a motion.
     let parts = (piece.length / CHECK_EVERY).ceil().max(2.0) as u32;
     (1..parts).all(|i| is_free(&piece.point(piece.length * f64::from(i) / f64::from(parts))))

@@ -14,7 +14,7 @@
 //! Nothing here knows of robots or collisions.
 
 use super::axis_group::AxisGroup;
-use super::rounded_path::{Piece, rounded_path};
+use super::rounded_path::{IsFree, Piece, rounded_path};
 use super::time_scaling::{Stretch, fastest};
 
 /// Greatest time (s) between two samples, and length of the first window.
@@ -47,16 +47,12 @@ impl Trajectory {
     pub(crate) fn rounded(
         points: &[Vec<f64>],
         limits: &[AxisGroup],
-        is_free: &mut dyn FnMut(&[f64]) -> bool,
+        is_free: &mut IsFree<'_>,
     ) -> Self {
         Self::along(points, limits, Some(is_free))
     }
 
-    fn along(
-        points: &[Vec<f64>],
-        limits: &[AxisGroup],
-        is_free: Option<&mut dyn FnMut(&[f64]) -> bool>,
-    ) -> Self {
+    fn along(points: &[Vec<f64>], limits: &[AxisGroup], is_free: Option<&mut IsFree<'_>>) -> Self {
         let pieces = rounded_path(points, limits, is_free);
         let stretches = fastest(&pieces, limits);
         // The averaged motion reaches a stop when both windows lie between samples in the pause.

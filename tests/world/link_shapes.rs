@@ -146,13 +146,15 @@ fn fit(shapes: &[PlacedShape], points: &[Point3<f64>]) -> Fit {
     }
 }
 
+/// Links that are fixed to one another: their names, shapes and true surface.
+type Group<'a> = (Vec<&'a str>, Vec<PlacedShape>, Vec<Point3<f64>>);
+
 #[test]
 fn links_are_as_large_as_the_robot_s() {
     let models = models();
     let tree = &models.robot;
     let zero = tree.zero_positions();
-    let mut groups: BTreeMap<usize, (Vec<&str>, Vec<PlacedShape>, Vec<Point3<f64>>)> =
-        BTreeMap::new();
+    let mut groups: BTreeMap<usize, Group<'_>> = BTreeMap::new();
     let surfaces = true_surfaces();
     for (name, surface) in &surfaces {
         let id = tree.link_named(name).unwrap();
