@@ -49,7 +49,7 @@ fn clutter(_: &mut Criterion) {
     }
     let began = Instant::now();
     let mut clock = || processor_time(began);
-    let mut of_all = |name: &str, motions: &[PlannedMotion]| {
+    let of_all = |name: &str, motions: &[PlannedMotion]| {
         let planning = motions.iter().map(|m| 1e3 * m.planning.as_secs_f64());
         figures(&format!("{name}, planning (ms)"), planning.collect());
         let times = motions.iter().filter_map(|motion| motion.times);
