@@ -4,7 +4,7 @@ use super::base_query::{BaseQuery, Item};
 use super::stream::Scene;
 use crate::motion::{
     Candidates, Effort, GraspChooser, GraspObstacle, GraspPart, GraspQuestion, GraspReach,
-    HeldGrip, PutReach, Station, held_objects,
+    HeldGrip, PutReach, Station,
 };
 use crate::robot::Side;
 use crate::spatial::{Pose, pose, trig};
@@ -26,7 +26,7 @@ pub(super) enum NoReach {
     InTheWay,
 }
 
-/// The world as it would be: with the target where it is to be, and open hands.
+/// The world as it would be with the target where it is to be.
 pub(super) fn imagined(query: &BaseQuery, scene: Scene<'_>) -> Result<World, WorldError> {
     let mut world = scene.world.clone();
     let target = &query.target;
@@ -40,21 +40,6 @@ pub(super) fn imagined(query: &BaseQuery, scene: Scene<'_>) -> Result<World, Wor
             world.spawn(IMAGINED, kind, &target.pose, None, None)?;
         }
     }
-    let mut robot = world.robot_configuration().clone();
-    if let Some(kind) = kind_of(query, &world) {
-        let opening = match &query.held {
-            Some(_) => f64::INFINITY,
-            None => scene.grasps.grip(&kind).opening,
-        };
-        for side in query.arms.iter().flatten() {
-            if held_objects(&world, *side).is_empty() {
-                let gripper = &world.models().description.arm(*side).gripper;
-                let fingers = gripper.position_for_opening(opening);
-                robot.joints.set(gripper.joint, fingers);
-            }
-        }
-    }
-    world.teleport_robot(&robot);
     Ok(world)
 }
 
@@ -168,7 +153,10 @@ impl<'a> Reach<'a> {
                     false => NoReach::InTheWay,
                 }
             }),
-            Self::Put(put) => put.with_base_at(base).map_err(|obstacle| cause(&obstacle)),
+            Self::Put(put) => put
+                .with_base_at(base, Effort::QUICK)
+                .map(|_| ())
+                .map_err(|obstacle| cause(&obstacle)),
             Self::Point(reach, point, arms) => test_point(reach, base, point, arms),
             Self::Nothing => Ok(()),
         }

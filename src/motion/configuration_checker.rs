@@ -4,7 +4,9 @@ use super::expected_contacts::ExpectedContacts;
 use super::guard::GUARD_DEPTH;
 use super::touching::TouchingPairs;
 use crate::robot::JointId;
-use crate::world::{AllowedPairs, CollisionChecker, CollisionHit, RobotConfiguration, World};
+use crate::world::{
+    AllowedPairs, BodyName, CollisionChecker, CollisionHit, RobotConfiguration, World,
+};
 
 /// Clearance (m) of planned configurations from everything.
 pub(super) const PLAN_MARGIN: f64 = 0.004;
@@ -26,8 +28,7 @@ impl<'w> ConfigurationChecker<'w> {
         Self::at(world, robot, joints, contacts)
     }
 
-    /// As [`Self::new`], with the robot elsewhere, or in another posture.
-    pub(super) fn at(
+    fn at(
         world: &'w World,
         robot: RobotConfiguration,
         joints: Vec<JointId>,
@@ -35,6 +36,34 @@ impl<'w> ConfigurationChecker<'w> {
     ) -> Self {
         let mut checker = world.collision_checker();
         let touching = TouchingPairs::new(&mut checker, &robot, contacts, PLAN_MARGIN, TOUCH_DEPTH);
+        Self {
+            checker,
+            robot,
+            joints,
+            touching,
+        }
+    }
+
+    /// As [`Self::new`], with the robot elsewhere, and without regard to where the moving bodies
+    /// are at the start: they may be close to nothing.
+    pub(super) fn away_from_start(
+        world: &'w World,
+        robot: RobotConfiguration,
+        joints: Vec<JointId>,
+        contacts: &ExpectedContacts,
+        moving: &[BodyName],
+    ) -> Self {
+        let mut checker = world.collision_checker();
+        let stays =
+            |hit: &CollisionHit| !moving.contains(&hit.moving) && !moving.contains(&hit.other);
+        let touching = TouchingPairs::some(
+            &mut checker,
+            &robot,
+            contacts,
+            PLAN_MARGIN,
+            TOUCH_DEPTH,
+            stays,
+        );
         Self {
             checker,
             robot,

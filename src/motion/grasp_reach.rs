@@ -7,14 +7,13 @@ use serde::{Deserialize, Serialize};
 
 use super::configuration_checker::ConfigurationChecker;
 use super::expected_contacts::{CollisionMode, ExpectedContacts};
-use super::hand::hand_names;
+use super::hand::{arm_names, hand_names};
+use super::pose_goal::CONFIGURATION_STEP;
 use crate::robot::torso_search::TorsoSearch;
 use crate::robot::{ARM_JOINTS, JointId, Side};
 use crate::spatial::Pose;
 use crate::world::{BodyName, CollisionHit, RobotConfiguration, World};
 
-/// Distance of neighbouring configurations over the redundant angle (rad).
-const CONFIGURATION_STEP: f64 = 0.3;
 /// Step (m) between torso heights that are tried.
 const HEIGHT_STEP: f64 = 0.06;
 /// Open fingers may overlap their object this much (m) where they will grip it.
@@ -122,6 +121,8 @@ struct Hand<'w> {
     /// Position of the finger joint (rad).
     fingers: f64,
     links: Vec<BodyName>,
+    /// All links of the arm, those of the hand among them.
+    arm: Vec<BodyName>,
     careful: ExpectedContacts,
     touching: ExpectedContacts,
 }
@@ -145,6 +146,7 @@ impl<'w> GraspReach<'w> {
                 torso: description.torso_search(&models.robot, joints, side),
                 fingers: description.arm(side).gripper.position_for_opening(opening),
                 links: hand_names(world, side),
+                arm: arm_names(world, side),
                 careful: contacts(CollisionMode::AvoidAll),
                 touching: contacts(CollisionMode::AllowHand),
             }
@@ -329,8 +331,6 @@ impl<'w> GraspReachFrom<'w> {
             let hand = &reach.hands[side.index()];
             let description = &reach.world.models().description;
             let arm = description.arm(hand.side);
-            let mut robot = robot.clone();
-            robot.joints.set(arm.gripper.joint, hand.fingers);
             let contacts = if touches {
                 &hand.touching
             } else {
@@ -339,7 +339,10 @@ impl<'w> GraspReachFrom<'w> {
             let joints: Vec<JointId> = std::iter::once(description.torso.joint)
                 .chain(*arm.joints())
                 .collect();
-            ConfigurationChecker::at(reach.world, robot, joints, contacts)
+            let mut robot = robot.clone();
+            robot.joints.set(arm.gripper.joint, hand.fingers);
+            let world = reach.world;
+            ConfigurationChecker::away_from_start(world, robot, joints, contacts, &hand.arm)
         })
     }
 }

@@ -22,6 +22,16 @@ pub(super) fn hand_names(world: &World, side: Side) -> Vec<BodyName> {
     links.map(|link| models.robot_body(link)).collect()
 }
 
+/// The links of an arm, from the shoulder on, and of its hand.
+pub(super) fn arm_names(world: &World, side: Side) -> Vec<BodyName> {
+    let models = world.models();
+    let [first, ..] = models.description.arm(side).joints();
+    let shoulder = models.robot.joint(*first).child;
+    let links = models.robot.links().map(|(link, _)| link);
+    let moving = links.filter(|link| models.robot.carries(shoulder, *link));
+    moving.map(|link| models.robot_body(link)).collect()
+}
+
 /// The gripper of a hand.
 pub(super) fn gripper_of(world: &World, side: Side) -> &Gripper {
     &world.models().description.arm(side).gripper

@@ -28,7 +28,7 @@ use crate::spatial::{Pose, trig};
 use crate::world::{CollisionHit, World};
 
 /// Distance of neighbouring configurations over the redundant angle (rad).
-const CONFIGURATION_STEP: f64 = 0.15;
+pub(super) const CONFIGURATION_STEP: f64 = 0.15;
 /// Step (m) between torso heights that are tried.
 const TORSO_STEP: f64 = 0.01;
 /// Step (m) between torso heights at which a cause of failure is looked for.

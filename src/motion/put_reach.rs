@@ -16,6 +16,10 @@ use crate::world::{Models, World, WorldError};
 /// How far (m) the hand lifts and withdraws if it is not known how it has grasped the object.
 const UP: [f64; 3] = [0.0, 0.0, 0.15];
 
+/// How much farther out and up (m) a hand must also be able to be where it puts something down:
+/// what it holds has moved a little in the hand, or comes to stand a little higher.
+const SLACK: f64 = 0.005;
+
 /// How a hand holds an object, as far as it matters for putting it down.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct HeldGrip {
@@ -145,20 +149,21 @@ impl<'w> PutReach<'w> {
         self.shoulder.reaches(&place.coords, self.span)
     }
 
-    /// Whether the object can be put down there with the base at a pose in the map frame.
-    pub(crate) fn with_base_at(&self, base: &Pose) -> Result<(), GraspObstacle> {
+    /// The nearest heading (rad, relative to the one that is wanted) at which the object can be put
+    /// down there with the base at a pose in the map frame.
+    pub(crate) fn with_base_at(&self, base: &Pose, effort: Effort) -> Result<f64, GraspObstacle> {
         let object = base.inverse() * self.target;
-        let mut from = self.reach.with_base_at(base, Effort::QUICK);
+        let mut from = self.reach.with_base_at(base, effort);
         let mut nearest = None;
         for heading in self.grip.headings() {
             let poses = self.grip.poses(&(object * about_z(heading)));
+            // Things come to stand a little farther away than planned.
+            let poses = poses.into_iter().flat_map(|tool| [tool, farther(&tool)]);
             // The hand may touch the object all the time.
-            let stations = poses.map(|tool| Station {
-                part: GraspPart::Lift,
-                tool,
-            });
+            let part = GraspPart::Lift;
+            let stations: Vec<Station> = poses.map(|tool| Station { part, tool }).collect();
             match from.check(self.grip.side, &stations) {
-                Ok(_) => return Ok(()),
+                Ok(_) => return Ok(heading),
                 Err(GraspObstacle::OutOfReach { part }) => {
                     nearest = nearest.or(Some(GraspObstacle::OutOfReach { part }));
                 }
@@ -168,4 +173,12 @@ impl<'w> PutReach<'w> {
         let part = GraspPart::Lift;
         Err(nearest.unwrap_or(GraspObstacle::OutOfReach { part }))
     }
+}
+
+/// The pose in the frame of the base, `SLACK` further out and up.
+fn farther(tool: &Pose) -> Pose {
+    let at = tool.translation.vector;
+    let out = Vector3::new(at.x, at.y, 0.0).try_normalize(1e-9);
+    let out = out.unwrap_or_else(Vector3::zeros);
+    Translation3::from((out + Vector3::z()) * SLACK) * tool
 }

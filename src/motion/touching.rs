@@ -32,8 +32,21 @@ impl TouchingPairs {
         margin: f64,
         depth: f64,
     ) -> Self {
+        Self::some(checker, robot, contacts, margin, depth, |_| true)
+    }
+
+    /// As [`Self::new`], for some pairs only: all others must keep the distance that planned
+    /// configurations have.
+    pub(super) fn some(
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+        contacts: &ExpectedContacts,
+        margin: f64,
+        depth: f64,
+        counts: impl Fn(&CollisionHit) -> bool,
+    ) -> Self {
         let mut hits = checker.all_hits(robot, &contacts.allowed, margin);
-        hits.retain(|hit| hit.depth < GREATEST_LAG);
+        hits.retain(|hit| hit.depth < GREATEST_LAG && counts(hit));
         let relaxed = hits.iter().fold(contacts.allowed.clone(), |all, hit| {
             all.and(hit.moving.clone(), hit.other.clone())
         });

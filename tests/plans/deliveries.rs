@@ -7,6 +7,8 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::cook::Cook;
+use crate::session::dialogue::{Evaluate, Outcome};
+use crate::session::{Session, SessionOptions};
 
 /// A surface: the name of its link, the corners of its top, and its height (m).
 struct Surface {
@@ -176,7 +178,7 @@ fn how_often_objects_are_transported() {
     let worlds = std::env::var("WORLDS").ok().and_then(|n| n.parse().ok());
     let worlds: u32 = worlds.unwrap_or(5);
     let is_blocked = std::env::var("BLOCKED").is_ok();
-    let mut cook = Cook::new();
+    let mut cook = Cook::unwatched();
     cook.done(PLAN);
     let types = match std::env::var("TYPES") {
         Ok(types) => types,
@@ -224,61 +226,43 @@ fn how_often_objects_are_transported() {
     all.line("all");
 }
 
-/// Objects of the table setting: type, where it is, and where it goes (m, and heading in rad).
-const TABLE_SETTING: [(&str, [f64; 4], [f64; 4]); 4] = {
-    use std::f64::consts::{FRAC_PI_2, PI};
-    [
-        (
-            ":breakfast-cereal",
-            [1.4, 0.4, 0.95, 0.0],
-            [-0.78, 0.9, 0.95, PI],
-        ),
-        (":cup", [1.3, 0.6, 0.9, 0.0], [-0.79, 1.35, 0.9, FRAC_PI_2]),
-        (
-            ":bowl",
-            [1.4, 0.8, 0.87, 0.0],
-            [-0.76, 1.19, 0.88, FRAC_PI_2],
-        ),
-        (
-            ":milk",
-            [1.4, 0.62, 0.95, PI],
-            [-0.75, 1.7, 0.95, FRAC_PI_2],
-        ),
-    ]
-};
+const DEMO: &str = include_str!("../../plans/demos/table-setting.plan");
 
-fn pose_form([x, y, z, yaw]: [f64; 4]) -> String {
-    let (s, c) = (yaw / 2.0).sin_cos();
-    format!("'(({x} {y} {z}) (0 0 {s:.6} {c:.6}))")
+/// How far (m) the things of the demo are from their places.
+fn off_their_places(cook: &Cook) -> Vec<f64> {
+    let places = [
+        ("BREAKFAST-CEREAL-1", [-0.78, 0.9]),
+        ("CUP-1", [-0.79, 1.35]),
+        ("BOWL-1", [-0.76, 1.19]),
+        ("MILK-1", [-0.75, 1.7]),
+    ];
+    let off = |(name, [x, y]): (&str, [f64; 2])| {
+        let t = cook.pose(name).translation;
+        libm::hypot(t.x - x, t.y - y)
+    };
+    places.map(off).to_vec()
 }
 
-/// `cargo test --release --lib -- --ignored --nocapture the_table_is_set`
 #[test]
-#[ignore = "prints what becomes of the objects of a table setting, and the time it takes"]
-fn the_table_is_set() {
+fn the_table_is_set_and_not_again() {
     let mut cook = Cook::new();
-    cook.done(PLAN);
-    for (kind, from, _) in TABLE_SETTING {
-        let name = kind.trim_start_matches(':');
-        cook.done(&format!(
-            "(spawn-object {} {kind} '{name}-1)",
-            pose_form(from)
-        ));
-    }
+    let said = cook.done(DEMO);
+    let off = off_their_places(&cook);
+    assert!(off.iter().all(|off| *off < NEAR), "{off:?}\n{said}");
+    assert!(!said.contains("Skipping"), "{said}");
+    cook.assert_no_overlap();
+    let before = cook.session.simulation().now();
+    cook.done("(with-simulated-robot (bring-all))");
+    assert_eq!(cook.session.simulation().now(), before, "no motion");
+}
+
+/// `cargo test --release --lib -- --ignored --nocapture how_long_it_takes_to_set_the_table`
+#[test]
+#[ignore = "prints how long it takes to set the table"]
+fn how_long_it_takes_to_set_the_table() {
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
     let start = Instant::now();
-    for (kind, from, to) in TABLE_SETTING {
-        let said = cook.say(&format!(
-            "(let* ((?from (make-pose \"map\" {})) (?to (make-pose \"map\" {}))
-                    (?there (a location (pose ?to))))
-               (again (an object (type {kind})) ?there (a location (pose ?from))))",
-            pose_form(from),
-            pose_form(to)
-        ));
-        let name = format!("{}-1", kind.trim_start_matches(':').to_uppercase());
-        let t = cook.pose(&name).translation;
-        let off = (t.x - to[0]).hypot(t.y - to[1]);
-        let report = said.err().map(|(report, _)| report).unwrap_or_default();
-        eprintln!("{kind:20} {:.1} cm off {report}", off * 100.0);
-    }
+    let outcome = session.evaluate("demo", DEMO, &mut |_| {});
+    assert_ne!(outcome, Outcome::Aborted);
     eprintln!("{:.2} s", start.elapsed().as_secs_f64());
 }

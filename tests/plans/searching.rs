@@ -66,11 +66,11 @@ fn what_is_hidden_is_not_found_and_the_failure_says_what_was_tried() {
         ));
     }
     let search = "(search-for :bottle (list *at-second*) (list *stand*))";
-    assert_eq!(attempts(&mut cook, search), "((\"look\" 1) (\"place\" 1))");
+    assert_eq!(attempts(&mut cook, search), "((\"look\" 2) (\"place\" 1))");
     let told = cook.done("(explain)");
     for part in [
         "the bottle was not found",
-        "look: not in sight (×1)",
+        "look: not in sight (×2)",
         "place: not found (×1)",
     ] {
         assert!(told.contains(part), "{part}\n{told}");
@@ -102,7 +102,7 @@ fn a_blocked_place_to_stand_is_passed_over() {
 fn what_is_not_in_the_world_is_searched_for_and_the_robot_is_parked_then() {
     let mut cook = cook();
     let search = "(search-for :cup (list *at-first* *at-second*) (list *stand*))";
-    assert_eq!(attempts(&mut cook, search), "((\"look\" 2) (\"place\" 1))");
+    assert_eq!(attempts(&mut cook, search), "((\"look\" 4) (\"place\" 1))");
     let parked = "(coe:holds '(cpoe:arms-positioned-at :carry :carry))";
     assert_eq!(cook.done(parked), "(NIL)\n");
     cook.assert_no_overlap();

@@ -138,3 +138,70 @@ fn a_goal_of_the_users_own_skips_the_action() {
     assert!(said.contains("(PERFORM GOAL) INFO"), "{said}");
     assert_eq!(cook.done("(roslisp::ros-time)"), before);
 }
+
+#[test]
+fn a_target_that_is_not_there_is_refused_before_anything_moves() {
+    let mut cook = cook();
+    let before = cook.done("(roslisp::ros-time)");
+    let (report, _) = cook
+        .say(
+            "(with-simulated-robot
+               (perform (an action (type transporting) (object (an object (type bottle)))
+                            (target (a location (on (an object (urdf-name kitchen-iland-surface)
+                                                               (part-of kitchen))))))))",
+        )
+        .unwrap_err();
+    assert!(
+        report.contains("did you mean kitchen-island-surface?"),
+        "{report}"
+    );
+    assert_eq!(cook.done("(roslisp::ros-time)"), before, "no motion");
+}
+
+#[test]
+fn a_neighbour_that_is_pushed_while_fetching_makes_it_fail() {
+    let mut cook = cook();
+    // As if the hand had pushed it: what fetching does then is seen by the same comparison.
+    cook.done(
+        "(btr-utils:spawn-object 'cup-1 :cup :pose '((1.45 0.3 0.9) (0 0 0 1)))
+         (defun push-the-cup (event)
+           (declare (ignore event))
+           (btr-utils:move-object 'cup-1 (pose 1.45 0.25 0.9)))
+         (defmethod coe:on-event :after ((event cpoe:object-attached-robot))
+           (push-the-cup event))",
+    );
+    let report = cook.fails(
+        "FETCHING-FAILED",
+        "(let ((?object (an object (type bottle)))
+               (?at *on-the-counter*))
+           (perform (an action (type searching) (object ?object)
+                        (location (a location (pose ?at)))))
+           (perform (an action (type fetching) (object ?object))))",
+    );
+    assert!(report.contains("hand, but fetching it"), "{report}");
+    assert!(report.contains("CUP-1"), "{report}");
+}
+
+#[test]
+fn a_place_at_which_something_stands_can_be_looked_at() {
+    let said = cook().done(
+        "(let* ((?at (pose 1.45 0.7 0.96))
+                (?there (a location (pose ?at))))
+           (reference (a location (visible-for pr2) (location ?there))))",
+    );
+    assert!(said.contains("map"), "{said}");
+}
+
+#[test]
+fn a_bottle_is_put_down_although_its_target_is_just_inside_of_the_surface() {
+    let mut cook = cook();
+    for height in [0.9590, 0.9600, 0.9608, 0.9650, 0.9800] {
+        cook.done(&format!(
+            "(init-projection)
+             (btr-utils:spawn-object 'bottle-1 :bottle :pose '((1.45 0.7 0.96) (0 0 0 1)))
+             (transport (an object (type bottle)) (pose -0.8 1.6 {height}) *on-the-counter*)"
+        ));
+        let t = cook.pose("BOTTLE-1").translation;
+        assert!((t.x + 0.8).hypot(t.y - 1.6) < 0.02, "{height}: {t}");
+    }
+}

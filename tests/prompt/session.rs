@@ -332,6 +332,29 @@ fn another_arm_that_reaches_is_offered_and_works() {
 }
 
 #[test]
+fn what_the_right_arm_does_not_reach_is_fetched_with_the_left_one() {
+    let mut talk = Talk::new();
+    talk.say(BOTTLE);
+    talk.say(FIND_BOTTLE);
+    let shown = talk.say(
+        "(with-simulated-robot
+           (let ((?bottle *bottle*)
+                 (?stand (make-pose \"map\" '((-2.0 -0.15 0) (0 0 -0.7071 0.7071)))))
+             (perform (an action (type fetching) (object ?bottle) (arms right)
+                        (robot-location (a location (pose ?stand)))))
+             :fetched))",
+    );
+    for choice in [
+        "[LOOK]", "[STAND]", "[LEFT]", "[RIGHT]", "[RETRY]", "[BEFORE]",
+    ] {
+        assert!(shown.contains(choice), "{choice}\n{shown}");
+    }
+    let shown = talk.choose("[LEFT]");
+    assert!(shown.ends_with(":FETCHED\n"), "{shown}");
+    assert!(talk.say("(inspect :robot)").contains("left hand holds"));
+}
+
+#[test]
 fn the_world_goes_back_to_before_an_action() {
     let mut talk = Talk::new();
     let before = talk.hash();

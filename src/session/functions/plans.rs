@@ -2,7 +2,7 @@
 
 use crate::plan::designator::value::current;
 use crate::session::simulation::properties::property;
-use nalgebra::{Translation3, Vector3};
+use nalgebra::Translation3;
 
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
@@ -10,7 +10,7 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
-use crate::motion::{CollisionMode, HeldGrip, LetGo, about_z, can_reach, take_hold};
+use crate::motion::{Effort, HeldGrip, LetGo, PutReach, about_z, take_hold};
 use crate::plan::Reply;
 use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
 use crate::robot::Side;
@@ -114,10 +114,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         host!(raise_pose),
     ),
 ];
-
-/// How much farther out and up (m) a hand must also be able to be where it puts something down:
-/// what it holds has moved a little in the hand, or comes to stand a little higher.
-const SLACK: f64 = 0.005;
 
 /// An object as described by perception.
 pub(crate) struct Perceived {
@@ -263,38 +259,22 @@ impl Simulation {
 }
 
 impl Simulation {
-    /// Whether the hand could open around an object at a pose in the frame of the base, and be
-    /// at all the poses that go with it, without touching anything else, also where the object
-    /// comes to stand a little farther away.
-    fn is_free_around(&self, grip: &HeldGrip, object: &Pose) -> bool {
-        let (name, side) = (&grip.object, grip.side);
+    /// The heading (rad, relative to the one that is wanted) at which a held object can be put down
+    /// at a pose in the frame of the base: the hand opens and retracts without touching anything
+    /// else.
+    fn free_heading(&self, grip: &HeldGrip, target: &Pose) -> Option<f64> {
         let imagined = Imagined {
-            object: name,
-            object_pose: Some(self.base() * object),
+            object: &grip.object,
+            object_pose: Some(self.base() * target),
             base_pose: None,
-            side,
+            side: grip.side,
             opening: f64::INFINITY,
         };
-        let Ok(Some(world)) = imagined.world(&self.world) else {
-            return false;
-        };
-        let Ok(stands) = world.object_pose(name) else {
-            return false;
-        };
-        let can_be_at =
-            |tool: &Pose| can_reach(&world, side, tool, CollisionMode::AllowHand, Some(name));
-        grip.poses(&(self.base().inverse() * stands))
-            .iter()
-            .all(|tool| can_be_at(tool) && can_be_at(&farther(tool)))
+        let mut world = imagined.world(&self.world).ok()??;
+        world.teleport_robot(self.world.robot_configuration());
+        let put = PutReach::new(&world, grip).ok()?;
+        put.with_base_at(&self.base(), Effort::THOROUGH).ok()
     }
-}
-
-/// The pose in the frame of the base, `SLACK` further out and up.
-fn farther(tool: &Pose) -> Pose {
-    let at = tool.translation.vector;
-    let out = Vector3::new(at.x, at.y, 0.0).try_normalize(1e-9);
-    let out = out.unwrap_or_else(Vector3::zeros);
-    Translation3::from((out + Vector3::z()) * SLACK) * tool
 }
 
 fn in_base(pose: &Pose) -> Value {
@@ -496,13 +476,8 @@ fn putting_poses(simulation: &mut Simulation, image: &mut Image, args: &[Value])
         let mut poses = headings.iter().map(with_poses);
         poses.find(|(_, poses)| simulation.is_reachable(side, &poses[..count]))
     };
-    let free = headings.iter().find_map(|heading| {
-        let object = turned(*heading);
-        let poses = grip.poses(&object);
-        let free =
-            simulation.is_reachable(side, &poses) && simulation.is_free_around(&grip, &object);
-        free.then_some((*heading, poses))
-    });
+    let free = simulation.free_heading(&grip, &target);
+    let free = free.map(|heading| with_poses(&heading));
     let (heading, poses) = free
         .or_else(|| reachable(4))
         .or_else(|| reachable(2))

@@ -138,8 +138,8 @@ impl TargetChecks {
         };
         let mut obstacle = nowhere;
         for base in bases.iter().filter(|base| put.is_near(base)) {
-            match put.with_base_at(base) {
-                Ok(()) => return Ok(()),
+            match put.with_base_at(base, Effort::QUICK) {
+                Ok(_) => return Ok(()),
                 Err(GraspObstacle::OutOfReach { .. }) => {}
                 Err(other) => obstacle = other,
             }
@@ -164,7 +164,8 @@ impl Simulation {
             side,
             opening: f64::INFINITY,
         };
-        let world = imagined.world(&self.world).ok()??;
+        let mut world = imagined.world(&self.world).ok()??;
+        world.teleport_robot(self.world.robot_configuration());
         let stands = world.object_pose(&question.object).ok()?;
         let bases = match &target.base {
             Some(base) => vec![*base],
