@@ -13,8 +13,7 @@ use super::value::symbol::Sym;
 
 /// One builtin function.
 pub(crate) struct Builtin {
-    /// The name in upper case; the package is that of its table unless it says
-    /// `PACKAGE:NAME`.
+    /// The name in upper case; the package is that of its table.
     pub(crate) name: &'static str,
     /// The lambda list as the manual shows it (`"function list &rest lists"`). The
     /// number of arguments that a call may have is read from it.

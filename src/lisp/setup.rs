@@ -1,6 +1,6 @@
 //! A new image: standard packages, classes, variables, functions and macros.
 
-use super::builtins::{number_theory, numbers, reading, registry};
+use super::builtins::{implementation, number_theory, numbers, reading, registry};
 use super::condition;
 use super::image::Image;
 use super::library;
@@ -23,6 +23,7 @@ impl Image {
         define_variables(&mut image);
         numbers::define_constants(&mut image);
         number_theory::define_constants(&mut image);
+        implementation::define_constants(&mut image);
         reading::define_variables(&mut image);
         library::install(&mut image, &library::LIBRARY);
         image

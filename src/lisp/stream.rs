@@ -27,6 +27,7 @@ pub(crate) fn install(image: &mut Image) {
                 unread: None,
             }),
             nesting: 1,
+            backquotes: std::cell::Cell::new(0),
         }))
     };
     image.define_special(known::V_STANDARD_INPUT, Value::Stream(input.clone()));

@@ -34,6 +34,7 @@ pub(crate) fn install(image: &mut Image) {
         image.install(packages.system, table);
     }
     image.install(PackageTable::CL, builtins::COMMON_LISP);
+    image.install(PackageTable::SYSTEM, builtins::CLOCK);
     define_variables(image, &names);
     define_types(image, &names);
     // The tables are consistent: every superclass is defined first.

@@ -35,13 +35,14 @@ const fn row(
 
 /// All packages for plans, except those of the plan language itself and of its failures.
 pub(crate) static PACKAGES: &[PackageRow] = &[
-    row("CRAM-UTILITIES", &["CUT"], ""),
+    row("CRAM-UTILITIES", &["CUT"], "?_ !?_"),
     // Functors are recognised by name in any package; these are those that CRAM exports.
     row(
         "CRAM-PROLOG",
         &["PROLOG"],
         "LISP-FUN LISP-PRED LISP-TYPE ASSERT-TYPE BOUND GROUND == EQUAL MEMBER ONCE FORALL \
-         FINDALL SETOF BAGOF -> *-> TRUE LENGTH APPEND",
+         FINDALL SETOF BAGOF -> *-> TRUE LENGTH APPEND CUT CALL GENERATE-VALUES INSTANCE-OF \
+         GET-SLOT-VALUE SET-SYMBOL-VALUE STRING-CONCAT FILTER-BINDINGS <-",
     ),
     row(
         "CRAM-DESIGNATORS",

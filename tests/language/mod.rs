@@ -1,6 +1,7 @@
 //! The language without robots.
 
 mod builtin_robustness;
+mod cram_utilities;
 mod examples;
 mod library;
 mod limits;

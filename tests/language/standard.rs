@@ -15,7 +15,7 @@ fn shown(session: &mut Session, form: &str) -> String {
 }
 
 /// Checks pairs of forms and what they show.
-fn check(cases: &[(&str, &str)]) {
+pub(super) fn check(cases: &[(&str, &str)]) {
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let mut wrong = Vec::new();
     for (form, expected) in cases {
@@ -189,4 +189,113 @@ fn numbers_are_as_exact_as_they_can_be() {
         ("(coerce 5.0 'complex)", "#C(5.0 0.0)"),
         ("(coerce 5 '(complex float))", "#C(5.0 0.0)"),
     ]);
+}
+
+#[test]
+fn macro_characters_read_inside_backquotes() {
+    check(&[
+        (
+            "(progn (set-macro-character #\\! (lambda (s c) (declare (ignore c)) (list 'list (read s t nil t)))) 1)",
+            "1",
+        ),
+        (
+            "(let ((x 5)) `(a !,x (b !(c ,x))))",
+            "(A (LIST 5) (B (LIST (C 5))))",
+        ),
+        ("(ignore-errors (read-from-string \"!,x\")) 1", "1"),
+    ]);
+}
+
+#[test]
+fn time_is_that_of_the_simulation() {
+    check(&[
+        (
+            "(let ((before (get-internal-real-time))) (sleep 2) (/ (- (get-internal-real-time) before) internal-time-units-per-second))",
+            "2",
+        ),
+        (
+            "(multiple-value-list (decode-universal-time 3918000000 -1))",
+            "(0 20 6 27 2 2024 1 NIL -1)",
+        ),
+        (
+            "(loop for u from 0 below 10000000000 by 1234567891 always (multiple-value-bind (s m h d mo y) (decode-universal-time u 0) (= u (encode-universal-time s m h d mo y 0))))",
+            "T",
+        ),
+    ]);
+}
+
+#[test]
+fn calls_are_traced() {
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    let mut output = String::new();
+    session.evaluate(
+        "test",
+        "(defun f (n) (if (= n 0) 0 (+ 1 (f (- n 1)))))
+         (trace f)
+         (f 1)
+         (ignore-errors (f :wrong))
+         (untrace f)
+         (f 1)",
+        &mut |event| {
+            if let Event::Output(text) = event {
+                output.push_str(&text);
+            }
+        },
+    );
+    assert_eq!(
+        output,
+        "  0: (F 1)\n    1: (F 0)\n    1: F returned 0\n  0: F returned 1\n  0: (F :WRONG)\n  0: F was left\n"
+    );
+}
+
+#[test]
+fn subtypes_are_told_where_the_standard_tells_them() {
+    let cases = [
+        ("symbol", "(or null (and symbol (not null)))", "T T"),
+        ("(integer 5 3)", "nil", "T T"),
+        ("t", "(or integer (not integer))", "T T"),
+        ("(and integer float)", "nil", "T T"),
+        ("character", "(or base-char extended-char)", "T T"),
+        ("character", "base-char", "NIL T"),
+        ("integer", "(or fixnum bignum)", "T T"),
+        ("integer", "fixnum", "NIL T"),
+        ("(and rational (not integer))", "ratio", "T T"),
+        ("(integer 0 3)", "(member 0 1 2 3 a)", "T T"),
+        ("(integer 0 4)", "(member 0 1 2 3 a)", "NIL T"),
+        (
+            "(integer 0 10)",
+            "(or (integer 0 4) (integer 6 10))",
+            "NIL T",
+        ),
+        ("(cons integer t)", "(or (cons number t) null)", "T T"),
+        ("(cons number t)", "(cons integer t)", "NIL T"),
+        ("(and list (not null))", "cons", "T T"),
+        ("(not cons)", "atom", "T T"),
+        ("(member a b)", "(or (eql a) (eql b))", "T T"),
+        ("(satisfies evenp)", "integer", "NIL NIL"),
+        ("(and integer (satisfies evenp))", "number", "T T"),
+        ("(or string symbol)", "(or symbol vector)", "T T"),
+        ("(or string cons)", "(or symbol vector)", "NIL T"),
+        ("string", "number", "NIL T"),
+        (
+            "(array t (2 2))",
+            "(or (array t (3 3)) cons symbol number)",
+            "NIL T",
+        ),
+        ("function", "(or symbol number)", "NIL T"),
+        ("hash-table", "(or package hash-table)", "T T"),
+        ("hash-table", "(not (or package hash-table))", "NIL T"),
+    ];
+    let forms: Vec<(String, String)> = cases
+        .iter()
+        .map(|(a, b, expected)| {
+            let form = format!("(multiple-value-list (subtypep '{a} '{b}))");
+            (form, format!("({expected})"))
+        })
+        .collect();
+    let pairs: Vec<(&str, &str)> = forms
+        .iter()
+        .map(|(form, expected)| (form.as_str(), expected.as_str()))
+        .collect();
+    check(&pairs);
 }

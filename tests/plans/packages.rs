@@ -26,6 +26,9 @@ const WORDS: &[&str] = &[
     "HOLDS",
     "MATCHING-PROCESS-MODULE",
     "MOTION-GROUNDING",
+    // Variables that match anything.
+    "?_",
+    "!?_",
     // Slots of errors of designators.
     "REASON",
     "SUGGESTION",

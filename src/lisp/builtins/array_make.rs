@@ -22,7 +22,7 @@ use crate::lisp::value::symbol::Sym;
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The largest rank of an array.
-const MAX_RANK: usize = 128;
+pub(super) const MAX_RANK: usize = 128;
 
 /// Keyword arguments of `make-array` and `adjust-array`.
 pub(crate) struct Options {

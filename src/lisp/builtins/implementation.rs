@@ -1,9 +1,12 @@
 //! Questions about the implementation.
 
+use super::array_make::MAX_RANK;
 use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::guard::MOST_ELEMENTS;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::VariableKind;
 
@@ -38,6 +41,44 @@ pub(crate) static TABLE: &[Builtin] = &[
         |_, _| Ok(env!("CARGO_PKG_VERSION").into()),
     ),
 ];
+
+/// Defines the constants that tell limits, and what lambda lists may contain.
+pub(crate) fn define_constants(image: &mut Image) {
+    let most_elements = i64::try_from(MOST_ELEMENTS).unwrap_or(i64::MAX);
+    for (name, value) in [
+        ("CHAR-CODE-LIMIT", i64::from(u32::from(char::MAX)) + 1),
+        ("ARRAY-DIMENSION-LIMIT", most_elements + 1),
+        ("ARRAY-TOTAL-SIZE-LIMIT", most_elements + 1),
+        (
+            "ARRAY-RANK-LIMIT",
+            i64::try_from(MAX_RANK).unwrap_or(i64::MAX) + 1,
+        ),
+        ("CALL-ARGUMENTS-LIMIT", most_elements),
+        ("MULTIPLE-VALUES-LIMIT", most_elements),
+        ("LAMBDA-PARAMETERS-LIMIT", i64::from(u16::MAX)),
+        ("INTERNAL-TIME-UNITS-PER-SECOND", 1_000_000),
+    ] {
+        let sym = image.export_symbol(PackageTable::CL, name);
+        image.define_constant(sym, Value::Int(value));
+    }
+    let keywords: Vec<Value> = [
+        "&OPTIONAL",
+        "&REST",
+        "&KEY",
+        "&ALLOW-OTHER-KEYS",
+        "&AUX",
+        "&BODY",
+        "&WHOLE",
+        "&ENVIRONMENT",
+    ]
+    .into_iter()
+    .map(|name| image.export_symbol(PackageTable::CL, name).into())
+    .collect();
+    let sym = image.export_symbol(PackageTable::CL, "LAMBDA-LIST-KEYWORDS");
+    image.define_constant(sym, Value::list(keywords));
+    let sym = image.export_symbol(PackageTable::CL, "*MODULES*");
+    image.define_special(sym, Value::list([Value::string("ALEXANDRIA")]));
+}
 
 fn constantp(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let is_constant = match &args[0] {

@@ -312,8 +312,12 @@ fn reading_of_stream(image: &Image, then: After) -> Result<Reading, Box<Raise>> 
         After::String { .. } => &Value::NIL,
     };
     let (text, start) = stream::rest(image, stream)?;
+    let backquotes = match stream {
+        Value::Stream(stream) => stream.backquotes.get(),
+        _ => 0,
+    };
     Ok(Reading {
-        reader: Reader::of_text(text).at(start),
+        reader: Reader::of_text(text).at(start).within(backquotes),
         start,
         then,
     })

@@ -4,9 +4,10 @@ use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::types::asking;
 use crate::lisp::types::coerce::coerce;
+use crate::lisp::types::emptiness::is_subtype;
 use crate::lisp::types::parse::{parse, upgraded};
 use crate::lisp::types::specifier::{Answers, Stop};
-use crate::lisp::types::subtype::{Verdict, is_subset};
+use crate::lisp::types::subtype::Verdict;
 use crate::lisp::types::test::typep_with;
 use crate::lisp::types::type_of;
 use crate::lisp::value::Value;
@@ -89,7 +90,7 @@ fn subtypep_operation(
         Err(stop) => Err(stop),
     };
     let verdict = match (known(&args[0])?, known(&args[1])?) {
-        (Some(a), Some(b)) => is_subset(image, &a, &b),
+        (Some(a), Some(b)) => is_subtype(image, &a, &b),
         // Nothing is known about a type that is not defined.
         _ => Verdict::Unknown,
     };

@@ -85,6 +85,9 @@ static FILES: &[File] = &[
     library_file!("src/lisp/library", "printer.lisp"),
     library_file!("src/lisp/library", "alexandria.lisp"),
     library_file!("src/lisp/library", "alexandria-macros.lisp"),
+    library_file!("src/lisp/library", "files.lisp"),
+    library_file!("src/lisp/library", "time.lisp"),
+    library_file!("src/lisp/library", "tracing.lisp"),
 ];
 
 /// The library of the language without robots.

@@ -50,3 +50,21 @@
                         `(,variable (,accessor ,object))))
                     entries)
          ,@body))))
+
+(defun ensure-generic-function (name &key lambda-list documentation
+                                       generic-function-class method-class
+                                       argument-precedence-order declare environment
+                                       method-combination)
+  "The generic function of a name, which is made if there is none.
+  Examples:
+  (progn (ensure-generic-function 'ensured :lambda-list '(x)) (typep #'ensured 'generic-function)) => T"
+  (declare (ignore generic-function-class method-class declare environment method-combination))
+  (cond ((and (fboundp name) (typep (fdefinition name) 'generic-function))
+         (fdefinition name))
+        ((fboundp name)
+         (error "~s is no generic function." name))
+        (t (eval `(defgeneric ,name ,lambda-list
+                    ,@(and argument-precedence-order
+                           `((:argument-precedence-order ,@argument-precedence-order)))
+                    ,@(and documentation `((:documentation ,documentation)))))
+           (fdefinition name))))

@@ -49,3 +49,28 @@
     `(let ((,state ,start))
        (macrolet ((,name () '(%iterator-next ,state)))
          ,@body))))
+
+(defmacro with-compilation-unit (options &body body)
+  "The body: each form is compiled for itself.
+  Examples:
+  (with-compilation-unit () 1 2) => 2"
+  (declare (ignore options))
+  (%progn body))
+
+(defun provide (module)
+  "Says that a module is there.
+  Examples:
+  (progn (provide :my-module) (require :my-module)) => NIL"
+  (pushnew (string module) *modules* :test #'string=)
+  t)
+
+(defun require (module &optional files)
+  "Loads the files of a module unless it is there; an error if there are none to load.
+  Examples:
+  (require :alexandria) => NIL"
+  (unless (member (string module) *modules* :test #'string-equal)
+    (unless files
+      (error "There is no module ~a, and no files are given; there are~{ ~a~}."
+             (string module) *modules*))
+    (mapc #'load (if (listp files) files (list files)))
+    nil))

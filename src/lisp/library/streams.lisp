@@ -46,3 +46,24 @@
   Examples:
   (with-open-file (s \"no-such-file.txt\" :if-does-not-exist nil) s) => NIL"
   `(with-open-stream (,variable (open ,path ,@options)) ,@body))
+
+(defun y-or-n-p (&optional control &rest arguments)
+  "Asks a question until it is answered with y or n: T or NIL.
+  Examples:
+  (with-input-from-string (*query-io* \"y\") (let ((*standard-output* (make-broadcast-stream))) (y-or-n-p \"Go on?\"))) => T"
+  (%ask control arguments "y" "n"))
+
+(defun yes-or-no-p (&optional control &rest arguments)
+  "Asks a question until it is answered with yes or no: T or NIL.
+  Examples:
+  (with-input-from-string (*query-io* \"no\") (let ((*standard-output* (make-broadcast-stream))) (yes-or-no-p \"Go on?\"))) => NIL"
+  (%ask control arguments "yes" "no"))
+
+(defun %ask (control arguments yes no)
+  "Whether a question is answered with one word rather than the other."
+  (loop
+    (format t "~&~@[~?~] (~a or ~a) " control arguments yes no)
+    (finish-output)
+    (let ((answer (string-trim " " (read-line *query-io*))))
+      (cond ((string-equal answer yes) (return t))
+            ((string-equal answer no) (return nil))))))

@@ -153,6 +153,11 @@ impl Reader {
         }
     }
 
+    /// Reads what so many backquotes enclose.
+    pub(crate) fn within(self, backquotes: usize) -> Reader {
+        Reader { backquotes, ..self }
+    }
+
     /// Continues at a byte of the text.
     pub(crate) fn at(self, position: usize) -> Reader {
         Reader { position, ..self }
@@ -253,6 +258,7 @@ impl Reader {
             text: self.text.clone(),
             position,
         }));
+        stream.backquotes.set(self.backquotes);
         self.macro_input = Some(stream.clone());
         let quote = |value: Value| Value::list([known::QUOTE.into(), value]);
         let call: Vec<Value> = [known::FUNCALL.into(), quote(function)]

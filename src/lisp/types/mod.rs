@@ -6,6 +6,7 @@
 
 pub(crate) mod asking;
 pub(crate) mod coerce;
+pub(crate) mod emptiness;
 pub(crate) mod parse;
 pub(crate) mod sequence_types;
 pub(crate) mod specifier;

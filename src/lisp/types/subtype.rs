@@ -27,7 +27,7 @@ impl Verdict {
     }
 
     /// Yes if all are, no if one is not.
-    fn all(verdicts: impl Iterator<Item = Verdict>) -> Verdict {
+    pub(super) fn all(verdicts: impl Iterator<Item = Verdict>) -> Verdict {
         let mut result = Yes;
         for verdict in verdicts {
             match verdict {
@@ -40,7 +40,7 @@ impl Verdict {
     }
 
     /// Yes if one is, no if none is.
-    fn any(verdicts: impl Iterator<Item = Verdict>) -> Verdict {
+    pub(super) fn any(verdicts: impl Iterator<Item = Verdict>) -> Verdict {
         let mut result = No;
         for verdict in verdicts {
             match verdict {
@@ -128,7 +128,7 @@ fn is_atomic_subset(image: &Image, a: &Type, b: &Type) -> Verdict {
 }
 
 /// Is there no value that both sets have?
-fn are_disjoint(image: &Image, a: &Type, b: &Type) -> Verdict {
+pub(super) fn are_disjoint(image: &Image, a: &Type, b: &Type) -> Verdict {
     match (a, b) {
         (Type::Nothing, _) | (_, Type::Nothing) => Yes,
         (Type::Any, other) | (other, Type::Any) => match other {
@@ -211,7 +211,7 @@ fn limit(bound: &Bound) -> Option<(&crate::lisp::Value, bool)> {
 }
 
 /// Does a range with this lower bound begin before the other?
-fn starts_before(low: &Bound, other: &Bound) -> bool {
+pub(super) fn starts_before(low: &Bound, other: &Bound) -> bool {
     match (limit(low), limit(other)) {
         (_, None) => false,
         (None, Some(_)) => true,
@@ -224,7 +224,7 @@ fn starts_before(low: &Bound, other: &Bound) -> bool {
 }
 
 /// Does a range with this upper bound end after the other?
-fn ends_after(high: &Bound, other: &Bound) -> bool {
+pub(super) fn ends_after(high: &Bound, other: &Bound) -> bool {
     match (limit(high), limit(other)) {
         (_, None) => false,
         (None, Some(_)) => true,
@@ -237,7 +237,7 @@ fn ends_after(high: &Bound, other: &Bound) -> bool {
 }
 
 /// Does a range that ends at `high` lie wholly before one that begins at `low`?
-fn is_gap(high: &Bound, low: &Bound) -> bool {
+pub(super) fn is_gap(high: &Bound, low: &Bound) -> bool {
     match (limit(high), limit(low)) {
         (Some((a, a_in)), Some((b, b_in))) => match compare(a, b) {
             Some(Ordering::Less) => true,
@@ -249,7 +249,7 @@ fn is_gap(high: &Bound, low: &Bound) -> bool {
 }
 
 /// Do the ranges among `parts` together cover a range?
-fn covers(kind: RealKind, low: &Bound, high: &Bound, parts: &[Type]) -> Verdict {
+pub(super) fn covers(kind: RealKind, low: &Bound, high: &Bound, parts: &[Type]) -> Verdict {
     let mut from = low.clone();
     let mut used = vec![false; parts.len()];
     loop {

@@ -1,7 +1,7 @@
 //! Streams of characters: string streams, files, combinations of streams, and the session's
 //! standard output.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::fs::File;
 use std::io::BufWriter;
 use std::rc::Rc;
@@ -19,6 +19,8 @@ pub(crate) struct Stream {
     pub(crate) kind: RefCell<StreamKind>,
     /// How many levels of other streams it is made of.
     pub(crate) nesting: u32,
+    /// How many backquotes, less commas, enclose the place that a reader passes on as a stream.
+    pub(crate) backquotes: Cell<usize>,
 }
 
 /// Where a stream's characters come from or go to.
@@ -90,6 +92,7 @@ impl Stream {
         Stream {
             kind: RefCell::new(kind),
             nesting: 0,
+            backquotes: Cell::new(0),
         }
     }
 
@@ -105,6 +108,7 @@ impl Stream {
         Ok(Stream {
             kind: RefCell::new(kind),
             nesting,
+            backquotes: Cell::new(0),
         })
     }
 

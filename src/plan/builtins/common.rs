@@ -1,7 +1,9 @@
 //! Common Lisp functions that take simulated time.
 
 use super::arithmetic::sleep;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::value::Value;
+use crate::plan::state::Plan;
 
 /// The builtins.
 pub(crate) static TABLE: &[Builtin] = &[control(
@@ -10,4 +12,13 @@ pub(crate) static TABLE: &[Builtin] = &[control(
     "Waits for so many simulated seconds.",
     &["(sleep 1) => NIL"],
     |_, args| sleep(&args),
+)];
+
+/// The clock of the simulation, in package `SYSTEM`.
+pub(crate) static CLOCK: &[Builtin] = &[pure(
+    "CLOCK",
+    "",
+    "Simulated seconds since the session began.",
+    &["(floatp (system:clock)) => T"],
+    |image, _| Ok(Value::Double(Plan::of(image).now())),
 )];

@@ -40,3 +40,6 @@ pub(crate) static SETTERS: &[&[Builtin]] = &[fluents::SETTERS];
 
 /// Functions of package `COMMON-LISP` that need the scheduler.
 pub(crate) static COMMON_LISP: &[Builtin] = common::TABLE;
+
+/// The clock, which the library of the language asks for the time.
+pub(crate) static CLOCK: &[Builtin] = common::CLOCK;

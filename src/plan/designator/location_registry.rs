@@ -22,22 +22,26 @@ const RETRIES: i64 = 30;
 const GROUNDING: &str = "LOCATION-GROUNDING-GENERATOR";
 const GROUNDING_PRIORITY: i64 = 10;
 
-/// Functions of package `CRAM-DESIGNATORS`.
-pub(crate) static TABLE: &[Builtin] = &[
+/// Functions of package `SYSTEM`: what the macros that register generators and validators expand into.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
-        "REGISTER-LOCATION-GENERATOR",
+        "ADD-LOCATION-GENERATOR",
         "priority function &optional documentation",
         "Lets a function of a location designator resolve locations; low priorities come first. It returns a list of poses, or a function without arguments that returns the next pose each time, at last NIL or a text that says why there are no more.",
         &[],
         |image, args| register(image, GENERATORS, args),
     ),
     pure(
-        "REGISTER-LOCATION-VALIDATION-FUNCTION",
+        "ADD-LOCATION-VALIDATOR",
         "priority function &optional documentation",
         "Lets a function of a location designator and a pose judge solutions: :ACCEPT, :MAYBE-REJECT, :UNKNOWN, or NIL or a text that says why to reject.",
         &[],
         |image, args| register(image, VALIDATORS, args),
     ),
+];
+
+/// Functions of package `CRAM-DESIGNATORS`.
+pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "DELETE-LOCATION-GENERATOR-FUNCTION",
         "function",

@@ -29,6 +29,7 @@ use crate::lisp::object::define::ClassDefinition;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
 use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::symbol::Sym;
 
 /// Defines the packages, classes, variables, functions and macros. Install the plan language first.
@@ -58,6 +59,7 @@ pub(crate) fn install(image: &mut Image) {
     image.install(executive, perform::TABLE);
     image.install(executive, reference::EXECUTIVE_TABLE);
     image.install(desig, reference::TABLE);
+    image.install(PackageTable::SYSTEM, location_registry::SYSTEM_TABLE);
     image.install(desig, location_registry::TABLE);
     image.install(desig, location_registry::CONTROL_TABLE);
     location_registry::define(image);

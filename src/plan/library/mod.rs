@@ -17,8 +17,13 @@ static LANGUAGE_FILES: &[File] = &[
     library_file!("src/plan/library", "suspension.lisp"),
 ];
 
-/// Bindings and lazy lists: CRAM's utilities, which need nothing from the plan language.
-static UTILITY_FILES: &[File] = &[library_file!("src/plan/library", "utilities.lisp")];
+/// Lazy lists, patterns and bindings, which are CRAM's utilities, and the registration of what
+/// resolves locations. They need nothing from the plan language.
+static UTILITY_FILES: &[File] = &[
+    library_file!("src/plan/library", "lazy-lists.lisp"),
+    library_file!("src/plan/library", "patterns.lisp"),
+    library_file!("src/plan/library", "locations.lisp"),
+];
 
 /// Files that need designators; installed after those.
 static DESIGNATOR_FILES: &[File] = &[library_file!("src/plan/library", "process-modules.lisp")];

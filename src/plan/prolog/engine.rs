@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::facts;
 use super::facts::{Clause, Facts};
-use super::functor::Call;
+use super::functor::{Call, Functor};
 use super::goal::{Action, Collection, Goal};
 use super::term::{Bindings, Mark, Naming, Variable};
 use crate::lisp::image::Image;
@@ -272,14 +272,20 @@ impl Engine {
             }
             None => match (self.facts.handler(functor), known) {
                 (Some(function), _) => self.handled(function, &args)?,
-                (None, Some(_)) => return Err(wrong_count(image, functor, args.len())),
+                (None, Some(known)) => {
+                    return Err(wrong_count(image, functor, known, args.len()));
+                }
                 (None, None) => {
                     let shown = print::to_string(image, &self.bindings.shown(term)?, true);
+                    let name = image.name(functor);
+                    let near = self.facts.closest(image, name);
+                    let near = near.map(|near| format!(" Did you mean {near}?"));
+                    let text = format!(
+                        "WARNING: Trying to prove goal {shown} with undefined functor {name}.{}\n",
+                        near.unwrap_or_default()
+                    );
                     image.output.fresh_line();
-                    image.output.write(&format!(
-                        "WARNING: Trying to prove goal {shown} with undefined functor {}.\n",
-                        image.name(functor).to_owned()
-                    ));
+                    image.output.write(&text);
                     return Ok(Ok(false));
                 }
             },
@@ -484,11 +490,17 @@ impl Engine {
     }
 }
 
-fn wrong_count(image: &Image, functor: Sym, count: usize) -> Box<Raise> {
+fn wrong_count(image: &Image, functor: Sym, known: &Functor, count: usize) -> Box<Raise> {
     Raise::simple(format!(
-        "The Prolog goal {} does not take {count} argument{}.",
+        "The Prolog goal {} does not take {count} argument{}; it is written ({}{}).",
         print::to_string(image, &functor.into(), true),
-        if count == 1 { "" } else { "s" }
+        if count == 1 { "" } else { "s" },
+        known.name,
+        known
+            .arguments
+            .split_whitespace()
+            .map(|argument| format!(" {argument}"))
+            .collect::<String>()
     ))
 }
 

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use indexmap::IndexMap;
 
 use super::functor::Functor;
+use crate::closest_name::closest_name;
 use crate::lisp::builtin::{Builtin, Operator, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
@@ -59,6 +60,19 @@ impl Facts {
     /// All functors that are implemented in Rust.
     pub(crate) fn functors(&self) -> Vec<&'static Functor> {
         self.functors.borrow().values().copied().collect()
+    }
+
+    /// The functor whose name is nearest to a mistyped one.
+    pub(crate) fn closest(&self, image: &Image, wanted: &str) -> Option<String> {
+        let groups = self.groups.borrow();
+        let handlers = self.handlers.borrow();
+        let functors = self.functors.borrow();
+        let defined = groups.values().flatten().map(|(name, _)| *name);
+        let defined = defined.chain(handlers.keys().copied());
+        let names = defined
+            .map(|name| image.name(name))
+            .chain(functors.keys().copied());
+        closest_name(wanted, names).map(str::to_owned)
     }
 
     /// Whether any fact group has a clause for the functor.

@@ -51,6 +51,21 @@ pub(crate) static TABLE: &[Functor] = &[
     functor("!", "", "Holds; no other clauses are tried.", |call| {
         Ok(Action::Then(vec![Goal::Cut(call.clause)]))
     }),
+    functor("CUT", "", "The same as `!`.", |call| {
+        Ok(Action::Then(vec![Goal::Cut(call.clause)]))
+    }),
+    functor(
+        "FILTER-BINDINGS",
+        "variables goal…",
+        "All goals hold; what they say of other variables than these is forgotten.",
+        |call| {
+            let kept = call.bindings.resolve(&call.arg(0))?;
+            let kept: Vec<Value> = kept.iter_list().collect();
+            let goals = Value::list(call.rest(1).to_vec());
+            let goals = call.bindings.localized(&goals, &kept)?;
+            Ok(Action::Then(goals.iter_list().map(Goal::Prove).collect()))
+        },
+    ),
     functor("TRUE", "", "Holds.", |_| Ok(Action::Succeed)),
     functor("FAIL", "", "Does not hold.", |_| Ok(Action::Fail)),
     // Everything runs in the simulation itself.
@@ -248,8 +263,8 @@ pub(crate) static TABLE: &[Functor] = &[
     functor(
         "INSTANCE-OF",
         "type object",
-        "The object is of the type.",
-        |call| is_of_type(&call, 1, 0),
+        "The object is of the type; an instance is made if there is no object yet, and a type that is unknown is that of the object.",
+        instance_of,
     ),
     functor(
         "SYMBOL-VALUE",
@@ -258,10 +273,50 @@ pub(crate) static TABLE: &[Functor] = &[
         |call| call_known(&call, known::SYMBOL_VALUE, 1),
     ),
     functor(
+        "SET-SYMBOL-VALUE",
+        "symbol value",
+        "Holds; assigns a variable.",
+        |call| {
+            let args = call.shown(call.args)?;
+            let function = known::SET.into();
+            Ok(Action::CallOnly { function, args })
+        },
+    ),
+    functor(
         "SLOT-VALUE",
+        "object slot value",
+        "The value of a slot, which is stored if it is known.",
+        |call| {
+            if is_unbound(&call, 2) {
+                return call_known(&call, known::SLOT_VALUE, 2);
+            }
+            let args = call.shown(&[call.arg(2), call.arg(0), call.arg(1)])?;
+            let function = known::SET_SLOT_VALUE.into();
+            Ok(Action::CallOnly { function, args })
+        },
+    ),
+    functor(
+        "GET-SLOT-VALUE",
         "object slot value",
         "The value of a slot.",
         |call| call_known(&call, known::SLOT_VALUE, 2),
+    ),
+    functor(
+        "STRING-CONCAT",
+        "string… result",
+        "The strings joined.",
+        |call| {
+            let Some((result, strings)) = call.args.split_last() else {
+                return Ok(Action::Fail);
+            };
+            let mut args = vec![known::STRING.into()];
+            args.extend(call.shown(strings)?);
+            Ok(Action::CallFor {
+                function: call.image.intern(PackageTable::CL, "CONCATENATE").into(),
+                args,
+                result: result.clone(),
+            })
+        },
     ),
     functor(
         "GENERATE-VALUES",
@@ -385,6 +440,28 @@ fn is_of_type(call: &Call<'_>, object: usize, kind: usize) -> Result<Action> {
         function: known::TYPEP.into(),
         args: call.shown(&[call.arg(object), call.arg(kind)])?,
     })
+}
+
+/// Is an argument an unbound variable?
+fn is_unbound(call: &Call<'_>, index: usize) -> bool {
+    let term = call.bindings.walk(&call.arg(index));
+    term.as_foreign::<Variable>().is_some()
+}
+
+fn instance_of(call: Call<'_>) -> Result<Action> {
+    let call_of = |function: Sym, argument: usize, result: usize| {
+        Ok(Action::CallFor {
+            args: call.shown(&[call.arg(argument)])?,
+            result: call.arg(result),
+            function: function.into(),
+        })
+    };
+    match (is_unbound(&call, 0), is_unbound(&call, 1)) {
+        (true, true) => Ok(Action::Fail),
+        (false, true) => call_of(known::MAKE_INSTANCE, 0, 1),
+        (true, false) => call_of(known::TYPE_OF, 1, 0),
+        (false, false) => is_of_type(&call, 1, 0),
+    }
 }
 
 fn greatest(items: impl Iterator<Item = Value>) -> Result<Option<Value>> {

@@ -182,6 +182,38 @@ impl Bindings {
         Ok(named(&self.resolve(term)?))
     }
 
+    /// The term with fresh variables in place of its unbound ones, except those that are kept.
+    pub(crate) fn localized(&mut self, term: &Value, kept: &[Value]) -> Result<Value, Box<Raise>> {
+        let term = self.resolve(term)?;
+        let mut fresh: Vec<(usize, Value)> = kept
+            .iter()
+            .filter_map(|v| Some((v.as_foreign::<Variable>()?.index, v.clone())))
+            .collect();
+        Ok(self.replaced(&term, &mut fresh))
+    }
+
+    // The depth of a resolved term is limited.
+    fn replaced(&mut self, term: &Value, fresh: &mut Vec<(usize, Value)>) -> Value {
+        if let Some(variable) = term.as_foreign::<Variable>() {
+            if let Some((_, new)) = fresh.iter().find(|(index, _)| *index == variable.index) {
+                return new.clone();
+            }
+            let new = self.fresh(variable.name);
+            fresh.push((variable.index, new.clone()));
+            return new;
+        }
+        if !matches!(term, Value::Cons(_)) {
+            return term.clone();
+        }
+        let mut rest = term.iter_list();
+        let mut items = Vec::new();
+        for item in rest.by_ref() {
+            items.push(self.replaced(&item, fresh));
+        }
+        let tail = self.replaced(&rest.rest, fresh);
+        Value::list_with_tail(items, tail)
+    }
+
     /// Whether the term contains no unbound variables.
     pub(crate) fn is_ground(&self, term: &Value) -> Result<bool, Box<Raise>> {
         let mut pending = vec![self.resolve(term)?];
