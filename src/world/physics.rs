@@ -46,6 +46,13 @@ const SOLVER_ITERATIONS: usize = 4;
 /// Friction of gripping surfaces; there the larger of the two coefficients counts.
 const GRIP_FRICTION: f64 = 1.0;
 
+/// Natural frequency (Hz) and damping ratio of contacts between objects. The frequency is below a
+/// quarter of the solver's rate, 960 Hz, beyond which contacts would not be stable. With the
+/// engine's 30 Hz a stack of ten cubes buckles. What stands on furniture keeps the engine's 60 Hz:
+/// with more, a cup that leans goes on rolling on its rim.
+const CONTACT_FREQUENCY: f64 = 200.0;
+const CONTACT_DAMPING: f64 = 10.0;
+
 /// Natural frequency (Hz) and damping ratio of a weld: soft enough to yield to a wall, stiff
 /// enough that gravity bends it by less than 1 mm.
 const WELD_FREQUENCY: f64 = 30.0;
@@ -158,6 +165,7 @@ impl Physics {
             friction_model: FrictionModel::Simplified,
             friction_in_bias_pass: false,
             contact_recycling: false,
+            contact_softness: SpringCoefficients::new(CONTACT_FREQUENCY, CONTACT_DAMPING),
             ..IntegrationParameters::default()
         };
         Self {

@@ -34,6 +34,26 @@ fn an_object_that_is_spawned_inside_furniture_ends_on_top_of_it() {
 }
 
 #[test]
+fn a_stack_of_ten_cubes_stands_and_none_is_pressed_into_another_by_a_millimetre() {
+    const SIZE: f64 = 0.07;
+    let mut world = world();
+    for i in 0..10 {
+        let z = 0.76 + f64::from(i) * (SIZE + 5e-4);
+        spawn(&mut world, &format!("CUBE-{i}"), "cube", &at(-1.4, -0.9, z));
+        world.settle(2.0);
+    }
+    world.settle(10.0);
+    let mut below = 0.72;
+    for i in 0..10 {
+        let t = world.object_pose(&format!("CUBE-{i}")).unwrap().translation;
+        let overlap = below - (t.z - SIZE / 2.0);
+        assert!((0.0..0.001).contains(&overlap), "{i}: {overlap} m");
+        assert!((t.x + 1.4).abs() < 1e-3 && (t.y + 0.9).abs() < 1e-3, "{i}");
+        below = t.z + SIZE / 2.0;
+    }
+}
+
+#[test]
 fn a_sausage_comes_to_rest_on_the_counter() {
     let height = rest_height("weisswurst", 1.5, 1.0, 1.0);
     assert!((height - 0.8678).abs() < 2e-3, "{height}");
