@@ -39,6 +39,9 @@ const SURFACES: [Surface; 3] = [
 /// What a hand cannot take from a flat surface: as wide as that from all sides, and no rim.
 const TOO_WIDE: [&str; 3] = ["tray-base", "bread", "pancake-maker"];
 
+/// What stands on no face: it turns as it rolls.
+const ROLLING: [&str; 2] = ["orange", "apple"];
+
 /// All types, listed or not.
 const TYPES: [&str; 33] = [
     "tray",
@@ -136,7 +139,8 @@ fn picked_and_put_back(kind: &str, surface: &Surface, number: usize) -> Result<(
     cook.say("(with-simulated-robot (let ((?o *thing*)) (perform (an action (type placing) (object ?o)))))")
         .map_err(|(report, _)| format!("placing: {report}"))?;
     let off = cook.distance("THING", &stood);
-    if off > 0.02 || cook.lean("THING") > 5.0 {
+    let has_tipped = !ROLLING.contains(&kind) && cook.lean("THING") > 5.0;
+    if off > 0.02 || has_tipped {
         return Err(format!(
             "it stands {off} m off, leaning {} degrees",
             cook.lean("THING")

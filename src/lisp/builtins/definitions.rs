@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, pure};
-use crate::lisp::compile::setf;
+use crate::lisp::compile::{keep_place, setf};
 use crate::lisp::image::Image;
 use crate::lisp::image::setf_expander::SetfExpander;
 use crate::lisp::value::Value;
@@ -15,6 +15,16 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Builtins of package `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "AT-PLACE-OF",
+        "form expansion",
+        "The expansion, which counts as standing where the form stands in its file.",
+        &[],
+        |_, args| {
+            keep_place(&args[0], &args[1]);
+            Ok(args[1].clone())
+        },
+    ),
     pure(
         "DEFINE-FUNCTION",
         "name function",

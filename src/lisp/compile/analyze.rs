@@ -413,7 +413,7 @@ impl<'a> Compiler<'a> {
 }
 
 /// Gives an expansion the place of the form that it comes from, unless it has one.
-pub(super) fn keep_place(form: &Value, expansion: &Value) {
+pub(crate) fn keep_place(form: &Value, expansion: &Value) {
     if let (Value::Cons(from), Value::Cons(to)) = (form, expansion)
         && !to.place().is_some()
     {

@@ -106,11 +106,12 @@
                (continue-arguments (and before (cdr arguments))))
           `(let ((,variable (list ,@restarts)))
              (with-restarts ,variable
-               (,(car form) ,@before
-                (associate-restarts
-                 (%condition ,(car arguments) (list ,@(cdr arguments)) ',class)
-                 ,variable)
-                ,@continue-arguments))))
+               ,(at-place-of form
+                             `(,(car form) ,@before
+                               (associate-restarts
+                                (%condition ,(car arguments) (list ,@(cdr arguments)) ',class)
+                                ,variable)
+                               ,@continue-arguments)))))
         `(with-restarts (list ,@restarts) ,form))))
 
 (defun %after-options (list names)
