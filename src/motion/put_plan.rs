@@ -23,8 +23,6 @@ const REFINEMENTS: u32 = 6;
 /// How far (m) and how much (rad, 10 degrees) an object may move after it has been let go.
 const GREATEST_MOTION: f64 = 0.02;
 const GREATEST_TILT: f64 = 0.1745;
-/// How many final configurations at one height are tried.
-const CONFIGURATIONS: usize = 6;
 /// How far (m) above its goal the hand begins anew if it cannot move there from where it is.
 const ABOVE: f64 = 0.05;
 /// How many detours there may be: other jobs may move the torso or the base meanwhile.
@@ -125,10 +123,7 @@ impl PutPlan<'_> {
         let mut checker =
             ConfigurationChecker::new(self.task.world, group.joints.clone(), &self.task.contacts);
         let start = group.now(self.task.world);
-        let ends = configurations
-            .iter()
-            .take(CONFIGURATIONS)
-            .map(|p| Some(p.positions.as_slice()));
+        let ends = configurations.iter().map(|p| Some(p.positions.as_slice()));
         let mut task = self.task.line_task(height, &group);
         for end in std::iter::once(None).chain(ends) {
             let (mut path, met) = task.follow(&start, end, Some(&mut checker));

@@ -115,12 +115,7 @@ impl<'w> CollisionChecker<'w> {
         allowed: &AllowedPairs,
         margin: f64,
     ) -> Option<CollisionHit> {
-        let mut found = None;
-        self.search(link_poses, allowed, Wanted::HowMuch, margin, |near, _| {
-            found = Some(near);
-            ControlFlow::Break(())
-        });
-        found.and_then(|near| self.report(&near))
+        self.first(link_poses, allowed, Wanted::HowMuch, margin)
     }
 
     /// As [`Self::first_hit_at`], without the pairs of the robot's own links and of what it holds:
@@ -131,8 +126,17 @@ impl<'w> CollisionChecker<'w> {
         allowed: &AllowedPairs,
         margin: f64,
     ) -> Option<CollisionHit> {
+        self.first(link_poses, allowed, Wanted::HowMuchToOthers, margin)
+    }
+
+    fn first(
+        &mut self,
+        link_poses: &[Pose],
+        allowed: &AllowedPairs,
+        wanted: Wanted,
+        margin: f64,
+    ) -> Option<CollisionHit> {
         let mut found = None;
-        let wanted = Wanted::HowMuchToOthers;
         self.search(link_poses, allowed, wanted, margin, |near, _| {
             found = Some(near);
             ControlFlow::Break(())
