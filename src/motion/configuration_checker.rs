@@ -5,7 +5,8 @@ use super::guard::GUARD_DEPTH;
 use super::touching::TouchingPairs;
 use crate::robot::JointId;
 use crate::world::{
-    AllowedPairs, BodyName, CollisionChecker, CollisionHit, RobotConfiguration, World,
+    AllowedPairs, BodyName, CollisionChecker, CollisionHit, MovingParts, Pairs, RobotConfiguration,
+    World,
 };
 
 /// Clearance (m) of planned configurations from everything.
@@ -20,6 +21,8 @@ pub(super) struct ConfigurationChecker<'w> {
     robot: RobotConfiguration,
     joints: Vec<JointId>,
     touching: TouchingPairs,
+    /// The pairs that decide whether a configuration is free.
+    pairs: Pairs,
 }
 
 impl<'w> ConfigurationChecker<'w> {
@@ -34,13 +37,41 @@ impl<'w> ConfigurationChecker<'w> {
         joints: Vec<JointId>,
         contacts: &ExpectedContacts,
     ) -> Self {
+        let all = |_: &CollisionHit| true;
+        Self::about(world, robot, joints, contacts, all)
+    }
+
+    /// For the pairs that count where they are close at the start.
+    fn about(
+        world: &'w World,
+        robot: RobotConfiguration,
+        joints: Vec<JointId>,
+        contacts: &ExpectedContacts,
+        counts: impl Fn(&CollisionHit) -> bool,
+    ) -> Self {
         let mut checker = world.collision_checker();
-        let touching = TouchingPairs::new(&mut checker, &robot, contacts, PLAN_MARGIN, TOUCH_DEPTH);
+        let touching = TouchingPairs::some(
+            &mut checker,
+            &robot,
+            contacts,
+            PLAN_MARGIN,
+            TOUCH_DEPTH,
+            counts,
+        );
+        // What does not move with the joints is checked once and for all.
+        let moving = MovingParts::of_joints(&world.models().robot, &joints);
+        checker.expect(moving, Pairs::Constant);
+        let pairs = match touching.first_hit(&mut checker, &robot, PLAN_MARGIN) {
+            None => Pairs::Changing,
+            Some(_) => Pairs::All,
+        };
+        checker.look_at(pairs);
         Self {
             checker,
             robot,
             joints,
             touching,
+            pairs,
         }
     }
 
@@ -53,30 +84,18 @@ impl<'w> ConfigurationChecker<'w> {
         contacts: &ExpectedContacts,
         moving: &[BodyName],
     ) -> Self {
-        let mut checker = world.collision_checker();
         let stays =
             |hit: &CollisionHit| !moving.contains(&hit.moving) && !moving.contains(&hit.other);
-        let touching = TouchingPairs::some(
-            &mut checker,
-            &robot,
-            contacts,
-            PLAN_MARGIN,
-            TOUCH_DEPTH,
-            stays,
-        );
-        Self {
-            checker,
-            robot,
-            joints,
-            touching,
-        }
+        Self::about(world, robot, joints, contacts, stays)
     }
 
     /// Pairs that touch at the goal may also touch on the way.
     pub(super) fn accept_goal(&mut self, positions: &[f64]) {
         self.set(positions);
+        self.checker.look_at(Pairs::All);
         self.touching
             .expect(&mut self.checker, &self.robot, PLAN_MARGIN);
+        self.checker.look_at(self.pairs);
     }
 
     fn set(&mut self, positions: &[f64]) {
@@ -97,7 +116,10 @@ impl<'w> ConfigurationChecker<'w> {
     pub(super) fn overlaps(&mut self, positions: &[f64], depth: f64) -> Vec<CollisionHit> {
         self.set(positions);
         let none = AllowedPairs::none();
-        self.checker.all_hits(&self.robot, &none, -depth)
+        self.checker.look_at(Pairs::All);
+        let hits = self.checker.all_hits(&self.robot, &none, -depth);
+        self.checker.look_at(self.pairs);
+        hits
     }
 
     /// Whether the configuration would also be free with other joints at the given positions.
@@ -110,7 +132,9 @@ impl<'w> ConfigurationChecker<'w> {
         for (joint, position) in others {
             self.robot.joints.set(*joint, *position);
         }
+        self.checker.look_at(Pairs::All);
         let free = self.blocked(positions).is_none();
+        self.checker.look_at(self.pairs);
         for (joint, position) in before {
             self.robot.joints.set(joint, position);
         }
@@ -120,9 +144,11 @@ impl<'w> ConfigurationChecker<'w> {
     /// The smallest gap (m) in that configuration, up to `reach` (m).
     pub(super) fn clearance(&mut self, positions: &[f64], reach: f64) -> f64 {
         self.set(positions);
+        self.checker.look_at(Pairs::All);
         let nearest = self
             .checker
             .clearance(&self.robot, self.touching.relaxed(), reach);
+        self.checker.look_at(self.pairs);
         nearest.map_or(reach, |c| c.distance)
     }
 }

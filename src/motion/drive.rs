@@ -23,7 +23,7 @@ use super::trajectory_follower::TrajectoryFollower;
 use crate::robot::JointId;
 use crate::spatial::{Pose, pose};
 use crate::world::physics::STEP_SECONDS;
-use crate::world::{AllowedPairs, CollisionHit, World};
+use crate::world::{AllowedPairs, CollisionHit, MovingParts, Pairs, World};
 
 /// Times ahead (s) at which the path is checked: beyond the one that it takes to stop.
 const LOOK_AHEAD: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
@@ -182,6 +182,8 @@ impl BaseMotion {
         };
         let robot = world.robot_configuration();
         let mut checker = world.collision_checker();
+        let moving = MovingParts::of_base(&world.models().robot);
+        checker.expect(moving, Pairs::Changing);
         // Ignore what is close already: driving on did not cause that.
         let near = checker.all_hits(robot, &AllowedPairs::none(), margin);
         let allowed = near.into_iter().fold(AllowedPairs::none(), |all, hit| {

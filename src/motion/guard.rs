@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::failure::MotionFailure;
 use super::payload::overload;
 use crate::robot::{LinkId, Side};
-use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
+use crate::world::{AllowedPairs, CollisionHit, MovingParts, Pairs, RobotConfiguration, World};
 
 /// Overlap (m) that a step may cause: much less than the 2 mm that are never exceeded, to
 /// leave room for sliding away.
@@ -35,8 +35,12 @@ pub(super) fn obstacle(
     allowed: &AllowedPairs,
 ) -> Option<CollisionHit> {
     let mut checker = world.collision_checker();
+    // Only these pairs can get deeper.
+    let now = world.robot_configuration();
+    let moving = MovingParts::between(&world.models().robot, now, next);
+    checker.expect(moving, Pairs::Changing);
     let first = checker.first_hit(next, allowed, -GUARD_DEPTH)?;
-    let now = checker.all_hits(world.robot_configuration(), allowed, -NOT_YET);
+    let now = checker.all_hits(now, allowed, -NOT_YET);
     if now.is_empty() {
         return Some(first);
     }

@@ -192,6 +192,11 @@ impl KinematicTree {
         self.joints.iter().enumerate().map(|(i, j)| (JointId(i), j))
     }
 
+    /// All joints, each after the joints that carry it.
+    pub(crate) fn joints_from_root(&self) -> impl Iterator<Item = (JointId, &Joint)> {
+        self.order.iter().map(|id| (*id, self.joint(*id)))
+    }
+
     /// The link with that id, which must come from this tree.
     pub(crate) fn link(&self, id: LinkId) -> &Link {
         // Ids are only made by a tree for its own links, and links are never removed.
@@ -256,6 +261,33 @@ impl KinematicTree {
                 _ => joint.pose_at(self.position(q, id)),
             };
             out[joint.child.0] = out[joint.parent.0] * local;
+        }
+    }
+
+    /// As [`Self::forward_kinematics`], with the same bits, if `out` holds the poses for other
+    /// positions and the same root: only the links that have moved are placed anew.
+    pub(crate) fn update_forward_kinematics(
+        &self,
+        before: &JointPositions,
+        q: &JointPositions,
+        out: &mut [Pose],
+        moved: &mut Vec<bool>,
+    ) {
+        moved.clear();
+        moved.resize(self.links.len(), false);
+        for &id in &self.order {
+            let joint = self.joint(id);
+            let is_fixed = joint.kind == JointKind::Fixed;
+            let position = self.position(q, id);
+            let turns = !is_fixed && position.to_bits() != self.position(before, id).to_bits();
+            if turns || moved[joint.parent.0] {
+                moved[joint.child.0] = true;
+                let local = match is_fixed {
+                    true => joint.origin,
+                    false => joint.pose_at(position),
+                };
+                out[joint.child.0] = out[joint.parent.0] * local;
+            }
         }
     }
 

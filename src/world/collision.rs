@@ -18,7 +18,8 @@ use serde::{Deserialize, Serialize};
 
 use super::allowed_pairs::AllowedPairs;
 use super::body_name::BodyName;
-use super::collision_search::{Near, Scratch, Surroundings, Wanted};
+use super::collision_search::{Near, Question, Scratch, Surroundings, Wanted};
+use super::moving_parts::{MovingParts, Pairs};
 use super::part_key::{PartKey, index};
 use super::robot_configuration::RobotConfiguration;
 use super::solid::from_parry_vector;
@@ -53,17 +54,50 @@ pub(crate) struct Clearance {
 /// Creating one takes a few microseconds, as does a query: keep it for a whole search.
 pub(crate) struct CollisionChecker<'w> {
     surroundings: Surroundings<'w>,
+    /// The configuration in which a query was made last, and the poses of the links in it.
+    last: Option<RobotConfiguration>,
     poses: Vec<Pose>,
+    moved: Vec<bool>,
+    /// Whether the coming search is for `last`, and `moved` says what has moved before it.
+    is_update: bool,
     scratch: Scratch,
+    moving: Option<MovingParts>,
+    /// The pairs of solid links that move relative to each other.
+    changing: Vec<(usize, usize)>,
+    pairs: Pairs,
 }
 
 impl<'w> CollisionChecker<'w> {
     pub(crate) fn new(surroundings: Surroundings<'w>) -> Self {
         Self {
             surroundings,
+            last: None,
             poses: Vec::new(),
+            moved: Vec::new(),
+            is_update: false,
             scratch: Scratch::default(),
+            moving: None,
+            changing: Vec::new(),
+            pairs: Pairs::All,
         }
+    }
+
+    /// Says what moves between the configurations that are queried from now on, and which pairs
+    /// the queries are about.
+    pub(crate) fn expect(&mut self, moving: MovingParts, pairs: Pairs) {
+        let models = self.surroundings.models;
+        let links = &models.robot_geometry.solid_links;
+        let all = models.self_pairs.iter().copied();
+        // The pairs are indices of this list.
+        let changing = all.filter(|(a, b)| moving.part(links[*a].link, links[*b].link));
+        self.changing = changing.collect();
+        self.moving = Some(moving);
+        self.pairs = pairs;
+    }
+
+    /// Which pairs queries are about from now on; the value is what they were about.
+    pub(crate) fn look_at(&mut self, pairs: Pairs) -> Pairs {
+        std::mem::replace(&mut self.pairs, pairs)
     }
 
     /// Whether no pairs but the allowed ones are closer than `margin` (m).
@@ -75,22 +109,12 @@ impl<'w> CollisionChecker<'w> {
         allowed: &AllowedPairs,
         margin: f64,
     ) -> bool {
-        self.with_poses(robot, |checker, poses| {
-            checker.is_free_at(poses, allowed, margin)
-        })
-    }
-
-    /// As [`Self::is_free`], for the poses of all links as forward kinematics gives them.
-    pub(crate) fn is_free_at(
-        &mut self,
-        link_poses: &[Pose],
-        allowed: &AllowedPairs,
-        margin: f64,
-    ) -> bool {
         let mut free = true;
-        self.search(link_poses, allowed, Wanted::Whether, margin, |_, _| {
-            free = false;
-            ControlFlow::Break(())
+        self.with_poses(robot, |checker, poses| {
+            checker.search(poses, allowed, Wanted::Whether, margin, |_, _| {
+                free = false;
+                ControlFlow::Break(())
+            });
         });
         free
     }
@@ -104,28 +128,20 @@ impl<'w> CollisionChecker<'w> {
         margin: f64,
     ) -> Option<CollisionHit> {
         self.with_poses(robot, |checker, poses| {
-            checker.first_hit_at(poses, allowed, margin)
+            checker.first(poses, allowed, Wanted::HowMuch, margin)
         })
     }
 
-    /// As [`Self::first_hit`], for the poses of all links as forward kinematics gives them.
-    pub(crate) fn first_hit_at(
-        &mut self,
-        link_poses: &[Pose],
-        allowed: &AllowedPairs,
-        margin: f64,
-    ) -> Option<CollisionHit> {
-        self.first(link_poses, allowed, Wanted::HowMuch, margin)
-    }
-
-    /// As [`Self::first_hit_at`], without the pairs of the robot's own links and of what it holds:
-    /// for a robot that moves as a whole, within which no distance changes.
+    /// As [`Self::first_hit`], for the poses of all links as forward kinematics gives them, without
+    /// the pairs of the robot's own links and of what it holds: for a robot that moves as a whole,
+    /// within which no distance changes.
     pub(crate) fn first_hit_around(
         &mut self,
         link_poses: &[Pose],
         allowed: &AllowedPairs,
         margin: f64,
     ) -> Option<CollisionHit> {
+        self.last = None;
         self.first(link_poses, allowed, Wanted::HowMuchToOthers, margin)
     }
 
@@ -207,7 +223,18 @@ impl<'w> CollisionChecker<'w> {
     ) -> T {
         let mut poses = std::mem::take(&mut self.poses);
         let tree = &self.surroundings.models.robot;
-        tree.forward_kinematics(&robot.base, &robot.joints, &mut poses);
+        match &mut self.last {
+            Some(last) if last.base == robot.base => {
+                let (before, now) = (&last.joints, &robot.joints);
+                tree.update_forward_kinematics(before, now, &mut poses, &mut self.moved);
+                last.joints.clone_from(&robot.joints);
+                self.is_update = true;
+            }
+            last => {
+                tree.forward_kinematics(&robot.base, &robot.joints, &mut poses);
+                *last = Some(robot.clone());
+            }
+        }
         let result = query(self, &poses);
         self.poses = poses;
         result
@@ -222,14 +249,20 @@ impl<'w> CollisionChecker<'w> {
         visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
     ) {
         let allowed = self.allowed_keys(allowed);
-        self.surroundings.search(
-            link_poses,
-            &allowed,
+        let question = Question {
+            allowed: &allowed,
+            moving: self.moving.as_ref(),
+            pairs: self.pairs,
+            self_pairs: match self.pairs {
+                Pairs::Changing => &self.changing,
+                Pairs::All | Pairs::Constant => &self.surroundings.models.self_pairs,
+            },
             wanted,
-            margin,
-            &mut self.scratch,
-            visit,
-        );
+        };
+        let moved = std::mem::take(&mut self.is_update).then_some(self.moved.as_slice());
+        let scratch = &mut self.scratch;
+        self.surroundings
+            .search(link_poses, moved, question, margin, scratch, visit);
     }
 
     fn allowed_keys(&self, allowed: &AllowedPairs) -> Vec<(PartKey, PartKey)> {
@@ -359,6 +392,45 @@ mod tests {
             if expected < 0.0 {
                 prop_assert!(!checker.is_free(&robot, &allowed, 0.0));
                 prop_assert!(checker.first_hit(&robot, &allowed, 0.0).is_some());
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        #[test]
+        fn one_checker_finds_what_new_ones_find_and_no_pair_is_missing(
+            x in -3.5f64..1.5,
+            y in -1.8f64..2.9,
+            pans in proptest::array::uniform3(-2.1f64..0.5),
+            elbows in proptest::array::uniform3(-2.1f64..0.0),
+        ) {
+            let world = world();
+            let models = world.models();
+            let mut robot = world.robot_configuration().clone();
+            robot.base = from_xy_yaw(x, y, 0.3);
+            let arm = models.description.arm(Side::Right);
+            let joints = [arm.joints()[0], arm.joints()[3]];
+            let moving = || MovingParts::of_joints(&models.robot, &joints);
+            let mut reused = world.collision_checker();
+            let mut changing = world.collision_checker();
+            changing.expect(moving(), Pairs::Changing);
+            let none = AllowedPairs::none();
+            for (pan, elbow) in pans.into_iter().zip(elbows) {
+                robot.joints.set(joints[0], pan);
+                robot.joints.set(joints[1], elbow);
+                let all = world.collision_checker().all_hits(&robot, &none, 0.05);
+                prop_assert_eq!(&reused.all_hits(&robot, &none, 0.05), &all);
+                let mut found = changing.all_hits(&robot, &none, 0.05);
+                let mut constant = world.collision_checker();
+                constant.expect(moving(), Pairs::Constant);
+                found.extend(constant.all_hits(&robot, &none, 0.05));
+                found.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+                let depths = |hits: &[CollisionHit]| -> Vec<f64> {
+                    hits.iter().map(|hit| hit.depth).collect()
+                };
+                prop_assert_eq!(depths(&found), depths(&all));
             }
         }
     }

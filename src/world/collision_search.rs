@@ -1,7 +1,7 @@
 //! The search behind collision queries: which primitives are close to each other.
 //!
-//! Bounds are compared first, from links down to primitives, and moving parts are placed
-//! only when they are needed: for a robot that stands in a wall, the base is enough.
+//! Bounds are compared first, from all links together down to primitives, and the primitives of
+//! moving parts are placed only when they are needed.
 
 use std::ops::ControlFlow;
 
@@ -9,6 +9,7 @@ use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::Pose as ParryPose;
 
 use super::models::{Footing, Models};
+use super::moving_parts::{MovingParts, Pairs};
 use super::obstacles::Obstacles;
 use super::part_key::{PartKey, index};
 use super::separation::{Separation, below_floor, overlap, separation};
@@ -68,23 +69,44 @@ pub(crate) enum Wanted {
     HowMuchToOthers,
 }
 
-/// Memory reused between queries.
+/// Which pairs a query looks at, and what it wants to know about them.
+#[derive(Clone, Copy)]
+pub(crate) struct Question<'q> {
+    /// Pairs that do not matter.
+    pub(crate) allowed: &'q [(PartKey, PartKey)],
+    /// What moves.
+    pub(crate) moving: Option<&'q MovingParts>,
+    /// Which pairs matter, by what moves.
+    pub(crate) pairs: Pairs,
+    /// Those of the robot's solid links that may matter, as indices.
+    pub(crate) self_pairs: &'q [(usize, usize)],
+    pub(crate) wanted: Wanted,
+}
+
+/// What is kept between queries of the same surroundings: memory, and the places of links.
 #[derive(Default)]
 pub(crate) struct Scratch {
     movers: Vec<Mover>,
     solids: Vec<PlacedSolid>,
+    /// The furniture near the robot, as places in the list of all.
+    furniture: Vec<usize>,
 }
 
 /// A link or a held object, placed for one query.
 struct Mover {
     key: PartKey,
+    /// The link, or the one that carries the object.
+    link: LinkId,
     pose: ParryPose,
     /// Bounds in the map frame (m).
     bounds: Aabb,
-    /// Index of its first solid in the scratch memory, once they have been placed.
-    placed: Option<usize>,
+    /// Index of its first solid in the scratch memory.
+    first: usize,
+    /// Whether its solids have been placed.
+    is_placed: bool,
 }
 
+#[derive(Clone)]
 struct PlacedSolid {
     pose: ParryPose,
     bounds: Aabb,
@@ -94,8 +116,7 @@ struct PlacedSolid {
 struct Search<'s, 'w, V> {
     around: &'s Surroundings<'w>,
     link_poses: &'s [Pose],
-    allowed: &'s [(PartKey, PartKey)],
-    wanted: Wanted,
+    question: Question<'s>,
     margin: f64,
     scratch: &'s mut Scratch,
     visit: V,
@@ -103,27 +124,30 @@ struct Search<'s, 'w, V> {
 
 impl<'w> Surroundings<'w> {
     /// Visits the pairs that are closer than the margin (m) and not allowed, in a fixed order,
-    /// until the visitor stops. The visitor may lower the margin.
+    /// until the visitor stops. The visitor may lower the margin. `moved` tells which links have
+    /// moved since the last query with the same memory; all may have if it is not given.
     pub(crate) fn search(
         &self,
         link_poses: &[Pose],
-        allowed: &[(PartKey, PartKey)],
-        wanted: Wanted,
+        moved: Option<&[bool]>,
+        question: Question<'_>,
         margin: f64,
         scratch: &mut Scratch,
         visit: impl FnMut(Near, &mut f64) -> ControlFlow<()>,
     ) {
-        scratch.movers.clear();
-        scratch.solids.clear();
+        scratch.furniture.clear();
         let mut search = Search {
             around: self,
             link_poses,
-            allowed,
-            wanted,
+            question,
             margin,
             scratch,
             visit,
         };
+        match moved {
+            Some(moved) if !search.scratch.movers.is_empty() => search.place_moved(moved),
+            _ => search.place_all(),
+        }
         // Whether the visitor stopped the search is of no interest to the caller.
         let _stopped = search.run();
     }
@@ -142,29 +166,14 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
     fn run(&mut self) -> ControlFlow<()> {
         let around = self.around;
         let links = &around.models.robot_geometry.solid_links;
-        for (place, link) in links.iter().enumerate() {
-            // The caller must pass a pose for every link; a link without one is taken to be at
-            // the origin.
-            let pose = self
-                .link_poses
-                .get(link.link.index())
-                .map_or(ParryPose::IDENTITY, to_parry);
-            self.add_mover(PartKey::Robot(index(link.link)), pose, &link.bounds);
+        self.find_furniture();
+        for place in 0..self.scratch.movers.len() {
             self.against_world(place)?;
         }
-        for (place, held) in around.held.iter().enumerate() {
-            let link = self
-                .link_poses
-                .get(held.link.index())
-                .copied()
-                .unwrap_or_default();
-            self.add_mover(held.key, to_parry(&(link * held.at)), &held.bounds);
-            self.against_world(links.len() + place)?;
-        }
-        if self.wanted == Wanted::HowMuchToOthers {
+        if self.question.wanted == Wanted::HowMuchToOthers {
             return ControlFlow::Continue(());
         }
-        for &(a, b) in &around.models.self_pairs {
+        for &(a, b) in self.question.self_pairs {
             self.against_each_other(a, b)?;
         }
         for (i, held) in around.held.iter().enumerate() {
@@ -181,14 +190,94 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         ControlFlow::Continue(())
     }
 
-    fn add_mover(&mut self, key: PartKey, pose: ParryPose, bounds: &Aabb) {
-        let bounds = bounds.transform_by(&pose);
-        self.scratch.movers.push(Mover {
-            key,
-            pose,
-            bounds,
-            placed: None,
-        });
+    /// The pose of a link. The caller must pass one for every link; a link without one is taken to
+    /// be at the origin.
+    fn link_pose(&self, link: LinkId) -> Pose {
+        let pose = self.link_poses.get(link.index());
+        pose.copied().unwrap_or_default()
+    }
+
+    /// The pose and the bounds of the mover with that index.
+    fn place(&self, mover: usize) -> (ParryPose, Aabb) {
+        let links = &self.around.models.robot_geometry.solid_links;
+        let (pose, bounds) = match links.get(mover) {
+            Some(link) => (self.link_pose(link.link), link.bounds),
+            None => match self.around.held.get(mover - links.len()) {
+                Some(held) => (self.link_pose(held.link) * held.at, held.bounds),
+                None => (Pose::identity(), Aabb::new_invalid()),
+            },
+        };
+        let pose = to_parry(&pose);
+        (pose, bounds.transform_by(&pose))
+    }
+
+    fn place_all(&mut self) {
+        let around = self.around;
+        let links = around.models.robot_geometry.solid_links.iter();
+        let links = links.map(|link| (PartKey::Robot(index(link.link)), link.link));
+        let held = around.held.iter().map(|held| (held.key, held.link));
+        let mut first = 0;
+        self.scratch.movers.clear();
+        for (place, (key, link)) in links.chain(held).enumerate() {
+            let (pose, bounds) = self.place(place);
+            self.scratch.movers.push(Mover {
+                key,
+                link,
+                pose,
+                bounds,
+                first,
+                is_placed: false,
+            });
+            first += around.solids(place).len();
+        }
+        let nowhere = PlacedSolid {
+            pose: ParryPose::IDENTITY,
+            bounds: Aabb::new_invalid(),
+        };
+        self.scratch.solids.resize(first, nowhere);
+    }
+
+    fn place_moved(&mut self, moved: &[bool]) {
+        for place in 0..self.scratch.movers.len() {
+            // The index is one of this list.
+            let link = self.scratch.movers[place].link;
+            if moved.get(link.index()) == Some(&false) {
+                continue;
+            }
+            let (pose, bounds) = self.place(place);
+            let mover = &mut self.scratch.movers[place];
+            (mover.pose, mover.bounds, mover.is_placed) = (pose, bounds, false);
+        }
+    }
+
+    /// Whether the question is about the link and what does not belong to the robot.
+    fn asks_of_world(&self, link: LinkId) -> bool {
+        match (self.question.pairs, self.question.moving) {
+            (Pairs::Changing, Some(moving)) => moving.moves(link),
+            (Pairs::Constant, Some(moving)) => !moving.moves(link),
+            (Pairs::All, _) | (_, None) => true,
+        }
+    }
+
+    /// Whether the question is about two links of the robot.
+    fn asks_of_links(&self, one: LinkId, other: LinkId) -> bool {
+        match (self.question.pairs, self.question.moving) {
+            (Pairs::Changing, Some(moving)) => moving.part(one, other),
+            (Pairs::Constant, Some(moving)) => !moving.part(one, other),
+            (Pairs::All, _) | (_, None) => true,
+        }
+    }
+
+    /// Finds the furniture near any of the movers.
+    fn find_furniture(&mut self) {
+        let movers = self.scratch.movers.iter();
+        let asked = movers.filter(|mover| self.asks_of_world(mover.link));
+        let Some(bounds) = asked.map(|m| m.bounds).reduce(|a, b| a.merged(&b)) else {
+            return;
+        };
+        let bounds = with_slack(&bounds, self.margin);
+        let near = self.around.furniture.places_near(&bounds);
+        self.scratch.furniture.extend(near);
     }
 
     /// Checks one mover against furniture, objects and floor.
@@ -197,10 +286,15 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         let Some(mover) = self.scratch.movers.get(place) else {
             return ControlFlow::Continue(());
         };
+        if !self.asks_of_world(mover.link) {
+            return ControlFlow::Continue(());
+        }
         let (key, lowest) = (mover.key, mover.bounds.mins.z);
         let (bounds, margin) = (with_slack(&mover.bounds, self.margin), self.margin);
-        for obstacle in around.furniture.near(&bounds) {
-            if self.is_allowed(key, obstacle.key) {
+        for i in 0..self.scratch.furniture.len() {
+            // These are places in this list.
+            let obstacle = &around.furniture.all()[self.scratch.furniture[i]];
+            if !obstacle.bounds.intersects(&bounds) || self.is_allowed(key, obstacle.key) {
                 continue;
             }
             let (pose, solid) = (&obstacle.pose, &obstacle.solid);
@@ -245,6 +339,9 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         let (Some(one), Some(two)) = (movers.get(a), movers.get(b)) else {
             return ControlFlow::Continue(());
         };
+        if !self.asks_of_links(one.link, two.link) {
+            return ControlFlow::Continue(());
+        }
         let margin = self.margin.min(SELF_MARGIN);
         let bounds = with_slack(&one.bounds, margin);
         if !bounds.intersects(&two.bounds) || self.is_allowed(one.key, two.key) {
@@ -283,7 +380,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             if !with_slack(&placed.bounds, margin).intersects(other_bounds) {
                 continue;
             }
-            let near = if self.wanted == Wanted::Whether && margin == 0.0 {
+            let near = if self.question.wanted == Wanted::Whether && margin == 0.0 {
                 overlap(&placed.pose, solid, other_pose, other_solid)
             } else {
                 separation(&placed.pose, solid, other_pose, other_solid, margin)
@@ -303,23 +400,24 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
 
     /// Places the solids of the mover if needed, and returns the index of the first.
     fn place_solids(&mut self, place: usize) -> usize {
-        let Scratch { movers, solids } = &mut *self.scratch;
+        let Scratch { movers, solids, .. } = &mut *self.scratch;
         // Callers pass the index of an existing mover.
         let mover = &mut movers[place];
-        *mover.placed.get_or_insert_with(|| {
-            let first = solids.len();
-            solids.extend(self.around.solids(place).iter().map(|solid| {
+        if !mover.is_placed {
+            mover.is_placed = true;
+            let own = solids.iter_mut().skip(mover.first);
+            for (placed, solid) in own.zip(self.around.solids(place)) {
                 // Somewhat larger than the bounds of the turned solid, but cheap.
-                let bounds = solid.bounds.transform_by(&mover.pose);
-                let pose = mover.pose * solid.pose;
-                PlacedSolid { pose, bounds }
-            }));
-            first
-        })
+                placed.bounds = solid.bounds.transform_by(&mover.pose);
+                placed.pose = mover.pose * solid.pose;
+            }
+        }
+        mover.first
     }
 
     fn is_allowed(&self, a: PartKey, b: PartKey) -> bool {
-        self.allowed
+        self.question
+            .allowed
             .iter()
             .any(|&(x, y)| (x == a && y == b) || (x == b && y == a))
     }

@@ -56,13 +56,13 @@ impl Obstacles {
         &self.all
     }
 
-    /// The solids whose bounds intersect the given ones (m).
-    pub(crate) fn near<'a>(&'a self, bounds: &'a Aabb) -> impl Iterator<Item = &'a Obstacle> {
+    /// The places in the list of all of the solids whose bounds intersect the given ones (m).
+    pub(crate) fn places_near<'a>(&'a self, bounds: &'a Aabb) -> impl Iterator<Item = usize> + 'a {
         self.links
             .iter()
             .filter(|(link, _)| link.intersects(bounds))
+            .flat_map(|(_, range)| range.clone())
             // The ranges index this list.
-            .flat_map(|(_, range)| &self.all[range.clone()])
-            .filter(|obstacle| obstacle.bounds.intersects(bounds))
+            .filter(|place| self.all[*place].bounds.intersects(bounds))
     }
 }
