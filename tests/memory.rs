@@ -63,6 +63,9 @@ fn memory_stays_flat_over_a_million_circles_of_each_kind() {
         "(desig:equate (desig:make-designator :object '((:type :bottle)))
                        (desig:make-designator :object '((:type :bottle))))",
         "(let ((l (list :a 1))) (setf (second l) (desig:make-designator :object (list l))))",
+        "(gensym)",
+        "(list (make-symbol \"A\") (copy-symbol 'circle) (gensym 3))",
+        "(read-from-string \"#:passing\")",
     ] {
         let before = run(&format!("(dotimes (i 100000) {circle})"));
         let after = run(&format!("(dotimes (i 900000) {circle})"));

@@ -56,8 +56,8 @@ pub(crate) fn input_stream(image: &Image, designator: &Value) -> Result<Rc<Strea
 
 fn designated(image: &Image, designator: &Value, default: Sym) -> Result<Rc<Stream>, Box<Raise>> {
     let mut value = match designator {
-        Value::Symbol(known::NIL) => image.special(default),
-        Value::Symbol(known::T) => image.special(known::V_TERMINAL_IO),
+        Value::Symbol(known::NIL, ..) => image.special(default),
+        Value::Symbol(known::T, ..) => image.special(known::V_TERMINAL_IO),
         other => other,
     };
     // A synonym stream stands for a variable's value, which may itself be a synonym stream.

@@ -175,7 +175,7 @@ mod tests {
     #[test]
     fn the_second_call_of_a_part_is_numbered() {
         let root = TreeNode::new(Value::NIL);
-        let part = Value::list([Value::Symbol(known::CAR)]);
+        let part = Value::list([Value::symbol(known::CAR)]);
         let image = Image::new();
         let shown = |node: &Rc<TreeNode>| print::to_string(&image, &node.path, true);
         assert_eq!(shown(&root.enter(&part, known::K_COUNT)), "((CAR))");

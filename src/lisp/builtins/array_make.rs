@@ -83,8 +83,8 @@ impl Options {
     /// The fill pointer for a vector of this size, if it is to have one.
     pub(crate) fn fill_pointer(&self, size: usize) -> Result<Option<usize>, Box<Raise>> {
         match &self.fill_pointer {
-            None | Some(Value::Symbol(known::NIL)) => Ok(None),
-            Some(Value::Symbol(known::T)) => Ok(Some(size)),
+            None | Some(Value::Symbol(known::NIL, ..)) => Ok(None),
+            Some(Value::Symbol(known::T, ..)) => Ok(Some(size)),
             Some(value) => {
                 let pointer = index(value)?;
                 if pointer > size {

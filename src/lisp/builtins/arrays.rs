@@ -221,7 +221,7 @@ fn array_in_bounds_p(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn array_element_type(_: &mut Image, args: &[Value]) -> Outcome {
-    element_type(&args[0]).map(Value::Symbol)
+    element_type(&args[0]).map(Value::symbol)
 }
 
 fn is_adjustable(array: &Value) -> bool {

@@ -33,7 +33,7 @@ fn bits(array: &Value) -> Result<Vec<bool>, Box<Raise>> {
 fn deliver(operand: &Value, result: Option<&Value>, bits: &[bool]) -> Outcome {
     let items: Vec<Value> = bits.iter().map(|b| Value::Int(i64::from(*b))).collect();
     let target = match result {
-        None | Some(Value::Symbol(known::NIL)) => {
+        None | Some(Value::Symbol(known::NIL, ..)) => {
             if let Value::Array(a) = operand {
                 return Ok(Value::Array(Rc::new(Array {
                     dimensions: a.dimensions.clone(),
@@ -44,7 +44,7 @@ fn deliver(operand: &Value, result: Option<&Value>, bits: &[bool]) -> Outcome {
             }
             return array_make::vector(known::BIT, items, None, false);
         }
-        Some(Value::Symbol(known::T)) => operand,
+        Some(Value::Symbol(known::T, ..)) => operand,
         Some(target) => target,
     };
     self::bits(target)?;

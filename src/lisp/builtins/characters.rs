@@ -133,7 +133,7 @@ fn designated(image: &Image, value: &Value) -> Result<char, Box<Raise>> {
     let c = match value {
         Value::Char(c) => Some(*c),
         Value::Str(s) => only(&s.borrow()),
-        Value::Symbol(s) => only(image.name(*s)),
+        Value::Symbol(s, ..) => only(image.name(*s)),
         _ => None,
     };
     c.ok_or_else(|| Raise::type_error(value, known::CHARACTER))

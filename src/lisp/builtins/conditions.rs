@@ -130,14 +130,14 @@ fn read(args: &[Value], class: Sym, slot: Sym) -> Result<Value, Box<Raise>> {
     match value {
         Some(value) if value.is_unbound() => Err(unbound_slot(condition, slot)),
         Some(value) => Ok(value),
-        None => Err(Raise::type_error(condition, Value::Symbol(class))),
+        None => Err(Raise::type_error(condition, Value::symbol(class))),
     }
 }
 
 fn make_condition(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let class = instance::designated_class(machine.image, &args[0])?;
     if class.kind != ClassKind::Condition {
-        return Err(Raise::type_error(&args[0], Value::Symbol(known::CONDITION)));
+        return Err(Raise::type_error(&args[0], Value::symbol(known::CONDITION)));
     }
     instance::make_instance(machine, args)
 }

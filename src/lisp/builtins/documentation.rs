@@ -36,11 +36,13 @@ pub(crate) static SETTERS: &[Builtin] = &[pure(
 fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let kind = args[1].as_symbol();
     let text = match (&args[0], kind) {
-        (Value::Symbol(name), Some(known::VARIABLE)) => image.symbol(*name).variable_doc.clone(),
-        (Value::Symbol(name), Some(known::TYPE | known::STRUCTURE)) => {
+        (Value::Symbol(name, ..), Some(known::VARIABLE)) => {
+            image.symbol(*name).variable_doc.clone()
+        }
+        (Value::Symbol(name, ..), Some(known::TYPE | known::STRUCTURE)) => {
             image.class(*name).and_then(|c| c.doc.borrow().clone())
         }
-        (Value::Symbol(name), Some(known::FUNCTION | known::SETF)) => of_name(image, *name),
+        (Value::Symbol(name, ..), Some(known::FUNCTION | known::SETF)) => of_name(image, *name),
         (Value::Cons(_), Some(known::FUNCTION)) => image
             .named_function(&args[0])
             .and_then(|f| of_function(image, &f)),
@@ -88,15 +90,15 @@ fn of_function(image: &Image, function: &Function) -> Option<Rc<str>> {
 fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let text: Option<Rc<str>> = args[0].as_text().map(Into::into);
     match (&args[1], args[2].as_symbol()) {
-        (Value::Symbol(name), Some(known::VARIABLE)) => {
+        (Value::Symbol(name, ..), Some(known::VARIABLE)) => {
             image.symbols.get_mut(*name).variable_doc = text;
         }
-        (Value::Symbol(name), Some(known::TYPE | known::STRUCTURE)) => {
+        (Value::Symbol(name, ..), Some(known::TYPE | known::STRUCTURE)) => {
             if let Some(class) = image.class(*name) {
                 *class.doc.borrow_mut() = text;
             }
         }
-        (Value::Symbol(name), _) => {
+        (Value::Symbol(name, ..), _) => {
             let data = image.symbols.get_mut(*name);
             data.plist = Value::list_with_tail(
                 [known::FUNCTION_DOCUMENTATION.into(), args[0].clone()],

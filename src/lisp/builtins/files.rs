@@ -53,11 +53,13 @@ fn open(image: &mut Image, args: &[Value]) -> Outcome {
     )?;
     let path = path(&args[0])?;
     match direction.as_ref() {
-        None | Some(Value::Symbol(known::K_INPUT)) => open_input(&path, if_does_not_exist.as_ref()),
-        Some(Value::Symbol(known::K_OUTPUT)) => {
+        None | Some(Value::Symbol(known::K_INPUT, ..)) => {
+            open_input(&path, if_does_not_exist.as_ref())
+        }
+        Some(Value::Symbol(known::K_OUTPUT, ..)) => {
             open_output(image, &path, if_exists.as_ref(), if_does_not_exist.as_ref())
         }
-        Some(Value::Symbol(known::K_PROBE)) => {
+        Some(Value::Symbol(known::K_PROBE, ..)) => {
             let exists = fs::metadata(&path).is_ok();
             let stream = Stream::new(StreamKind::Closed);
             Ok(if exists {
@@ -77,8 +79,8 @@ fn open_input(path: &str, if_does_not_exist: Option<&Value>) -> Outcome {
     let read = || fs::read_to_string(path);
     let text = match read() {
         Err(error) if error.kind() == ErrorKind::NotFound => match if_does_not_exist {
-            Some(Value::Symbol(known::NIL)) => return Ok(Value::NIL),
-            Some(Value::Symbol(known::K_CREATE)) => {
+            Some(Value::Symbol(known::NIL, ..)) => return Ok(Value::NIL),
+            Some(Value::Symbol(known::K_CREATE, ..)) => {
                 File::create(path).map_err(|error| file_error("creating", path, &error))?;
                 String::new()
             }
@@ -100,18 +102,19 @@ fn open_output(
     options.write(true);
     if exists {
         match if_exists {
-            Some(Value::Symbol(known::NIL)) => return Ok(Value::NIL),
-            None | Some(Value::Symbol(known::K_ERROR)) => {
+            Some(Value::Symbol(known::NIL, ..)) => return Ok(Value::NIL),
+            None | Some(Value::Symbol(known::K_ERROR, ..)) => {
                 let error = Error::from(ErrorKind::AlreadyExists);
                 return Err(file_error("opening", path, &error));
             }
-            Some(Value::Symbol(known::K_APPEND)) => options.append(true),
-            Some(Value::Symbol(known::K_OVERWRITE)) => &mut options,
+            Some(Value::Symbol(known::K_APPEND, ..)) => options.append(true),
+            Some(Value::Symbol(known::K_OVERWRITE, ..)) => &mut options,
             Some(Value::Symbol(
                 known::K_SUPERSEDE
                 | known::K_RENAME
                 | known::K_RENAME_AND_DELETE
                 | known::K_NEW_VERSION,
+                ..,
             )) => options.truncate(true),
             Some(other) => {
                 return Err(Raise::simple(format!(
@@ -122,8 +125,8 @@ fn open_output(
         };
     } else {
         match if_does_not_exist {
-            Some(Value::Symbol(known::NIL)) => return Ok(Value::NIL),
-            Some(Value::Symbol(known::K_ERROR)) => {
+            Some(Value::Symbol(known::NIL, ..)) => return Ok(Value::NIL),
+            Some(Value::Symbol(known::K_ERROR, ..)) => {
                 let error = Error::from(ErrorKind::NotFound);
                 return Err(file_error("opening", path, &error));
             }

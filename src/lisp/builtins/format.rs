@@ -46,8 +46,8 @@ enum Destination {
 
 fn destination(value: &Value) -> Result<Destination, Box<Raise>> {
     match value {
-        Value::Symbol(known::NIL) => Ok(Destination::Result),
-        Value::Symbol(known::T) => Ok(Destination::Stream(Value::NIL)),
+        Value::Symbol(known::NIL, ..) => Ok(Destination::Result),
+        Value::Symbol(known::T, ..) => Ok(Destination::Stream(Value::NIL)),
         Value::Stream(_) => Ok(Destination::Stream(value.clone())),
         Value::Str(string) if string.has_fill_pointer.get() => {
             Ok(Destination::String(value.clone()))

@@ -99,7 +99,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         |_, args| {
             let method = method_argument(&args[0])?;
             let qualifiers: Vec<Sym> = method.qualifiers.clone();
-            Ok(Value::list(qualifiers.into_iter().map(Value::Symbol)))
+            Ok(Value::list(qualifiers.into_iter().map(Value::symbol)))
         },
     ),
 ];
@@ -175,7 +175,7 @@ fn generic_argument(value: &Value) -> Result<&Rc<Function>, Box<Raise>> {
         Value::Function(function) if function.as_generic().is_some() => Ok(function),
         other => Err(Raise::type_error(
             other,
-            Value::Symbol(known::GENERIC_FUNCTION),
+            Value::symbol(known::GENERIC_FUNCTION),
         )),
     }
 }
@@ -184,7 +184,7 @@ fn as_generic(function: &Rc<Function>) -> Result<&GenericFunction, Box<Raise>> {
     function.as_generic().ok_or_else(|| {
         Raise::type_error(
             &Value::Function(function.clone()),
-            Value::Symbol(known::GENERIC_FUNCTION),
+            Value::symbol(known::GENERIC_FUNCTION),
         )
     })
 }
@@ -193,7 +193,7 @@ fn method_argument(value: &Value) -> Result<&Rc<Method>, Box<Raise>> {
     value
         .as_foreign::<MethodObject>()
         .map(|object| &object.0)
-        .ok_or_else(|| Raise::type_error(value, Value::Symbol(known::METHOD)))
+        .ok_or_else(|| Raise::type_error(value, Value::symbol(known::METHOD)))
 }
 
 fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {

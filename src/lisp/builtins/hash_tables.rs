@@ -49,7 +49,7 @@ pub(super) fn make(image: &mut Image, args: &[Value]) -> Outcome {
             known::K_SYNCHRONIZED,
         ],
     )?;
-    let test = test.unwrap_or(Value::Symbol(known::EQL));
+    let test = test.unwrap_or(Value::symbol(known::EQL));
     let name = test.as_symbol().or_else(|| builtin_name(&test));
     let Some((test, _)) = TESTS.iter().find(|(_, sym)| Some(*sym) == name) else {
         return Err(Raise::simple(format!(
@@ -105,7 +105,7 @@ fn hash_table_size(_: &mut Image, args: &[Value]) -> Outcome {
 fn hash_table_test(_: &mut Image, args: &[Value]) -> Outcome {
     let test = table(&args[0])?.test;
     let name = TESTS.iter().find(|(t, _)| *t == test);
-    Ok(name.map_or(Value::NIL, |(_, sym)| Value::Symbol(*sym)))
+    Ok(name.map_or(Value::NIL, |(_, sym)| Value::symbol(*sym)))
 }
 
 fn rehash_size(_: &mut Image, args: &[Value]) -> Outcome {
@@ -143,7 +143,7 @@ fn sxhash(image: &mut Image, args: &[Value]) -> Outcome {
     for _ in 0..64 {
         let Some(value) = pending.pop() else { break };
         match &value {
-            Value::Symbol(s) => mix(image.name(*s).as_bytes()),
+            Value::Symbol(s, ..) => mix(image.name(*s).as_bytes()),
             Value::Int(n) => mix(&n.to_le_bytes()),
             Value::Big(n) => mix(&n.to_signed_bytes_le()),
             Value::Ratio(r) => {

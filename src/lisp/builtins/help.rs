@@ -52,7 +52,7 @@ pub(crate) static TABLE: &[Builtin] = &[
 
 fn describe(image: &mut Image, args: &[Value]) -> Outcome {
     let text = match &args[0] {
-        Value::Symbol(sym) => of_symbol(image, *sym),
+        Value::Symbol(sym, ..) => of_symbol(image, *sym),
         other => of_value(image, other),
     };
     let to = args.get(1).cloned().unwrap_or(Value::NIL);
@@ -68,7 +68,7 @@ fn shown(image: &Image, value: &Value) -> String {
 
 pub(crate) fn of_symbol(image: &Image, sym: Sym) -> String {
     let data = image.symbol(sym);
-    let value = Value::Symbol(sym);
+    let value = Value::symbol(sym);
     if image.is_keyword(sym) {
         return format!("{}: a keyword\n", shown(image, &value));
     }
@@ -384,7 +384,7 @@ fn found(image: &Image, args: &[Value]) -> Result<Vec<Sym>, Box<Raise>> {
 fn apropos_list(image: &mut Image, args: &[Value]) -> Outcome {
     let symbols = found(image, args)?;
     Ok(Value::list(
-        symbols.into_iter().map(Value::Symbol).collect::<Vec<_>>(),
+        symbols.into_iter().map(Value::symbol).collect::<Vec<_>>(),
     ))
 }
 

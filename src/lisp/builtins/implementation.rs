@@ -82,7 +82,7 @@ pub(crate) fn define_constants(image: &mut Image) {
 
 fn constantp(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let is_constant = match &args[0] {
-        Value::Symbol(sym) => image.symbol(*sym).kind == VariableKind::Constant,
+        Value::Symbol(sym, ..) => image.symbol(*sym).kind == VariableKind::Constant,
         Value::Cons(cons) => cons.car().as_symbol() == Some(known::QUOTE),
         _ => true,
     };

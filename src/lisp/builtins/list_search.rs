@@ -48,7 +48,7 @@ async fn find_entry(calls: Calls, criterion: Criterion, alist: Value) -> Outcome
     let mut walk = ListWalk::new(alist);
     while let Some(entry) = walk.next()? {
         match &entry {
-            Value::Symbol(known::NIL) => {}
+            Value::Symbol(known::NIL, ..) => {}
             Value::Cons(pair) => {
                 if criterion.accepts(&calls, &pair.car()).await {
                     return Ok(entry);

@@ -70,7 +70,7 @@ pub(crate) fn nconc_all(lists: &[Value]) -> Outcome {
     for (i, list) in lists.iter().enumerate() {
         let is_last = i + 1 == lists.len();
         match list {
-            Value::Symbol(known::NIL) if !is_last || last.is_none() => continue,
+            Value::Symbol(known::NIL, ..) if !is_last || last.is_none() => continue,
             Value::Cons(_) => {}
             _ if is_last => {}
             _ => return Err(Raise::type_error(list, known::LIST)),
@@ -104,7 +104,7 @@ fn list_length(_: &mut Image, args: &[Value]) -> Outcome {
         for _ in 0..2 {
             fast = match &fast {
                 Value::Cons(cons) => cons.cdr(),
-                Value::Symbol(known::NIL) => return Ok(count.into()),
+                Value::Symbol(known::NIL, ..) => return Ok(count.into()),
                 other => return Err(Raise::type_error(other, known::LIST)),
             };
             count += 1;

@@ -58,7 +58,7 @@ fn step(list: &mut Value, tails: bool) -> Result<Option<Value>, Box<Raise>> {
     let (item, rest) = match &*list {
         Value::Cons(cons) if tails => (list.clone(), cons.cdr()),
         Value::Cons(cons) => (cons.car(), cons.cdr()),
-        Value::Symbol(known::NIL) => return Ok(None),
+        Value::Symbol(known::NIL, ..) => return Ok(None),
         other => return Err(Raise::type_error(other, known::LIST)),
     };
     *list = rest;

@@ -121,7 +121,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &["(class-name (find-class 'list)) => LIST"],
         |_, args| match &args[0] {
             Value::Class(class) => Ok(class.name.into()),
-            other => Err(Raise::type_error(other, Value::Symbol(known::CLASS))),
+            other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
         },
     ),
     pure(
@@ -249,7 +249,7 @@ fn slot_missing(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
 
 fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], Value::Symbol(known::SYMBOL)));
+        return Err(Raise::type_error(&args[0], Value::symbol(known::SYMBOL)));
     };
     match image.class(name) {
         Some(class) if class.is_defined.get() => Ok(Value::Class(class.clone())),
@@ -260,16 +260,16 @@ fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
 
 fn set_find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let Some(name) = args[1].as_symbol() else {
-        return Err(Raise::type_error(&args[1], Value::Symbol(known::SYMBOL)));
+        return Err(Raise::type_error(&args[1], Value::symbol(known::SYMBOL)));
     };
     match &args[0] {
         Value::Class(class) => {
             image.classes.insert(name, class.clone());
         }
-        Value::Symbol(known::NIL) => {
+        Value::Symbol(known::NIL, ..) => {
             image.classes.shift_remove(&name);
         }
-        other => return Err(Raise::type_error(other, Value::Symbol(known::CLASS))),
+        other => return Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     }
     Ok(args[0].clone())
 }
@@ -279,7 +279,7 @@ fn instance_argument(value: &Value) -> Result<&Rc<Instance>, Box<Raise>> {
         Value::Instance(instance) => Ok(instance),
         other => Err(Raise::type_error(
             other,
-            Value::Symbol(known::STANDARD_OBJECT),
+            Value::symbol(known::STANDARD_OBJECT),
         )),
     }
 }

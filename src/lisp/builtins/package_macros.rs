@@ -32,7 +32,7 @@ fn define_package(image: &mut Image, args: &[Value]) -> Outcome {
     for option in list_items(&args[1])? {
         let parts = list_items(&option)?;
         match parts.split_first() {
-            Some((Value::Symbol(key), rest)) => options.push((*key, rest.to_vec())),
+            Some((Value::Symbol(key, ..), rest)) => options.push((*key, rest.to_vec())),
             _ => {
                 return Err(Raise::program(format!(
                     "Bogus DEFPACKAGE option: {}",
@@ -156,7 +156,7 @@ fn existing_package(image: &mut Image, args: &[Value]) -> Outcome {
 /// ones, `:EXTERNAL` the exported ones, `T` those of all packages.
 fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     let symbols: Vec<Sym> = match &args[1] {
-        Value::Symbol(known::T) => {
+        Value::Symbol(known::T, ..) => {
             let mut all: Vec<Sym> = image
                 .packages
                 .ids()
@@ -167,7 +167,7 @@ fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
             all.dedup();
             all
         }
-        Value::Symbol(known::K_INHERITED) => {
+        Value::Symbol(known::K_INHERITED, ..) => {
             let id = designated(image, &args[0])?;
             accessible(image, id)
         }
@@ -179,7 +179,7 @@ fn package_symbols(image: &mut Image, args: &[Value]) -> Outcome {
             chosen.map(|(sym, _)| *sym).collect()
         }
     };
-    Ok(Value::list(symbols.into_iter().map(Value::Symbol)))
+    Ok(Value::list(symbols.into_iter().map(Value::symbol)))
 }
 
 /// The state of a package iterator: a pair whose car lists what is still to come.

@@ -55,7 +55,7 @@ pub(crate) fn or_current(
     designator: Option<&Value>,
 ) -> Result<PackageId, Box<Raise>> {
     match designator {
-        None | Some(Value::Symbol(known::NIL)) => Ok(image.current_package()),
+        None | Some(Value::Symbol(known::NIL, ..)) => Ok(image.current_package()),
         Some(designator) => designated(image, designator),
     }
 }
@@ -143,7 +143,7 @@ fn package_shadowing_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     let symbols = this.shadowing.iter().filter_map(|n| this.symbols.get(n));
     Ok(Value::list(
         symbols
-            .map(|(sym, _)| Value::Symbol(*sym))
+            .map(|(sym, _)| Value::symbol(*sym))
             .collect::<Vec<_>>(),
     ))
 }
@@ -165,7 +165,7 @@ fn find_all_symbols(image: &mut Image, args: &[Value]) -> Outcome {
             found.push(*sym);
         }
     }
-    Ok(Value::list(found.into_iter().map(Value::Symbol)))
+    Ok(Value::list(found.into_iter().map(Value::symbol)))
 }
 
 fn names(image: &Image, list: Option<&Value>) -> Result<Vec<String>, Box<Raise>> {

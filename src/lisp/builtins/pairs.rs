@@ -15,7 +15,7 @@ type Outcome = Result<Value, Box<Raise>>;
 fn car_of(list: &Value) -> Outcome {
     match list {
         Value::Cons(cons) => Ok(cons.car()),
-        Value::Symbol(known::NIL) => Ok(Value::NIL),
+        Value::Symbol(known::NIL, ..) => Ok(Value::NIL),
         _ => Err(Raise::type_error(list, known::LIST)),
     }
 }
@@ -24,7 +24,7 @@ fn car_of(list: &Value) -> Outcome {
 fn cdr_of(list: &Value) -> Outcome {
     match list {
         Value::Cons(cons) => Ok(cons.cdr()),
-        Value::Symbol(known::NIL) => Ok(Value::NIL),
+        Value::Symbol(known::NIL, ..) => Ok(Value::NIL),
         _ => Err(Raise::type_error(list, known::LIST)),
     }
 }
@@ -184,7 +184,7 @@ fn butlast(_: &mut Image, args: &[Value]) -> Outcome {
 fn endp(_: &mut Image, args: &[Value]) -> Outcome {
     match &args[0] {
         Value::Cons(_) => Ok(Value::NIL),
-        Value::Symbol(known::NIL) => Ok(Value::T),
+        Value::Symbol(known::NIL, ..) => Ok(Value::T),
         other => Err(Raise::type_error(other, known::LIST)),
     }
 }

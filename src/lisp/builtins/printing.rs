@@ -278,7 +278,7 @@ fn write_settings(image: &Image, args: &[Value]) -> Result<(Settings, Value), Bo
 fn count(place: &mut Option<usize>, value: Option<Value>) -> Result<(), Box<Raise>> {
     *place = match value {
         None => return Ok(()),
-        Some(Value::Symbol(known::NIL)) => None,
+        Some(Value::Symbol(known::NIL, ..)) => None,
         Some(Value::Int(n)) if n >= 0 => usize::try_from(n).ok(),
         Some(other) => return Err(Raise::type_error(&other, known::UNSIGNED_BYTE)),
     };

@@ -129,7 +129,7 @@ impl Changing {
 /// How many elements may change: the value of a `:count` argument.
 fn limit(count: Option<&Value>) -> Result<usize, Box<Raise>> {
     match count {
-        None | Some(Value::Symbol(known::NIL)) => Ok(usize::MAX),
+        None | Some(Value::Symbol(known::NIL, ..)) => Ok(usize::MAX),
         Some(Value::Int(n)) => Ok(usize::try_from(*n).unwrap_or(0)),
         Some(Value::Big(n)) => Ok(match n.sign() {
             num_bigint::Sign::Minus => 0,

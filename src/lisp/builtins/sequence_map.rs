@@ -46,7 +46,7 @@ impl Side {
 
 fn map(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let result = match &args[0] {
-        Value::Symbol(known::NIL) => None,
+        Value::Symbol(known::NIL, ..) => None,
         specifier => Some(SequenceType::new(machine.image, specifier)?),
     };
     let function = callable(machine.image, &args[1])?;

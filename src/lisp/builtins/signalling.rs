@@ -79,14 +79,14 @@ async fn designated_condition(calls: &Calls, args: Vec<Value>, default: Sym) -> 
     match &datum {
         Value::Str(_) | Value::Function(_) => {
             initargs = vec![
-                Value::Symbol(default),
+                Value::symbol(default),
                 known::K_FORMAT_CONTROL.into(),
                 datum.clone(),
                 known::K_FORMAT_ARGUMENTS.into(),
                 Value::list(args),
             ];
         }
-        Value::Symbol(_) | Value::Class(_) => {
+        Value::Symbol(_, ..) | Value::Class(_) => {
             initargs = vec![datum.clone()];
             initargs.extend(args);
         }

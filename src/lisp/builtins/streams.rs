@@ -192,7 +192,7 @@ fn peek_char(image: &mut Image, args: &[Value]) -> Outcome {
     let source = args.get(1).unwrap_or(&Value::NIL);
     while let Some(c) = stream::peek_char(image, source)? {
         let skipped = match args.first() {
-            Some(Value::Symbol(known::T)) => c.is_whitespace(),
+            Some(Value::Symbol(known::T, ..)) => c.is_whitespace(),
             Some(Value::Char(wanted)) => c != *wanted,
             _ => false,
         };
@@ -268,8 +268,8 @@ fn file_position(_: &mut Image, args: &[Value]) -> Outcome {
         }
         (StreamKind::StringInput { text, position }, Some(new)) => {
             let count = match new {
-                Value::Symbol(sym) if *sym == known::K_START => 0,
-                Value::Symbol(sym) if *sym == known::K_END => usize::MAX,
+                Value::Symbol(sym, ..) if *sym == known::K_START => 0,
+                Value::Symbol(sym, ..) if *sym == known::K_END => usize::MAX,
                 other => index(other)?,
             };
             let offset = text.char_indices().nth(count);
@@ -306,7 +306,7 @@ fn components(value: &Value) -> Result<Value, Box<Raise>> {
         StreamKind::TwoWay { input, output, .. } => {
             Ok(stream_list(&[input.clone(), output.clone()]))
         }
-        StreamKind::Synonym { symbol } => Ok(Value::list([Value::Symbol(*symbol)])),
+        StreamKind::Synonym { symbol } => Ok(Value::list([Value::symbol(*symbol)])),
         _ => Err(Raise::type_error(value, known::STREAM)),
     }
 }

@@ -20,7 +20,7 @@ type Outcome = Result<Value, Box<Raise>>;
 pub(crate) fn designated(image: &Image, value: &Value) -> Result<String, Box<Raise>> {
     match value {
         Value::Str(s) => Ok(s.text()),
-        Value::Symbol(s) => Ok(image.name(*s).to_owned()),
+        Value::Symbol(s, ..) => Ok(image.name(*s).to_owned()),
         Value::Char(c) => Ok(c.to_string()),
         _ => Err(Raise::type_error(
             value,

@@ -34,13 +34,13 @@ fn symbol_package(image: &mut Image, args: &[Value]) -> Outcome {
 
 fn make_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     let name = string(&args[0])?.text();
-    Ok(image.make_symbol(&name).into())
+    Ok(image.symbols.make_passing(name.into()))
 }
 
 fn copy_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     let from = symbol(&args[0])?;
     let name = image.name(from).to_owned();
-    let copy = image.make_symbol(&name);
+    let copy = image.symbols.make_passing(name.into());
     if args.get(1).is_some_and(Value::is_true) {
         let data = image.symbol(from);
         let (value, function, plist, kind) = (
@@ -49,27 +49,22 @@ fn copy_symbol(image: &mut Image, args: &[Value]) -> Outcome {
             data.plist.clone(),
             data.kind,
         );
-        let data = image.symbols.get_mut(copy);
+        let data = image.symbols.get_mut(symbol(&copy)?);
         data.value = value;
         data.function = function;
         data.plist = plist;
         data.kind = kind;
     }
-    Ok(copy.into())
+    Ok(copy)
 }
 
 fn gensym(image: &mut Image, args: &[Value]) -> Outcome {
-    match args.first() {
-        None => Ok(image.gensym("G").into()),
-        Some(Value::Str(prefix)) => {
-            let prefix = prefix.text();
-            Ok(image.gensym(&prefix).into())
-        }
-        Some(number) => {
-            let name = format!("G{}", index(number)?);
-            Ok(image.make_symbol(&name).into())
-        }
-    }
+    let name = match args.first() {
+        None => image.fresh_name("G"),
+        Some(Value::Str(prefix)) => image.fresh_name(&prefix.text()),
+        Some(number) => format!("G{}", index(number)?),
+    };
+    Ok(image.symbols.make_passing(name.into()))
 }
 
 /// A fresh symbol of the current package; names are counted from 1 for each prefix.
@@ -133,8 +128,8 @@ fn makunbound(image: &mut Image, args: &[Value]) -> Outcome {
 /// evaluates to itself?
 fn constantp(image: &mut Image, args: &[Value]) -> Outcome {
     let constant = match &args[0] {
-        Value::Symbol(sym) => image.symbol(*sym).kind == VariableKind::Constant,
-        Value::Cons(cons) => matches!(cons.car(), Value::Symbol(known::QUOTE)),
+        Value::Symbol(sym, ..) => image.symbol(*sym).kind == VariableKind::Constant,
+        Value::Cons(cons) => matches!(cons.car(), Value::Symbol(known::QUOTE, ..)),
         _ => true,
     };
     Ok(Value::bool(constant))
@@ -151,12 +146,14 @@ enum FunctionName {
 }
 
 fn function_name(value: &Value) -> Result<FunctionName, Box<Raise>> {
-    if let Value::Symbol(sym) = value {
+    if let Value::Symbol(sym, ..) = value {
         return Ok(FunctionName::Plain(*sym));
     }
     let parts: Vec<Value> = value.iter_list().take(3).collect();
     match parts.as_slice() {
-        [Value::Symbol(known::SETF), Value::Symbol(place)] => Ok(FunctionName::Setf(*place)),
+        [Value::Symbol(known::SETF, ..), Value::Symbol(place, ..)] => {
+            Ok(FunctionName::Setf(*place))
+        }
         _ => Err(Raise::type_error(value, known::SYMBOL)),
     }
 }

@@ -110,7 +110,7 @@ fn coerce_operation(
 
 fn define_type(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     match (&args[0], &args[1]) {
-        (Value::Symbol(name), Value::Function(expander)) => {
+        (Value::Symbol(name, ..), Value::Function(expander)) => {
             if image.class(*name).is_some() {
                 return Err(Raise::simple(format!(
                     "DEFTYPE cannot redefine the class {}.",
@@ -120,6 +120,6 @@ fn define_type(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
             image.types.insert(*name, expander.clone());
             Ok(args[0].clone())
         }
-        (name, _) => Err(Raise::type_error(name, Value::Symbol(known::SYMBOL))),
+        (name, _) => Err(Raise::type_error(name, Value::symbol(known::SYMBOL))),
     }
 }

@@ -12,7 +12,7 @@ use super::scope::{
 use super::special_forms;
 use crate::closest_name::closest_name;
 use crate::lisp::evaluator::nested;
-use crate::lisp::guard::{Pace, descend, look};
+use crate::lisp::guard::{Pace, Stopped, descend, leave, look, reason};
 use crate::lisp::image::Image;
 use crate::lisp::image::notes::NoteKind;
 use crate::lisp::source::Place;
@@ -33,6 +33,8 @@ pub(super) struct Compiler<'a> {
     functions: Vec<FunctionContext>,
     current: usize,
     pace: Pace,
+    /// Why the compiler is to be left.
+    stopped: Option<Stopped>,
     /// The place of the innermost enclosing form that has one.
     pub(crate) place: Place,
 }
@@ -44,6 +46,7 @@ impl<'a> Compiler<'a> {
             functions: Vec::new(),
             current: 0,
             pace: Pace::default(),
+            stopped: None,
             place: Place::NONE,
         }
     }
@@ -51,7 +54,12 @@ impl<'a> Compiler<'a> {
     /// Compiles a form as the body of a function without parameters.
     pub(crate) fn compile_toplevel(mut self, form: &Value) -> Compiled<Rc<Code>> {
         let id = self.enter_function();
-        let body = self.analyze(form, &Scope::default())?;
+        let body = self.analyze(form, &Scope::default());
+        if let Some(reason) = self.stopped {
+            drop(body);
+            leave(reason);
+        }
+        let body = body?;
         let free = self.leave_function(id);
         let lambda = LambdaNode {
             name: Value::NIL,
@@ -138,6 +146,7 @@ impl<'a> Compiler<'a> {
 
     /// A new variable of the current function.
     pub(crate) fn new_var(&self, name: Sym) -> Rc<Var> {
+        self.image.symbols.keep(name);
         Rc::new(Var {
             name,
             owner: self.current,
@@ -206,12 +215,20 @@ impl<'a> Compiler<'a> {
         descend().map_err(|deep| Box::<Raise>::from(deep).at(self.place))
     }
 
+    /// An error if there is a reason to stop: to unwind many thousands of levels would take long.
+    fn look(&mut self) -> Compiled<()> {
+        if self.stopped.is_none() && self.pace.is_due() {
+            self.stopped = reason();
+        }
+        self.stopped.map_or(Ok(()), |stopped| Err(stopped.into()))
+    }
+
     /// Analyses a form.
     pub(crate) fn analyze(&mut self, form: &Value, scope: &Scope) -> Compiled<Node> {
         self.descend()?;
-        self.pace.step();
+        self.look()?;
         match form {
-            Value::Symbol(name) => self.analyze_variable(*name, scope),
+            Value::Symbol(name, ..) => self.analyze_variable(*name, scope),
             Value::Cons(cons) => {
                 let outer = self.place;
                 if cons.place().is_some() {
@@ -238,6 +255,7 @@ impl<'a> Compiler<'a> {
             Some(VariableMeaning::Special) => return Ok(Node::Global(name, self.place)),
             None => {}
         }
+        self.image.symbols.keep(name);
         let data = self.image.symbol(name);
         if let Some(expansion) = data.symbol_macro.clone() {
             return self.analyze(&expansion, scope);
@@ -276,7 +294,7 @@ impl<'a> Compiler<'a> {
         scope: &Scope,
     ) -> Compiled<Node> {
         let name = match head {
-            Value::Symbol(name) => *name,
+            Value::Symbol(name, ..) => *name,
             Value::Cons(c) if c.car().as_symbol() == Some(known::LAMBDA) => {
                 let function = self.analyze(head, scope)?;
                 let args = self.analyze_list(rest, scope)?;

@@ -155,7 +155,7 @@ impl Compiler<'_> {
         }
         for (name, form) in &parsed.aux {
             let init = self.analyze(form, &parts.scope)?;
-            self.check_bindable(&Value::Symbol(*name))?;
+            self.check_bindable(&Value::symbol(*name))?;
             let (binding, scope) = self.bind(*name, body.specials.contains(name), &parts.scope);
             parts.scope = scope;
             parts.bound.push(*name);

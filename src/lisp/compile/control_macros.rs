@@ -98,13 +98,13 @@ fn case_form(image: &mut Image, form: &Value, otherwise: Otherwise, by_type: boo
             form![known::TYPEP, key.clone(), quote(keys)]
         } else {
             let keys: Vec<Value> = match &keys {
-                Value::Symbol(known::NIL) => Vec::new(),
+                Value::Symbol(known::NIL, ..) => Vec::new(),
                 Value::Cons(_) => keys.iter_list().collect(),
                 single => vec![single.clone()],
             };
             wanted.extend(keys.iter().cloned());
             let tests = keys.into_iter().map(|k| {
-                let is_simple = matches!(k, Value::Symbol(_));
+                let is_simple = matches!(k, Value::Symbol(_, ..));
                 let test = if is_simple { known::EQ } else { known::EQL };
                 form![test, key.clone(), quote(k)]
             });
@@ -158,9 +158,9 @@ fn do_form(image: &mut Image, form: &Value, binder: Sym, stepper: Sym) -> Expans
             name => vec![name.clone()],
         };
         match parts.as_slice() {
-            [name @ Value::Symbol(_)] => bindings.push(form![name.clone()]),
-            [name @ Value::Symbol(_), init] => bindings.push(form![name.clone(), init.clone()]),
-            [name @ Value::Symbol(_), init, step] => {
+            [name @ Value::Symbol(_, ..)] => bindings.push(form![name.clone()]),
+            [name @ Value::Symbol(_, ..), init] => bindings.push(form![name.clone(), init.clone()]),
+            [name @ Value::Symbol(_, ..), init, step] => {
                 bindings.push(form![name.clone(), init.clone()]);
                 steps.extend([name.clone(), step.clone()]);
             }

@@ -103,7 +103,7 @@ pub(super) fn define_setf_expander(image: &mut Image, form: &Value) -> Expansion
 
 pub(super) fn in_package(_: &mut Image, form: &Value) -> Expansion {
     let rest = form.cdr_or_nil();
-    let (Value::Cons(_), Value::Symbol(known::NIL)) = (&rest, rest.cdr_or_nil()) else {
+    let (Value::Cons(_), Value::Symbol(known::NIL, ..)) = (&rest, rest.cdr_or_nil()) else {
         return Err(Raise::program("IN-PACKAGE is written (IN-PACKAGE NAME)."));
     };
     let package = form![known::EXISTING_PACKAGE, quote(rest.car_or_nil())];

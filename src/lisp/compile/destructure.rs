@@ -32,12 +32,12 @@ impl Bindings<'_> {
     /// Binds a name or, through a temporary variable, the names of a pattern.
     fn bind_pattern(&mut self, pattern: &Value, form: Value) -> Result<(), Box<Raise>> {
         match pattern {
-            Value::Symbol(known::NIL) => {
+            Value::Symbol(known::NIL, ..) => {
                 let var = self.gensym("IGNORED");
                 self.bind(var, form);
                 Ok(())
             }
-            Value::Symbol(name) => {
+            Value::Symbol(name, ..) => {
                 self.bind(*name, form);
                 Ok(())
             }

@@ -490,7 +490,7 @@ impl Emitter<'_> {
             return Ok(());
         }
         let op = match value {
-            Value::Symbol(known::NIL) => Op::Nil,
+            Value::Symbol(known::NIL, ..) => Op::Nil,
             Value::Int(n) if i32::try_from(*n).is_ok() => {
                 Op::Int(i32::try_from(*n).unwrap_or_default())
             }

@@ -41,7 +41,7 @@ pub(super) fn expand_locally(
         return Ok(None);
     };
     match form {
-        Value::Symbol(name) => Ok(match scope.variable(*name) {
+        Value::Symbol(name, ..) => Ok(match scope.variable(*name) {
             Some(VariableMeaning::SymbolMacro(expansion)) => Some(Some(expansion.clone())),
             Some(_) => Some(None),
             None => None,

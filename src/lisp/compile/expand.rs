@@ -24,7 +24,7 @@ pub(crate) fn macroexpand_1_in(
         return Ok(expansion);
     }
     match form {
-        Value::Symbol(name) => Ok(image.symbol(*name).symbol_macro.clone()),
+        Value::Symbol(name, ..) => Ok(image.symbol(*name).symbol_macro.clone()),
         Value::Cons(cons) => {
             let Some(name) = cons.car().as_symbol() else {
                 return Ok(None);

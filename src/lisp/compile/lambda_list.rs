@@ -71,7 +71,7 @@ impl LambdaList {
         let mut section = Section::Required;
         let mut iter = list.iter_list();
         while let Some(item) = iter.next() {
-            if let Value::Symbol(name) = item {
+            if let Value::Symbol(name, ..) = item {
                 match name {
                     known::L_WHOLE if destructuring => {
                         parsed.whole = iter.next();
@@ -199,7 +199,7 @@ fn key(image: &mut Image, item: &Value) -> Result<Key, Box<Raise>> {
             parameter.pattern = pattern;
             keyword
         }
-        Value::Symbol(name) => {
+        Value::Symbol(name, ..) => {
             let name = image.name(*name).to_owned();
             Some(image.keyword(&name))
         }

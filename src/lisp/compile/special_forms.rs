@@ -125,7 +125,7 @@ fn named_lambda(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<N
 /// The name of the block around a function's body: the function's own, or `name` for `(setf name)`.
 fn block_name(name: &Value) -> Option<Sym> {
     match name {
-        Value::Symbol(sym) => Some(*sym),
+        Value::Symbol(sym, ..) => Some(*sym),
         Value::Cons(c) => c.cdr().car_or_nil().as_symbol(),
         _ => None,
     }
@@ -311,7 +311,7 @@ fn tagbody(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> 
     let Some(items) = rest.list_to_vec() else {
         return Err(c.program_error("TAGBODY takes a proper list of tags and statements."));
     };
-    let is_tag = |v: &Value| matches!(v, Value::Symbol(_) | Value::Int(_));
+    let is_tag = |v: &Value| matches!(v, Value::Symbol(_, ..) | Value::Int(_));
     let info = Rc::new(Tagbody {
         tags: items.iter().filter(|v| is_tag(v)).cloned().collect(),
         owner: c.function_id(),
@@ -415,7 +415,7 @@ fn local_function(c: &Compiler<'_>, spec: &Value) -> Compiled<(Value, Sym, bool,
     let name = spec.car_or_nil();
     let rest = spec.cdr_or_nil();
     let (sym, is_setf) = match &name {
-        Value::Symbol(sym) => (Some(*sym), false),
+        Value::Symbol(sym, ..) => (Some(*sym), false),
         other => (other.cdr_or_nil().car_or_nil().as_symbol(), true),
     };
     match sym {

@@ -88,8 +88,8 @@ fn condition_class(image: &Image, name: Sym) -> Result<Rc<Class>, Box<Raise>> {
     match image.class(name) {
         Some(class) if class.kind == ClassKind::Condition => Ok(class.clone()),
         Some(_) => Err(Raise::type_error(
-            &Value::Symbol(name),
-            Value::Symbol(known::CONDITION),
+            &Value::symbol(name),
+            Value::symbol(known::CONDITION),
         )),
         None => Err(no_class(image, name)),
     }
@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn unknown_initargs_are_ignored() {
         let image = testing::image();
-        let initargs = [Value::Symbol(known::K_COUNT), Value::Int(1)];
+        let initargs = [Value::symbol(known::K_COUNT), Value::Int(1)];
         assert!(make_condition(&image, known::SIMPLE_ERROR, &initargs).is_ok());
     }
 

@@ -12,7 +12,7 @@ pub(crate) fn is_of_type(
     condition: &Value,
     specifier: &Value,
 ) -> Result<bool, Box<Raise>> {
-    if let (Value::Instance(instance), Value::Symbol(name)) = (condition, specifier)
+    if let (Value::Instance(instance), Value::Symbol(name, ..)) = (condition, specifier)
         && instance.is_a(*name)
     {
         return Ok(true);

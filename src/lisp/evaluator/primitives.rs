@@ -79,7 +79,7 @@ impl Machine<'_> {
     pub(super) fn car(&mut self) -> Result<(), Box<Raise>> {
         let value = match self.pop() {
             Value::Cons(cons) => cons.car(),
-            Value::Symbol(known::NIL) => Value::NIL,
+            Value::Symbol(known::NIL, ..) => Value::NIL,
             other => return Err(Raise::type_error(&other, known::LIST)),
         };
         self.fiber.stack.push(value);
@@ -91,7 +91,7 @@ impl Machine<'_> {
     pub(super) fn cdr(&mut self) -> Result<(), Box<Raise>> {
         let value = match self.pop() {
             Value::Cons(cons) => cons.cdr(),
-            Value::Symbol(known::NIL) => Value::NIL,
+            Value::Symbol(known::NIL, ..) => Value::NIL,
             other => return Err(Raise::type_error(&other, known::LIST)),
         };
         self.fiber.stack.push(value);

@@ -69,10 +69,14 @@ impl Drop for Watch {
     }
 }
 
+/// Why what runs on this thread is to stop, if it is.
+pub(crate) fn reason() -> Option<Stopped> {
+    CURRENT.with_borrow(|limits| limits.as_ref()?.reason())
+}
+
 /// Leaves the calling function by unwinding if there is a reason to stop.
 pub(crate) fn look() {
-    let reason = CURRENT.with_borrow(|limits| limits.as_ref()?.reason());
-    if let Some(reason) = reason {
+    if let Some(reason) = reason() {
         leave(reason);
     }
 }
@@ -113,11 +117,19 @@ impl Pace {
     /// To be called for each step.
     #[inline]
     pub(crate) fn step(&mut self) {
+        if self.is_due() {
+            look();
+        }
+    }
+
+    /// Counts a step; is it time to look?
+    #[inline]
+    pub(crate) fn is_due(&mut self) -> bool {
         self.0 += 1;
         if self.0 == STEPS {
             self.0 = 0;
-            look();
         }
+        self.0 == 0
     }
 }
 

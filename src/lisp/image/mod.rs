@@ -201,7 +201,7 @@ impl Image {
     ) -> Result<Rc<Function>, Box<Raise>> {
         match designator {
             Value::Function(f) => Ok(f.clone()),
-            Value::Symbol(sym) => match &self.symbols.get(*sym).function {
+            Value::Symbol(sym, ..) => match &self.symbols.get(*sym).function {
                 FunctionCell::Function(f) => Ok(f.clone()),
                 _ => Err(Raise::undefined_function(designator.clone())),
             },
@@ -215,7 +215,7 @@ impl Image {
     /// The function of a name: a symbol, or the list `(setf symbol)`.
     pub(crate) fn named_function(&self, name: &Value) -> Option<Rc<Function>> {
         match name {
-            Value::Symbol(sym) => self.function(*sym).cloned(),
+            Value::Symbol(sym, ..) => self.function(*sym).cloned(),
             other => self.symbol(other.setf_name()?).setf_function.clone(),
         }
     }
@@ -288,19 +288,25 @@ impl Image {
             .map(|(_, access)| access)
     }
 
-    /// An uninterned symbol.
+    /// An uninterned symbol, which stays.
     pub(crate) fn make_symbol(&mut self, name: &str) -> Sym {
         self.symbols.make(name.into())
     }
 
-    /// An uninterned symbol with a fresh number: `G123`.
+    /// An uninterned symbol with a fresh number, which stays: `G123`.
     pub(crate) fn gensym(&mut self, prefix: &str) -> Sym {
+        let name = self.fresh_name(prefix);
+        self.make_symbol(&name)
+    }
+
+    /// A name with a fresh number: `G123`.
+    pub(crate) fn fresh_name(&mut self, prefix: &str) -> String {
         let counter = match self.special(known::V_GENSYM_COUNTER) {
             Value::Int(n) => *n,
             _ => 0,
         };
         self.set_special(known::V_GENSYM_COUNTER, Value::Int(counter.wrapping_add(1)));
-        self.make_symbol(&format!("{prefix}{counter}"))
+        format!("{prefix}{counter}")
     }
 
     /// Sets a symbol's global function.

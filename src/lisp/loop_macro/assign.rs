@@ -19,7 +19,7 @@ pub(crate) fn variable(
 ) -> Result<(Value, Option<Value>), Box<Raise>> {
     let tree = parser.form(clause)?;
     for name in leaves(&tree)? {
-        let Value::Symbol(sym) = &name else {
+        let Value::Symbol(sym, ..) = &name else {
             return Err(Raise::program(format!(
                 "{} after {clause} in LOOP is not a variable.",
                 parser.shown(&name)
@@ -67,9 +67,10 @@ pub(crate) fn default_value(of_type: Option<&Value>) -> Value {
             | known::RATIONAL
             | known::BIT
             | known::UNSIGNED_BYTE,
+            ..,
         )) => Value::Int(0),
-        Some(Value::Symbol(known::FLOAT | known::SINGLE_FLOAT)) => Value::Single(0.0),
-        Some(Value::Symbol(known::DOUBLE_FLOAT)) => Value::Double(0.0),
+        Some(Value::Symbol(known::FLOAT | known::SINGLE_FLOAT, ..)) => Value::Single(0.0),
+        Some(Value::Symbol(known::DOUBLE_FLOAT, ..)) => Value::Double(0.0),
         _ => Value::NIL,
     }
 }
@@ -84,7 +85,7 @@ fn leaves(tree: &Value) -> Result<Vec<Value>, Box<Raise>> {
                 pending.push(cons.cdr());
                 pending.push(cons.car());
             }
-            Value::Symbol(known::NIL) => {}
+            Value::Symbol(known::NIL, ..) => {}
             _ => found.push(part),
         }
         if found.len() + pending.len() > MAX_VARIABLES {
@@ -101,11 +102,11 @@ pub(crate) fn parts(tree: &Value, whole: &Value) -> Vec<Assignment> {
     while let Some((part, form)) = pending.pop() {
         match &part {
             Value::Cons(cons) => {
-                let half = |f| Value::list([Value::Symbol(f), form.clone()]);
+                let half = |f| Value::list([Value::symbol(f), form.clone()]);
                 pending.push((cons.cdr(), half(known::CDR)));
                 pending.push((cons.car(), half(known::CAR)));
             }
-            Value::Symbol(known::NIL) => {}
+            Value::Symbol(known::NIL, ..) => {}
             _ => found.push((part, form)),
         }
     }

@@ -285,7 +285,7 @@ fn with(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<(), Box<Raise>> {
             assign::default_value(of_type.as_ref())
         };
         match &tree {
-            Value::Symbol(sym) if *sym != known::NIL => group.push((tree, value)),
+            Value::Symbol(sym, ..) if *sym != known::NIL => group.push((tree, value)),
             _ => {
                 let whole = parser.fresh("WHOLE");
                 parts.extend(assign::parts(&tree, &whole));

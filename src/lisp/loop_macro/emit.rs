@@ -125,7 +125,7 @@ fn assignments(image: &mut Image, plan: &mut Plan, sets: Vec<Assignment>, forms:
     let mut pairs = Vec::new();
     let mut parts = Vec::new();
     for (tree, form) in sets {
-        if matches!(&tree, Value::Symbol(sym) if *sym != known::NIL) {
+        if matches!(&tree, Value::Symbol(sym, ..) if *sym != known::NIL) {
             pairs.extend([tree, form]);
         } else {
             let whole: Value = image.gensym("WHOLE").into();

@@ -94,9 +94,9 @@ fn list_step(
     // #'name is called by name, other functions are evaluated once.
     let name = function
         .as_cons()
-        .filter(|c| matches!(c.car(), Value::Symbol(known::FUNCTION)))
+        .filter(|c| matches!(c.car(), Value::Symbol(known::FUNCTION, ..)))
         .map(|c| c.cdr().car_or_nil());
-    if let Some(name @ Value::Symbol(_)) = name {
+    if let Some(name @ Value::Symbol(_, ..)) = name {
         return Ok(call(name, [list.clone()]));
     }
     let variable = parser.fresh("BY");
@@ -122,7 +122,7 @@ fn in_list(parser: &mut Parser<'_>, tree: Value) -> Result<Clause, Box<Raise>> {
 
 fn on_list(parser: &mut Parser<'_>, tree: Value) -> Result<Clause, Box<Raise>> {
     let form = parser.form("ON")?;
-    if matches!(&tree, Value::Symbol(sym) if *sym != known::NIL) {
+    if matches!(&tree, Value::Symbol(sym, ..) if *sym != known::NIL) {
         // The variable itself steps along the list.
         let mut bindings = vec![(tree.clone(), form)];
         let advance = list_step(parser, &tree, &mut bindings)?;
@@ -198,7 +198,7 @@ enum Direction {
 }
 
 fn counting(parser: &mut Parser<'_>, variable: Value) -> Result<Clause, Box<Raise>> {
-    if !matches!(variable, Value::Symbol(_)) {
+    if !matches!(variable, Value::Symbol(_, ..)) {
         return Err(Raise::program(format!(
             "{} in LOOP cannot count; it must be one variable.",
             parser.shown(&variable)
@@ -210,7 +210,7 @@ fn counting(parser: &mut Parser<'_>, variable: Value) -> Result<Clause, Box<Rais
     let mut direction = None;
     let mut bindings = Vec::new();
     let variable = match variable {
-        Value::Symbol(known::NIL) => parser.fresh("COUNTER"),
+        Value::Symbol(known::NIL, ..) => parser.fresh("COUNTER"),
         other => other,
     };
     while let Some(word) = parser.word().map(str::to_owned) {
@@ -423,7 +423,7 @@ fn using(
     let form = parser.form("USING")?;
     let items = form.list_to_vec().unwrap_or_default();
     match items.as_slice() {
-        [Value::Symbol(word), variable]
+        [Value::Symbol(word, ..), variable]
             if parser.image.name(*word).trim_end_matches('S') == wanted =>
         {
             plan.variables.extend(

@@ -74,7 +74,7 @@ fn extend_list_joining(_: &mut Image, args: &[Value]) -> Outcome {
 
 fn elements(_: &mut Image, args: &[Value]) -> Outcome {
     match &args[0] {
-        list @ (Value::Cons(_) | Value::Symbol(known::NIL)) => Ok(list.clone()),
+        list @ (Value::Cons(_) | Value::Symbol(known::NIL, ..)) => Ok(list.clone()),
         other => Ok(Value::list(Sequence::of(other)?.all()?)),
     }
 }

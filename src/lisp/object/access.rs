@@ -154,7 +154,7 @@ fn missing(
 ) -> Result<Step, Box<Raise>> {
     if let Some(function) = extended_function(image, known::SLOT_MISSING) {
         let class = Value::Class(super::class_of(image, object));
-        let operation = Value::Symbol(access.symbol());
+        let operation = Value::symbol(access.symbol());
         let mut args = vec![class, object.clone(), slot.into(), operation];
         args.extend(value);
         return Ok(Step::TailCall { function, args });
@@ -198,5 +198,5 @@ fn has_slot(instance: &Instance, slot: Sym) -> bool {
 /// A slot name, which is a symbol.
 pub(crate) fn slot_name(name: &Value) -> Result<Sym, Box<Raise>> {
     name.as_symbol()
-        .ok_or_else(|| Raise::type_error(name, Value::Symbol(known::SYMBOL)))
+        .ok_or_else(|| Raise::type_error(name, Value::symbol(known::SYMBOL)))
 }

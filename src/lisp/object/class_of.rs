@@ -35,9 +35,9 @@ pub(crate) fn class_of(image: &Image, value: &Value) -> Rc<Class> {
 /// The name of the class of a value that is not an instance. A foreign value names its own.
 pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
     match value {
-        Value::Symbol(known::NIL) => known::NULL,
-        Value::Symbol(sym) if image.is_keyword(*sym) => known::KEYWORD,
-        Value::Symbol(_) => known::SYMBOL,
+        Value::Symbol(known::NIL, ..) => known::NULL,
+        Value::Symbol(sym, ..) if image.is_keyword(*sym) => known::KEYWORD,
+        Value::Symbol(_, ..) => known::SYMBOL,
         Value::Int(n) if is_fixnum(*n) => known::FIXNUM,
         Value::Int(_) | Value::Big(_) => known::BIGNUM,
         Value::Ratio(_) => known::RATIO,

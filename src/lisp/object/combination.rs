@@ -59,7 +59,7 @@ pub(crate) fn expand_define_method_combination(
     whole: &Value,
 ) -> Result<Value, Box<Raise>> {
     let parts = whole.list_to_vec().unwrap_or_default();
-    let [_, name @ Value::Symbol(_), options @ ..] = parts.as_slice() else {
+    let [_, name @ Value::Symbol(_, ..), options @ ..] = parts.as_slice() else {
         return Err(Raise::program(
             "DEFINE-METHOD-COMBINATION takes a name and options.",
         ));
@@ -89,7 +89,7 @@ pub(crate) fn expand_define_method_combination(
 /// The builtin behind it: `(name operator identity)`; returns the name.
 pub(crate) fn define_combination(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let Some(name) = args[0].as_symbol() else {
-        return Err(Raise::type_error(&args[0], Value::Symbol(known::SYMBOL)));
+        return Err(Raise::type_error(&args[0], Value::symbol(known::SYMBOL)));
     };
     let kept = Value::cons(args[1].clone(), args[2].clone());
     let data = image.symbols.get_mut(name);

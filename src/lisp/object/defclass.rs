@@ -139,8 +139,8 @@ impl Definition {
         Ok(match &self.report {
             None => Value::NIL,
             Some(text @ Value::Str(_)) => {
-                let condition = Value::Symbol(image.gensym("CONDITION"));
-                let stream = Value::Symbol(image.gensym("STREAM"));
+                let condition = Value::symbol(image.gensym("CONDITION"));
+                let stream = Value::symbol(image.gensym("STREAM"));
                 form![
                     known::LAMBDA,
                     form![condition.clone(), stream.clone()],
@@ -188,7 +188,7 @@ fn define(image: &mut Image, args: &[Value], kind: ClassKind) -> Result<Rc<Class
         return Err(Raise::program("invalid number of arguments: 0"));
     };
     let Some(name) = name.as_symbol() else {
-        return Err(Raise::type_error(name, Value::Symbol(known::SYMBOL)));
+        return Err(Raise::type_error(name, Value::symbol(known::SYMBOL)));
     };
     let slots: Vec<DefinedSlot> = slots
         .iter_list()
@@ -234,7 +234,7 @@ fn add_accessor(
     let of_class = Specializer::Class(class.clone());
     let (specializers, function) = match accessor {
         Accessor::Reader(slot) => {
-            let slot_name = Value::Symbol(slot);
+            let slot_name = Value::symbol(slot);
             let function = Function::made_control(slot, (1, Some(1)), move |machine, args| {
                 let object = args.first().cloned().unwrap_or(Value::NIL);
                 super::access::slot_value(machine, &object, &slot_name)
@@ -242,7 +242,7 @@ fn add_accessor(
             (vec![of_class], function)
         }
         Accessor::Writer(slot) => {
-            let slot_name = Value::Symbol(slot);
+            let slot_name = Value::symbol(slot);
             let function = Function::made_control(slot, (2, Some(2)), move |machine, args| {
                 let value = args.first().cloned().unwrap_or(Value::NIL);
                 let object = args.get(1).cloned().unwrap_or(Value::NIL);

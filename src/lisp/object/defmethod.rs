@@ -23,7 +23,7 @@ pub(crate) fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value
     let lambda_list = loop {
         match items.next() {
             Some(list) if list.is_list() => break list,
-            Some(qualifier @ Value::Symbol(_)) => qualifiers.push(qualifier),
+            Some(qualifier @ Value::Symbol(_, ..)) => qualifiers.push(qualifier),
             _ => {
                 return Err(Raise::program(
                     "DEFMETHOD takes a name, qualifiers, a lambda list and a body.",
@@ -58,13 +58,13 @@ fn split_lambda_list(
     let mut items = lambda_list.iter_list();
     while let Some(item) = items.next() {
         match &item {
-            Value::Symbol(sym) if image.name(*sym).starts_with('&') => {
+            Value::Symbol(sym, ..) if image.name(*sym).starts_with('&') => {
                 return Ok((
                     Value::list_with_tail(plain, Value::cons(item, items.rest)),
                     specializers,
                 ));
             }
-            Value::Symbol(_) => {
+            Value::Symbol(_, ..) => {
                 plain.push(item);
                 specializers.push(Value::T);
             }
@@ -104,8 +104,8 @@ fn method_function(
         let forms = Value::list_with_tail(body.declarations, body.forms);
         return form![known::NAMED_LAMBDA, name.clone(), lambda_list; forms];
     }
-    let next = Value::Symbol(image.gensym("NEXT-METHOD"));
-    let args = Value::Symbol(image.gensym("ARGS"));
+    let next = Value::symbol(image.gensym("NEXT-METHOD"));
+    let args = Value::symbol(image.gensym("ARGS"));
     // (or next (%no-next-method 'name)): the function to call.
     let callee = form![
         known::OR,
@@ -162,7 +162,7 @@ fn with_other_keys(lambda_list: &Value) -> Value {
 /// program, which may expand into a call.
 fn asks_for_next(image: &Image, forms: &Value) -> bool {
     any_part(forms, |part| match part {
-        Value::Symbol(known::CALL_NEXT_METHOD | known::NEXT_METHOD_P) => true,
+        Value::Symbol(known::CALL_NEXT_METHOD | known::NEXT_METHOD_P, ..) => true,
         Value::Cons(cons) => cons
             .car()
             .as_symbol()
@@ -212,7 +212,7 @@ pub(crate) fn add_method(image: &mut Image, args: &[Value]) -> Result<Value, Box
         return Err(Raise::program("invalid number of arguments: 0"));
     };
     let Value::Function(function) = function else {
-        return Err(Raise::type_error(function, Value::Symbol(known::FUNCTION)));
+        return Err(Raise::type_error(function, Value::symbol(known::FUNCTION)));
     };
     let specializers = specializers
         .iter_list()

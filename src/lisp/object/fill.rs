@@ -22,7 +22,7 @@ impl Which {
     /// From the slot names argument of `shared-initialize`: `T` or a list.
     pub(crate) fn from_value(value: &Value) -> Which {
         match value {
-            Value::Symbol(crate::lisp::value::known::T) => Which::All,
+            Value::Symbol(crate::lisp::value::known::T, ..) => Which::All,
             list => Which::Only(list.iter_list().filter_map(|n| n.as_symbol()).collect()),
         }
     }

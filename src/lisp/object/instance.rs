@@ -38,7 +38,7 @@ pub(crate) fn make_instance(
         for (key, initform) in pending {
             let initform = Value::Function(initform);
             let value = calls.call(&initform, Args::Many(Vec::new())).await;
-            initargs.extend([Value::Symbol(key), value]);
+            initargs.extend([Value::symbol(key), value]);
         }
         calls
             .with(move |machine| make(machine, class, initargs))
@@ -58,7 +58,7 @@ fn with_default_initargs(class: &Class, mut initargs: Vec<Value>) -> WithDefault
             continue;
         }
         match form {
-            Initform::Value(value) => initargs.extend([Value::Symbol(*key), value.clone()]),
+            Initform::Value(value) => initargs.extend([Value::symbol(*key), value.clone()]),
             Initform::Function(function) => pending.push((*key, function.clone())),
         }
     }
@@ -87,7 +87,7 @@ fn make(
         let finish = Finish::Return(object);
         return fill(machine, &instance, &Which::All, &initargs, finish);
     }
-    let function = initialize.unwrap_or(Value::Symbol(known::INITIALIZE_INSTANCE));
+    let function = initialize.unwrap_or(Value::symbol(known::INITIALIZE_INSTANCE));
     let mut args = vec![object.clone()];
     args.extend(initargs);
     call_and_return(machine, function, args, object)
@@ -110,12 +110,12 @@ fn call_and_return(
 pub(crate) fn designated_class(image: &Image, designator: &Value) -> Result<Rc<Class>, Box<Raise>> {
     match designator {
         Value::Class(class) => Ok(class.clone()),
-        Value::Symbol(name) => image
+        Value::Symbol(name, ..) => image
             .class(*name)
             .filter(|class| class.is_defined.get())
             .cloned()
             .ok_or_else(|| no_class(image, *name)),
-        other => Err(Raise::type_error(other, Value::Symbol(known::CLASS))),
+        other => Err(Raise::type_error(other, Value::symbol(known::CLASS))),
     }
 }
 
@@ -130,7 +130,7 @@ pub(crate) fn instantiable_class(
 }
 
 fn check_instantiable(image: &Image, class: &Class) -> Result<(), Box<Raise>> {
-    let name = || super::text(image, &Value::Symbol(class.name));
+    let name = || super::text(image, &Value::symbol(class.name));
     if class.kind == ClassKind::Builtin {
         return Err(Raise::simple(format!(
             "Cannot allocate an instance of #<BUILT-IN-CLASS {}>.",
@@ -275,7 +275,7 @@ pub(crate) fn shared_initialize(
     let Value::Instance(instance) = object else {
         return Err(Raise::type_error(
             object,
-            Value::Symbol(known::STANDARD_OBJECT),
+            Value::symbol(known::STANDARD_OBJECT),
         ));
     };
     if !initargs.len().is_multiple_of(2) {

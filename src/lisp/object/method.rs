@@ -50,13 +50,13 @@ impl Foreign for MethodObject {
         let mut text = format!("#<STANDARD-METHOD {}", context.qualified(&method.name));
         for qualifier in &method.qualifiers {
             text.push(' ');
-            text.push_str(&context.text(&Value::Symbol(*qualifier), true));
+            text.push_str(&context.text(&Value::symbol(*qualifier), true));
         }
         let specializers: Vec<String> = method
             .specializers
             .iter()
             .map(|s| match s {
-                Specializer::Class(class) => context.text(&Value::Symbol(class.name), true),
+                Specializer::Class(class) => context.text(&Value::symbol(class.name), true),
                 Specializer::Eql(value) => format!("(EQL {})", context.text(value, true)),
             })
             .collect();
@@ -76,7 +76,7 @@ pub(crate) fn method_value(method: &Rc<Method>) -> Value {
 
 fn set_named_function(image: &mut Image, name: &Value, function: Rc<Function>) {
     match name {
-        Value::Symbol(sym) => image.set_function(*sym, function),
+        Value::Symbol(sym, ..) => image.set_function(*sym, function),
         other => {
             if let Some(sym) = other.setf_name() {
                 image.symbols.get_mut(sym).setf_function = Some(function);
@@ -227,7 +227,7 @@ pub(crate) fn add_method(
     let Some(generic) = function.as_generic() else {
         return Err(Raise::type_error(
             &Value::Function(function.clone()),
-            Value::Symbol(known::GENERIC_FUNCTION),
+            Value::symbol(known::GENERIC_FUNCTION),
         ));
     };
     check_congruent(image, function, generic, &method)?;
@@ -307,7 +307,7 @@ fn accepts_keys(
         Some(key) if generic.is_declared.get() && !method.parameters.allows_other_keys => {
             Err(Raise::program(format!(
                 "the method does not accept the keyword argument {} of the generic function {}.",
-                super::text(image, &Value::Symbol(*key)),
+                super::text(image, &Value::symbol(*key)),
                 qualified(image, &generic.name)
             )))
         }
@@ -326,9 +326,9 @@ pub(crate) fn extended_function(image: &Image, name: Sym) -> Option<Value> {
 pub(crate) fn specializer(image: &Image, value: &Value) -> Result<Specializer, Box<Raise>> {
     match value {
         Value::Class(class) => Ok(Specializer::Class(class.clone())),
-        Value::Symbol(name) => class_named(image, *name).map(Specializer::Class),
+        Value::Symbol(name, ..) => class_named(image, *name).map(Specializer::Class),
         other => match other.list_to_vec().as_deref() {
-            Some([Value::Symbol(known::EQL), object]) => Ok(Specializer::Eql(object.clone())),
+            Some([Value::Symbol(known::EQL, ..), object]) => Ok(Specializer::Eql(object.clone())),
             _ => Err(Raise::program(format!(
                 "{} is not a legal specializer: it must be a class name or (EQL object).",
                 super::text(image, other)

@@ -56,7 +56,7 @@ fn keyword_of(image: &mut Image, parameter: &Value) -> Result<Sym, Box<Raise>> {
         other => other.clone(),
     };
     match first {
-        Value::Symbol(sym) => {
+        Value::Symbol(sym, ..) => {
             let name = image.symbol(sym).name.clone();
             Ok(image.keyword(&name))
         }

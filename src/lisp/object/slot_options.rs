@@ -112,7 +112,7 @@ fn describe(image: &Image, description: &Value, definer: &str) -> Result<Descrip
         ))
     };
     let (name, options) = match description {
-        Value::Symbol(name) => (*name, Vec::new()),
+        Value::Symbol(name, ..) => (*name, Vec::new()),
         Value::Cons(cons) => (
             cons.car().as_symbol().ok_or_else(malformed)?,
             cons.cdr().list_to_vec().ok_or_else(malformed)?,

@@ -16,7 +16,7 @@ pub(crate) fn eval_values(image: &mut Image, text: &str) -> Result<Vec<Value>, S
     let mut reader = crate::lisp::reader::Reader::of_text(text.to_owned());
     let mut last = Vec::new();
     while let Some((form, _)) = reader.next_form(image).map_err(|e| e.to_string())? {
-        let eval = Value::Symbol(known::EVAL);
+        let eval = Value::symbol(known::EVAL);
         last = nested::call_nested_values(image, eval, vec![form])
             .map_err(|raise| name_of(image, &raise))?;
     }

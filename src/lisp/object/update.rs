@@ -37,12 +37,12 @@ pub(crate) fn then_call(
         let added = Which::Only(change.added);
         return fill(machine, instance, &added, &[], finish);
     };
-    let names = |names: &[Sym]| Value::list(names.iter().map(|n| Value::Symbol(*n)));
+    let names = |names: &[Sym]| Value::list(names.iter().map(|n| Value::symbol(*n)));
     let gone: Vec<Sym> = change.discarded.iter().map(|(n, _)| *n).collect();
     let plist = change
         .discarded
         .into_iter()
-        .flat_map(|(n, v)| [Value::Symbol(n), v])
+        .flat_map(|(n, v)| [Value::symbol(n), v])
         .collect::<Vec<_>>();
     let update_args = vec![
         object.clone(),

@@ -18,7 +18,7 @@ use crate::lisp::value::number::large::to_text;
 /// A value that is not a list, vector, array, structure or condition report.
 pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String {
     match value {
-        Value::Symbol(sym) => symbol::symbol(image, *sym, settings),
+        Value::Symbol(sym, ..) => symbol::symbol(image, *sym, settings),
         Value::Int(n) => integer(&n.to_string(), || BigInt::from(*n), settings),
         Value::Big(n) => integer(&to_text(n, 10), || n.as_ref().clone(), settings),
         Value::Ratio(r) => {

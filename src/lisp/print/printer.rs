@@ -169,7 +169,7 @@ impl<'a> Printer<'a> {
         }
         match &value {
             Value::Cons(_) => self.list(value, style, depth),
-            Value::Symbol(known::NIL) if matches!(style, Style::List(_)) => {
+            Value::Symbol(known::NIL, ..) if matches!(style, Style::List(_)) => {
                 self.document.text("()");
             }
             Value::Vector(vector) => self.vector(&value, vector, depth),
@@ -212,7 +212,7 @@ impl<'a> Printer<'a> {
                 self.document.text(prefix);
                 let argument = list.cdr_or_nil().car_or_nil();
                 if prefix == ","
-                    && let Value::Symbol(sym) = argument
+                    && let Value::Symbol(sym, ..) = argument
                     && self.image.name(sym).starts_with(['@', '.'])
                 {
                     self.document.text(" ");
@@ -309,7 +309,7 @@ impl<'a> Printer<'a> {
             {
                 cons
             }
-            Value::Symbol(known::NIL) => {
+            Value::Symbol(known::NIL, ..) => {
                 self.close_list(rest.inner);
                 return;
             }

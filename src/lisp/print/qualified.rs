@@ -6,7 +6,7 @@ use crate::lisp::value::Value;
 /// A function name with the package of its symbol, as the printer shows generic functions.
 pub(crate) fn qualified(image: &Image, name: &Value) -> String {
     match name {
-        Value::Symbol(sym) => match image.symbol(*sym).package {
+        Value::Symbol(sym, ..) => match image.symbol(*sym).package {
             Some(package) => {
                 let colons = match image.home_access(*sym) {
                     Some(crate::lisp::value::package::Access::External) => ":",
@@ -21,7 +21,7 @@ pub(crate) fn qualified(image: &Image, name: &Value) -> String {
             let parts: Vec<String> = list
                 .iter_list()
                 .map(|part| match part {
-                    Value::Symbol(crate::lisp::value::known::SETF) => "SETF".to_owned(),
+                    Value::Symbol(crate::lisp::value::known::SETF, ..) => "SETF".to_owned(),
                     other => qualified(image, &other),
                 })
                 .collect();

@@ -314,7 +314,7 @@ pub(super) fn form(image: &Image, list: &Value) -> Form {
     if let Some(prefix) = prefix(list) {
         return Form::Prefix(prefix);
     }
-    let Value::Symbol(operator) = list.car_or_nil() else {
+    let Value::Symbol(operator, ..) = list.car_or_nil() else {
         return Form::Shape(&FILL);
     };
     if let Some(shape) = shape_of(operator, list) {

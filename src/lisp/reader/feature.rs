@@ -17,12 +17,12 @@ fn holds_at(image: &Image, expression: &Value, depth: usize) -> Result<bool, Rea
     if depth > MAX_DEPTH {
         return Err(ReadErrorKind::BadFeature);
     }
-    if let Value::Symbol(_) = expression {
+    if let Value::Symbol(_, ..) = expression {
         let features = image.special(known::V_FEATURES);
         return Ok(features.iter_list().any(|f| f.is_eq(expression)));
     }
     let parts = expression.list_to_vec().ok_or(ReadErrorKind::BadFeature)?;
-    let Some((Value::Symbol(operator), arguments)) = parts.split_first() else {
+    let Some((Value::Symbol(operator, ..), arguments)) = parts.split_first() else {
         return Err(ReadErrorKind::BadFeature);
     };
     let truth = arguments

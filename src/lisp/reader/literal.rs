@@ -85,7 +85,7 @@ fn uninterned(image: &mut Image, body: &str) -> Result<Value, ReadErrorKind> {
             token: format!("#:{body}"),
         });
     }
-    Ok(image.make_symbol(&name.name).into())
+    Ok(image.symbols.make_passing(name.name.into()))
 }
 
 fn bits(length: Option<u32>, body: &str) -> Result<Value, ReadErrorKind> {
@@ -193,7 +193,7 @@ pub(crate) fn structure(image: &mut Image, contents: &Value) -> Result<Structure
     let parts = contents
         .list_to_vec()
         .ok_or_else(|| bad("a list of a name and slots is needed".to_owned()))?;
-    let Some((Value::Symbol(name), slots)) = parts.split_first() else {
+    let Some((Value::Symbol(name, ..), slots)) = parts.split_first() else {
         return Err(bad("the name of a structure is needed first".to_owned()));
     };
     let class = image
@@ -208,7 +208,7 @@ pub(crate) fn structure(image: &mut Image, contents: &Value) -> Result<Structure
         })?;
     let instance = Instance::new(class.clone());
     for pair in slots.chunks(2) {
-        let [Value::Symbol(slot), value] = pair else {
+        let [Value::Symbol(slot, ..), value] = pair else {
             return Err(bad("slots are pairs of a name and a value".to_owned()));
         };
         let slot_name = image.name(*slot).to_owned();
@@ -232,9 +232,9 @@ pub(crate) fn structure(image: &mut Image, contents: &Value) -> Result<Structure
         .package
         .unwrap_or_else(|| image.current_package());
     let constructor = image.intern(package, &constructor);
-    let mut call = vec![Value::Symbol(constructor)];
+    let mut call = vec![Value::symbol(constructor)];
     for pair in slots.chunks(2) {
-        let [Value::Symbol(slot), value] = pair else {
+        let [Value::Symbol(slot, ..), value] = pair else {
             continue;
         };
         let slot_name = image.name(*slot).to_owned();

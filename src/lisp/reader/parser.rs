@@ -657,7 +657,7 @@ fn read_time_value(image: &Image, form: &Value) -> Result<Option<Value>, ReadErr
     }
     Ok(match form {
         Value::Cons(_) => None,
-        Value::Symbol(sym) => {
+        Value::Symbol(sym, ..) => {
             let data = image.symbol(*sym);
             (data.kind == VariableKind::Constant && !data.value.is_unbound())
                 .then(|| data.value.clone())

@@ -23,7 +23,7 @@ fn instance_of<'a>(value: &'a Value, class: &Rc<Class>) -> Option<&'a Rc<Instanc
 }
 
 fn wrong_type(value: &Value, class: &Class) -> Box<Raise> {
-    Raise::type_error(value, Value::Symbol(class.name))
+    Raise::type_error(value, Value::symbol(class.name))
 }
 
 /// Defines the reader of a slot and, unless it is read-only, its writer.

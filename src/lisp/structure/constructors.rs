@@ -25,7 +25,7 @@ pub(crate) fn constructor_form(
 
 /// `(&key (slot default)…)`. The variables are fresh symbols, so that no default form sees a slot.
 fn by_keywords(image: &mut Image, slots: &[StructureSlot]) -> (Value, Vec<Value>) {
-    let mut parameters = vec![Value::Symbol(known::L_KEY)];
+    let mut parameters = vec![Value::symbol(known::L_KEY)];
     let mut values = Vec::new();
     for slot in slots {
         let name = image.name(slot.name).to_owned();
@@ -101,9 +101,9 @@ fn by_order(
 /// The variable of a parameter: `v`, `(v …)` or `((:key v) …)`.
 fn variable_of(parameter: &Value) -> Option<Sym> {
     match parameter {
-        Value::Symbol(sym) => Some(*sym),
+        Value::Symbol(sym, ..) => Some(*sym),
         Value::Cons(cons) => match cons.car() {
-            Value::Symbol(sym) => Some(sym),
+            Value::Symbol(sym, ..) => Some(sym),
             Value::Cons(pair) => pair.cdr().car_or_nil().as_symbol(),
             _ => None,
         },

@@ -19,7 +19,7 @@ use crate::lisp::value::symbol::Sym;
 /// copier predicate documentation conc-name)`.
 pub(crate) fn define_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let [
-        Value::Symbol(name),
+        Value::Symbol(name, ..),
         parent,
         slots,
         copier,
@@ -38,8 +38,8 @@ pub(crate) fn define_structure(image: &mut Image, args: &[Value]) -> Result<Valu
     for slot in slots.iter_list() {
         let parts = slot.list_to_vec().unwrap_or_default();
         if let [
-            Value::Symbol(name),
-            Value::Symbol(accessor),
+            Value::Symbol(name, ..),
+            Value::Symbol(accessor, ..),
             initform,
             slot_type,
             read_only,
@@ -97,7 +97,7 @@ fn define_class(
 
 /// Makes a structure: `(name slot-values…)`, the values in the order of the slots.
 pub(crate) fn make_structure(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
-    let Some((Value::Symbol(name), values)) = args.split_first() else {
+    let Some((Value::Symbol(name, ..), values)) = args.split_first() else {
         return Err(Raise::program("invalid number of arguments: 0"));
     };
     let class = image
@@ -142,7 +142,7 @@ pub(crate) fn copy_structure(value: &Value) -> Result<Value, Box<Raise>> {
         }
         other => Err(Raise::type_error(
             other,
-            Value::Symbol(known::STRUCTURE_OBJECT),
+            Value::symbol(known::STRUCTURE_OBJECT),
         )),
     }
 }

@@ -110,7 +110,7 @@ fn definition_form(
         })
         .collect();
     let parent = definition.include.as_ref().map(|(parent, _)| *parent);
-    let or_nil = |sym: Option<Sym>| quote(sym.map_or(Value::NIL, Value::Symbol));
+    let or_nil = |sym: Option<Sym>| quote(sym.map_or(Value::NIL, Value::symbol));
     form![
         known::SYS_DEFINE_STRUCTURE,
         quote(definition.name),
@@ -130,8 +130,8 @@ fn print_method(image: &mut Image, definition: &StructureDefinition) -> Option<V
         (None, Some(function)) => (function, true),
         (None, None) => return None,
     };
-    let object = Value::Symbol(image.gensym("OBJECT"));
-    let stream = Value::Symbol(image.gensym("STREAM"));
+    let object = Value::symbol(image.gensym("OBJECT"));
+    let stream = Value::symbol(image.gensym("STREAM"));
     let function = form![known::FUNCTION, function.clone()];
     let mut call = vec![
         known::FUNCALL.into(),

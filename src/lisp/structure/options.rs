@@ -150,8 +150,8 @@ impl StructureDefinition {
         match keyword.as_symbol() {
             Some(known::K_CONC_NAME) => {
                 given.conc_name = Some(match &first {
-                    Some(Value::Symbol(known::NIL)) | None => String::new(),
-                    Some(Value::Symbol(sym)) => image.name(*sym).to_owned(),
+                    Some(Value::Symbol(known::NIL, ..)) | None => String::new(),
+                    Some(Value::Symbol(sym, ..)) => image.name(*sym).to_owned(),
                     Some(Value::Char(c)) => c.to_string(),
                     Some(other) => other.as_text().unwrap_or_default(),
                 });
@@ -236,7 +236,7 @@ impl StructureDefinition {
 /// Reads a slot: `name` or `(name default :type type :read-only flag)`.
 fn read_slot(image: &Image, slot: &Value) -> Result<StructureSlot, Box<Raise>> {
     let parts = match slot {
-        Value::Symbol(_) => vec![slot.clone()],
+        Value::Symbol(_, ..) => vec![slot.clone()],
         other => other.list_to_vec().unwrap_or_default(),
     };
     let malformed = || {

@@ -45,7 +45,7 @@ impl Element {
     fn from_value(value: &Value) -> Element {
         let parts = value.list_to_vec().unwrap_or_default();
         match (value, parts.as_slice()) {
-            (_, [Value::Symbol(name), initform, slot_type, read_only]) => {
+            (_, [Value::Symbol(name, ..), initform, slot_type, read_only]) => {
                 Element::Slot(StructureSlot {
                     name: *name,
                     initform: initform.clone(),
@@ -53,8 +53,8 @@ impl Element {
                     read_only: read_only.is_true(),
                 })
             }
-            (Value::Symbol(known::NIL), _) => Element::Gap,
-            (Value::Symbol(name), _) => Element::Name(*name),
+            (Value::Symbol(known::NIL, ..), _) => Element::Gap,
+            (Value::Symbol(name, ..), _) => Element::Name(*name),
             _ => Element::Gap,
         }
     }
@@ -83,7 +83,7 @@ pub(crate) fn expand(
             other => Value::cons(Value::NIL, other.value()),
         })
         .collect();
-    let or_nil = |sym: Option<Sym>| quote(sym.map_or(Value::NIL, Value::Symbol));
+    let or_nil = |sym: Option<Sym>| quote(sym.map_or(Value::NIL, Value::symbol));
     let mut forms = vec![form![
         known::SYS_DEFINE_TYPED_STRUCTURE,
         quote(definition.name),
@@ -157,7 +157,7 @@ pub(crate) fn define_typed_structure(
     image: &mut Image,
     args: &[Value],
 ) -> Result<Value, Box<Raise>> {
-    let [Value::Symbol(name), described, copier, predicate] = args else {
+    let [Value::Symbol(name, ..), described, copier, predicate] = args else {
         return Err(Raise::program("A structure definition is malformed."));
     };
     let mut elements = Vec::new();

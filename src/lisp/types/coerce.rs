@@ -92,7 +92,7 @@ fn convert(
 fn character(image: &Image, value: &Value) -> Option<Value> {
     let name = match value {
         Value::Str(s) => s.text(),
-        Value::Symbol(sym) => image.name(*sym).to_owned(),
+        Value::Symbol(sym, ..) => image.name(*sym).to_owned(),
         _ => return None,
     };
     let mut chars = name.chars();
@@ -105,7 +105,7 @@ fn character(image: &Image, value: &Value) -> Option<Value> {
 /// The function that a symbol names or a lambda expression describes.
 fn function(image: &Image, value: &Value, answers: &mut Answers) -> Result<Option<Value>, Stop> {
     match value {
-        Value::Symbol(sym) => match &image.symbol(*sym).function {
+        Value::Symbol(sym, ..) => match &image.symbol(*sym).function {
             FunctionCell::Function(function) => Ok(Some(Value::Function(function.clone()))),
             _ => Err(Raise::undefined_function(value.clone()).into()),
         },

@@ -44,7 +44,7 @@ impl Parser<'_> {
 
     fn parse_nested(&mut self, specifier: &Value) -> Result<Type, Stop> {
         match specifier {
-            Value::Symbol(name) => match self.named(*name, &[])? {
+            Value::Symbol(name, ..) => match self.named(*name, &[])? {
                 Some(found) => Ok(found),
                 None => Err(unknown(self.image, specifier)),
             },
@@ -54,7 +54,7 @@ impl Parser<'_> {
             Value::Cons(_) => {
                 let items = specifier.list_to_vec().unwrap_or_default();
                 match items.split_first() {
-                    Some((Value::Symbol(name), args)) => match self.named(*name, args)? {
+                    Some((Value::Symbol(name, ..), args)) => match self.named(*name, args)? {
                         Some(found) => Ok(found),
                         None => Err(unknown(self.image, specifier)),
                     },

@@ -23,7 +23,7 @@ impl SequenceType {
     pub(crate) fn of(image: &Image, specifier: &Value) -> Option<SequenceType> {
         let mut parts = specifier.iter_list();
         let (name, first, second) = match specifier {
-            Value::Symbol(sym) => (*sym, None, None),
+            Value::Symbol(sym, ..) => (*sym, None, None),
             _ => (parts.next()?.as_symbol()?, parts.next(), parts.next()),
         };
         let size = |value: Option<Value>| match value {
@@ -105,22 +105,22 @@ pub(crate) fn vector_kind(image: &Image, element_type: &Value) -> Kind {
 /// The actual element type of an array that is made for elements of a type.
 pub(crate) fn upgraded(image: &Image, element_type: &Value) -> Sym {
     match element_type {
-        Value::Symbol(known::CHARACTER | known::BASE_CHAR | known::STANDARD_CHAR) => {
+        Value::Symbol(known::CHARACTER | known::BASE_CHAR | known::STANDARD_CHAR, ..) => {
             known::CHARACTER
         }
-        Value::Symbol(sym) if image.name(*sym) == "EXTENDED-CHAR" => known::CHARACTER,
-        Value::Symbol(known::BIT) => known::BIT,
-        Value::Symbol(known::DOUBLE_FLOAT | known::LONG_FLOAT) => known::DOUBLE_FLOAT,
-        Value::Symbol(known::SINGLE_FLOAT | known::SHORT_FLOAT) => known::SINGLE_FLOAT,
-        Value::Symbol(known::FIXNUM) => known::FIXNUM,
+        Value::Symbol(sym, ..) if image.name(*sym) == "EXTENDED-CHAR" => known::CHARACTER,
+        Value::Symbol(known::BIT, ..) => known::BIT,
+        Value::Symbol(known::DOUBLE_FLOAT | known::LONG_FLOAT, ..) => known::DOUBLE_FLOAT,
+        Value::Symbol(known::SINGLE_FLOAT | known::SHORT_FLOAT, ..) => known::SINGLE_FLOAT,
+        Value::Symbol(known::FIXNUM, ..) => known::FIXNUM,
         Value::Cons(cons) => {
             let arguments: Vec<Value> = cons.cdr().iter_list().collect();
             match (cons.car(), arguments.as_slice()) {
-                (Value::Symbol(known::UNSIGNED_BYTE), [Value::Int(1)])
-                | (Value::Symbol(known::MOD), [Value::Int(2)])
-                | (Value::Symbol(known::INTEGER), [Value::Int(0), Value::Int(1)]) => known::BIT,
-                (Value::Symbol(known::DOUBLE_FLOAT), _) => known::DOUBLE_FLOAT,
-                (Value::Symbol(known::SINGLE_FLOAT), _) => known::SINGLE_FLOAT,
+                (Value::Symbol(known::UNSIGNED_BYTE, ..), [Value::Int(1)])
+                | (Value::Symbol(known::MOD, ..), [Value::Int(2)])
+                | (Value::Symbol(known::INTEGER, ..), [Value::Int(0), Value::Int(1)]) => known::BIT,
+                (Value::Symbol(known::DOUBLE_FLOAT, ..), _) => known::DOUBLE_FLOAT,
+                (Value::Symbol(known::SINGLE_FLOAT, ..), _) => known::SINGLE_FLOAT,
                 _ => known::T,
             }
         }

@@ -42,7 +42,7 @@ pub(crate) fn typep_with(
     specifier: &Value,
     answers: &mut Answers,
 ) -> Result<bool, Stop> {
-    if let Value::Symbol(name) = specifier
+    if let Value::Symbol(name, ..) = specifier
         && let Some(answer) = quickly(image, value, *name)
     {
         return Ok(answer);
@@ -66,7 +66,7 @@ fn quickly(image: &Image, value: &Value, name: Sym) -> Option<bool> {
         known::SINGLE_FLOAT => matches!(value, Value::Single(_)),
         known::DOUBLE_FLOAT => matches!(value, Value::Double(_)),
         known::STRING => matches!(value, Value::Str(_)),
-        known::SYMBOL => matches!(value, Value::Symbol(_)),
+        known::SYMBOL => matches!(value, Value::Symbol(_, ..)),
         known::LIST => value.is_list(),
         known::CONS => matches!(value, Value::Cons(_)),
         known::NULL => value.is_nil(),
@@ -213,7 +213,7 @@ mod tests {
     use crate::lisp::object::testing;
 
     fn symbols(names: &[Sym]) -> Value {
-        Value::list(names.iter().map(|n| Value::Symbol(*n)))
+        Value::list(names.iter().map(|n| Value::symbol(*n)))
     }
 
     fn is(image: &Image, value: &Value, specifier: &Value) -> bool {
@@ -221,7 +221,7 @@ mod tests {
     }
 
     fn range(name: Sym, bounds: &[Value]) -> Value {
-        Value::list_with_tail([Value::Symbol(name)], Value::list(bounds.to_vec()))
+        Value::list_with_tail([Value::symbol(name)], Value::list(bounds.to_vec()))
     }
 
     #[test]

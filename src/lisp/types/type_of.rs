@@ -15,7 +15,7 @@ const LARGEST_FIXNUM: i64 = 0x3fff_ffff_ffff_ffff;
 /// The type of a value as a specifier, in SBCL's words.
 pub(crate) fn type_of(image: &Image, value: &Value) -> Value {
     match value {
-        Value::Symbol(known::T) => known::BOOLEAN.into(),
+        Value::Symbol(known::T, ..) => known::BOOLEAN.into(),
         Value::Int(0 | 1) => known::BIT.into(),
         Value::Int(_) | Value::Big(_) => integer_type(image, value),
         Value::Char(c) if is_standard_char(*c) => known::STANDARD_CHAR.into(),

@@ -134,7 +134,7 @@ fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H, pending: &m
     let structural = matches!(test, HashTest::Equal | HashTest::Equalp);
     let loosely = test == HashTest::Equalp;
     match value {
-        Value::Symbol(s) => s.hash(state),
+        Value::Symbol(s, ..) => s.hash(state),
         Value::Int(_) | Value::Single(_) | Value::Double(_) | Value::Big(_) | Value::Ratio(_)
             if loosely =>
         {

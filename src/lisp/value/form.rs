@@ -36,7 +36,7 @@ pub(crate) fn progn(forms: Value) -> Value {
 pub(crate) fn quote(value: impl Into<Value>) -> Value {
     let value = value.into();
     match value {
-        Value::Symbol(known::NIL | known::T) | Value::Int(_) | Value::Str(_) => value,
+        Value::Symbol(known::NIL | known::T, ..) | Value::Int(_) | Value::Str(_) => value,
         other => form![known::QUOTE, other],
     }
 }
@@ -80,8 +80,8 @@ pub(crate) fn doc_form(doc: Option<&Rc<str>>) -> Value {
 /// The value of a form that has the same value wherever and whenever it is evaluated.
 pub(crate) fn constant_value(form: &Value) -> Option<Value> {
     match form {
-        Value::Symbol(known::NIL | known::T) => Some(form.clone()),
-        Value::Symbol(_) => None,
+        Value::Symbol(known::NIL | known::T, ..) => Some(form.clone()),
+        Value::Symbol(_, ..) => None,
         Value::Cons(cons) => match (cons.car().as_symbol(), cons.cdr()) {
             (Some(known::QUOTE), rest) => Some(rest.car_or_nil()),
             _ => None,

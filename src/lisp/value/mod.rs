@@ -42,14 +42,17 @@ use self::package::PackageId;
 use self::slot::Slot;
 use self::stream::Stream;
 use self::string::LispString;
-use self::symbol::Sym;
+use self::symbol::{Hold, Sym};
 use crate::lisp::guard::Pace;
 
 /// A Lisp value.
 #[derive(Clone, Default)]
 pub(crate) enum Value {
-    /// A symbol; `NIL` and `T` are symbols too.
-    Symbol(Sym),
+    /// A symbol; `NIL` and `T` are symbols too. With what holds its data, if that may be freed.
+    Symbol(
+        Sym,
+        #[expect(dead_code, reason = "what counts is that it is there")] Hold,
+    ),
     /// An integer that fits 64 bits.
     Int(i64),
     /// An integer that does not fit 64 bits.
@@ -95,9 +98,15 @@ pub(crate) enum Value {
 
 impl Value {
     /// The empty list and falsehood.
-    pub(crate) const NIL: Value = Value::Symbol(known::NIL);
+    pub(crate) const NIL: Value = Value::Symbol(known::NIL, Hold::NONE);
     /// Truth.
-    pub(crate) const T: Value = Value::Symbol(known::T);
+    pub(crate) const T: Value = Value::Symbol(known::T, Hold::NONE);
+
+    /// A symbol, without a hold on its data.
+    #[inline]
+    pub(crate) const fn symbol(sym: Sym) -> Value {
+        Value::Symbol(sym, Hold::NONE)
+    }
 
     /// `T` or `NIL`.
     #[inline]
@@ -108,7 +117,7 @@ impl Value {
     /// Is this `NIL`?
     #[inline]
     pub(crate) fn is_nil(&self) -> bool {
-        matches!(self, Value::Symbol(known::NIL))
+        matches!(self, Value::Symbol(known::NIL, ..))
     }
 
     /// Is this anything but `NIL`?
@@ -195,7 +204,7 @@ impl Value {
     #[inline]
     pub(crate) fn as_symbol(&self) -> Option<Sym> {
         match self {
-            Value::Symbol(s) => Some(*s),
+            Value::Symbol(s, ..) => Some(*s),
             _ => None,
         }
     }
@@ -242,7 +251,7 @@ impl Value {
     /// bignums, ratios and floats are compared only by `eql`.
     pub(crate) fn is_eq(&self, other: &Value) -> bool {
         match (self, other) {
-            (Value::Symbol(a), Value::Symbol(b)) => a == b,
+            (Value::Symbol(a, _), Value::Symbol(b, _)) => a == b,
             (Value::Int(a), Value::Int(b)) => a == b,
             (Value::Single(a), Value::Single(b)) => a.to_bits() == b.to_bits(),
             (Value::Double(a), Value::Double(b)) => a.to_bits() == b.to_bits(),
@@ -297,7 +306,7 @@ impl Value {
     /// The symbol of the name `(setf symbol)`.
     pub(crate) fn setf_name(&self) -> Option<Sym> {
         match self.list_to_vec()?.as_slice() {
-            [Value::Symbol(known::SETF), Value::Symbol(sym)] => Some(*sym),
+            [Value::Symbol(known::SETF, ..), Value::Symbol(sym, ..)] => Some(*sym),
             _ => None,
         }
     }
@@ -400,7 +409,7 @@ impl From<f64> for Value {
 
 impl From<Sym> for Value {
     fn from(s: Sym) -> Value {
-        Value::Symbol(s)
+        Value::symbol(s)
     }
 }
 

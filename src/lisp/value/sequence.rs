@@ -25,7 +25,7 @@ impl Sequence {
     /// A value as a sequence.
     pub(crate) fn of(value: &Value) -> Result<Sequence, Box<Raise>> {
         match value {
-            Value::Symbol(known::NIL) | Value::Cons(_) => Ok(Sequence::List(value.clone())),
+            Value::Symbol(known::NIL, ..) | Value::Cons(_) => Ok(Sequence::List(value.clone())),
             Value::Vector(vector) => Ok(Sequence::Vector(vector.clone())),
             Value::Str(string) => Ok(Sequence::Str(string.clone())),
             _ => Err(Raise::type_error(value, known::SEQUENCE)),
@@ -290,7 +290,7 @@ impl Bounds {
         start: Option<&Value>,
         end: Option<&Value>,
     ) -> Result<Bounds, Box<Raise>> {
-        if let Some(start @ Value::Symbol(known::NIL)) = start {
+        if let Some(start @ Value::Symbol(known::NIL, ..)) = start {
             return Err(Raise::type_error(start, known::UNSIGNED_BYTE));
         }
         let start_index = index_or(start, Some(0))?;
@@ -322,7 +322,7 @@ impl Bounds {
 /// is too large to be an index.
 fn index_or(value: Option<&Value>, default: Option<usize>) -> Result<Option<usize>, Box<Raise>> {
     match value {
-        None | Some(Value::Symbol(known::NIL)) => Ok(default),
+        None | Some(Value::Symbol(known::NIL, ..)) => Ok(default),
         Some(Value::Int(n)) if *n >= 0 => Ok(usize::try_from(*n).ok()),
         Some(Value::Big(n)) if n.sign() == num_bigint::Sign::Plus => Ok(None),
         Some(other) => Err(Raise::type_error(other, known::UNSIGNED_BYTE)),
@@ -429,7 +429,7 @@ impl ListWalk {
     pub(crate) fn next_cons(&mut self) -> Result<Option<Rc<Cons>>, Box<Raise>> {
         let cons = match &self.rest {
             Value::Cons(cons) => cons.clone(),
-            Value::Symbol(known::NIL) => return Ok(None),
+            Value::Symbol(known::NIL, ..) => return Ok(None),
             other => return Err(Raise::type_error(other, known::LIST)),
         };
         if self.rounds.is_closed_by(&self.rest) {

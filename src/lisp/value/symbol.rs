@@ -2,7 +2,14 @@
 //!
 //! A symbol is an index into the image's symbol table. The symbols that Rust code names
 //! have fixed indices, listed in [`known`].
+//!
+//! The symbols that a running program makes without interning them, by `gensym` for example, are
+//! passing: the values of such a symbol share a [`Hold`], and when the last of them is gone, so is
+//! what the table knows of the symbol. A passing symbol that has been given a meaning, or that
+//! compiled code refers to, stays.
 
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::Value;
@@ -71,11 +78,68 @@ pub(crate) struct SymbolData {
     pub(crate) symbol_macro: Option<Value>,
     /// Documentation as a variable, if any.
     pub(crate) variable_doc: Option<Rc<str>>,
+    /// Does something refer to it that is no value?
+    is_kept: Cell<bool>,
 }
+
+impl SymbolData {
+    fn named(name: Rc<str>) -> SymbolData {
+        SymbolData {
+            name,
+            plist: Value::NIL,
+            ..SymbolData::default()
+        }
+    }
+
+    /// Has the symbol a meaning that somebody could ask for, who has only its index?
+    fn stays(&self) -> bool {
+        self.is_kept.get()
+            || self.package.is_some()
+            || !matches!(self.value, Value::Unbound)
+            || self.kind != VariableKind::Lexical
+            || !matches!(self.function, FunctionCell::Unbound)
+            || self.setf_function.is_some()
+            || !self.plist.is_nil()
+            || self.symbol_macro.is_some()
+            || self.variable_doc.is_some()
+    }
+}
+
+/// What holds the data of a passing symbol; nothing, for all others.
+#[derive(Clone, Default)]
+pub(crate) struct Hold(
+    #[expect(dead_code, reason = "what counts is that it is there")] Option<Rc<Held>>,
+);
+
+impl Hold {
+    /// For symbols that stay.
+    pub(crate) const NONE: Hold = Hold(None);
+}
+
+/// A passing symbol, and where its table is told that it is gone.
+struct Held {
+    sym: Sym,
+    gone: Rc<RefCell<Vec<Sym>>>,
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        self.gone.borrow_mut().push(self.sym);
+    }
+}
+
+/// The first index of passing symbols.
+const PASSING: u32 = 1 << 31;
 
 /// All symbols of an image.
 pub(crate) struct SymbolTable {
     entries: Vec<SymbolData>,
+    passing: BTreeMap<u32, SymbolData>,
+    next_passing: u32,
+    /// Passing symbols that no value refers to any more.
+    gone: Rc<RefCell<Vec<Sym>>>,
+    /// What is known of these.
+    forgotten: SymbolData,
 }
 
 impl SymbolTable {
@@ -83,39 +147,80 @@ impl SymbolTable {
     pub(crate) fn new() -> SymbolTable {
         SymbolTable {
             entries: Vec::with_capacity(4096),
+            passing: BTreeMap::new(),
+            next_passing: PASSING,
+            gone: Rc::default(),
+            forgotten: SymbolData::named("FORGOTTEN".into()),
         }
     }
 
     /// Adds a symbol that belongs to no package yet.
     pub(crate) fn make(&mut self, name: Rc<str>) -> Sym {
-        // More than four billion symbols do not fit in memory.
-        let index = u32::try_from(self.entries.len()).unwrap_or(u32::MAX);
-        self.entries.push(SymbolData {
-            name,
-            plist: Value::NIL,
-            ..SymbolData::default()
-        });
+        // More than two billion symbols do not fit in memory.
+        let index = u32::try_from(self.entries.len()).unwrap_or(PASSING - 1);
+        self.entries.push(SymbolData::named(name));
         Sym(index)
+    }
+
+    /// Adds a symbol that belongs to no package, and that is freed once no value refers to it.
+    pub(crate) fn make_passing(&mut self, name: Rc<str>) -> Value {
+        self.free_gone();
+        while self.passing.contains_key(&self.next_passing) {
+            self.count_on();
+        }
+        let sym = Sym(self.next_passing);
+        self.passing.insert(sym.0, SymbolData::named(name));
+        self.count_on();
+        let gone = self.gone.clone();
+        Value::Symbol(sym, Hold(Some(Rc::new(Held { sym, gone }))))
+    }
+
+    fn count_on(&mut self) {
+        self.next_passing = self.next_passing.checked_add(1).unwrap_or(PASSING);
+    }
+
+    /// Forgets the passing symbols that no value refers to any more.
+    fn free_gone(&mut self) {
+        for sym in self.gone.take() {
+            if self.passing.get(&sym.0).is_some_and(|data| !data.stays()) {
+                self.passing.remove(&sym.0);
+            }
+        }
+    }
+
+    /// Keeps a symbol for good, since something refers to it that is no value.
+    pub(crate) fn keep(&self, sym: Sym) {
+        if let Some(data) = self.passing.get(&sym.0) {
+            data.is_kept.set(true);
+        }
     }
 
     /// The symbol's data.
     #[inline]
     pub(crate) fn get(&self, sym: Sym) -> &SymbolData {
+        if sym.0 >= PASSING {
+            return self.passing.get(&sym.0).unwrap_or(&self.forgotten);
+        }
         &self.entries[sym.0 as usize]
     }
 
     /// The symbol's data, mutably.
     #[inline]
     pub(crate) fn get_mut(&mut self, sym: Sym) -> &mut SymbolData {
+        if sym.0 >= PASSING {
+            let name = &self.forgotten.name;
+            let again = || SymbolData::named(name.clone());
+            return self.passing.entry(sym.0).or_insert_with(again);
+        }
         &mut self.entries[sym.0 as usize]
     }
 
     /// Number of symbols.
     pub(crate) fn len(&self) -> usize {
-        self.entries.len()
+        self.entries.len() + self.passing.len()
     }
 
-    /// All symbols, in order of creation.
+    /// All symbols but passing ones, in order of creation.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (Sym, &SymbolData)> {
         self.entries
             .iter()
@@ -127,5 +232,45 @@ impl SymbolTable {
 impl Default for SymbolTable {
     fn default() -> SymbolTable {
         SymbolTable::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_passing_symbol_goes_with_its_last_value() {
+        let mut symbols = SymbolTable::new();
+        let value = symbols.make_passing("A".into());
+        let sym = value.as_symbol().unwrap();
+        let another = value.clone();
+        drop(value);
+        symbols.free_gone();
+        assert_eq!(&*symbols.get(sym).name, "A");
+        drop(another);
+        symbols.free_gone();
+        assert_eq!(symbols.len(), 0);
+    }
+
+    #[test]
+    fn a_passing_symbol_with_a_meaning_stays() {
+        let mut symbols = SymbolTable::new();
+        let [valued, kept] = ["V", "K"].map(|name| symbols.make_passing(name.into()));
+        symbols.get_mut(valued.as_symbol().unwrap()).value = Value::Int(1);
+        symbols.keep(kept.as_symbol().unwrap());
+        drop((valued, kept));
+        symbols.free_gone();
+        assert_eq!(symbols.len(), 2);
+    }
+
+    #[test]
+    fn tables_do_not_free_each_others_symbols() {
+        let (mut one, mut other) = (SymbolTable::new(), SymbolTable::new());
+        let held = one.make_passing("HELD".into());
+        drop(other.make_passing("GONE".into()));
+        other.free_gone();
+        one.free_gone();
+        assert_eq!(&*one.get(held.as_symbol().unwrap()).name, "HELD");
     }
 }

@@ -13,7 +13,7 @@ use crate::lisp::value::symbol::{FunctionCell, Sym};
 pub(crate) fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option<&'a Rc<Function>> {
     match designator {
         Value::Function(function) => Some(function),
-        Value::Symbol(sym) => image.function(*sym),
+        Value::Symbol(sym, ..) => image.function(*sym),
         _ => None,
     }
 }
@@ -23,7 +23,7 @@ pub(crate) fn function_of<'a>(image: &'a Image, designator: &'a Value) -> Option
 pub(crate) fn callable(image: &Image, designator: &Value) -> Result<Value, Box<Raise>> {
     match designator {
         Value::Function(_) => Ok(designator.clone()),
-        Value::Symbol(sym) => match &image.symbol(*sym).function {
+        Value::Symbol(sym, ..) => match &image.symbol(*sym).function {
             FunctionCell::Function(function) => Ok(Value::Function(function.clone())),
             _ => Err(Raise::undefined_function(designator.clone())),
         },

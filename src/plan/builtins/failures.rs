@@ -43,7 +43,7 @@ fn fail(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
             ];
             condition::make_condition(machine.image, simple, &initargs)?
         }
-        Some(Value::Symbol(class)) => {
+        Some(Value::Symbol(class, ..)) => {
             let is_condition = machine
                 .image
                 .class(*class)

@@ -249,7 +249,7 @@ fn name(image: &mut Image, args: &[Value]) -> Result<Value> {
             Some(name) => name,
             None => {
                 let name = fluent.get().name(image);
-                image.make_symbol(&name).into()
+                image.symbols.make_passing(name.into())
             }
         });
     }

@@ -246,7 +246,7 @@ fn list(items: Vec<Value>) -> Value {
 /// The class that a symbol or string names.
 fn class(image: &Image, argument: &Value) -> Result<Class> {
     let name = match argument {
-        Value::Symbol(sym) => image.name(*sym).to_owned(),
+        Value::Symbol(sym, ..) => image.name(*sym).to_owned(),
         Value::Str(text) => text.text(),
         other => return Err(Raise::type_error(other, known::SYMBOL)),
     };

@@ -256,7 +256,7 @@ impl Search {
                 Some(more @ Value::Function(_)) => {
                     let sample = calls.call(&more, Args::Many(Vec::new())).await;
                     match sample {
-                        Value::Symbol(known::NIL) => {}
+                        Value::Symbol(known::NIL, ..) => {}
                         Value::Str(why) => self.causes.ended.push(why.text()),
                         sample => {
                             self.samples.push(more);
@@ -270,7 +270,7 @@ impl Search {
                     let poses = calls.call1(&generator, self.designator.clone()).await;
                     self.samples = match &poses {
                         Value::Cons(_) => poses.iter_list().collect(),
-                        Value::Symbol(known::NIL) => Vec::new(),
+                        Value::Symbol(known::NIL, ..) => Vec::new(),
                         single => vec![single.clone()],
                     };
                     self.samples.reverse();

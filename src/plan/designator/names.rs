@@ -63,7 +63,7 @@ fn text(image: &Image, name: &Value) -> Result<String, Box<Raise>> {
 fn package(image: &Image, designator: &Value) -> Option<PackageId> {
     match designator {
         Value::Package(id) => Some(*id),
-        Value::Symbol(sym) if designator.is_true() => image.packages.find(image.name(*sym)),
+        Value::Symbol(sym, ..) if designator.is_true() => image.packages.find(image.name(*sym)),
         Value::Str(name) => image.packages.find(&name.text()),
         _ => None,
     }
@@ -72,7 +72,7 @@ fn package(image: &Image, designator: &Value) -> Option<PackageId> {
 /// The text of a symbol or string.
 pub(crate) fn name_text(context: &dyn PrintContext, name: &Value) -> Option<String> {
     match name {
-        Value::Symbol(sym) => Some(context.name(*sym).to_owned()),
+        Value::Symbol(sym, ..) => Some(context.name(*sym).to_owned()),
         Value::Str(text) => Some(text.text()),
         _ => None,
     }

@@ -144,7 +144,7 @@ fn property_code(image: &mut Image, property: &Value, depth: usize) -> Result<Va
         ]));
     }
     let key = match &items[0] {
-        Value::Symbol(sym) => Value::from(keyword_of(image, *sym)),
+        Value::Symbol(sym, ..) => Value::from(keyword_of(image, *sym)),
         other => other.clone(),
     };
     let is_goal = key.as_symbol().is_some_and(|s| image.name(s) == "GOAL");
@@ -195,7 +195,7 @@ fn value_code(image: &mut Image, value: &Value, depth: usize) -> Result<Value> {
         return Err(Raise::program("A designator is nested too deeply."));
     }
     match value {
-        Value::Symbol(sym) => Ok(symbol_code(image, *sym)),
+        Value::Symbol(sym, ..) => Ok(symbol_code(image, *sym)),
         Value::Cons(cons) => match nested_quantifier(image, &cons.car(), value) {
             Some(quantifier) => designator_form(image, value, quantifier, depth),
             None => list_code(image, value, depth),
@@ -250,7 +250,7 @@ fn symbol_code(image: &mut Image, sym: Sym) -> Value {
             break;
         }
         match (&data.value, data.kind) {
-            (Value::Symbol(next), _) => sym = *next,
+            (Value::Symbol(next, ..), _) => sym = *next,
             (value, VariableKind::Constant | VariableKind::Special | VariableKind::Lexical) => {
                 return quote(value.clone());
             }

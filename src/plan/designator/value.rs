@@ -363,7 +363,7 @@ impl Foreign for Designator {
 /// Keywords without their colon, everything else as printed.
 fn bare(context: &dyn PrintContext, value: &Value, escape: bool) -> String {
     match value {
-        Value::Symbol(sym) if context.is_keyword(*sym) => context.name(*sym).to_owned(),
+        Value::Symbol(sym, ..) if context.is_keyword(*sym) => context.name(*sym).to_owned(),
         // Inside lists, keywords keep their colon.
         Value::Cons(_) => context.text(value, true),
         other => context.text(other, escape),

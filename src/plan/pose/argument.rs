@@ -57,7 +57,7 @@ fn numbers<const N: usize>(
 pub(crate) fn vector(image: &Image, argument: &Value) -> Result<Vector3> {
     match argument {
         Value::Cons(_) => numbers(image, argument, "a position", "x y z").map(Vector3),
-        Value::Symbol(known::NIL) => Err(Raise::type_error(argument, names::VECTOR_3D)),
+        Value::Symbol(known::NIL, ..) => Err(Raise::type_error(argument, names::VECTOR_3D)),
         other => value::as_vector(other)
             .map(Vector3)
             .ok_or_else(|| Raise::type_error(other, names::VECTOR_3D)),

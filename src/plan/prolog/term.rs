@@ -103,7 +103,7 @@ impl Bindings {
             return Err(too_deep());
         }
         match term {
-            Value::Symbol(sym) if image.name(*sym).starts_with('?') => {
+            Value::Symbol(sym, ..) if image.name(*sym).starts_with('?') => {
                 if image.name(*sym) == "?_" {
                     return Ok(self.fresh(*sym));
                 }

@@ -7,6 +7,7 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::fiber::Fiber;
 use crate::plan::fluent::FluentRef;
 use crate::plan::host::Ticket;
+use crate::plan::request::{Call, GroupKind};
 use crate::plan::task::{TaskId, TaskRef};
 
 /// Index of an entry.
@@ -100,10 +101,25 @@ pub(super) enum Answer {
     Call(Value, Vec<Value>),
     /// Unwind the frame with this index and continue with a call in its place.
     Replace(usize, Value, Vec<Value>),
+    /// Begin the rest of its children.
+    Begin(Box<Beginning>),
     /// Determine the result of its children.
     Decide(Group),
     /// Unwind everything.
     Unwind,
+}
+
+/// A group of tasks of which some have begun.
+pub(super) struct Beginning {
+    pub(crate) kind: GroupKind,
+    /// What their names begin with.
+    pub(crate) name: &'static str,
+    /// What the others are to run.
+    pub(crate) functions: std::vec::IntoIter<Call>,
+    /// Those that have begun.
+    pub(crate) children: Vec<TaskRef>,
+    /// How many there will be.
+    pub(crate) of: usize,
 }
 
 /// How a task ends.

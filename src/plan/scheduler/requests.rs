@@ -4,7 +4,7 @@ use std::any::Any;
 
 use super::Scheduler;
 use super::group::Group;
-use super::live::{Answer, Slot, Told, Wait};
+use super::live::{Answer, Beginning, Slot, Told, Wait};
 use crate::lisp::guard::Stopped;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -18,6 +18,8 @@ use crate::plan::tree::TreeNode;
 
 /// About how much memory a task takes that has just begun.
 const BYTES_OF_A_TASK: usize = 1024;
+/// How many tasks are begun between two looks at the interrupt flag.
+const TASKS_AT_ONCE: usize = 1000;
 
 impl Scheduler {
     /// Handles a request of the entry that is running with `fiber`; returns the answer, or `None`
@@ -65,9 +67,9 @@ impl Scheduler {
                 functions,
                 name,
             } => {
-                let Some(owner) = self.live(slot).and_then(|l| l.task.clone()) else {
+                if self.live(slot).is_none_or(|live| live.task.is_none()) {
                     return Some(Answer::Raise(outside_a_plan(name)));
-                };
+                }
                 if functions.is_empty() {
                     return Some(Answer::Raise(Raise::simple(
                         "wait-for called with nil argument.",
@@ -81,14 +83,13 @@ impl Scheduler {
                 {
                     return Some(Answer::Raise(Stopped::HeapExhausted.into()));
                 }
-                let mut children = Vec::with_capacity(of);
-                for (i, function) in functions.into_iter().enumerate() {
-                    let name = TaskName::Child(name, i + 1, of, plan.fresh_number());
-                    let task = TaskRef::new(&plan, name, false, owner.get().node.clone());
-                    self.begin(image, slot, fiber, &task, function);
-                    children.push(task);
-                }
-                self.wait_for_group(slot, kind, children);
+                return Some(Answer::Begin(Box::new(Beginning {
+                    kind,
+                    name,
+                    functions: functions.into_iter(),
+                    children: Vec::with_capacity(of),
+                    of,
+                })));
             }
             Request::Run { task, function } => {
                 if task.get().status() != Status::Created {
@@ -165,6 +166,30 @@ impl Scheduler {
                 None
             }
         }
+    }
+
+    /// Begins some of the tasks of a group; returns how to go on, or `None` if all have begun.
+    pub(super) fn begin_some(
+        &mut self,
+        image: &Image,
+        slot: Slot,
+        fiber: &Fiber,
+        mut group: Box<Beginning>,
+    ) -> Option<Answer> {
+        let owner = self.live(slot)?.task.clone()?;
+        let plan = Plan::of(image);
+        for function in group.functions.by_ref().take(TASKS_AT_ONCE) {
+            let number = group.children.len() + 1;
+            let name = TaskName::Child(group.name, number, group.of, plan.fresh_number());
+            let task = TaskRef::new(&plan, name, false, owner.get().node.clone());
+            self.begin(image, slot, fiber, &task, function);
+            group.children.push(task);
+        }
+        if group.functions.len() > 0 {
+            return Some(Answer::Begin(group));
+        }
+        self.wait_for_group(slot, group.kind, group.children);
+        None
     }
 
     fn wait_for_group(&mut self, slot: Slot, kind: GroupKind, children: Vec<TaskRef>) {

@@ -41,6 +41,13 @@ impl Scheduler {
         let mut next = Some(answer);
         while let Some(answer) = next {
             let event = match answer {
+                Answer::Begin(group) => {
+                    next = self.begin_some(image, slot, &fiber, group);
+                    if next.is_some() && image.take_interrupt() {
+                        return self.interrupt(slot, fiber, next);
+                    }
+                    continue;
+                }
                 Answer::Decide(group) => {
                     next = self.decide(image, host, slot, group);
                     continue;
@@ -70,12 +77,7 @@ impl Scheduler {
                     next = Some(Answer::GoOn);
                 }
                 Event::Interrupted | Event::Output => {
-                    self.put_back(slot, fiber);
-                    if let Some(live) = self.live_mut(slot) {
-                        live.answer = Some(Answer::GoOn);
-                    }
-                    self.interrupted = Some(slot);
-                    return Stopped::Interrupted;
+                    return self.interrupt(slot, fiber, Some(Answer::GoOn));
                 }
                 Event::Done(value) => {
                     self.put_back(slot, fiber);
@@ -101,12 +103,7 @@ impl Scheduler {
                 Event::Request(request) => {
                     next = self.handle(image, host, slot, &fiber, request);
                     if next.is_some() && image.take_interrupt() {
-                        self.put_back(slot, fiber);
-                        if let Some(live) = self.live_mut(slot) {
-                            live.answer = next;
-                        }
-                        self.interrupted = Some(slot);
-                        return Stopped::Interrupted;
+                        return self.interrupt(slot, fiber, next);
                     }
                 }
             }
@@ -114,6 +111,16 @@ impl Scheduler {
         self.put_back(slot, fiber);
         self.suspend_if_told(image, host, slot);
         Stopped::Waiting
+    }
+
+    /// Stops the entry, which will go on with an answer.
+    fn interrupt(&mut self, slot: Slot, fiber: Fiber, next: Option<Answer>) -> Stopped {
+        self.put_back(slot, fiber);
+        if let Some(live) = self.live_mut(slot) {
+            live.answer = next;
+        }
+        self.interrupted = Some(slot);
+        Stopped::Interrupted
     }
 
     fn put_back(&mut self, slot: Slot, fiber: Fiber) {

@@ -96,7 +96,7 @@ impl KnownNames {
         let mut pending = vec![form.clone()];
         while let Some(form) = pending.pop() {
             match &form {
-                Value::Symbol(sym) => {
+                Value::Symbol(sym, ..) => {
                     self.in_rules.insert(image.name(*sym).to_uppercase());
                 }
                 Value::Cons(cons) => pending.extend([cons.car(), cons.cdr()]),

@@ -175,8 +175,15 @@ impl<W: Write> Screen<W> {
         }
         self.report(&stop.abort)?;
         let width = stop.choices.len().saturating_sub(1).to_string().len();
+        // The last ones lead out.
+        let left_out = FIRST_CHOICES..stop.choices.len().saturating_sub(LAST_CHOICES);
         for (number, choice) in stop.choices.iter().enumerate() {
-            self.line(&format!(" {number:>width$}: {choice}"))?;
+            if !left_out.contains(&number) {
+                self.line(&format!(" {number:>width$}: {choice}"))?;
+            } else if number == left_out.start {
+                let more = left_out.len();
+                self.line(&format!(" {:>width$}  and {more} more", "…"))?;
+            }
         }
         if stop.remark.is_empty() {
             return Ok(());
@@ -228,6 +235,9 @@ impl<W: Write> Screen<W> {
 pub(crate) const INTERRUPT: &str = "#<INTERACTIVE-INTERRUPT>";
 
 const INPUT_NAME: &str = "prompt[";
+/// How many choices are shown, of those that stand first and of those that stand last.
+const FIRST_CHOICES: usize = 20;
+const LAST_CHOICES: usize = 10;
 
 /// The name of the `number`th input at a prompt, as the source of places.
 pub(crate) fn input_name(number: usize) -> String {

@@ -158,7 +158,7 @@ fn describe_topic(host: &mut SimulationHost, image: &mut Image, args: &[Value]) 
         return Err(Raise::type_error(&args[0], known::SYMBOL));
     };
     let mut text = String::new();
-    if let Value::Symbol(sym) = &args[0] {
+    if let Value::Symbol(sym, ..) = &args[0] {
         let told = help::of_symbol(image, *sym);
         // A symbol without a meaning of its own may still name one of the following.
         if told.lines().count() > 1 {

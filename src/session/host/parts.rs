@@ -133,7 +133,7 @@ fn part(name: impl Into<String>, value: impl Into<Value>) -> (String, Value) {
 /// An object in the world, or the robot.
 fn in_world(host: &SimulationHost, image: &mut Image, value: &Value) -> Option<View> {
     let simulation = &host.simulation;
-    let Value::Symbol(sym) = value else {
+    let Value::Symbol(sym, ..) = value else {
         return None;
     };
     let name = name_text(image, value)?;
@@ -228,7 +228,7 @@ fn parts(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
             }));
             parts
         }
-        Value::Symbol(sym) => of_symbol(image, *sym),
+        Value::Symbol(sym, ..) => of_symbol(image, *sym),
         Value::Function(function) => match &function.body {
             Body::Closure { code, .. } => {
                 let doc = code.doc.as_deref().map_or(Value::NIL, Value::string);

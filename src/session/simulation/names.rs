@@ -11,7 +11,7 @@ use crate::lisp::value::raise::Raise;
 /// The text of a name given as symbol or string, in upper case, with `_` read as `-`.
 pub(in crate::session) fn name_text(image: &Image, name: &Value) -> Option<String> {
     let text = match name {
-        Value::Symbol(sym) if name.is_true() => image.name(*sym).to_owned(),
+        Value::Symbol(sym, ..) if name.is_true() => image.name(*sym).to_owned(),
         Value::Str(s) => s.text(),
         _ => return None,
     };

@@ -89,7 +89,7 @@ impl Simulation {
         };
         let named = objects.iter().map(|object| {
             let name = match self.symbol_of(&object.name) {
-                Value::Symbol(sym) => Name::of(image, sym)?,
+                Value::Symbol(sym, ..) => Name::of(image, sym)?,
                 _ => return None,
             };
             Some((name, object.clone()))

@@ -82,14 +82,18 @@ impl Data {
     fn held(image: &Image, value: &Value, given: &[Value], count: usize) -> Option<Data> {
         let is_heap = !matches!(
             value,
-            Value::Symbol(_) | Value::Int(_) | Value::Single(_) | Value::Double(_) | Value::Char(_)
+            Value::Symbol(_, ..)
+                | Value::Int(_)
+                | Value::Single(_)
+                | Value::Double(_)
+                | Value::Char(_)
         );
         if is_heap && let Some(number) = given.iter().position(|one| one.is_eq(value)) {
             return Some(Data::Given(number));
         }
         let is_own = |references: usize| (references <= count).then_some(());
         Some(match value {
-            Value::Symbol(sym) => Data::Symbol(Name::of(image, *sym)?),
+            Value::Symbol(sym, ..) => Data::Symbol(Name::of(image, *sym)?),
             Value::Int(number) => Data::Int(*number),
             Value::Single(number) => Data::Single(*number),
             Value::Double(number) => Data::Double(*number),
@@ -161,7 +165,7 @@ impl Data {
         };
         Some(match self {
             Data::Given(number) => given.get(*number)?.clone(),
-            Data::Symbol(name) => Value::Symbol(name.symbol(image)),
+            Data::Symbol(name) => Value::symbol(name.symbol(image)),
             Data::Int(number) => Value::Int(*number),
             Data::Single(number) => Value::Single(*number),
             Data::Double(number) => Value::Double(*number),

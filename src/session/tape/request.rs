@@ -26,7 +26,7 @@ fn add(image: &Image, sum: &mut crc32fast::Hasher, value: &Value, depth: usize) 
         sum.update(bytes);
     };
     match value {
-        Value::Symbol(sym) => tagged(b's', image.name(*sym).as_bytes()),
+        Value::Symbol(sym, ..) => tagged(b's', image.name(*sym).as_bytes()),
         Value::Int(number) => tagged(b'i', &number.to_le_bytes()),
         Value::Single(number) => tagged(b'f', &number.to_bits().to_le_bytes()),
         Value::Double(number) => tagged(b'd', &number.to_bits().to_le_bytes()),

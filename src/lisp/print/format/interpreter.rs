@@ -175,7 +175,7 @@ impl Interpreter<'_> {
                 Parameter::Char(char) => Some(Given::Char(*char)),
                 Parameter::Count => i64::try_from(args.left()).ok().map(Given::Number),
                 Parameter::Argument => match self.next(c, d, args)? {
-                    Value::Symbol(known::NIL) => None,
+                    Value::Symbol(known::NIL, ..) => None,
                     Value::Int(n) => Some(Given::Number(n)),
                     Value::Char(char) => Some(Given::Char(char)),
                     other => return Err(Raise::type_error(&other, known::INTEGER)),

@@ -36,8 +36,8 @@ impl Foreign for RandomState {
 /// image's) or, for `T`, unlike any other.
 pub(crate) fn make_random_state(default: &mut Pcg64, state: &Value) -> NumberResult {
     let copy = match (state, state.as_foreign::<RandomState>()) {
-        (Value::Symbol(known::NIL), _) => default.clone(),
-        (Value::Symbol(known::T), _) => {
+        (Value::Symbol(known::NIL, ..), _) => default.clone(),
+        (Value::Symbol(known::T, ..), _) => {
             let (seed, stream) = (default.next_u64(), default.next_u64());
             Pcg64::new(seed.into(), stream.into())
         }
