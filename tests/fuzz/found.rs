@@ -29,3 +29,12 @@ fn a_backquote_prints_as_such_wherever_code_has_a_list() {
         assert_eq!(values(&read), ["T"], "{text}");
     }
 }
+
+/// A backquoted form was taken for the row of an array, which then did not read back.
+#[test]
+fn a_backquote_is_no_row_of_an_array() {
+    for text in ["#2A(`(a ,b))", "#1A`(a ,b)", "#2A((1 2) ,x)"] {
+        let form = format!("(handler-case (read-from-string {text:?}) (reader-error () :refused))");
+        assert_eq!(values(&form), [":REFUSED"], "{text}");
+    }
+}

@@ -86,7 +86,7 @@ async fn designated_condition(calls: &Calls, args: Vec<Value>, default: Sym) -> 
                 Value::list(args),
             ];
         }
-        Value::Symbol(_, ..) | Value::Class(_) => {
+        Value::Symbol(..) | Value::Class(_) => {
             initargs = vec![datum.clone()];
             initargs.extend(args);
         }

@@ -104,7 +104,7 @@ fn case_form(image: &mut Image, form: &Value, otherwise: Otherwise, by_type: boo
             };
             wanted.extend(keys.iter().cloned());
             let tests = keys.into_iter().map(|k| {
-                let is_simple = matches!(k, Value::Symbol(_, ..));
+                let is_simple = matches!(k, Value::Symbol(..));
                 let test = if is_simple { known::EQ } else { known::EQL };
                 form![test, key.clone(), quote(k)]
             });
@@ -158,9 +158,9 @@ fn do_form(image: &mut Image, form: &Value, binder: Sym, stepper: Sym) -> Expans
             name => vec![name.clone()],
         };
         match parts.as_slice() {
-            [name @ Value::Symbol(_, ..)] => bindings.push(form![name.clone()]),
-            [name @ Value::Symbol(_, ..), init] => bindings.push(form![name.clone(), init.clone()]),
-            [name @ Value::Symbol(_, ..), init, step] => {
+            [name @ Value::Symbol(..)] => bindings.push(form![name.clone()]),
+            [name @ Value::Symbol(..), init] => bindings.push(form![name.clone(), init.clone()]),
+            [name @ Value::Symbol(..), init, step] => {
                 bindings.push(form![name.clone(), init.clone()]);
                 steps.extend([name.clone(), step.clone()]);
             }

@@ -27,7 +27,7 @@ pub(crate) struct Expansion {
 /// The setf expansion of a place.
 pub(crate) fn expansion(image: &mut Image, place: &Value) -> Result<Expansion, Box<Raise>> {
     let cons = match place {
-        Value::Symbol(_, ..) => {
+        Value::Symbol(..) => {
             if let Some(inner) = symbol_macro(image, place)? {
                 return expansion(image, &inner);
             }
@@ -338,7 +338,7 @@ fn user_expansion(
 
 /// The form that sets one place to the value of a form.
 fn setf_one(image: &mut Image, place: &Value, value: &Value) -> Result<Value, Box<Raise>> {
-    if let Value::Symbol(_, ..) = place {
+    if let Value::Symbol(..) = place {
         return Ok(Value::list([
             known::SETQ.into(),
             place.clone(),
@@ -432,7 +432,7 @@ pub(crate) fn modify(
 ) -> Result<Value, Box<Raise>> {
     let bound = |(var, form)| Value::list([var, form]);
     let mut bindings: Vec<Value> = before.into_iter().map(bound).collect();
-    if matches!(place, Value::Symbol(_, ..)) && symbol_macro(image, place)?.is_none() {
+    if matches!(place, Value::Symbol(..)) && symbol_macro(image, place)?.is_none() {
         bindings.extend(operands.into_iter().map(bound));
         let new = new_value(image, place.clone());
         let set = Value::list([known::SETQ.into(), place.clone(), new]);
@@ -508,7 +508,7 @@ pub(super) fn expand_push(image: &mut Image, form: &Value) -> Result<Value, Box<
     let args = form.cdr_or_nil();
     let item = args.car_or_nil();
     let place = args.cdr_or_nil().car_or_nil();
-    if matches!(place, Value::Symbol(_, ..)) {
+    if matches!(place, Value::Symbol(..)) {
         let new = Value::list([known::CONS.into(), item, place.clone()]);
         return Ok(Value::list([known::SETQ.into(), place, new]));
     }

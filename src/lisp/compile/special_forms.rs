@@ -311,7 +311,7 @@ fn tagbody(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> 
     let Some(items) = rest.list_to_vec() else {
         return Err(c.program_error("TAGBODY takes a proper list of tags and statements."));
     };
-    let is_tag = |v: &Value| matches!(v, Value::Symbol(_, ..) | Value::Int(_));
+    let is_tag = |v: &Value| matches!(v, Value::Symbol(..) | Value::Int(_));
     let info = Rc::new(Tagbody {
         tags: items.iter().filter(|v| is_tag(v)).cloned().collect(),
         owner: c.function_id(),

@@ -96,7 +96,7 @@ fn list_step(
         .as_cons()
         .filter(|c| matches!(c.car(), Value::Symbol(known::FUNCTION, ..)))
         .map(|c| c.cdr().car_or_nil());
-    if let Some(name @ Value::Symbol(_, ..)) = name {
+    if let Some(name @ Value::Symbol(..)) = name {
         return Ok(call(name, [list.clone()]));
     }
     let variable = parser.fresh("BY");
@@ -198,7 +198,7 @@ enum Direction {
 }
 
 fn counting(parser: &mut Parser<'_>, variable: Value) -> Result<Clause, Box<Raise>> {
-    if !matches!(variable, Value::Symbol(_, ..)) {
+    if !matches!(variable, Value::Symbol(..)) {
         return Err(Raise::program(format!(
             "{} in LOOP cannot count; it must be one variable.",
             parser.shown(&variable)

@@ -37,7 +37,7 @@ pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
     match value {
         Value::Symbol(known::NIL, ..) => known::NULL,
         Value::Symbol(sym, ..) if image.is_keyword(*sym) => known::KEYWORD,
-        Value::Symbol(_, ..) => known::SYMBOL,
+        Value::Symbol(..) => known::SYMBOL,
         Value::Int(n) if is_fixnum(*n) => known::FIXNUM,
         Value::Int(_) | Value::Big(_) => known::BIGNUM,
         Value::Ratio(_) => known::RATIO,

@@ -59,7 +59,7 @@ pub(crate) fn expand_define_method_combination(
     whole: &Value,
 ) -> Result<Value, Box<Raise>> {
     let parts = whole.list_to_vec().unwrap_or_default();
-    let [_, name @ Value::Symbol(_, ..), options @ ..] = parts.as_slice() else {
+    let [_, name @ Value::Symbol(..), options @ ..] = parts.as_slice() else {
         return Err(Raise::program(
             "DEFINE-METHOD-COMBINATION takes a name and options.",
         ));

@@ -23,7 +23,7 @@ pub(crate) fn expand_defmethod(image: &mut Image, whole: &Value) -> Result<Value
     let lambda_list = loop {
         match items.next() {
             Some(list) if list.is_list() => break list,
-            Some(qualifier @ Value::Symbol(_, ..)) => qualifiers.push(qualifier),
+            Some(qualifier @ Value::Symbol(..)) => qualifiers.push(qualifier),
             _ => {
                 return Err(Raise::program(
                     "DEFMETHOD takes a name, qualifiers, a lambda list and a body.",
@@ -64,7 +64,7 @@ fn split_lambda_list(
                     specializers,
                 ));
             }
-            Value::Symbol(_, ..) => {
+            Value::Symbol(..) => {
                 plain.push(item);
                 specializers.push(Value::T);
             }

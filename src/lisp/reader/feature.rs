@@ -17,7 +17,7 @@ fn holds_at(image: &Image, expression: &Value, depth: usize) -> Result<bool, Rea
     if depth > MAX_DEPTH {
         return Err(ReadErrorKind::BadFeature);
     }
-    if let Value::Symbol(_, ..) = expression {
+    if let Value::Symbol(..) = expression {
         let features = image.special(known::V_FEATURES);
         return Ok(features.iter_list().any(|f| f.is_eq(expression)));
     }

@@ -141,7 +141,11 @@ fn elements(sequence: &Value) -> Option<Vec<Value>> {
     match sequence {
         Value::Vector(vector) => Some(vector.to_vec()),
         Value::Str(string) => Some(string.borrow().chars().map(Value::Char).collect()),
-        list => list.list_to_vec(),
+        // Read as a row, a backquoted form would leave its commas outside any backquote.
+        list => match list.car_or_nil().as_symbol() {
+            Some(known::QUASIQUOTE | known::UNQUOTE | known::UNQUOTE_SPLICING) => None,
+            _ => list.list_to_vec(),
+        },
     }
 }
 

@@ -236,7 +236,7 @@ impl StructureDefinition {
 /// Reads a slot: `name` or `(name default :type type :read-only flag)`.
 fn read_slot(image: &Image, slot: &Value) -> Result<StructureSlot, Box<Raise>> {
     let parts = match slot {
-        Value::Symbol(_, ..) => vec![slot.clone()],
+        Value::Symbol(..) => vec![slot.clone()],
         other => other.list_to_vec().unwrap_or_default(),
     };
     let malformed = || {

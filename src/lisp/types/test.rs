@@ -66,7 +66,7 @@ fn quickly(image: &Image, value: &Value, name: Sym) -> Option<bool> {
         known::SINGLE_FLOAT => matches!(value, Value::Single(_)),
         known::DOUBLE_FLOAT => matches!(value, Value::Double(_)),
         known::STRING => matches!(value, Value::Str(_)),
-        known::SYMBOL => matches!(value, Value::Symbol(_, ..)),
+        known::SYMBOL => matches!(value, Value::Symbol(..)),
         known::LIST => value.is_list(),
         known::CONS => matches!(value, Value::Cons(_)),
         known::NULL => value.is_nil(),

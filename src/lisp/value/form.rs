@@ -81,7 +81,7 @@ pub(crate) fn doc_form(doc: Option<&Rc<str>>) -> Value {
 pub(crate) fn constant_value(form: &Value) -> Option<Value> {
     match form {
         Value::Symbol(known::NIL | known::T, ..) => Some(form.clone()),
-        Value::Symbol(_, ..) => None,
+        Value::Symbol(..) => None,
         Value::Cons(cons) => match (cons.car().as_symbol(), cons.cdr()) {
             (Some(known::QUOTE), rest) => Some(rest.car_or_nil()),
             _ => None,

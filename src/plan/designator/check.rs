@@ -23,7 +23,7 @@ const MOST_NESTED: usize = 16;
 /// `target` takes locations.
 fn is_of_kind(image: &Image, value: &Value, kind: &Kind, name: &str) -> bool {
     let is_class = |class| value::as_class(value, class).is_some();
-    let is_symbol = matches!(value, Value::Symbol(_, ..));
+    let is_symbol = matches!(value, Value::Symbol(..));
     match kind {
         Kind::Location => is_class(Class::Location),
         Kind::Place => {

@@ -185,7 +185,7 @@ fn place(simulation: &Simulation, image: &Image, value: &Value) -> Result<Point3
     let point = match value {
         Value::Str(frame) => origin(&simulation.frame_in_map(image, &frame.text())?),
         Value::Symbol(known::NIL, ..) => return Err(Raise::type_error(value, names::VECTOR_3D)),
-        Value::Symbol(_, ..) => {
+        Value::Symbol(..) => {
             let name = simulation.object_named(image, value)?;
             let pose = simulation.world.object_pose(&name);
             origin(&pose.map_err(|error| Raise::simple(format!("{error}.")))?)

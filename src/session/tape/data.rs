@@ -82,7 +82,7 @@ impl Data {
     fn held(image: &Image, value: &Value, given: &[Value], count: usize) -> Option<Data> {
         let is_heap = !matches!(
             value,
-            Value::Symbol(_, ..)
+            Value::Symbol(..)
                 | Value::Int(_)
                 | Value::Single(_)
                 | Value::Double(_)
