@@ -1,5 +1,6 @@
 //! The search for base poses from which a target is within reach or in sight.
 
+use std::collections::VecDeque;
 use std::f64::consts::TAU;
 
 use super::base_query::BaseQuery;
@@ -10,7 +11,7 @@ use super::reach::{Goal, NoReach, Reach, imagined};
 use super::sight::hidden;
 use super::stream::Scene;
 use super::tally::Tally;
-use crate::motion::{BaseChecker, interruption};
+use crate::motion::{BaseChecker, Effort, interruption};
 use crate::spatial::{Pose, pose, trig};
 use crate::world::{World, WorldError};
 
@@ -26,6 +27,9 @@ const NEAR: f64 = 0.8;
 const HEADINGS: u32 = 24;
 /// A search ends when so many base poses in a row, free and near enough, have been checked in vain.
 const MOST_CHECKS: u32 = 1000;
+/// How many base poses at which something is in the way of a few postures are examined again, with
+/// more postures, when all others have been tried.
+const MOST_AGAIN: usize = 100;
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
 
@@ -44,6 +48,23 @@ pub(super) struct BaseSearch {
     next: usize,
     /// Which heading is tried: 0 for the one to the target, then others, the nearest first.
     turn: u32,
+    /// Base poses that are to be examined again, and whether that is what is done now.
+    again: VecDeque<Pose>,
+    is_patient: bool,
+}
+
+/// Why a base pose is no solution.
+struct Rejection {
+    cause: String,
+    /// Whether other postures might do.
+    may_pass: bool,
+}
+
+impl Rejection {
+    fn of(cause: String) -> Self {
+        let may_pass = false;
+        Self { cause, may_pass }
+    }
 }
 
 impl BaseSearch {
@@ -78,6 +99,8 @@ impl BaseSearch {
             order: Vec::new(),
             next: 0,
             turn: 0,
+            again: VecDeque::new(),
+            is_patient: false,
         };
         search.begin_turn(0, draw);
         Ok(Ok(search))
@@ -112,13 +135,26 @@ impl BaseSearch {
             next,
             turn,
             checks,
+            again,
+            is_patient,
         } = self;
         let mut test = Test::new(query, scene, goal, imagined, looking)?;
         loop {
             interruption::look();
+            if *is_patient {
+                let Some(base) = again.pop_front() else {
+                    return Ok(None);
+                };
+                let is_new = !offered.has(&base);
+                if is_new && test.run(&base, Effort::PATIENT, checks)?.is_ok() {
+                    return Ok(Some(base));
+                }
+                continue;
+            }
             let Some(cell) = order.get(*next) else {
                 if *turn == HEADINGS {
-                    return Ok(None);
+                    *is_patient = true;
+                    continue;
                 }
                 *turn += 1;
                 *order = draw.order(map.cells.iter().map(|(_, value)| *value));
@@ -132,16 +168,20 @@ impl BaseSearch {
             if offered.has(&base) {
                 continue;
             }
-            match test.run(&base, checks)? {
+            match test.run(&base, Effort::QUICK, checks)? {
                 Ok(()) => {
                     *checks = 0;
                     return Ok(Some(base));
                 }
-                Err(cause) => tally.add(cause),
+                Err(rejection) => {
+                    if rejection.may_pass && again.len() < MOST_AGAIN {
+                        again.push_back(base);
+                    }
+                    tally.add(rejection.cause);
+                }
             }
             if *checks >= MOST_CHECKS {
-                // Whatever is asked next, the search is at its end.
-                (*turn, *next) = (HEADINGS, order.len());
+                *is_patient = true;
                 tally.give_up();
             }
         }
@@ -165,7 +205,12 @@ impl BaseSearch {
         }
         let on_floor = pose::from_xy_yaw(t.x, t.y, pose::yaw(base));
         let (imagined, looking) = (&self.imagined, &mut self.looking);
-        Test::new(query, scene, &self.goal, imagined, looking)?.run(&on_floor, &mut 0)
+        let mut test = Test::new(query, scene, &self.goal, imagined, looking)?;
+        let mut found = test.run(&on_floor, Effort::QUICK, &mut 0)?;
+        if found.as_ref().is_err_and(|rejection| rejection.may_pass) {
+            found = test.run(&on_floor, Effort::PATIENT, &mut 0)?;
+        }
+        Ok(found.map_err(|rejection| rejection.cause))
     }
 }
 
@@ -194,25 +239,34 @@ impl<'a> Test<'a> {
     }
 
     /// Why the base pose is no solution, if it is none; counts the checks that take long.
-    fn run(&mut self, base: &Pose, checks: &mut u32) -> Result<Result<(), String>, WorldError> {
+    fn run(
+        &mut self,
+        base: &Pose,
+        effort: Effort,
+        checks: &mut u32,
+    ) -> Result<Result<(), Rejection>, WorldError> {
         if let Err(cause) = self.reach.is_near(base) {
-            return Ok(Err(self.cause(&cause)));
+            return Ok(Err(Rejection::of(self.cause(&cause))));
         }
         let t = base.translation;
         let place = [t.x, t.y, pose::yaw(base)];
         if let Some(hit) = self.checker.blocked(&place, 0.0) {
-            return Ok(Err(format!("in collision with {}", hit.other)));
+            let cause = format!("in collision with {}", hit.other);
+            return Ok(Err(Rejection::of(cause)));
         }
         *checks += 1;
-        if let Err(cause) = self.reach.test(base) {
-            return Ok(Err(self.cause(&cause)));
+        if let Err(cause) = self.reach.test(base, effort) {
+            return Ok(Err(Rejection {
+                cause: self.cause(&cause),
+                may_pass: cause == NoReach::InTheWay,
+            }));
         }
         if self.query.sees {
             let mut robot = self.looking.robot_configuration().clone();
             robot.base = *base;
             self.looking.teleport_robot(&robot);
             if let Some(cause) = hidden(self.looking, self.query)? {
-                return Ok(Err(cause));
+                return Ok(Err(Rejection::of(cause)));
             }
         }
         Ok(Ok(()))

@@ -144,20 +144,23 @@ impl<'a> Reach<'a> {
     }
 
     /// Whether the target can be reached with the base at a pose (map frame).
-    pub(super) fn test(&self, base: &Pose) -> Result<(), NoReach> {
+    pub(super) fn test(&self, base: &Pose, effort: Effort) -> Result<(), NoReach> {
         match self {
-            Self::Grasp(chooser, _) => chooser.with_base_at(base).map(|_| ()).map_err(|nothing| {
-                let mut obstacles = nothing.tried.iter().map(|tried| &tried.obstacle);
-                match obstacles.all(is_far) {
-                    true => NoReach::TooFar,
-                    false => NoReach::InTheWay,
-                }
-            }),
+            Self::Grasp(chooser, _) => {
+                let found = chooser.with_base_at(base, effort).map(|_| ());
+                found.map_err(|nothing| {
+                    let mut obstacles = nothing.tried.iter().map(|tried| &tried.obstacle);
+                    match obstacles.all(is_far) {
+                        true => NoReach::TooFar,
+                        false => NoReach::InTheWay,
+                    }
+                })
+            }
             Self::Put(put) => put
-                .with_base_at(base, Effort::QUICK)
+                .with_base_at(base, effort)
                 .map(|_| ())
                 .map_err(|obstacle| cause(&obstacle)),
-            Self::Point(reach, point, arms) => test_point(reach, base, point, arms),
+            Self::Point(reach, point, arms) => test_point(reach, base, effort, point, arms),
             Self::Nothing => Ok(()),
         }
     }
@@ -178,6 +181,7 @@ fn cause(obstacle: &GraspObstacle) -> NoReach {
 fn test_point(
     reach: &GraspReach<'_>,
     base: &Pose,
+    effort: Effort,
     point: &Pose,
     arms: &[Side],
 ) -> Result<(), NoReach> {
@@ -191,7 +195,7 @@ fn test_point(
         [0.0, 0.0, ahead + 0.7],
         [0.0, 0.0, ahead - 0.7],
     ];
-    let mut from = reach.with_base_at(base, Effort::QUICK);
+    let mut from = reach.with_base_at(base, effort);
     for side in arms {
         for rpy in tools {
             let station = Station {

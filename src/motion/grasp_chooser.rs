@@ -155,8 +155,12 @@ impl<'w> GraspChooser<'w> {
     /// The nearest grasp that works with the base at a pose in the map frame, or everything that
     /// was tried. Whether the robot can stand there, and whether a path leads to the grasp, is
     /// not checked.
-    pub(crate) fn with_base_at(&self, base: &Pose) -> Result<GraspChoice, Box<NoGrasp>> {
-        self.choose(base, Effort::QUICK, |_| Ok(()))
+    pub(crate) fn with_base_at(
+        &self,
+        base: &Pose,
+        effort: Effort,
+    ) -> Result<GraspChoice, Box<NoGrasp>> {
+        self.choose(base, effort, |_| Ok(()))
     }
 
     /// As [`Self::with_base_at`], for a grasp that passes another test, too.

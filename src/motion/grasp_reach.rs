@@ -37,6 +37,12 @@ impl Effort {
         heights: 2,
         checks: 120,
     };
+    /// For one of a few base poses where the first postures are in the way of something.
+    pub(crate) const PATIENT: Self = Self {
+        postures: 24,
+        heights: usize::MAX,
+        checks: 1000,
+    };
     /// For where the robot stands.
     pub(crate) const THOROUGH: Self = Self {
         postures: usize::MAX,

@@ -46,7 +46,7 @@ pub(super) fn end_of(event: &Event) -> Option<Halt> {
 
 /// The halt at a condition or an interrupt.
 pub(super) fn halt_of(kind: HaltKind, abort: &Abort) -> Halt {
-    let place = abort.user_place.as_ref().or(abort.place.as_ref());
+    let place = abort.main_place();
     Halt {
         class: abort.class.clone(),
         place: place.map_or_else(String::new, ToString::to_string),

@@ -129,7 +129,8 @@ impl Worlds {
             ));
             let t = cook.pose("THING").translation;
             let aside = (t.x - x).hypot(t.y - y);
-            if aside < 0.02 && t.z > on.height && cook.lean("THING") < 5.0 {
+            // The origin of flat things is at their bottom; the basin is deeper.
+            if aside < 0.02 && t.z > on.height - 0.02 && cook.lean("THING") < 5.0 {
                 return true;
             }
         }

@@ -137,7 +137,7 @@ impl Text {
         let Some(abort) = abort else {
             return format!("{}: {}\n", self.name, paint.bad("aborted"));
         };
-        let place = abort.place.as_ref();
+        let place = abort.main_place();
         let at = place.map_or_else(|| self.name.clone(), ToString::to_string);
         let mut text = format!("{at}: {}\n", paint.bad(abort.report.trim_end()));
         if let Some(place) = place {
@@ -187,6 +187,28 @@ mod tests {
             "a.plan:3:8: The variable B is unbound.\n\
              (print b)\n\
              \x20      ^\n\
+             ; Evaluation aborted on #<UNBOUND-VARIABLE B>.\n"
+        );
+    }
+
+    #[test]
+    fn the_users_own_place_comes_before_that_in_a_built_in_plan() {
+        let place = |name: &str| Location {
+            name: name.into(),
+            line: 3,
+            column: 8,
+            line_text: "(print b)".to_owned(),
+            width: 1,
+        };
+        let mut abort = abort(Some(place("plans/lib/going.plan")));
+        abort.user_place = Some(place("a.plan"));
+        let paint = Paint::new(ColorWhen::Never, &io::stderr());
+        assert_eq!(
+            Text::of_form(0, "").describe(Some(&abort), paint),
+            "a.plan:3:8: The variable B is unbound.\n\
+             (print b)\n\
+             \x20      ^\n\
+             signalled at plans/lib/going.plan:3:8\n\
              ; Evaluation aborted on #<UNBOUND-VARIABLE B>.\n"
         );
     }

@@ -66,16 +66,25 @@ pub struct ActionStep {
 }
 
 impl Abort {
-    /// Lines shown in addition to report and place: the place in the user's own text, and the
+    /// The place that concerns the user most: the one in the user's own text, if there is one.
+    pub fn main_place(&self) -> Option<&Location> {
+        self.user_place.as_ref().or(self.place.as_ref())
+    }
+
+    /// Lines shown in addition to report and main place: the place in a built-in plan, and the
     /// enclosing actions.
     pub fn context(&self) -> Vec<String> {
-        let user = self.user_place.iter();
-        let user = user.map(|place| format!("called at {place}:\n{}", place.underlined()));
+        let inner = self
+            .user_place
+            .as_ref()
+            .and(self.place.as_ref())
+            .into_iter();
+        let inner = inner.map(|place| format!("signalled at {place}"));
         let actions = self.actions.iter().map(|action| match &action.place {
             Some(place) => format!("in {} at {place}", action.call),
             None => format!("in {}", action.call),
         });
-        user.chain(actions).collect()
+        inner.chain(actions).collect()
     }
 }
 

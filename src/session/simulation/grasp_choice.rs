@@ -14,6 +14,10 @@ use crate::world::World;
 /// Maximum number of grasps for which a path is searched.
 const MOST_PATHS: usize = 6;
 
+/// How many base poses at which something is in the way of a few postures are examined again, with
+/// more postures, when no other will do.
+const MOST_AGAIN: usize = 20;
+
 /// Where an object is to be put down.
 #[derive(Clone, Debug)]
 pub(in crate::session) struct PlacingTarget {
@@ -137,14 +141,22 @@ impl TargetChecks {
             return Err(nowhere);
         };
         let mut obstacle = nowhere;
+        let mut again = Vec::new();
         for base in bases.iter().filter(|base| put.is_near(base)) {
             match put.with_base_at(base, Effort::QUICK) {
                 Ok(_) => return Ok(()),
                 Err(GraspObstacle::OutOfReach { .. }) => {}
-                Err(other) => obstacle = other,
+                Err(other) => {
+                    obstacle = other;
+                    again.push(base);
+                }
             }
         }
-        Err(obstacle)
+        let mut again = again.into_iter().take(MOST_AGAIN);
+        match again.any(|base| put.with_base_at(base, Effort::PATIENT).is_ok()) {
+            true => Ok(()),
+            false => Err(obstacle),
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
 use crate::motion::drive_plan::plan_drive;
 use crate::motion::interruption::interruptible;
-use crate::motion::{Candidates, CollisionMode, GraspChooser, GraspQuestion, can_reach};
+use crate::motion::{Candidates, CollisionMode, Effort, GraspChooser, GraspQuestion, can_reach};
 use crate::plan::pose::value::pose_stamped;
 use crate::robot::Side;
 use crate::session::simulation::Simulation;
@@ -217,7 +217,7 @@ impl Simulation {
             let candidates = Candidates::new(&self.models, &self.grasps, &question);
             let chooser = GraspChooser::new(&self.world, &self.grasps, &question, &candidates);
             for base in &places {
-                let Ok(choice) = chooser.with_base_at(base) else {
+                let Ok(choice) = chooser.with_base_at(base, Effort::QUICK) else {
                     continue;
                 };
                 let t = base.translation.vector;
