@@ -1,5 +1,6 @@
 //! The description of a place for the robot.
 
+use super::furniture::Container;
 use crate::motion::HeldGrip;
 use crate::robot::Side;
 use crate::spatial::Pose;
@@ -13,6 +14,13 @@ pub(crate) enum Item {
     Moved(String),
     /// Something of a type, imagined at the target's pose.
     Kind(String),
+    /// The handle of a drawer or door, which is to be opened or closed.
+    Handle {
+        /// What is to be opened or closed.
+        container: Container,
+        /// The wanted position (m or rad) of its joint.
+        position: f64,
+    },
     /// Only the place.
     Point,
 }

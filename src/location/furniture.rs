@@ -117,6 +117,29 @@ pub(crate) fn containers(models: &Models) -> Vec<Container> {
         .collect()
 }
 
+/// What can be opened that the link is part of, or that is part of the link: the nearest below it,
+/// in the order of the kitchen, or else the nearest above.
+pub(crate) fn container_of(models: &Models, link: LinkId) -> Option<Container> {
+    let kitchen = &models.kitchen;
+    let all = containers(models);
+    let depth = |container: &&Container| {
+        let parent = kitchen.joint(container.joint).parent;
+        kitchen
+            .ancestors(parent)
+            .take_while(|joint| kitchen.joint(*joint).child != link)
+            .count()
+    };
+    let below = all
+        .iter()
+        .filter(|c| kitchen.carries(link, kitchen.joint(c.joint).parent));
+    let below = below.min_by_key(depth);
+    let above = || {
+        let mut joints = kitchen.ancestors(link);
+        joints.find_map(|joint| all.iter().find(|c| c.joint == joint))
+    };
+    below.or_else(above).cloned()
+}
+
 /// The handle that is fixed to the link.
 fn handle_of(kitchen: &KinematicTree, link: LinkId) -> Option<LinkId> {
     let fixed = kitchen

@@ -25,7 +25,9 @@ mod tally;
 
 pub(crate) use base_query::{BaseQuery, Distances, Item, Target};
 pub(crate) use constraint::{Beside, Constraint, Direction, Relation};
-pub(crate) use furniture::{containers, link_named, surfaces};
+pub(crate) use furniture::{
+    Container, UnknownFurniture, container_of, containers, link_named, surfaces,
+};
 pub(crate) use orientation::Orientation;
 pub(crate) use place_query::{Level, PlaceQuery, Position, What};
 pub(crate) use stream::{Query, Scene, Stream};

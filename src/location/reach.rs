@@ -4,7 +4,7 @@ use super::base_query::{BaseQuery, Item};
 use super::stream::Scene;
 use crate::motion::{
     Candidates, Effort, GraspChooser, GraspObstacle, GraspPart, GraspQuestion, GraspReach,
-    HeldGrip, PutReach, Station,
+    HandleChooser, HandleObstacle, HandleQuestion, HeldGrip, PutReach, Station,
 };
 use crate::robot::Side;
 use crate::spatial::{Pose, pose, trig};
@@ -31,7 +31,7 @@ pub(super) fn imagined(query: &BaseQuery, scene: Scene<'_>) -> Result<World, Wor
     let mut world = scene.world.clone();
     let target = &query.target;
     match &target.item {
-        Item::Object(_) | Item::Point => {}
+        Item::Object(_) | Item::Point | Item::Handle { .. } => {}
         Item::Moved(name) => {
             world.detach(name)?;
             world.move_object(name, &target.pose)?;
@@ -55,7 +55,7 @@ pub(super) fn object_of(query: &BaseQuery) -> Option<&str> {
     match &query.target.item {
         Item::Object(name) | Item::Moved(name) => Some(name),
         Item::Kind(_) => Some(IMAGINED),
-        Item::Point => None,
+        Item::Point | Item::Handle { .. } => None,
     }
 }
 
@@ -65,6 +65,8 @@ pub(super) enum Goal {
     Grasp(Box<(GraspQuestion, Candidates)>),
     /// A held object is to be put down.
     Put(Box<HeldGrip>),
+    /// A drawer or door is to be opened or closed.
+    Open(Box<HandleQuestion>),
     /// A hand is to be over a bare place.
     Point(Pose, Vec<Side>),
     /// Nothing is to be reached.
@@ -79,6 +81,19 @@ impl Goal {
         };
         if let Some(held) = &query.held {
             return Self::Put(held.clone());
+        }
+        if let Item::Handle {
+            container,
+            position,
+        } = &query.target.item
+        {
+            return Self::Open(Box::new(HandleQuestion {
+                part: world.part(container.joint),
+                handle: container.handle,
+                position: *position,
+                arms,
+                grasps: query.grasps.clone().unwrap_or_default(),
+            }));
         }
         let (Some(name), Some(kind)) = (object_of(query), kind_of(query, world)) else {
             return Self::Point(query.target.pose, arms);
@@ -106,6 +121,7 @@ impl Goal {
 pub(super) enum Reach<'a> {
     Grasp(Box<GraspChooser<'a>>, &'a Candidates),
     Put(Box<PutReach<'a>>),
+    Open(Box<HandleChooser<'a>>),
     Point(Box<GraspReach<'a>>, Pose, &'a [Side]),
     Nothing,
 }
@@ -124,6 +140,11 @@ impl<'a> Reach<'a> {
                 Self::Grasp(Box::new(chooser), candidates)
             }
             Goal::Put(grip) => Self::Put(Box::new(PutReach::new(imagined, grip)?)),
+            Goal::Open(question) => Self::Open(Box::new(HandleChooser::new(
+                imagined,
+                question,
+                Effort::QUICK,
+            ))),
             Goal::Point(point, arms) => {
                 let reach = GraspReach::new(imagined, None, f64::INFINITY, true);
                 Self::Point(Box::new(reach), *point, arms)
@@ -138,6 +159,7 @@ impl<'a> Reach<'a> {
             Self::Grasp(_, candidates) if candidates.is_empty() => return Err(NoReach::NoGrasp),
             Self::Grasp(chooser, _) => chooser.is_near(base),
             Self::Put(put) => put.is_near(base),
+            Self::Open(chooser) => chooser.is_near(base),
             Self::Point(..) | Self::Nothing => true,
         };
         is_near.then_some(()).ok_or(NoReach::TooFar)
@@ -160,6 +182,15 @@ impl<'a> Reach<'a> {
                 .with_base_at(base, effort)
                 .map(|_| ())
                 .map_err(|obstacle| cause(&obstacle)),
+            Self::Open(chooser) => {
+                chooser
+                    .with_base_at(base)
+                    .map(|_| ())
+                    .map_err(|nothing| match nothing.main() {
+                        Some(HandleObstacle::OutOfReach) | None => NoReach::TooFar,
+                        Some(_) => NoReach::InTheWay,
+                    })
+            }
             Self::Point(reach, point, arms) => test_point(reach, base, effort, point, arms),
             Self::Nothing => Ok(()),
         }

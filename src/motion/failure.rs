@@ -11,12 +11,14 @@ use thiserror::Error;
 use super::base_path::BasePlace;
 use super::guard::StuckObject;
 use super::no_grasp::NoGrasp;
+use super::no_handle_grasp::NoHandleGrasp;
 use super::payload::Overload;
 use super::process_module::ProcessModule;
+use super::pull::{ShortArm, StoppedPart};
 use super::unreachable::{UnreachablePose, UnreachableReason};
 use crate::perception::Visibility;
 use crate::robot::{LimitViolation, Side};
-use crate::world::{BodyName, CollisionHit, MapArea, Slip, StandTrial};
+use crate::world::{BodyName, CollisionHit, HandleSlip, MapArea, Slip, StandTrial};
 
 /// Why a motion did not reach its goal.
 #[derive(Clone, Debug, Error, PartialEq, Serialize, Deserialize)]
@@ -309,6 +311,30 @@ pub(crate) enum MotionFailure {
         /// The hand.
         side: Side,
     },
+    /// The hand holds no handle.
+    #[error("the {side} hand holds no handle of a drawer or door: grip one first")]
+    HoldsNoHandle {
+        /// The hand.
+        side: Side,
+    },
+    /// A handle has slipped out of the hand.
+    #[error(
+        "Handle slipped\nthe {} hand has lost {}: {} is at {:.3}{}",
+        .0.side, .0.handle, .0.joint, .0.position, why_slipped(.0)
+    )]
+    HandleSlipped(Box<HandleSlip>),
+    /// A drawer or door was stopped, or would be.
+    #[error("{}", stopped(.0))]
+    PartStopped(Box<StoppedPart>),
+    /// The arm cannot move a drawer or door as far as wanted.
+    #[error(
+        "the {} arm is too short to bring {} from {:.3} to {:.3} from where the robot stands: it gets \
+         to {:.3}", .0.side, .0.joint, .0.position, .0.wanted, .0.reach
+    )]
+    ArmTooShort(Box<ShortArm>),
+    /// No hand can open or close a drawer or door.
+    #[error("{0}")]
+    NoHandleGrasp(Box<NoHandleGrasp>),
     /// A goal has a coordinate that is infinite or NaN.
     #[error("the goal for the {module} is not a finite number")]
     NotFinite {
@@ -350,6 +376,7 @@ impl MotionFailure {
             | Self::ArmStartInCollision { hit }
             | Self::ArmPathNotFound { hit, .. }
             | Self::ArmBlocked { hit } => Some(hit),
+            Self::PartStopped(stopped) => Some(&stopped.hit),
             _ => None,
         }
     }
@@ -370,13 +397,18 @@ impl MotionFailure {
             Self::NothingGripped { .. }
             | Self::WrongObject { .. }
             | Self::NotBetweenFingers { .. }
-            | Self::HeldObjectSlipped(_) => "GRIPPER-CLOSED-COMPLETELY",
+            | Self::HeldObjectSlipped(_)
+            | Self::HandleSlipped(_) => "GRIPPER-CLOSED-COMPLETELY",
+            Self::HoldsNoHandle { .. } | Self::PartStopped(_) | Self::ArmTooShort(_) => {
+                "ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED"
+            }
             Self::GripperLimit { .. } | Self::FingersBlocked { .. } | Self::GripEffort { .. } => {
                 "GRIPPER-GOAL-NOT-REACHED"
             }
-            Self::PoseUnreachable(_) | Self::NoGrasp(_) | Self::TorsoConflict { .. } => {
-                "MANIPULATION-POSE-UNREACHABLE"
-            }
+            Self::PoseUnreachable(_)
+            | Self::NoGrasp(_)
+            | Self::NoHandleGrasp(_)
+            | Self::TorsoConflict { .. } => "MANIPULATION-POSE-UNREACHABLE",
             Self::JointLimit { .. }
             | Self::JointCount { .. }
             | Self::ArmGoalInCollision { .. }
@@ -401,6 +433,31 @@ impl MotionFailure {
             },
             Self::UnknownName(_) => "LOW-LEVEL-FAILURE",
         }
+    }
+}
+
+/// Why a hand has lost a handle.
+fn why_slipped(slip: &HandleSlip) -> String {
+    match &slip.against {
+        Some(hit) => format!(", stopped by {}", hit.other),
+        None => format!(", and the hand went {:.1} mm from the bar", slip.gap * 1e3),
+    }
+}
+
+fn stopped(part: &StoppedPart) -> String {
+    let StoppedPart {
+        joint,
+        position,
+        ahead,
+        hit,
+    } = part;
+    let (moving, other) = (&hit.moving, &hit.other);
+    match ahead {
+        Some(ahead) => format!(
+            "{joint} is at {position:.3} and cannot be moved past {ahead:.3}: {moving} would run into \
+             {other}"
+        ),
+        None => format!("{joint} was stopped at {position:.3}: {moving} has run into {other}"),
     }
 }
 

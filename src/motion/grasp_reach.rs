@@ -49,6 +49,16 @@ impl Effort {
         heights: usize::MAX,
         checks: 20_000,
     };
+
+    /// Maximum number of postures of the arm for one pose of the hand.
+    pub(super) fn most_postures(self) -> usize {
+        self.postures
+    }
+
+    /// Maximum number of postures that are checked for collisions for one base pose.
+    pub(super) fn most_checks(self) -> usize {
+        self.checks
+    }
 }
 
 /// A pose of the hand on its way to an object and off again.

@@ -1,8 +1,8 @@
-//! Closing the fingers of a hand until both press on one object.
+//! Closing the fingers of a hand until both press on one object, or on the bar of a handle.
 
 use super::failure::MotionFailure;
 use super::guard;
-use super::hand::{gripper_of, hand_may_touch_objects, pressing};
+use super::hand::{bar_between, gripper_of, hand_may_touch_objects, hand_names, pressing, yields};
 use super::hold::{held_objects, press};
 use super::job::{MotionOutcome, MotionStatus};
 use super::joint_follower::with_joints;
@@ -58,6 +58,13 @@ impl Grip {
         if let Some(held) = held_objects(world, side).into_iter().next() {
             return Some(self.gripped(world, held, effort));
         }
+        let bar = bar_between(world, side).filter(|_| wanted.is_none());
+        if let Some(bar) = bar.filter(|bar| bar.is_pressed)
+            && world.hold_handle(side, bar.handle, effort)
+        {
+            let object = world.models().furniture_body(bar.handle).to_string();
+            return Some(MotionStatus::Done(MotionOutcome::Gripped { object }));
+        }
         let pressing = pressing(world, side);
         if let [Some(left), Some(right)] = &pressing {
             if left.body == right.body {
@@ -89,7 +96,11 @@ impl Grip {
             .min(stopping.max(SLOWEST));
         let closer = position - speed * STEP_SECONDS;
         let next = with_joints(now, &[gripper.joint], &[closer.max(gripper.limits.lower)]);
-        let allowed = hand_may_touch_objects(world, side);
+        let mut allowed = hand_may_touch_objects(world, side);
+        if let Some(bar) = bar.filter(yields) {
+            let handle = world.models().furniture_body(bar.handle);
+            allowed = allowed.and_all(hand_names(world, side), &handle);
+        }
         if let Some(hit) = guard::obstacle(world, &next, &allowed) {
             return Some(MotionStatus::failed(MotionFailure::FingersBlocked {
                 side,

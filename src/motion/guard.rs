@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::failure::MotionFailure;
 use super::payload::overload;
+use super::pull::StoppedPart;
 use crate::robot::{LinkId, Side};
 use crate::world::{AllowedPairs, CollisionHit, MovingParts, Pairs, RobotConfiguration, World};
 
@@ -68,11 +69,33 @@ pub(super) fn trouble_with_held(
     if let Some(slip) = world.slip_since(since, |side| is_hand(palm(side))) {
         return Some(MotionFailure::HeldObjectSlipped(Box::new(slip.clone())));
     }
+    if let Some(slip) = world.handle_slip_since(since, |side| is_hand(palm(side))) {
+        return Some(MotionFailure::HandleSlipped(Box::new(slip.clone())));
+    }
+    if let Some(stopped) = stopped_part(world, |side| is_hand(palm(side))) {
+        return Some(MotionFailure::PartStopped(Box::new(stopped)));
+    }
     if let Some(overload) = overload(world, &is_hand) {
         return Some(MotionFailure::TooHeavy(Box::new(overload)));
     }
     let stuck = stuck_object(world, is_hand)?;
     Some(MotionFailure::HeldObjectStuck(Box::new(stuck)))
+}
+
+/// The first drawer or door that something keeps from following one of the hands.
+fn stopped_part(world: &World, is_hand: impl Fn(Side) -> bool) -> Option<StoppedPart> {
+    let mut sides = Side::BOTH.into_iter().filter(|side| is_hand(*side));
+    sides.find_map(|side| {
+        let hold = world.handle_hold(side)?;
+        let hit = hold.against()?.clone();
+        let (joint, position) = world.joint_of_handle(hold).ok()?;
+        Some(StoppedPart {
+            joint,
+            position,
+            ahead: None,
+            hit,
+        })
+    })
 }
 
 /// A held object that does not follow the hand as it should.

@@ -16,9 +16,9 @@ pub(crate) enum MotionOutcome {
     Arrived,
     /// Objects that the camera sees.
     Detected(Vec<DetectedObject>),
-    /// Both fingers press on the object.
+    /// Both fingers press on the object, or on a handle.
     Gripped {
-        /// Name of the object.
+        /// Name of the object, or of the handle.
         object: String,
     },
     /// A held object was put down.

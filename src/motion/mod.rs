@@ -21,6 +21,8 @@ mod grip;
 pub(crate) mod gripper;
 pub(crate) mod guard;
 pub(crate) mod hand;
+pub(crate) mod handle_chooser;
+mod handle_way;
 pub(crate) mod hold;
 pub(crate) mod interruption;
 pub(crate) mod job;
@@ -34,10 +36,12 @@ pub(crate) mod move_joints;
 pub(crate) mod move_tcp;
 pub(crate) mod move_torso;
 pub(crate) mod no_grasp;
+pub(crate) mod no_handle_grasp;
 pub(crate) mod payload;
 mod planning_group;
 mod pose_goal;
 mod process_module;
+pub(crate) mod pull;
 pub(crate) mod put;
 mod put_plan;
 mod put_reach;
@@ -65,6 +69,7 @@ pub(crate) use grasp_chooser::{
 pub(crate) use grasp_path::plan_grasp;
 pub(crate) use grasp_reach::{Effort, GraspObstacle, GraspPart, GraspReach, Station};
 pub(crate) use gripper::{GripperCommand, MoveGripper};
+pub(crate) use handle_chooser::{HandleChooser, HandleQuestion};
 pub(crate) use hold::{LetGo, held_objects, take_hold};
 pub(crate) use job::{
     DetectedObject, Motion, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule,
@@ -74,6 +79,8 @@ pub(crate) use look::{Look, LookDirection, LookTarget, pan_and_tilt};
 pub(crate) use move_joints::MoveJoints;
 pub(crate) use move_tcp::{MoveTcp, PoseGoal, TcpPath};
 pub(crate) use move_torso::MoveTorso;
+pub(crate) use no_handle_grasp::HandleObstacle;
+pub(crate) use pull::{Pull, StoppedPart};
 pub(crate) use put::Put;
 pub(crate) use put_reach::{HeldGrip, PutReach};
 pub(crate) use reach::{can_reach, can_stand, touching_at};

@@ -99,7 +99,7 @@ impl World {
         }))
     }
 
-    fn forces_on(
+    pub(super) fn forces_on(
         &self,
         body: BodyHandle,
         counts: impl Fn(&RawContact) -> bool,

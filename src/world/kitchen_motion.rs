@@ -39,14 +39,23 @@ impl World {
         Ok(position)
     }
 
-    /// Puts a drawer or door at the position (rad or m) at once; what is in it stays behind.
-    /// The position is clamped to the joint's limits and returned.
+    /// Puts a drawer or door at the position (rad or m) at once, with what is in it. A hand that
+    /// holds its handle loses it. The position is clamped to the joint's limits and returned.
     pub(crate) fn teleport_kitchen_joint(
         &mut self,
         name: &str,
         position: f64,
     ) -> Result<f64, WorldError> {
+        let joint = self.moving_kitchen_joint(name)?;
+        let part = self.part(joint);
+        if position.is_finite() {
+            let limits = self.models.kitchen.joint(joint).limits;
+            let position = limits.map_or(position, |l| l.clamp(position));
+            let (_, poses) = self.kitchen_with(joint, position);
+            self.carry_riders(&part, &poses);
+        }
         let position = self.change_kitchen_joint(name, position)?;
+        self.release_handles(Some(joint));
         self.state.kitchen_moves = false;
         for (body, group) in self
             .kitchen_bodies
@@ -72,17 +81,17 @@ impl World {
         }
         let limits = self.models.kitchen.joint(joint).limits;
         let position = limits.map_or(position, |l| l.clamp(position));
-        self.state.kitchen.set(joint, position);
-        self.models.kitchen.forward_kinematics(
-            &Pose::identity(),
-            &self.state.kitchen,
-            &mut self.state.kitchen_poses,
-        );
-        self.state.furniture = Arc::new(Obstacles::new(
-            &self.models.kitchen_geometry,
-            &self.state.kitchen_poses,
-        ));
+        self.set_joint(joint, position);
         Ok(position)
+    }
+
+    /// Notes that the joint is at the position (rad or m), which is within its limits. The bodies
+    /// are still where they were.
+    pub(super) fn set_joint(&mut self, joint: JointId, position: f64) {
+        let (positions, poses) = self.kitchen_with(joint, position);
+        self.state.furniture = Arc::new(Obstacles::new(&self.models.kitchen_geometry, &poses));
+        self.state.kitchen = positions;
+        self.state.kitchen_poses = poses;
     }
 
     fn moving_kitchen_joint(&self, name: &str) -> Result<JointId, WorldError> {

@@ -7,8 +7,8 @@ use super::scene::World;
 
 impl World {
     /// The deepest overlap, deeper than `tolerance` (m), of the robot or of an object in its
-    /// hand with anything, at their current poses. Allowed pairs, and a hand with what it
-    /// holds, do not count.
+    /// hand with anything, at their current poses. Allowed pairs, and a hand with the object or the
+    /// handle that it holds, do not count.
     pub(crate) fn deepest_penetration(
         &self,
         allowed: &AllowedPairs,
@@ -37,7 +37,10 @@ impl World {
             objects,
             held,
         });
-        let hits = checker.all_hits(&self.state.robot, allowed, -tolerance);
+        let handles = self.hands_on_handles();
+        let handles = handles.iter().cloned();
+        let allowed = handles.fold(allowed.clone(), |all, (a, b)| all.and(a, b));
+        let hits = checker.all_hits(&self.state.robot, &allowed, -tolerance);
         hits.into_iter().next()
     }
 }

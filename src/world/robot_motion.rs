@@ -20,10 +20,11 @@ impl World {
         }
     }
 
-    /// Puts the robot into the configuration at once, with what it holds. An edit of the
-    /// world, not a motion.
+    /// Puts the robot into the configuration at once, with the objects that it holds; it loses the
+    /// handles. An edit of the world, not a motion.
     pub(crate) fn teleport_robot(&mut self, configuration: &RobotConfiguration) {
         self.place_robot_links(configuration);
+        self.release_handles(None);
         self.state.robot_moves = false;
         for (body, group) in self
             .robot_bodies

@@ -4,7 +4,8 @@
 //! - Time passes only in [`World::step`], by exactly one physics step.
 //! - The robot and the kitchen follow their joint vectors exactly. `set_…` makes them move
 //!   there during the next step, pushing what is in the way; `teleport_…` puts them there
-//!   at once, which is an edit of the world, not a motion.
+//!   at once, which is an edit of the world, not a motion. A joint of the kitchen whose handle a
+//!   hand holds follows the hand.
 //! - An object that is attached to a link is welded to it softly until it is detached; one that
 //!   fingers hold, until they open or it slips.
 //! - Objects are kept in the order in which they appeared.
@@ -16,6 +17,7 @@ use indexmap::IndexMap;
 use super::collision::CollisionChecker;
 use super::collision_search::{HeldObject, ObjectAt, Surroundings};
 use super::error::WorldError;
+use super::handle_hold::{HandleHold, HandleSlip};
 use super::hash::Hasher;
 use super::holding::Slip;
 use super::link_geometry::TreeGeometry;
@@ -58,6 +60,10 @@ pub(super) struct State {
     pub(super) steps: u64,
     /// The last object that has slipped out of each hand.
     pub(super) slips: Vec<Slip>,
+    /// How hands hold handles.
+    pub(super) handles: Vec<HandleHold>,
+    /// The last handle that has slipped out of each hand.
+    pub(super) handle_slips: Vec<HandleSlip>,
     /// Errors of sensors and motors, if there are any.
     pub(super) noise: Option<Noise>,
 }
@@ -123,6 +129,8 @@ impl World {
                 next_number: 0,
                 steps: 0,
                 slips: Vec::new(),
+                handles: Vec::new(),
+                handle_slips: Vec::new(),
                 noise: None,
             },
             robot_bodies,
@@ -140,6 +148,7 @@ impl World {
     pub(crate) fn step(&mut self) {
         if self.state.robot_moves {
             self.release_opened_hands();
+            self.follow_hands();
             for (body, group) in self
                 .robot_bodies
                 .iter()
@@ -327,6 +336,9 @@ impl World {
                     hold.hash_into(&mut hasher);
                 }
             }
+        }
+        for hold in &self.state.handles {
+            hold.hash_into(&mut hasher);
         }
         if let Some(noise) = &self.state.noise {
             noise.hash_into(&mut hasher);

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
+use super::handle_hold::{HandleHold, HandleSlip};
 use super::holding::Slip;
 use super::noise::Noise;
 use super::object::{Attachment, Object};
@@ -33,6 +34,8 @@ struct StoredState {
     next_number: u32,
     steps: u64,
     slips: Vec<Slip>,
+    handles: Vec<HandleHold>,
+    handle_slips: Vec<HandleSlip>,
     noise: Option<Noise>,
 }
 
@@ -97,6 +100,8 @@ impl Snapshot {
             next_number: state.next_number,
             steps: state.steps,
             slips: state.slips.clone(),
+            handles: state.handles.clone(),
+            handle_slips: state.handle_slips.clone(),
             noise: state.noise,
         };
         postcard::to_allocvec(&(&self.physics, &stored)).ok()
@@ -148,6 +153,8 @@ impl Snapshot {
                 next_number: stored.next_number,
                 steps: stored.steps,
                 slips: stored.slips,
+                handles: stored.handles,
+                handle_slips: stored.handle_slips,
                 noise: stored.noise,
             },
         })

@@ -4,6 +4,7 @@ mod arms;
 mod drive;
 pub(crate) mod fixture;
 mod gripper;
+mod handles;
 mod look;
 mod not_finite;
 mod pick_and_place;

@@ -1,6 +1,7 @@
 //! Plans: the plan language, designators, whole plans.
 
 mod clutter;
+mod containers;
 mod cook;
 mod deliveries;
 mod designators;

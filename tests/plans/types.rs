@@ -83,6 +83,7 @@ fn value(row: &TypeRow, key: &Key, written: &str) -> String {
         (Kind::Place, _) => return format!("(a location (pose {pose}))"),
         (Kind::Number, "JOINT-ANGLE" | "POSITION") if row.name == "MOVING-TORSO" => "0.2",
         (Kind::Number, "JOINT-ANGLE" | "POSITION") => "0.05",
+        (Kind::Number, "DISTANCE") => "0.2",
         (Kind::Number, "EFFORT") => "30",
         (Kind::Number, "RETRIES") => "1",
         (Kind::Number, "DURATION") => "0.5",
@@ -93,6 +94,9 @@ fn value(row: &TypeRow, key: &Key, written: &str) -> String {
         (Kind::Action, "PLACE-ACTION") => "(an action (type placing))",
         (Kind::Member(members), _) => return members[0].to_lowercase(),
         (Kind::Object | Kind::Objects, _) if row.name == "DETECTING" => "(an object (type bottle))",
+        (Kind::Object, _) if row.variant.as_deref() == Some("CONTAINER") => {
+            "(an object (urdf-name sink-area-left-upper-drawer-main))"
+        }
         (Kind::Object | Kind::DetectedObject, _) => "?object",
         (Kind::Text, "FRAME") => "\"l_gripper_tool_frame\"",
         (Kind::List, "LEFT-CONFIGURATION") => "?left-configuration",
@@ -281,7 +285,7 @@ fn waiting_takes_simulated_time_and_keeps_nobody_from_moving() {
 #[test]
 fn what_is_not_built_is_not_in_the_table() {
     let mut table = Table::new();
-    for name in ["accessing", "sealing"] {
+    for name in ["pouring", "slicing"] {
         let action = format!("(an action (type {name}) (object (an object (type bottle))))");
         let said = table.perform(&action);
         let wanted = format!("There is no action of type {}", name.to_uppercase());
@@ -290,7 +294,13 @@ fn what_is_not_built_is_not_in_the_table() {
     let drawer = "(an action (type opening) (arm left) (object (an object (type drawer))))";
     let said = table.perform(drawer);
     assert!(
-        said.contains("The action OPENING cannot act on an object: it was given #<A OBJECT"),
+        said.contains("cannot be opened or closed: it does not say which one it is"),
+        "{said}"
+    );
+    let hand = "(an action (type releasing) (arm left) (object (an object (type drawer))))";
+    let said = table.perform(hand);
+    assert!(
+        said.contains("The action RELEASING cannot act on an object: it was given #<A OBJECT"),
         "{said}"
     );
     let head = table.perform("(a motion (type moving-with-constraints) (constraints \"c\"))");

@@ -14,6 +14,7 @@ mod motion_type;
 mod moving_arm_joints;
 mod moving_tcp;
 mod moving_torso;
+mod pulling;
 mod putting;
 mod waiting;
 
@@ -79,6 +80,7 @@ commands! {
     MovingGripperJoint(hands),
     MovingTcp(moving_tcp),
     Putting(putting),
+    Pulling(pulling),
     MovingArmJoints(moving_arm_joints),
     Waiting(waiting),
 }

@@ -56,9 +56,11 @@ pub(crate) fn ground(image: &mut Image, designator: &Designator) -> Result<Groun
     let Some(first) = rows.first() else {
         return Err(Refusal::UnknownType(unknown_type(image, class, &type_name)));
     };
+    // Of several that fit, the one that knows more of the keys.
     let fitting = rows
         .iter()
-        .find(|row| missing(image, designator, row).is_none());
+        .filter(|row| missing(image, designator, row).is_none())
+        .min_by_key(|row| unknown_keys(image, designator, row));
     let row = fitting.unwrap_or(first).clone();
     check::check_row(image, designator, &row).map_err(Refusal::Error)?;
     if let Some(why) = missing(image, designator, &row) {
@@ -112,6 +114,17 @@ fn missing(image: &Image, designator: &Designator, row: &TypeRow) -> Option<Unre
         }),
         None => Some(Unresolved::new(format!("{reason}."))),
     }
+}
+
+/// The number of keys that are not in the row.
+fn unknown_keys(image: &Image, designator: &Designator, row: &TypeRow) -> usize {
+    let properties = designator.properties();
+    let names = properties
+        .iter()
+        .filter_map(|(key, _)| key.as_symbol().map(|sym| image.name(sym)));
+    names
+        .filter(|name| row.key(name).is_none() && !schema::COMMON_KEYS.contains(name))
+        .count()
 }
 
 /// A key that is not in the row but similar to one that is.

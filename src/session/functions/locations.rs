@@ -5,7 +5,7 @@ use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
-use crate::location::{containers, surfaces};
+use crate::location::surfaces;
 use crate::plan::Reply;
 use crate::plan::designator::value::{as_designator, first};
 use crate::plan::pose::value::{as_placement, pose_stamped};
@@ -79,22 +79,13 @@ pub(crate) static VISUALIZATION_TABLE: &[Builtin] = &[control(
 )];
 
 /// Builtins of package `PLANWRIGHT`.
-pub(crate) static FURNITURE_TABLE: &[Builtin] = &[
-    control(
-        "LIST-SURFACES",
-        "",
-        "The furniture on which things can be put: the names that (urdf-name …) takes.",
-        &["(and (member :table-area-main (list-surfaces)) t) => T"],
-        host!(list_surfaces),
-    ),
-    control(
-        "LIST-CONTAINERS",
-        "",
-        "What can be opened by a handle: lists of the name that (urdf-name …) takes, the joint, its position and its limits (m or rad).",
-        &["(first (assoc :iai-fridge-door (list-containers))) => :IAI-FRIDGE-DOOR"],
-        host!(list_containers),
-    ),
-];
+pub(crate) static FURNITURE_TABLE: &[Builtin] = &[control(
+    "LIST-SURFACES",
+    "",
+    "The furniture on which things can be put: the names that (urdf-name …) takes.",
+    &["(and (member :table-area-main (list-surfaces)) t) => T"],
+    host!(list_surfaces),
+)];
 
 fn next_sample(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let simulation = &mut host.simulation;
@@ -203,28 +194,6 @@ fn list_surfaces(simulation: &mut Simulation, image: &mut Image, _: &[Value]) ->
     let names = surfaces(&simulation.world).into_iter();
     let names = names.map(|(link, _)| furniture_keyword(image, &kitchen.link(link).name));
     done(Value::list(names.collect::<Vec<_>>()))
-}
-
-fn list_containers(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
-    let kitchen = &simulation.models.kitchen;
-    let positions = simulation.world.kitchen_positions();
-    let rows = containers(&simulation.models).into_iter().map(|container| {
-        let joint = kitchen.joint(container.joint);
-        let limits = joint.limits;
-        let limit = |pick: fn(&crate::robot::Limits) -> f64| {
-            limits
-                .as_ref()
-                .map_or(Value::NIL, |l| Value::Double(pick(l)))
-        };
-        Value::list([
-            furniture_keyword(image, &kitchen.link(container.link).name),
-            Value::from(joint.name.as_str()),
-            Value::Double(kitchen.position(positions, container.joint)),
-            limit(|l| l.lower),
-            limit(|l| l.upper),
-        ])
-    });
-    done(Value::list(rows.collect::<Vec<_>>()))
 }
 
 /// The keyword of a link of the kitchen.

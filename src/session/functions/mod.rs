@@ -1,6 +1,7 @@
 //! The builtins that act on the world, one table per topic.
 
 mod choosing;
+mod containers;
 mod explaining;
 mod grasps;
 mod leaving;

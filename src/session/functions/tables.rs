@@ -13,6 +13,10 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::plans::TABLE),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::choosing::TABLE),
     ("CRAM-MOBILE-PICK-PLACE-PLANS", functions::scene::TABLE),
+    (
+        "CRAM-MOBILE-PICK-PLACE-PLANS",
+        functions::containers::PLANS_TABLE,
+    ),
     ("CRAM-ROBOT-INTERFACES", functions::robot_state::TABLE),
     ("CRAM-BULLET-REASONING-UTILITIES", functions::objects::TABLE),
     ("CRAM-OBJECT-INTERFACES", functions::grasps::TABLE),
@@ -23,6 +27,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("QUICKLISP-CLIENT", functions::ros::QUICKLISP_TABLE),
     ("CRAM-LOCATION-COSTMAP", functions::locations::TABLE),
     ("PLANWRIGHT", functions::locations::FURNITURE_TABLE),
+    ("PLANWRIGHT", functions::containers::TABLE),
     (
         "CRAM-BULLET-REASONING",
         functions::locations::VISUALIZATION_TABLE,

@@ -1,6 +1,7 @@
 //! The simulated robot in its world, as plans use it: active motions, what the hands hold
 //! and how it was grasped, and the names by which users know the objects.
 
+pub(super) mod containers;
 mod explain;
 pub(super) mod frames;
 pub(super) mod grasp_choice;

@@ -90,6 +90,11 @@ pub(crate) static LOCATION_KEYS: &[Key] = &[
     optional("BEHIND", Kind::Anything, "what it is behind of"),
     optional("NEAR", Kind::Anything, "what it is near to"),
     optional("FAR-FROM", Kind::Anything, "what it is far from"),
+    optional(
+        "DISTANCE",
+        Kind::Number,
+        "how far open (m or rad) what is to be opened or closed from there is to be",
+    ),
     optional("FOR", Kind::Anything, "what it is for"),
     optional("CONTEXT", Kind::Anything, "what it is used for"),
     optional(

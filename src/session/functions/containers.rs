@@ -1,0 +1,255 @@
+//! Builtins for drawers and doors: what there is, how it is open, and how a hand can open it.
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtins::keywords;
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::location::{Container, containers};
+use crate::motion::interruption::interruptible;
+use crate::motion::{Effort, HandleChooser, HandleQuestion, MotionFailure, StoppedPart};
+use crate::plan::Reply;
+use crate::plan::pose::value::pose_stamped;
+use crate::robot::{JointKind, Side};
+use crate::session::host::call::{done, host};
+use crate::session::simulation::Simulation;
+use crate::session::simulation::motions::{side, side_keyword, sides};
+use crate::session::simulation::names::{type_keyword, type_text};
+use nalgebra::Translation3;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// A container whose joint is nearer than this (m or rad) to its lower limit is closed.
+const CLOSED: f64 = 0.1;
+
+/// Builtins of package `PLANWRIGHT`.
+pub(crate) static TABLE: &[Builtin] = &[
+    control(
+        "LIST-CONTAINERS",
+        "",
+        "What can be opened by a handle: lists of the name that (urdf-name …) takes, the joint, its position and its limits (m or rad), :PRISMATIC for a drawer or :REVOLUTE for a door, and the pose of the handle in the map.",
+        &["(first (assoc :iai-fridge-door (list-containers))) => :IAI-FRIDGE-DOOR"],
+        host!(list_containers),
+    ),
+    control(
+        "OPEN-P",
+        "container",
+        "Is a drawer or door open, by more than 0.1 m or rad? It is given by its name or by an object that describes it.",
+        &["(progn (pp-tut:init-projection) (open-p :iai-fridge-door)) => NIL"],
+        host!(open_p),
+    ),
+];
+
+/// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
+pub(crate) static PLANS_TABLE: &[Builtin] = &[
+    control(
+        "CONTAINER-STATE",
+        "container",
+        "Of a drawer or door, given by its name or described: its name, the name of its joint, the joint's position and limits (m or rad), and :PRISMATIC or :REVOLUTE.",
+        &[
+            "(second (multiple-value-list (pp-plans::container-state :iai-fridge-main))) => \"iai_fridge_door_joint\"",
+        ],
+        host!(container_state),
+    ),
+    control(
+        "CONTAINER-P",
+        "thing",
+        "Is furniture, given by its name or described, a drawer or door, or in one?",
+        &[
+            "(pp-plans::container-p :iai-fridge-main) => T",
+            "(pp-plans::container-p :kitchen-island-surface) => NIL",
+        ],
+        host!(container_p),
+    ),
+    control(
+        "ASSERT-WAY-IS-FREE",
+        "container distance",
+        "Fails with ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED if other things are in the way of a drawer or door, or of what is in it, to a position (m or rad).",
+        &[
+            "(progn (pp-tut:init-projection) (pp-plans::assert-way-is-free :iai-fridge-door 1.5)) => NIL",
+        ],
+        host!(assert_way_is_free),
+    ),
+    control(
+        "CHOOSE-HANDLE-GRASP",
+        "container distance &key arms grasps",
+        "The first arm and grasp by which a drawer or door can be brought to a position (m or rad) from where the robot stands: the arm, the grasp, the height (m) of the torso, the joint angles (rad) of the arm before the approach, and the poses of the hand there and at the handle. Fails with MANIPULATION-POSE-UNREACHABLE if there is none, and with ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED if something is in the way of the drawer or door itself.",
+        &[],
+        host!(choose_handle_grasp),
+    ),
+    control(
+        "HANDLE-IN-HAND",
+        "arm",
+        "The name of the joint that is moved by the handle that a hand holds, or NIL.",
+        &["(progn (pp-tut:init-projection) (pp-plans::handle-in-hand :left)) => NIL"],
+        host!(handle_in_hand),
+    ),
+    control(
+        "WITHDRAWN-POSE",
+        "arm distance",
+        "The pose of a hand that has withdrawn straight by a distance (m) from where it is.",
+        &[],
+        host!(withdrawn_pose),
+    ),
+];
+
+/// The keyword of a link of the kitchen.
+fn furniture_keyword(image: &mut Image, name: &str) -> Value {
+    type_keyword(image, &name.replace('_', "-"))
+}
+
+fn kind_keyword(image: &mut Image, kind: JointKind) -> Value {
+    let name = match kind {
+        JointKind::Prismatic => "PRISMATIC",
+        _ => "REVOLUTE",
+    };
+    image.keyword(name).into()
+}
+
+fn list_containers(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
+    let kitchen = &simulation.models.kitchen;
+    let rows = containers(&simulation.models).into_iter().map(|container| {
+        let joint = kitchen.joint(container.joint);
+        let limits = simulation.travel(&container);
+        Value::list([
+            furniture_keyword(image, &kitchen.link(container.link).name),
+            Value::from(joint.name.as_str()),
+            Value::Double(simulation.opening_of(&container)),
+            Value::Double(limits.lower),
+            Value::Double(limits.upper),
+            kind_keyword(image, joint.kind),
+            pose_stamped("map", &simulation.world.furniture_pose(container.handle)),
+        ])
+    });
+    done(Value::list(rows.collect::<Vec<_>>()))
+}
+
+fn open_p(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let container = simulation.container(image, &args[0])?;
+    let limits = simulation.travel(&container);
+    done(simulation.opening_of(&container) - limits.lower > CLOSED)
+}
+
+fn container_state(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let container = simulation.container(image, &args[0])?;
+    let limits = simulation.travel(&container);
+    let kitchen = &simulation.models.kitchen;
+    let joint = kitchen.joint(container.joint);
+    done(Value::values(vec![
+        furniture_keyword(image, &kitchen.link(container.link).name),
+        Value::from(joint.name.as_str()),
+        Value::Double(simulation.opening_of(&container)),
+        Value::Double(limits.lower),
+        Value::Double(limits.upper),
+        kind_keyword(image, joint.kind),
+    ]))
+}
+
+/// What is asked of a hand that is to bring a container to a position.
+fn question(
+    simulation: &Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<(Container, HandleQuestion)> {
+    let container = simulation.container(image, &args[0])?;
+    let keys = ["ARMS", "GRASPS"].map(|name| image.keyword(name));
+    let [arms, grasps] = keywords::parse(image, &args[2..], keys)?;
+    let arms = match arms.filter(Value::is_true) {
+        Some(arms) => sides(image, &arms)?,
+        None => vec![Side::Right, Side::Left],
+    };
+    let grasps = grasps.map_or_else(Vec::new, |grasps| grasps.iter_list().collect());
+    let position = simulation.wanted_opening(&container, Some(&args[1]))?;
+    let question = HandleQuestion {
+        part: simulation.world.part(container.joint),
+        handle: container.handle,
+        position,
+        arms,
+        grasps: grasps.iter().filter_map(|g| type_text(image, g)).collect(),
+    };
+    Ok((container, question))
+}
+
+/// The failure that something is in the way of a drawer or door, if there is something.
+fn way_blocked(
+    simulation: &Simulation,
+    container: &Container,
+    chooser: &HandleChooser<'_>,
+) -> std::result::Result<(), MotionFailure> {
+    let Some((ahead, hit)) = chooser.blocked() else {
+        return Ok(());
+    };
+    let joint = simulation.models.kitchen.joint(container.joint);
+    Err(MotionFailure::PartStopped(Box::new(StoppedPart {
+        joint: joint.name.clone(),
+        position: simulation.opening_of(container),
+        ahead: Some(*ahead),
+        hit: hit.clone(),
+    })))
+}
+
+fn assert_way_is_free(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let (container, question) = question(simulation, image, args)?;
+    let chooser = HandleChooser::new(&simulation.world, &question, Effort::QUICK);
+    let free = way_blocked(simulation, &container, &chooser);
+    free.map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
+    done(Value::NIL)
+}
+
+fn choose_handle_grasp(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let (container, question) = question(simulation, image, args)?;
+    let found = interruptible(image.interrupt(), || {
+        let chooser = HandleChooser::new(&simulation.world, &question, Effort::THOROUGH);
+        way_blocked(simulation, &container, &chooser)?;
+        let nothing = |nothing| MotionFailure::NoHandleGrasp(Box::new(nothing));
+        chooser.with_base_at(&simulation.base()).map_err(nothing)
+    });
+    let Some(found) = found else {
+        // Ctrl-C stops the plan at its next step.
+        return done(Value::values(Vec::new()));
+    };
+    let choice = found.map_err(|failure| simulation.failure(image, &failure, &args[0]))?;
+    let posture = choice.posture.map(Value::Double);
+    done(Value::values(vec![
+        side_keyword(image, choice.side),
+        type_keyword(image, choice.grasp),
+        Value::Double(choice.torso),
+        Value::list(posture),
+        pose_stamped("map", &choice.pregrasp),
+        pose_stamped("map", &choice.tool),
+    ]))
+}
+
+fn container_p(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    done(simulation.is_container(image, &args[0])?)
+}
+
+fn handle_in_hand(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let side = side(image, &args[0])?;
+    let Some(hold) = simulation.world.handle_hold(side) else {
+        return done(Value::NIL);
+    };
+    let name = &simulation.models.kitchen.joint(hold.joint).name;
+    done(Value::from(name.as_str()))
+}
+
+fn withdrawn_pose(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let arm = simulation.models.description.arm(side(image, &args[0])?);
+    let distance = number::to_f64(&args[1]).unwrap_or(0.0);
+    let tool = arm.tool_for_wrist(&simulation.world.link_pose(arm.wrist));
+    let back = tool * Translation3::new(-distance, 0.0, 0.0);
+    done(pose_stamped("map", &back))
+}

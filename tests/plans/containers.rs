@@ -1,0 +1,376 @@
+//! Opening and closing drawers and doors.
+
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+
+use super::cook::Cook;
+use crate::motion::can_stand;
+use crate::robot::JointKind;
+use crate::spatial::Pose;
+use crate::spatial::pose::{angle_between, distance_between};
+
+const FUNCTIONS: &str = "
+    (in-package :pp-tut)
+    (defun open-it (?name &optional ?distance)
+      (perform (an action (type accessing)
+                   (location (a location (in (an object (urdf-name ?name) (part-of kitchen)))))
+                   (desig:when ?distance (distance ?distance)))))
+    (defun go-open (name &optional distance)
+      (with-simulated-robot (open-it name distance)))
+    (defun go-close (?name)
+      (with-simulated-robot
+        (perform (an action (type sealing)
+                     (location (a location (in (an object (urdf-name ?name) (part-of kitchen)))))))))
+    (defun put-in (name ?type ?furniture)
+      (let* ((?for (an object (type ?type)))
+             (?in (an object (urdf-name ?furniture) (part-of kitchen)))
+             (pose (desig:reference (a location (in ?in) (for ?for)))))
+        (btr-utils:spawn-object name ?type :pose pose)))";
+
+fn cook() -> Cook {
+    let mut cook = Cook::new();
+    cook.done(FUNCTIONS);
+    cook
+}
+
+impl Cook {
+    fn joint(&self, name: &str) -> f64 {
+        self.session
+            .simulation()
+            .world()
+            .kitchen_joint(name)
+            .unwrap()
+    }
+
+    fn parked(&self) -> bool {
+        let world = self.session.simulation().world();
+        crate::robot::Side::BOTH
+            .into_iter()
+            .all(|side| world.handle_hold(side).is_none())
+    }
+}
+
+const MIDDLE: &str = "sink_area_left_middle_drawer_main_joint";
+
+#[test]
+fn a_drawer_is_opened_and_closed_with_what_is_in_it() {
+    let mut cook = cook();
+    cook.done(
+        "(put-in 'cup-1 :cup :sink-area-left-middle-drawer-main)
+         (put-in 'bowl-1 :bowl :sink-area-left-middle-drawer-main)",
+    );
+    let things = ["CUP-1", "BOWL-1"];
+    let before = things.map(|name| cook.pose(name));
+    let said = cook.done("(go-open :sink-area-left-middle-drawer-main)");
+    for line in [
+        "Opening gripper and reaching",
+        "Gripping",
+        "Manipulating",
+        "Retracting",
+    ] {
+        assert!(said.contains(line), "{said}");
+    }
+    assert!((cook.joint(MIDDLE) - 0.48).abs() < 0.01);
+    let moved = |cook: &Cook, by: f64| {
+        for (name, before) in things.iter().zip(&before) {
+            let expected = nalgebra::Translation3::new(-by, 0.0, 0.0) * before;
+            let now = cook.pose(name);
+            assert!(distance_between(&expected, &now) < 0.01, "{name}");
+            assert!(angle_between(&expected, &now) < 5f64.to_radians(), "{name}");
+        }
+    };
+    moved(&cook, 0.48);
+    assert_eq!(
+        cook.done("(open-p :sink-area-left-middle-drawer-main)"),
+        "T\n"
+    );
+    // Again, nothing happens.
+    let now = cook.session.simulation().now();
+    cook.done("(go-open :sink-area-left-middle-drawer-main)");
+    assert_eq!(cook.session.simulation().now(), now, "no motion");
+    cook.done("(go-close :sink-area-left-middle-drawer-main)");
+    assert!(cook.joint(MIDDLE).abs() < 0.01);
+    moved(&cook, 0.0);
+    assert!(cook.parked());
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn the_fridge_is_opened_wide_and_closed() {
+    let mut cook = cook();
+    cook.done("(go-open 'iai-fridge-main 1.3)");
+    assert!((cook.joint("iai_fridge_door_joint") - 1.3).abs() < 0.035);
+    assert_eq!(
+        cook.done("(cut:lazy-car (coe:holds '(cpoe:container-state :iai-fridge-door :open)))"),
+        "NIL\n"
+    );
+    cook.done("(go-close 'iai-fridge-door)");
+    assert!(cook.joint("iai_fridge_door_joint").abs() < 0.035);
+    assert_eq!(
+        cook.done("(coe:holds '(cpoe:container-state :iai-fridge-door :open))"),
+        "NIL\n"
+    );
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn a_goal_that_holds_makes_no_motion() {
+    let mut cook = cook();
+    let before = cook.session.simulation().now();
+    cook.done(
+        "(with-simulated-robot
+           (let ((?drawer (an object (type drawer) (urdf-name fridge-area-lower-drawer-main))))
+             (perform (an action (type sealing) (location (a location (in ?drawer)))
+                          (goal (cpoe:container-state ?drawer :closed))))))",
+    );
+    assert_eq!(cook.session.simulation().now(), before);
+}
+
+#[test]
+fn a_jammed_drawer_is_told_at_once_and_nothing_moves() {
+    let mut cook = cook();
+    cook.done(
+        "(btr-utils:spawn-object 'box-1 :breakfast-cereal :pose '((0.95 1.1 0.15) (0 0 0 1)))",
+    );
+    let before = cook.pose("BOX-1");
+    let now = cook.session.simulation().now();
+    let report = cook.fails(
+        "ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED",
+        "(open-it :sink-area-left-bottom-drawer-main)",
+    );
+    assert_eq!(
+        report,
+        "sink_area_left_bottom_drawer_main_joint is at 0.000 and cannot be moved past 0.240: \
+         sink_area_left_bottom_drawer_main would run into BOX-1"
+    );
+    assert_eq!(cook.session.simulation().now(), now);
+    assert!(cook.distance("BOX-1", &before) < 1e-3);
+    // As far as there is room, it opens.
+    cook.done("(go-open :sink-area-left-bottom-drawer-main 0.15)");
+    assert!((cook.joint("sink_area_left_bottom_drawer_main_joint") - 0.15).abs() < 0.01);
+    assert!(cook.distance("BOX-1", &before) < 0.01);
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn what_cannot_be_opened_is_told_in_one_error() {
+    let mut cook = cook();
+    for (object, wanted) in [
+        (
+            "(type drawer) (urdf-name sink-area-left-uper-drawer-main)",
+            "did you mean sink-area-left-upper-drawer-main?",
+        ),
+        (
+            "(type counter-top) (urdf-name kitchen-island-surface)",
+            "it is no drawer or door with a handle",
+        ),
+        ("(type drawer)", "it does not say which one it is"),
+        ("(type bottle) (name bottle-1)", "bottle-1 is an object"),
+    ] {
+        cook.done("(btr-utils:spawn-object 'bottle-1 :bottle :pose '((1.45 0.7 0.96) (0 0 0 1)))");
+        for kind in ["opening", "closing"] {
+            let action = format!(
+                "(perform (an action (type {kind}) (arm left) (object (an object {object}))))"
+            );
+            let report = cook.fails("SIMPLE-ERROR", &action);
+            assert!(report.contains(wanted), "{report}");
+        }
+    }
+    let report = cook.fails(
+        "DESIGNATOR-REFERENCE-FAILURE",
+        "(perform (a motion (type pulling) (arm left)))",
+    );
+    assert!(report.contains("distance"), "{report}");
+}
+
+#[test]
+fn full_hands_open_nothing() {
+    let mut cook = Cook::at_table_with_bottle();
+    cook.done(FUNCTIONS);
+    cook.take_bottle();
+    let before = cook.session.simulation().now();
+    let report = cook.fails(
+        "MANIPULATION-GOAL-NOT-REACHED",
+        "(let ((?drawer (an object (urdf-name fridge-area-lower-drawer-main))))
+           (perform (an action (type accessing) (arm right) (location (a location (in ?drawer))))))",
+    );
+    assert_eq!(report, "No hand is free: right holds bottle-1.");
+    assert_eq!(cook.session.simulation().now(), before);
+}
+
+#[test]
+fn moving_a_kitchen_joint_takes_along_what_is_in_it() {
+    let mut cook = cook();
+    cook.done("(put-in 'spoon-1 :spoon :sink-area-left-upper-drawer-main)");
+    let before = cook.pose("SPOON-1");
+    let set = |cook: &mut Cook, angle: f64| {
+        cook.done(&format!(
+            "(move-kitchen-joint :joint-name \"sink_area_left_upper_drawer_main_joint\"
+                                 :joint-angle {angle})"
+        ));
+    };
+    for angle in [0.4, 0.0, 0.48, 0.2] {
+        set(&mut cook, angle);
+        let expected = nalgebra::Translation3::new(-angle, 0.0, 0.0) * before;
+        assert!(cook.distance("SPOON-1", &expected) < 1e-3, "{angle}");
+    }
+}
+
+#[test]
+fn a_spoon_is_taken_out_of_a_closed_drawer_which_is_closed_again() {
+    let mut cook = cook();
+    cook.done("(put-in 'spoon-1 :spoon :sink-area-left-upper-drawer-main)");
+    let transport = |kind: &str| {
+        format!(
+            "(with-simulated-robot
+               (let ((?pose (make-pose \"map\" '((-0.78 1.5 0.87) (0 0 0 1))))
+                     (?drawer (an object (urdf-name sink-area-left-upper-drawer-main))))
+                 (perform (an action (type transporting) (object (an object (type {kind})))
+                              (location (a location (in ?drawer)))
+                              (target (a location (pose ?pose)))))))"
+        )
+    };
+    cook.done(&transport("spoon"));
+    let at = cook.pose("SPOON-1").translation;
+    assert!(
+        (at.x + 0.78).abs() < 0.05 && (at.y - 1.5).abs() < 0.05,
+        "{at}"
+    );
+    let upper = "sink_area_left_upper_drawer_main_joint";
+    assert!(cook.joint(upper).abs() < 0.01);
+    // Also if there is no such thing in it.
+    let (_, condition) = cook.say(&transport("fork")).unwrap_err();
+    assert!(condition.contains("SEARCHING-FAILED"), "{condition}");
+    assert!(cook.joint(upper).abs() < 0.01);
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn a_spoon_is_put_into_a_closed_drawer() {
+    let mut cook = cook();
+    cook.done("(btr-utils:spawn-object 'spoon-1 :spoon :pose '((-0.78 1.5 0.87) (0 0 0 1)))");
+    cook.done(
+        "(with-simulated-robot
+           (let ((?island (an object (urdf-name kitchen-island-surface)))
+                 (?drawer (an object (urdf-name sink-area-left-middle-drawer-main))))
+             (perform (an action (type transporting) (object (an object (type spoon)))
+                          (location (a location (on ?island)))
+                          (target (a location (in ?drawer)))))))",
+    );
+    let at = cook.pose("SPOON-1").translation;
+    assert!(at.x > 1.26 && (0.55..1.23).contains(&at.y), "{at}");
+    assert!((0.43..0.46).contains(&at.z), "{at}");
+    assert!(cook.joint(MIDDLE).abs() < 0.01);
+    cook.assert_no_overlap();
+}
+
+/// A free base pose somewhere in the room.
+fn somewhere(cook: &Cook, rng: &mut Pcg64) -> [f64; 3] {
+    let mut share = || f64::from(rng.next_u32()) / f64::from(u32::MAX);
+    let world = cook.session.simulation().world();
+    loop {
+        let place = [
+            -0.4 + 1.2 * share(),
+            -1.2 + 3.6 * share(),
+            std::f64::consts::PI * (2.0 * share() - 1.0),
+        ];
+        if can_stand(world, &place) {
+            return place;
+        }
+    }
+}
+
+/// A run of opening and closing.
+struct Run {
+    opened: f64,
+    closed: f64,
+    /// How far (m, rad) what was in it is from where it was.
+    shift: Option<[f64; 2]>,
+    report: Option<String>,
+}
+
+/// Opens and closes a container from a random place, with a thing in it if one fits.
+fn run(name: &str, joint: &str, wanted: f64, seed: u64) -> Run {
+    let mut cook = Cook::unwatched();
+    cook.done(FUNCTIONS);
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let [x, y, yaw] = somewhere(&cook, &mut rng);
+    let (s, c) = crate::spatial::trig::sin_cos(yaw / 2.0);
+    cook.done(&format!(
+        "(btr-utils:move-robot '(({x} {y} 0) (0 0 {s} {c})))"
+    ));
+    // Another place for every seed.
+    let skipped = seed % 7;
+    let thing = ["CUP", "SPOON"].into_iter().find(|kind| {
+        let put = format!(
+            "(dotimes (i {skipped} (put-in 'thing :{kind} :{name}))
+               (let* ((?for (an object (type {kind})))
+                      (?in (an object (urdf-name {name}) (part-of kitchen))))
+                 (desig:reference (a location (in ?in) (for ?for)))))"
+        );
+        cook.say(&put).is_ok()
+    });
+    let before: Option<Pose> = thing.map(|_| cook.pose("THING"));
+    let opened = cook.say(&format!("(go-open :{name} {wanted})"));
+    let reached = cook.joint(joint);
+    let closed = opened.and_then(|_| cook.say(&format!("(go-close :{name})")));
+    Run {
+        opened: reached,
+        closed: cook.joint(joint),
+        shift: before.map(|before| {
+            let now = cook.pose("THING");
+            [
+                distance_between(&before, &now),
+                angle_between(&before, &now),
+            ]
+        }),
+        report: closed.err().map(|(report, _)| report),
+    }
+}
+
+/// Prints how often each drawer and the fridge are opened and closed; `STARTS` in the environment
+/// is the number of random places from where the robot sets out, `NAMES` limits the containers.
+#[test]
+#[ignore = "a measurement that takes minutes"]
+fn how_often_containers_are_opened_and_closed() {
+    let starts: u64 = std::env::var("STARTS").map_or(20, |s| s.parse().unwrap());
+    let wanted_names = std::env::var("NAMES").unwrap_or_default();
+    let models = crate::tests::world::fixture::models();
+    let (mut all, mut good) = (0, 0);
+    println!("| container | opened | closed | contents kept | failures |\n|---|---|---|---|---|");
+    for container in crate::location::containers(&models) {
+        let joint = models.kitchen.joint(container.joint);
+        let name = models.kitchen.link(container.link).name.replace('_', "-");
+        let is_drawer = joint.kind == JointKind::Prismatic;
+        if !is_drawer && !name.contains("fridge") || !name.contains(&wanted_names) {
+            continue;
+        }
+        let (wanted, tolerance) = match is_drawer {
+            true => (joint.limits.unwrap().upper, 0.01),
+            false => (1.3, 2f64.to_radians()),
+        };
+        let runs: Vec<Run> = (0..starts)
+            .map(|seed| run(&name, &joint.name, wanted, seed))
+            .collect();
+        let opened = |run: &&Run| (run.opened - wanted).abs() <= tolerance;
+        let closed = |run: &&Run| opened(run) && run.closed.abs() <= tolerance;
+        let kept = |run: &&Run| {
+            run.shift
+                .is_none_or(|[d, a]| d <= 0.01 && a <= 5f64.to_radians())
+        };
+        let count = |test: &dyn Fn(&&Run) -> bool| runs.iter().filter(|run| test(run)).count();
+        let mut reports: Vec<String> = runs.iter().filter_map(|run| run.report.clone()).collect();
+        reports.dedup();
+        println!(
+            "| {name} | {}/{starts} | {}/{starts} | {}/{starts} | {} |",
+            count(&opened),
+            count(&closed),
+            count(&kept),
+            reports.join("; ").replace('\n', " ")
+        );
+        all += runs.len();
+        good += count(&|run| closed(run) && kept(run));
+    }
+    println!("{good} of {all}");
+    assert!(good * 100 >= all * 98, "{good} of {all}");
+}
