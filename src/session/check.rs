@@ -7,12 +7,14 @@
 
 mod judge;
 mod known;
+mod meant;
 mod tokens;
 
 #[cfg(test)]
 mod tests;
 
 pub(super) use known::KnownNames;
+pub(super) use meant::hint;
 
 use super::Session;
 use super::dialogue::{Finding, Severity};

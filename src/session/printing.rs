@@ -1,6 +1,7 @@
 //! Values and conditions as text.
 
 use super::Session;
+use super::check;
 use super::dialogue::screen::INTERRUPT;
 use super::dialogue::{Abort, ActionStep};
 use crate::lisp::condition;
@@ -67,6 +68,7 @@ impl Session {
             } else {
                 self.printed(condition)
             },
+            hint: check::hint(&self.image, condition),
             place,
             user_place,
             actions: self.actions(&calls),

@@ -2,14 +2,12 @@
 //! that the order of definitions does not matter.
 
 use super::known::KnownNames;
-use crate::closest_name::closest_name;
+use super::meant::{self, Meant};
 use crate::lisp::image::Image;
 use crate::lisp::image::notes::NoteKind;
 use crate::lisp::library::definition_of;
 use crate::lisp::print;
 use crate::lisp::value::function::{Body, Function};
-use crate::lisp::value::known;
-use crate::lisp::value::package::{Access, PackageTable};
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 
 /// A mistake: what is wrong, and the name concerned in upper case, unless the whole form is
@@ -50,15 +48,10 @@ fn function(image: &Image, names: &KnownNames, name: Sym, count: Option<usize>) 
             })
         }
         FunctionCell::Unbound if !names.is_open && !names.defined.contains(&name) => {
-            let is_function = |sym: Sym| {
-                matches!(
-                    image.symbol(sym).function,
-                    FunctionCell::Function(_) | FunctionCell::Macro(_) | FunctionCell::Builtin
-                ) || names.defined.contains(&sym)
-            };
+            let is_function = |sym| meant::has_function(image, sym) || names.defined.contains(&sym);
             let text = format!("The function {} is not defined", shown(image, name));
             Some(Mistake {
-                text: asking(text, image, name, is_function),
+                text: asking(&text, image, name, is_function),
                 name: Some(image.name(name).to_uppercase()),
             })
         }
@@ -81,7 +74,7 @@ fn variable(image: &Image, names: &KnownNames, name: Sym, near: Option<Sym>) -> 
     let text = format!("The variable {} is unbound", shown(image, name));
     let text = match near {
         Some(near) => format!("{text}; did you mean {}?", shown(image, near)),
-        None => asking(text, image, name, |sym| {
+        None => asking(&text, image, name, |sym| {
             let other = image.symbol(sym);
             names.defined.contains(&sym) && matches!(other.function, FunctionCell::Unbound)
                 || other.kind == VariableKind::Special
@@ -131,40 +124,14 @@ fn shown(image: &Image, sym: Sym) -> String {
     print::to_string(image, &sym.into(), true)
 }
 
-/// The finding with a suggestion: the same name in another package, or else a similar name
-/// that is accessible in the current package.
-fn asking(text: String, image: &Image, name: Sym, is_kind: impl Fn(Sym) -> bool) -> String {
-    let wanted = image.name(name);
-    let namesake = image.symbols.iter().find_map(|(sym, data)| {
-        let fits = sym != name
-            && *data.name == *wanted
-            && image.home_access(sym) == Some(Access::External)
-            && is_kind(sym);
-        let package = data.package.filter(|_| fits)?;
-        Some(format!("{}:{wanted}", short_name(image, package)))
-    });
-    if let Some(namesake) = namesake {
-        return format!("{text}; did you mean {namesake}?");
-    }
-    let package = image.symbol(name).package.unwrap_or(PackageTable::USER);
-    let visible = image.symbols.iter().filter_map(|(sym, data)| {
-        let found = image.packages.find_symbol(package, &data.name);
-        let is_visible = sym != name && found.is_some_and(|(found, _)| found == sym);
-        (is_visible && sym != known::NIL && is_kind(sym)).then_some(&*data.name)
-    });
-    // Names of one or two letters are all similar.
-    let is_long = wanted.chars().count() > 2;
-    match closest_name(wanted, visible).filter(|_| is_long) {
-        Some(near) => format!("{text}; did you mean {near}?"),
+/// The finding with a suggestion, if there is one.
+fn asking(text: &str, image: &Image, name: Sym, is_kind: impl Fn(Sym) -> bool) -> String {
+    match Meant::by(image, name, is_kind) {
+        Some(Meant::InPackage(package)) => {
+            let package = meant::short_name(image, package);
+            format!("{text}; did you mean {package}:{}?", image.name(name))
+        }
+        Some(Meant::Similar(near)) => format!("{text}; did you mean {near}?"),
         None => format!("{text}."),
     }
-}
-
-/// The shortest name of a package.
-fn short_name(image: &Image, package: crate::lisp::value::package::PackageId) -> String {
-    let package = image.packages.get(package);
-    std::iter::once(&package.name)
-        .chain(&package.nicknames)
-        .min_by_key(|name| name.chars().count())
-        .map_or_else(String::new, |name| name.to_string())
 }

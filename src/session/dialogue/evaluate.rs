@@ -48,6 +48,8 @@ pub struct Abort {
     pub class: String,
     /// The condition as printed, `#<TYPE-ERROR …>`.
     pub condition: String,
+    /// What may have been meant by a name that means nothing.
+    pub hint: Option<String>,
     /// The innermost form with a known place.
     pub place: Option<Location>,
     /// If that is in a built-in plan: the innermost form outside built-in plans.

@@ -196,6 +196,9 @@ impl<W: Write> Screen<W> {
         if !report.is_empty() {
             self.line(report)?;
         }
+        if let Some(hint) = &abort.hint {
+            self.line(&format!("; {hint}"))?;
+        }
         if let Some(place) = self.place(abort) {
             self.line(&place)?;
         }

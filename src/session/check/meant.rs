@@ -1,0 +1,89 @@
+//! What somebody may have meant by a name that means nothing.
+
+use crate::closest_name::closest_name;
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::package::{Access, PackageId, PackageTable};
+use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+
+/// What may be meant by a name.
+pub(super) enum Meant {
+    /// The same name, exported by another package.
+    InPackage(PackageId),
+    /// A similar name that is accessible in the current package.
+    Similar(String),
+}
+
+impl Meant {
+    /// What may be meant by the name of something of a kind.
+    pub(super) fn by(image: &Image, name: Sym, is_kind: impl Fn(Sym) -> bool) -> Option<Meant> {
+        let wanted = image.name(name);
+        let namesake = image.symbols.iter().find_map(|(sym, data)| {
+            let fits = sym != name
+                && *data.name == *wanted
+                && image.home_access(sym) == Some(Access::External)
+                && is_kind(sym);
+            data.package.filter(|_| fits)
+        });
+        if let Some(package) = namesake {
+            return Some(Meant::InPackage(package));
+        }
+        let package = image.symbol(name).package.unwrap_or(PackageTable::USER);
+        let visible = image.symbols.iter().filter_map(|(sym, data)| {
+            let found = image.packages.find_symbol(package, &data.name);
+            let is_visible = sym != name && found.is_some_and(|(found, _)| found == sym);
+            (is_visible && sym != known::NIL && is_kind(sym)).then_some(&*data.name)
+        });
+        // Names of one or two letters are all similar.
+        let is_long = wanted.chars().count() > 2;
+        let near = closest_name(wanted, visible).filter(|_| is_long)?;
+        Some(Meant::Similar(near.to_owned()))
+    }
+}
+
+/// What to say to somebody whose program has met a name without a function or a value; `condition`
+/// tells of that.
+pub(in crate::session) fn hint(image: &Image, condition: &Value) -> Option<String> {
+    let Value::Instance(instance) = condition else {
+        return None;
+    };
+    let name = instance.slot(known::NAME)?.as_symbol()?;
+    let is_variable = |sym| image.symbol(sym).kind == VariableKind::Special;
+    let meant = match instance.class().name {
+        known::UNDEFINED_FUNCTION => Meant::by(image, name, |sym| has_function(image, sym)),
+        known::UNBOUND_VARIABLE => Meant::by(image, name, is_variable),
+        _ => None,
+    };
+    Some(match meant? {
+        Meant::Similar(near) => format!("Did you mean {near}?"),
+        Meant::InPackage(package) => {
+            let (name, package) = (image.name(name), short_name(image, package));
+            // The package in which most of the robot's functions are at hand.
+            let tutorial = image.packages.find("PP-TUT");
+            let there = tutorial.and_then(|tutorial| image.packages.find_symbol(tutorial, name));
+            match there {
+                Some((sym, _)) if has_function(image, sym) || is_variable(sym) => {
+                    format!(
+                        "Did you mean {package}:{name}? After (in-package :pp-tut), {name} is that."
+                    )
+                }
+                _ => format!("Did you mean {package}:{name}?"),
+            }
+        }
+    })
+}
+
+/// Is there a function, macro or operator of that name?
+pub(super) fn has_function(image: &Image, sym: Sym) -> bool {
+    !matches!(image.symbol(sym).function, FunctionCell::Unbound)
+}
+
+/// The shortest name of a package.
+pub(super) fn short_name(image: &Image, package: PackageId) -> String {
+    let package = image.packages.get(package);
+    std::iter::once(&package.name)
+        .chain(&package.nicknames)
+        .min_by_key(|name| name.chars().count())
+        .map_or_else(String::new, |name| name.to_string())
+}
