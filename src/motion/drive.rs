@@ -23,7 +23,7 @@ use super::trajectory_follower::TrajectoryFollower;
 use crate::robot::JointId;
 use crate::spatial::{Pose, pose};
 use crate::world::physics::STEP_SECONDS;
-use crate::world::{AllowedPairs, CollisionHit, MovingParts, Pairs, World};
+use crate::world::{AllowedPairs, CollisionHit, MovingParts, Pairs, RobotConfiguration, World};
 
 /// Times ahead (s) at which the path is checked: beyond the one that it takes to stop.
 const LOOK_AHEAD: [f64; 4] = [0.2, 0.4, 0.6, 0.8];
@@ -224,14 +224,7 @@ impl BaseMotion {
         {
             return self.give_up_trajectory(hit);
         }
-        let mut place = follower.next();
-        // A cubic, so that the drift changes the speed of the base nowhere at once.
-        let fraction = follower.fraction();
-        let share = fraction * fraction * (3.0 - 2.0 * fraction);
-        for (axis, drift) in place.iter_mut().zip(self.drift) {
-            *axis += drift * share;
-        }
-        let next = at_place(world.robot_configuration(), &place);
+        let next = next_place(follower, &self.drift, world);
         if let Some(hit) = guard::obstacle(world, &next, &AllowedPairs::none()) {
             return match self.trouble.take() {
                 Some(failure) => Some(MotionStatus::failed(failure)),
@@ -247,6 +240,20 @@ impl BaseMotion {
         None
     }
 
+    /// Sets the base for a step of braking; a step that would collide is not taken.
+    fn slow_down(&mut self, world: &mut World) {
+        let Some(follower) = &mut self.follower else {
+            return;
+        };
+        let next = next_place(follower, &self.drift, world);
+        if guard::obstacle(world, &next, &AllowedPairs::none()).is_some() {
+            follower.stop();
+            return;
+        }
+        follower.brake();
+        world.set_robot_configuration(&next);
+    }
+
     /// Stops; another path is searched for in the next ticks.
     fn give_up_trajectory(&mut self, hit: CollisionHit) -> Option<MotionStatus> {
         self.follower = None;
@@ -254,6 +261,23 @@ impl BaseMotion {
         (self.plans >= MOST_PLANS)
             .then(|| MotionStatus::failed(MotionFailure::DriveBlocked { goal, hit }))
     }
+}
+
+/// The robot after the next step along the path, beside which the base drifts by `drift` on the
+/// whole.
+fn next_place(
+    follower: &TrajectoryFollower,
+    drift: &BasePlace,
+    world: &World,
+) -> RobotConfiguration {
+    let mut place = follower.next();
+    // A cubic, so that the drift changes the speed of the base nowhere at once.
+    let fraction = follower.fraction();
+    let share = fraction * fraction * (3.0 - 2.0 * fraction);
+    for (axis, drift) in place.iter_mut().zip(drift) {
+        *axis += drift * share;
+    }
+    at_place(world.robot_configuration(), &place)
 }
 
 /// The torso's and the arms' joints.
@@ -278,6 +302,15 @@ impl Activity for BaseMotion {
             return Some(end);
         }
         self.follow(world)
+    }
+
+    fn is_moving(&self) -> bool {
+        let follower = self.follower.as_ref();
+        follower.is_some_and(TrajectoryFollower::is_moving)
+    }
+
+    fn brake(&mut self, world: &mut World) {
+        self.slow_down(world);
     }
 
     fn planned(&self) -> Option<PlannedTrajectory<'_>> {

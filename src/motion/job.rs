@@ -110,8 +110,16 @@ pub(crate) trait Motion {
     /// Sets the robot's joints for the next step, or reports the end.
     fn tick(&mut self, world: &mut World) -> MotionStatus;
 
-    /// Ends the job at once. The robot stays where it is, at rest; later ticks do nothing.
+    /// Ends the job: later ticks do nothing. What it has set in motion comes to a stop by
+    /// [`Self::brake`].
     fn cancel(&mut self);
+
+    /// Whether the robot is moving, so that it has to brake before the job may be left alone.
+    fn is_moving(&self) -> bool;
+
+    /// Instead of a tick: sets the robot's joints for a step of braking, within the limits of
+    /// acceleration. A job that has not been cancelled goes on with the next tick.
+    fn brake(&mut self, world: &mut World);
 
     /// What the job is doing.
     fn progress(&self) -> Progress;
@@ -134,6 +142,14 @@ pub(crate) trait Activity: Clone + 'static {
 
     /// What it is doing.
     fn progress(&self) -> Progress;
+
+    /// Whether the robot would not be at rest if there were no further step.
+    fn is_moving(&self) -> bool {
+        false
+    }
+
+    /// Sets the robot's joints for a step of braking.
+    fn brake(&mut self, _: &mut World) {}
 
     /// The trajectory that it follows, once it is planned.
     fn planned(&self) -> Option<PlannedTrajectory<'_>> {
@@ -183,6 +199,14 @@ impl<A: Activity> Motion for Job<A> {
 
     fn cancel(&mut self) {
         self.has_ended = true;
+    }
+
+    fn is_moving(&self) -> bool {
+        self.activity.is_moving()
+    }
+
+    fn brake(&mut self, world: &mut World) {
+        self.activity.brake(world);
     }
 
     fn progress(&self) -> Progress {

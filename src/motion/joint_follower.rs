@@ -102,6 +102,22 @@ impl JointFollower {
             }
         }
     }
+
+    pub(super) fn is_moving(&self) -> bool {
+        self.follower.is_moving()
+    }
+
+    /// Sets the joints for a step of braking; a step that would collide is not taken.
+    pub(super) fn brake(&mut self, world: &mut World) {
+        let robot = world.robot_configuration();
+        let next = with_joints(robot, &self.joints, &self.follower.next());
+        if guard::obstacle(world, &next, &self.allowed).is_some() {
+            self.follower.stop();
+            return;
+        }
+        self.follower.brake();
+        world.set_robot_configuration(&next);
+    }
 }
 
 /// The configuration with some joints at other positions.

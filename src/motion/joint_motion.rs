@@ -169,6 +169,16 @@ impl<G: JointGoal> Activity for JointMotion<G> {
         }
     }
 
+    fn is_moving(&self) -> bool {
+        self.follower.as_ref().is_some_and(JointFollower::is_moving)
+    }
+
+    fn brake(&mut self, world: &mut World) {
+        if let Some(follower) = &mut self.follower {
+            follower.brake(world);
+        }
+    }
+
     fn planned(&self) -> Option<PlannedTrajectory<'_>> {
         let shown = self.follower.as_ref().filter(|_| G::SEARCHES);
         shown.map(JointFollower::planned)

@@ -48,7 +48,16 @@ impl Motion for Together {
     }
 
     fn cancel(&mut self) {
-        self.running.clear();
+        self.running.iter_mut().for_each(|motion| motion.cancel());
+    }
+
+    fn is_moving(&self) -> bool {
+        self.running.iter().any(|motion| motion.is_moving())
+    }
+
+    fn brake(&mut self, world: &mut World) {
+        let moving = self.running.iter_mut().filter(|motion| motion.is_moving());
+        moving.for_each(|motion| motion.brake(world));
     }
 
     fn progress(&self) -> Progress {

@@ -106,6 +106,11 @@ impl TrajectoryFollower {
         self.rate <= 0.0
     }
 
+    /// Stays at the current point from now on, however fast the axes have moved.
+    pub(super) fn stop(&mut self) {
+        self.rate = 0.0;
+    }
+
     /// Holds the current point; the rate of time starts again from almost zero.
     pub(super) fn hold(&mut self) {
         self.rate = FIRST_RATE;

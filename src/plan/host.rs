@@ -53,6 +53,16 @@ pub(crate) trait Host {
     /// Cancels a request for which no task waits any more.
     fn cancel(&mut self, image: &mut Image, ticket: Ticket);
 
+    /// Lets simulated time pass from `now` until nothing moves any more of what was cancelled or
+    /// paused. What was neither goes on meanwhile, and may be completed.
+    fn stand_still(&mut self, image: &mut Image, now: f64) -> Advance {
+        let _ = image;
+        Advance {
+            now,
+            done: Vec::new(),
+        }
+    }
+
     /// Pauses a request because the task that made it is suspended.
     fn pause(&mut self, image: &mut Image, ticket: Ticket) {
         let _ = (image, ticket);

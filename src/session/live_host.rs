@@ -86,6 +86,11 @@ impl Host for LiveHost<'_> {
         self.host.cancel(image, ticket);
     }
 
+    fn stand_still(&mut self, image: &mut Image, now: f64) -> Advance {
+        flush(image, self.host, self.sink);
+        self.host.stand_still(image, now)
+    }
+
     fn pause(&mut self, image: &mut Image, ticket: Ticket) {
         self.host.pause(image, ticket);
     }

@@ -269,6 +269,12 @@ impl World {
         }
     }
 
+    /// Number of bodies that each step costs time for.
+    #[cfg(test)]
+    pub(crate) fn awake(&self) -> usize {
+        self.physics.awake()
+    }
+
     /// The body of the engine that the link is part of, and the link whose frame it has.
     pub(super) fn body_of_link(&self, link: LinkId) -> Option<(BodyHandle, LinkId)> {
         let geometry = &self.models.robot_geometry;

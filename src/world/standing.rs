@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::body_name::BodyName;
 use super::error::WorldError;
 use super::object::Object;
+use super::part_key::PartKey;
 use super::physics::{Robot, STEP_SECONDS};
 use super::scene::World;
 use crate::spatial::pose::{angle_between, distance_between};
@@ -38,7 +39,8 @@ impl World {
     ///
     /// An object that balances on an edge moves too slowly at first to count as moving, and the
     /// engine puts it to sleep; it would fall over when the robot comes near. So it is watched in a
-    /// copy of the world, in which it may not sleep.
+    /// copy of the world, in which it may not sleep; if it does not stay there, the world becomes that
+    /// copy.
     pub(crate) fn come_to_rest(&mut self, name: &str, seconds: f64) -> Result<bool, WorldError> {
         let moving = self.moving_objects().filter(|object| object.name() != name);
         let restless: Vec<_> = moving.map(Object::key).collect();
@@ -48,36 +50,44 @@ impl World {
             if !self.settle_without(&restless, left) {
                 return Ok(false);
             }
-            if self.clone().stays(name)? {
+            let mut ahead = self.clone();
+            if ahead.stays(name)? {
+                self.let_all_sleep(&restless);
                 return Ok(true);
             }
-            self.stays(name)?;
+            *self = ahead;
             // Exact for any number of steps that can be simulated.
             left -= (self.steps() - before) as f64 * STEP_SECONDS;
         }
         Ok(false)
     }
 
-    /// Lets some time pass in which the object does not sleep. Returns whether it stays where it
-    /// is.
+    /// Lets time pass in which the object does not sleep, until it has moved or been watched for
+    /// long enough. Returns whether it stays where it is.
     fn stays(&mut self, name: &str) -> Result<bool, WorldError> {
         let body = self.object(name)?.body;
         let before = self.object_pose(name)?;
         self.physics.keep_awake(body);
-        self.pass(PROBED);
-        self.physics.let_sleep(body);
-        let after = self.object_pose(name)?;
-        Ok(
-            distance_between(&before, &after) < CREEP
-                && angle_between(&before, &after) < CREEP_TURN,
-        )
-    }
-
-    fn pass(&mut self, seconds: f64) {
-        let mut left = seconds;
-        while left > 0.0 {
+        let mut has_stayed = true;
+        let mut left = PROBED;
+        while has_stayed && left > 0.0 {
             self.step();
             left -= STEP_SECONDS;
+            let now = self.physics.pose(body);
+            has_stayed = distance_between(&before, &now) < CREEP
+                && angle_between(&before, &now) < CREEP_TURN;
+        }
+        self.physics.let_sleep(body);
+        Ok(has_stayed)
+    }
+
+    /// Lets all objects sleep but those with the given keys. They are at rest; if they stayed awake
+    /// until the engine believes that, an object that is spawned next would pay for them.
+    fn let_all_sleep(&mut self, restless: &[PartKey]) {
+        for object in self.state.objects.values() {
+            if !restless.contains(&object.key()) {
+                self.physics.need_not_wait(object.body);
+            }
         }
     }
 

@@ -107,7 +107,7 @@ fn a_robot_behind_a_barrier_is_told_what_bars_the_way() {
 }
 
 #[test]
-fn a_cancelled_drive_leaves_the_robot_where_it_is() {
+fn a_cancelled_drive_brakes_and_leaves_the_robot_where_it_stops() {
     let mut kitchen = Kitchen::parked(0.0, 0.0, 0.0, 0.3);
     let mut drive = kitchen.drive(0.0, 1.0, 0.0);
     for _ in 0..240 {
@@ -115,13 +115,27 @@ fn a_cancelled_drive_leaves_the_robot_where_it_is() {
         kitchen.world.step();
     }
     drive.cancel();
-    let before = place(&kitchen);
-    assert!(before[1] > 0.1, "{before:?}");
+    let began = place(&kitchen);
+    assert!(began[1] > 0.1, "{began:?}");
+    assert!(drive.is_moving());
+    let mut steps = 0;
+    while drive.is_moving() {
+        drive.brake(&mut kitchen.world);
+        kitchen.world.step();
+        steps += 1;
+    }
+    // From 0.5 m/s at 1 m/s².
+    assert!((60..=130).contains(&steps), "{steps} steps");
+    let stopped = place(&kitchen);
+    assert!(
+        (0.05..0.14).contains(&(stopped[1] - began[1])),
+        "{stopped:?}"
+    );
     for _ in 0..24 {
         drive.tick(&mut kitchen.world);
         kitchen.world.step();
     }
-    assert_eq!(place(&kitchen), before);
+    assert_eq!(place(&kitchen), stopped);
 }
 
 #[test]

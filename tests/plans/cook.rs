@@ -112,6 +112,12 @@ impl Cook {
         up.z.clamp(-1.0, 1.0).acos().to_degrees()
     }
 
+    /// How much (degrees) the vertical axis of an object has tipped from where it was at a pose.
+    pub(crate) fn turned_up(&self, object: &str, from: &Pose) -> f64 {
+        let [was, is] = [from, &self.pose(object)].map(|pose| pose.rotation * Vector3::z());
+        was.dot(&is).clamp(-1.0, 1.0).acos().to_degrees()
+    }
+
     /// Nothing went through anything so far.
     pub(crate) fn assert_no_overlap(&self) {
         let overlaps = self.overlaps.as_ref().expect("they are watched");

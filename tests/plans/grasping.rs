@@ -1,10 +1,36 @@
 //! What hands hold, and when they do not: fingers hold, and nothing else does.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use super::cook::Cook;
+use crate::world::World;
 
 /// Where the open hand of a robot with parked arms drops things.
 fn fell(cook: &Cook) -> bool {
     cook.pose("BOTTLE-1").translation.z < 0.3
+}
+
+#[test]
+fn a_flat_thing_is_not_pressed_into_the_table_while_it_is_gripped() {
+    let mut cook = Cook::unwatched();
+    cook.done(
+        "(btr-utils:spawn-object 'fork-1 :fork :pose '((-1.55 -0.78 0.86) (0 0 0.728 0.685)))
+         (with-simulated-robot (get-ready-at *place-at-table*))
+         (defparameter *fork* (with-simulated-robot (find-object :fork)))",
+    );
+    let deepest = Rc::new(Cell::new(0.0_f64));
+    let so_far = deepest.clone();
+    cook.session.set_observer(Box::new(move |world: &World| {
+        so_far.set(so_far.get().max(world.depth_of("FORK-1").unwrap().0));
+    }));
+    cook.done(
+        "(with-simulated-robot
+           (let ((?f *fork*))
+             (perform (an action (type picking-up) (arm right) (grasp top) (object ?f)))))",
+    );
+    assert_eq!(cook.in_right_hand(), "(FORK-1)");
+    assert!(deepest.get() < 0.001, "{} m", deepest.get());
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Plans: the plan language, designators, whole plans.
 
+mod braking;
 mod clutter;
+mod cluttered_tables;
 mod containers;
 mod cook;
 mod deliveries;

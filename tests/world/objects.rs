@@ -54,6 +54,25 @@ fn a_stack_of_ten_cubes_stands_and_none_is_pressed_into_another_by_a_millimetre(
 }
 
 #[test]
+fn what_is_at_rest_costs_nothing_however_much_of_it_there_is() {
+    let mut world = world();
+    // The kitchen falls asleep, but not the robot.
+    (0..240).for_each(|_| world.step());
+    let robot = world.awake();
+    let mut most = 0;
+    for i in 0..16 {
+        let name = format!("CUP-{i}");
+        let (x, y) = (f64::from(i % 4), f64::from(i / 4));
+        let place = at(-0.9 - 0.2 * x, -0.72 - 0.15 * y, 0.8);
+        spawn(&mut world, &name, "cup", &place);
+        assert!(world.come_to_rest(&name, 10.0).unwrap());
+        world.step();
+        most = most.max(world.awake());
+    }
+    assert_eq!(most, robot);
+}
+
+#[test]
 fn a_sausage_comes_to_rest_on_the_counter() {
     let height = rest_height("weisswurst", 1.5, 1.0, 1.0);
     assert!((height - 0.8678).abs() < 2e-3, "{height}");

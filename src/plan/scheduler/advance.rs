@@ -6,7 +6,7 @@ use super::Scheduler;
 use super::live::{Answer, Slot, Wait};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::plan::host::Host;
+use crate::plan::host::{Advance, Host};
 use crate::plan::state::Plan;
 
 /// The end of a sleep or of a timeout.
@@ -57,28 +57,46 @@ impl Scheduler {
     ) -> Passed {
         let until = self.next_alarm();
         let now = plan.now();
-        let mut woken: Vec<(f64, u64, Slot, Answer)> = Vec::new();
-        let mut reached = now;
-        if self.tickets.is_empty() {
+        let advance = if self.tickets.is_empty() {
             let Some(until) = until else {
                 return Passed::Nothing;
             };
-            reached = host.idle(image, now, until.max(now)).max(now);
-        } else {
-            let advance = host.advance(image, now, until);
-            reached = reached.max(advance.now);
-            for (ticket, outcome) in advance.done {
-                let Some(i) = self.tickets.iter().position(|(t, _)| *t == ticket) else {
-                    continue;
-                };
-                let (_, slot) = self.tickets.remove(i);
-                let answer = match outcome {
-                    Ok(value) => Answer::Value(value),
-                    Err(raise) => Answer::Raise(raise),
-                };
-                let order = self.live(slot).map_or(0, |l| l.id.0);
-                woken.push((reached, order, slot, answer));
+            Advance {
+                now: host.idle(image, now, until.max(now)),
+                done: Vec::new(),
             }
+        } else {
+            host.advance(image, now, until)
+        };
+        self.take_in(plan, advance)
+    }
+
+    /// Lets time pass until what has been cancelled or paused has come to a stop, so that nobody
+    /// acts on the place of a robot that still moves.
+    pub(super) fn stand_still(&mut self, image: &mut Image, host: &mut dyn Host) {
+        if std::mem::take(&mut self.must_stand_still) {
+            let plan = Plan::of(image);
+            let advance = host.stand_still(image, plan.now());
+            self.take_in(&plan, advance);
+        }
+    }
+
+    /// Wakes the entries that have waited for what happened.
+    fn take_in(&mut self, plan: &Plan, advance: Advance) -> Passed {
+        let now = plan.now();
+        let reached = now.max(advance.now);
+        let mut woken: Vec<(f64, u64, Slot, Answer)> = Vec::new();
+        for (ticket, outcome) in advance.done {
+            let Some(i) = self.tickets.iter().position(|(t, _)| *t == ticket) else {
+                continue;
+            };
+            let (_, slot) = self.tickets.remove(i);
+            let answer = match outcome {
+                Ok(value) => Answer::Value(value),
+                Err(raise) => Answer::Raise(raise),
+            };
+            let order = self.live(slot).map_or(0, |l| l.id.0);
+            woken.push((reached, order, slot, answer));
         }
         let stands_still = reached <= now && woken.is_empty();
         plan.set_now(reached);

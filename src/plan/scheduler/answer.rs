@@ -69,6 +69,7 @@ impl Scheduler {
             if let Wait::Ticket(ticket) = wait {
                 self.tickets.retain(|(t, _)| *t != ticket);
                 host.cancel(image, ticket);
+                self.must_stand_still = true;
             }
         }
     }

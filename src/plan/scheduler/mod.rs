@@ -51,6 +51,8 @@ pub(crate) struct Scheduler {
     alarms: BinaryHeap<Reverse<Alarm>>,
     /// Pending requests to the host, with the entries that made them.
     tickets: Vec<(Ticket, Slot)>,
+    /// Whether a request has been cancelled or paused, and the world has not stood still since.
+    must_stand_still: bool,
     /// Evaluations at the prompt that have not ended, innermost last.
     roots: Vec<Slot>,
     /// The entry that an interrupt stopped.

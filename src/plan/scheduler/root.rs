@@ -118,6 +118,7 @@ impl Scheduler {
         }
         self.evaporate_children(image, host, root);
         self.drain(image, host, root);
+        self.stand_still(image, host);
         self.discard(root);
         self.stops.clear();
         self.untold_stop = None;
@@ -134,6 +135,7 @@ impl Scheduler {
         if image.take_interrupt() {
             return Turn::Interrupted;
         }
+        self.stand_still(image, host);
         let plan = Plan::of(image);
         self.collect_woken(&plan);
         let passed = match self.next_ready() {
@@ -162,11 +164,13 @@ impl Scheduler {
             };
             self.evaporate_children(image, host, root);
             self.drain(image, host, root);
+            self.stand_still(image, host);
             return Some(Evaluation::Unhandled(condition));
         }
         if self.is_unfinished(root) {
             return None;
         }
+        self.stand_still(image, host);
         let live = self.discard(root)?;
         Some(Evaluation::Values(match live.ending {
             Some(Ending::Succeeded(value)) => value.into_values(),

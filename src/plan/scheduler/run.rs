@@ -101,6 +101,7 @@ impl Scheduler {
                     return Stopped::Waiting;
                 }
                 Event::Request(request) => {
+                    self.stand_still(image, host);
                     next = self.handle(image, host, slot, &fiber, request);
                     if next.is_some() && image.take_interrupt() {
                         return self.interrupt(slot, fiber, next);

@@ -41,6 +41,7 @@ impl Scheduler {
             live.is_suspended = true;
             if let Wait::Ticket(ticket) = live.wait {
                 host.pause(image, ticket);
+                self.must_stand_still = true;
             }
             if let Some(live) = self.live_mut(slot)
                 && !live.hooks.is_empty()

@@ -10,7 +10,7 @@ use crate::lisp::value::raise::Raise;
 use crate::motion::{Motion, MotionStatus};
 use crate::plan::designator::MotionRequest;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
-use crate::session::simulation::jobs::Completion;
+use crate::session::simulation::jobs::{Completion, Job};
 use crate::session::tape::{Done, RaiseData};
 use crate::watch::{Cause, TaskState};
 use crate::world::physics::STEP_SECONDS;
@@ -45,7 +45,12 @@ impl Host for SimulationHost {
             let now = self.simulation.now;
             self.audience
                 .tell_motion(now, &job, TaskState::Evaporated, "");
+            self.simulation.jobs.leave(job);
         }
+    }
+
+    fn stand_still(&mut self, image: &mut Image, now: f64) -> Advance {
+        self.taped_time(image, now, None, |host, image| host.brake(image, now))
     }
 
     fn pause(&mut self, _: &mut Image, ticket: Ticket) {
@@ -137,6 +142,24 @@ impl SimulationHost {
         }
     }
 
+    /// Lets time pass until all motions that have been cancelled or paused have come to a stop.
+    /// Others go on; if one of them is interrupted while it plans, braking goes on with them later.
+    fn brake(&mut self, image: &mut Image, now: f64) -> Advance {
+        self.simulation.now = now;
+        let mut done = Vec::new();
+        let mut steps = 0u32;
+        while self.simulation.jobs.is_braking() && self.tick(image, &mut done) {
+            self.step(image);
+            steps += 1;
+            self.simulation.now = now + f64::from(steps) * STEP_SECONDS;
+        }
+        self.simulation.jobs.leaving.retain(Job::is_moving);
+        Advance {
+            now: self.simulation.now,
+            done,
+        }
+    }
+
     /// What the robot is doing, its progress, and the simulated time, on one line.
     pub(in crate::session) fn progress(&self) -> String {
         let mut parts: Vec<String> = self.simulation.jobs.progress().collect();
@@ -204,10 +227,24 @@ impl SimulationHost {
         let simulation = &mut self.simulation;
         let now = simulation.now;
         let mut partial_step = simulation.jobs.partial_step.take().unwrap_or_default();
+        let mut leaving = std::mem::take(&mut simulation.jobs.leaving);
+        leaving.retain(Job::is_moving);
+        for job in &mut leaving {
+            if !partial_step.ticked.contains(&job.ticket) {
+                job.brake(&mut simulation.world);
+                partial_step.ticked.push(job.ticket);
+            }
+        }
+        simulation.jobs.leaving = leaving;
         let mut jobs = std::mem::take(&mut simulation.jobs.active);
         let mut is_whole = true;
         for job in &mut jobs {
-            if job.is_paused || partial_step.ticked.contains(&job.ticket) {
+            if partial_step.ticked.contains(&job.ticket) {
+                continue;
+            }
+            if job.is_paused {
+                job.brake(&mut simulation.world);
+                partial_step.ticked.push(job.ticket);
                 continue;
             }
             let Some(status) = job.tick(image, &mut simulation.world) else {

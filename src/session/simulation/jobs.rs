@@ -29,6 +29,8 @@ pub(crate) struct Job {
 pub(crate) struct Jobs {
     /// Active motions, in the order in which they started.
     pub(crate) active: Vec<Job>,
+    /// Motions that have been cancelled and brake.
+    pub(crate) leaving: Vec<Job>,
     /// Motions that wait for a process module, in order.
     waiting: VecDeque<Job>,
     /// What has been done for the next step, if an interrupt came in between.
@@ -50,6 +52,18 @@ pub(crate) struct PartialStep {
 pub(crate) type Completion = (Ticket, Result<Value, Box<Raise>>);
 
 impl Job {
+    /// Whether the robot would not be at rest if the motion were left alone now.
+    pub(crate) fn is_moving(&self) -> bool {
+        self.motion.is_moving()
+    }
+
+    /// Lets the motion set joints for a step of braking.
+    pub(crate) fn brake(&mut self, world: &mut World) {
+        if self.motion.is_moving() {
+            self.motion.brake(world);
+        }
+    }
+
     /// Lets the motion set joints; `None` if an interrupt came before or while it planned, in
     /// which case it is unchanged.
     pub(crate) fn tick(&mut self, image: &Image, world: &mut World) -> Option<MotionStatus> {
@@ -99,7 +113,8 @@ impl Jobs {
         let mut still_waiting = VecDeque::new();
         while let Some(job) = self.waiting.pop_front() {
             let is_busy = |other: &Job| job.module.excludes(other.module);
-            if self.active.iter().any(is_busy) || still_waiting.iter().any(is_busy) {
+            let before = self.active.iter().chain(&self.leaving);
+            if before.into_iter().any(is_busy) || still_waiting.iter().any(is_busy) {
                 still_waiting.push_back(job);
             } else {
                 self.active.push(job);
@@ -108,7 +123,7 @@ impl Jobs {
         self.waiting = still_waiting;
     }
 
-    /// Ends a motion and removes it.
+    /// Ends a motion and removes it. Until [`Self::leave`] it goes on moving.
     pub(crate) fn cancel(&mut self, ticket: Ticket) -> Option<Job> {
         let is_it = |job: &Job| job.ticket == ticket;
         let mut cancelled = match self.active.iter().position(is_it) {
@@ -121,10 +136,24 @@ impl Jobs {
         if let Some(job) = &mut cancelled {
             job.motion.cancel();
         }
-        if self.active.is_empty() {
+        let is_moving = cancelled.as_ref().is_some_and(Job::is_moving);
+        if self.active.is_empty() && !is_moving {
             self.partial_step = None;
         }
         cancelled
+    }
+
+    /// Lets a cancelled motion brake in the next steps.
+    pub(crate) fn leave(&mut self, job: Job) {
+        if job.is_moving() {
+            self.leaving.push(job);
+        }
+    }
+
+    /// Whether motions brake that have been cancelled or paused.
+    pub(crate) fn is_braking(&self) -> bool {
+        let paused = self.active.iter().filter(|job| job.is_paused);
+        self.leaving.iter().chain(paused).any(Job::is_moving)
     }
 
     /// Pauses a motion or lets it continue.
@@ -144,12 +173,13 @@ impl Jobs {
 
     /// Whether no motion is active or waiting.
     pub(crate) fn is_idle(&self) -> bool {
-        self.active.is_empty() && self.waiting.is_empty()
+        self.active.is_empty() && self.waiting.is_empty() && self.leaving.is_empty()
     }
 
     /// Forgets all motions.
     pub(crate) fn clear(&mut self) {
         self.active.clear();
+        self.leaving.clear();
         self.partial_step = None;
         self.waiting.clear();
     }
