@@ -17,6 +17,9 @@ const STRAIGHT_INTERVALS: (f64, f64) = (2.0, 200.0);
 const CURVED_INTERVALS: (f64, f64) = (4.0, 16.0);
 /// Number of bisections of the greatest `x`; the result is the lower bound.
 const BISECTIONS: u32 = 26;
+/// An interval that takes longer than this (s) at less than this share of the top speed is one
+/// at both ends of which the motion all but stops.
+const HALTING: (f64, f64) = (1.0, 0.01);
 /// A limit that does not depend on `u`: `q'` is 0.
 const INDEPENDENT: f64 = 1e-18;
 
@@ -137,6 +140,44 @@ impl Interval {
         (least <= most).then_some((least, most))
     }
 
+    /// An `x` for the middle of the interval that can be reached from rest and left to rest: half
+    /// of what each kind of acceleration permits, so that their sum is within the limits.
+    fn between_halts(&self) -> f64 {
+        let mut most = self.most[0].min(self.most[1]);
+        for Bound { a, c, .. } in &self.bounds {
+            if *a >= INDEPENDENT {
+                most = most.min(self.length / a.sqrt() / 2.0);
+            }
+            if *c > 0.0 {
+                most = most.min(0.5 / c.sqrt());
+            }
+        }
+        most
+    }
+
+    /// The stretches of a motion on it from one path velocity to another.
+    fn stretches(&self, [from, to]: [f64; 2]) -> Vec<Stretch> {
+        let stretch = |along: f64, length: f64, speeds, stops| Stretch {
+            piece: self.piece,
+            along,
+            length,
+            speeds,
+            stops,
+        };
+        let whole = stretch(self.along, self.length, [from, to], self.stops);
+        let (time, speed) = HALTING;
+        let middle = self.between_halts().sqrt();
+        let halts = from + to < 2.0 * speed && whole.duration() > time && middle > from.max(to);
+        if !halts {
+            return vec![whole];
+        }
+        let half = self.length / 2.0;
+        vec![
+            stretch(self.along, half, [from, middle], false),
+            stretch(self.along + half, half, [middle, to], self.stops),
+        ]
+    }
+
     /// Whether the motion can go on from `x` at the start to at most `end` at the end.
     fn continues(&self, x: f64, end: f64) -> bool {
         self.range(x).is_some_and(|(least, most)| {
@@ -185,13 +226,7 @@ pub(super) fn fastest(pieces: &[Piece], limits: &[AxisGroup]) -> Vec<Stretch> {
         let grown = 2.0 * interval.length;
         let u = interval.range(x).map_or(0.0, |(_, most)| most);
         let next = (x + grown * u).clamp(0.0, end.min(interval.most[1]));
-        stretches.push(Stretch {
-            piece: interval.piece,
-            along: interval.along,
-            length: interval.length,
-            speeds: [x.sqrt(), next.sqrt()],
-            stops: interval.stops,
-        });
+        stretches.extend(interval.stretches([x.sqrt(), next.sqrt()]));
         x = next;
     }
     stretches

@@ -296,6 +296,19 @@ mod tests {
         assert_eq!(never, stopping);
     }
 
+    #[test]
+    fn a_corner_of_nanometres_does_not_stop_the_motion_for_ever() {
+        let limits = [
+            AxisGroup::single(0, 1.0, 2.0),
+            AxisGroup::single(1, 1.0, 2.0),
+        ];
+        let end = 0.5 + 3e-9;
+        let points = [[0.0, 0.0], [0.5, 0.0], [end, 3e-9], [0.5, 0.5]].map(|p| p.to_vec());
+        let t = Trajectory::rounded(&points, &limits, &mut |_| true);
+        assert!(t.duration() < 2.2, "{}", t.duration());
+        assert_eq!(t.position(t.duration()), points[3]);
+    }
+
     fn paths() -> impl Strategy<Value = Vec<Vec<f64>>> {
         prop::collection::vec(prop::collection::vec(-3.0..3.0, 3), 2..8)
     }
