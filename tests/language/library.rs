@@ -9,6 +9,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::symbol::FunctionCell;
 use crate::session::{Session, SessionOptions};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// All functions and macros of the library in an image.
@@ -54,6 +55,19 @@ fn every_definition_can_be_compiled() {
 fn no_form_of_the_library_fails() {
     let mut session = session();
     assert_eq!(session.image_mut().output.take(), "");
+}
+
+/// Helpers of all files belong to one package.
+#[test]
+fn no_two_helpers_have_one_name() {
+    let session = session();
+    let helpers = session.image().library.definitions.iter();
+    let mut seen = BTreeMap::new();
+    for helper in helpers.filter(|definition| definition.is_helper()) {
+        let name = (&helper.name, helper.kind == Kind::Setter);
+        let other = seen.insert(name, helper.location());
+        assert_eq!(other, None, "{}: {}", helper.location(), helper.name);
+    }
 }
 
 #[test]

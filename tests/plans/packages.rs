@@ -42,6 +42,7 @@ fn means_something(image: &Image, functors: &[&str], sym: Sym) -> bool {
         || !data.value.is_unbound()
         || !matches!(data.function, FunctionCell::Unbound)
         || image.classes.contains_key(&sym)
+        || image.types.contains_key(&sym)
         || functors.contains(&name)
         || facts.knows(sym)
         || facts.handler(sym).is_some()

@@ -37,7 +37,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "text &optional package",
         "Writes the symbols whose names contain the text, and what they mean; those of all packages, or those accessible in one.",
         &[
-            "(with-output-to-string (*standard-output*) (apropos \"nth-v\")) => \"NTH-VALUE (macro)\n\"",
+            "(with-output-to-string (*standard-output*) (apropos \"rotatef\")) => \"ROTATEF (macro)\n\"",
         ],
         apropos,
     ),

@@ -124,9 +124,15 @@ pub(crate) fn install(image: &mut Image) {
     make_alexandria(image);
 }
 
-/// Makes the package that the library's alexandria fills.
+/// Makes the packages that the library's alexandria fills.
 fn make_alexandria(image: &mut Image) {
-    if let Some(package) = image.packages.make("ALEXANDRIA", &["ALEXANDRIA.1.0.0"]) {
-        image.packages.use_package(package, PackageTable::CL);
+    let packages: [(&str, &[&str]); 2] = [
+        ("ALEXANDRIA", &["ALEXANDRIA-1", "ALEXANDRIA.1.0.0"]),
+        ("ALEXANDRIA-2", &["ALEXANDRIA.2"]),
+    ];
+    for (name, nicknames) in packages {
+        if let Some(package) = image.packages.make(name, nicknames) {
+            image.packages.use_package(package, PackageTable::CL);
+        }
     }
 }

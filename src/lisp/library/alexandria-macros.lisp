@@ -1,18 +1,21 @@
-;;;; The macros of ALEXANDRIA.
+;;;; ALEXANDRIA: bindings, places of lists, and what macros are made with.
 
 (in-package :alexandria)
 
 ;;; For macros
 
-(defun parse-body (body &key documentation)
-  "The forms of a body, its declarations, and, if asked for, its documentation string.
+(defun parse-body (body &key documentation whole)
+  "The forms of a body, its declarations, and, if asked for, its documentation string. Errors show the
+  whole form.
   Examples:
   (alexandria:parse-body '((declare (ignore x)) 1 2)) => (1 2) ; ((DECLARE (IGNORE X))) ; NIL"
   (let ((declarations '())
         (text nil))
     (loop
       (let ((form (first body)))
-        (cond ((and documentation (stringp form) (null text) (rest body))
+        (cond ((and documentation (stringp form) (rest body))
+               (when text
+                 (error "There is more than one documentation string in ~s." (or whole body)))
                (setf text form))
               ((and (consp form) (eq (first form) 'declare))
                (push form declarations))
@@ -91,51 +94,6 @@
           :from-end t
           :initial-value `(progn ,@body)))
 
-;;; Choice
-
-(defmacro switch ((object &key (test '#'eql) key) &body clauses)
-  "Like `case`, with values that are evaluated and a test of choice.
-  Examples:
-  (alexandria:switch (\"b\" :test #'equal) (\"a\" 1) (\"b\" 2)) => 2"
-  (let ((value (gensym "OBJECT")))
-    `(let ((,value ,(if key `(funcall ,key ,object) object)))
-       (cond ,@(loop for (wanted . forms) in clauses
-                     for matches = (if (member wanted '(t otherwise))
-                                       t
-                                       `(funcall ,test ,value ,wanted))
-                     collect `(,matches (progn ,@forms)))))))
-
-(defmacro eswitch ((object &key (test '#'eql) key) &body clauses)
-  "Like `switch`; an error if no clause matches.
-  Examples:
-  (alexandria:eswitch (1) (1 'one)) => ONE"
-  (let ((value (gensym "OBJECT")))
-    `(let ((,value ,(if key `(funcall ,key ,object) object)))
-       (switch (,value :test ,test)
-         ,@clauses
-         (t (error "No clause of ESWITCH matches ~s." ,value))))))
-
-;;; Property lists and hash tables
-
-(defmacro doplist ((key value plist &optional result) &body body)
-  "Evaluates the body for each entry of a property list.
-  Examples:
-  (let (r) (alexandria:doplist (k v '(:a 1 :b 2) r) (push (list k v) r))) => ((:B 2) (:A 1))"
-  `(loop for (,key ,value) on ,plist by #'cddr
-         do (tagbody ,@body)
-         finally (return ,result)))
-
-(defmacro ensure-gethash (key table &optional default)
-  "The value of a key; a key that is missing gets the default.
-  Examples:
-  (alexandria:ensure-gethash 'a (make-hash-table) 1) => 1 ; NIL"
-  (once-only (key table)
-    (with-gensyms (value found)
-      `(multiple-value-bind (,value ,found) (gethash ,key ,table)
-         (if ,found
-             (values ,value t)
-             (values (setf (gethash ,key ,table) ,default) nil))))))
-
 ;;; Places
 
 (define-modify-macro appendf (&rest lists) append
@@ -153,35 +111,36 @@
   Examples:
   (let ((l (list 1))) (alexandria:unionf l '(1)) l) => (1)")
 
+(define-modify-macro nunionf (list &rest options) nunion
+  "Like `unionf`, but may change both lists.
+  Examples:
+  (let ((l (list 1))) (alexandria:nunionf l (list 1)) l) => (1)")
+
+(define-modify-macro nreversef () nreverse
+  "Reverses the sequence in a place, which may be changed.
+  Examples:
+  (let ((l (list 1 2))) (alexandria:nreversef l) l) => (2 1)")
+
 (define-modify-macro reversef () reverse
   "Reverses the sequence in a place.
   Examples:
   (let ((l (list 1 2))) (alexandria:reversef l) l) => (2 1)")
 
-(define-modify-macro maxf (&rest numbers) max
-  "Sets a place to the largest of it and numbers.
+;;; Nested calls in the order in which they happen
+
+(defmacro alexandria-2:line-up-first (&rest forms)
+  "Puts each form into the next one as its first argument.
   Examples:
-  (let ((n 1)) (alexandria:maxf n 3 2) n) => 3")
+  (alexandria-2:line-up-first 5 (- 2) list) => (3)"
+  (%line-up forms (lambda (form call) (list* (first call) form (rest call)))))
 
-(define-modify-macro minf (&rest numbers) min
-  "Sets a place to the smallest of it and numbers.
+(defmacro alexandria-2:line-up-last (&rest forms)
+  "Puts each form into the next one as its last argument.
   Examples:
-  (let ((n 5)) (alexandria:minf n 3 4) n) => 3")
+  (alexandria-2:line-up-last 5 (- 2) list) => (-3)"
+  (%line-up forms (lambda (form call) (append call (list form)))))
 
-(defun %remove-item (sequence item &rest options)
-  "REMOVE with the sequence as the first argument."
-  (apply #'remove item sequence options))
-
-(define-modify-macro removef (item &rest options) %remove-item
-  "Removes an item from the sequence in a place.
-  Examples:
-  (let ((l (list 1 2))) (alexandria:removef l 1) l) => (2)")
-
-(defun %delete-item (sequence item &rest options)
-  "DELETE with the sequence as the first argument."
-  (apply #'delete item sequence options))
-
-(define-modify-macro deletef (item &rest options) %delete-item
-  "Deletes an item from the sequence in a place.
-  Examples:
-  (let ((l (list 1 2))) (alexandria:deletef l 1) l) => (2)")
+(defun %line-up (forms insert)
+  "Inserts each form into the next. A symbol is a call without arguments."
+  (when forms
+    (reduce (lambda (form call) (funcall insert form (ensure-list call))) forms)))

@@ -6,7 +6,7 @@
 (defun %is-variable (object)
   "Is this a ?variable?"
   (and (symbolp object)
-       (alexandria:starts-with-subseq "?" (symbol-name object))))
+       (values (alexandria:starts-with-subseq "?" (symbol-name object)))))
 
 (defun %match (pattern object bindings)
   "The bindings of the variables under which a pattern is an object, and whether it is."

@@ -12,7 +12,7 @@
 (defun %begins-with (prefix object)
   "Is the object a symbol whose name begins so?"
   (and (symbolp object)
-       (alexandria:starts-with-subseq prefix (symbol-name object))))
+       (values (alexandria:starts-with-subseq prefix (symbol-name object)))))
 
 (defun is-unnamed-var (object)
   "Is this ?_, which matches anything and is never bound?
