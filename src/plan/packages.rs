@@ -143,7 +143,10 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
     row("ROSLISP", &[], "ROS-INFO ROS-WARN ROS-ERROR ROS-DEBUG"),
     row("ROSLISP-UTILITIES", &[], ""),
     row("ROS-LOAD", &["ROS-LOAD-MANIFEST"], ""),
-    row("ASDF", &[], ""),
+    row("ASDF", &[], "*CENTRAL-REGISTRY*"),
+    // What the symbols in descriptions of systems belong to.
+    row("ASDF-USER", &[], ""),
+    row("NET.DIDIERVERNA.ASDF-FLV", &["ASDF-FLV"], ""),
     row("QUICKLISP-CLIENT", &["QL", "QUICKLISP"], ""),
     row("SWANK", &[], ""),
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),

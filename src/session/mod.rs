@@ -82,6 +82,7 @@ impl Session {
         crate::plan::pose::install(&mut image);
         crate::plan::designator::install(&mut image);
         functions::install(&mut image);
+        functions::name_system_folders(&mut image, &options.systems);
         let mut simulation =
             Simulation::new(Arc::new(options.models()?), options.log_level, options.seed)
                 .map_err(|error| SessionError::Models(error.to_string()))?;

@@ -27,6 +27,8 @@ pub struct SessionOptions {
     /// How large the errors of the robot's sensors and motors are, such as
     /// `position=0.01,misses=0.1`; an empty text stands for usual errors, `None` for none.
     pub noise: Option<String>,
+    /// Folders in which systems, the libraries of Common Lisp, are looked for.
+    pub systems: Vec<String>,
     /// The least severe log lines that are shown.
     pub log_level: LogLevel,
     /// How many simulated seconds pass per real second; as many as possible if `None`.
@@ -46,6 +48,7 @@ impl Default for SessionOptions {
             robot_description: None,
             world: None,
             noise: None,
+            systems: Vec::new(),
             log_level: LogLevel::Info,
             realtime: None,
             view_port: None,

@@ -23,6 +23,7 @@ mod putting_down;
 mod refusals;
 mod searching;
 mod spawning;
+mod systems;
 mod tasks;
 mod transporting;
 mod types;

@@ -61,6 +61,10 @@ pub(crate) struct Options {
     /// whose names are not those of the built-in PR2
     #[arg(long, global = true, value_name = "FILE")]
     pub(crate) robot_description: Option<PathBuf>,
+    /// Folder in which (asdf:load-system …) and (ql:quickload …) look for systems, with the
+    /// folders inside it; may be given several times
+    #[arg(long, global = true, value_name = "FOLDER")]
+    pub(crate) systems: Vec<PathBuf>,
     /// Let the robot's sensors and motors make errors, such as position=0.01,misses=0.1 (see
     /// set-noise in the manual); usual ones if no SETTINGS are given
     #[arg(

@@ -1,7 +1,7 @@
 //! Sets up evaluators, in this one place.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 #[cfg(test)]
 use clap::Parser;
@@ -36,6 +36,7 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
         robot_description: options.robot_description.as_deref().map(read).transpose()?,
         world: options.world.as_deref().map(read).transpose()?,
         noise: options.noise.clone(),
+        systems: folders(&options.systems)?,
         log_level: match options.log_level {
             LogLevel::Debug => session::LogLevel::Debug,
             LogLevel::Info => session::LogLevel::Info,
@@ -56,4 +57,19 @@ pub(crate) fn open_session(options: &Options) -> Result<Session, CommandError> {
 pub(crate) fn open_default() -> Result<Session, String> {
     let arguments = Arguments::try_parse_from(["planwright"]).map_err(|error| error.to_string())?;
     open_session(&arguments.options).map_err(|error| error.to_string())
+}
+
+/// The names of folders, independent of the working directory; an error if one is none.
+fn folders(paths: &[PathBuf]) -> Result<Vec<String>, CommandError> {
+    let name = |path: &PathBuf| {
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+        match absolute.to_str() {
+            Some(name) if absolute.is_dir() => Ok(name.to_owned()),
+            _ => Err(CommandError::Open(format!(
+                "--systems {}: there is no such folder",
+                path.display()
+            ))),
+        }
+    };
+    paths.iter().map(name).collect()
 }

@@ -50,6 +50,7 @@ pub(super) fn open_journals(
         robot: options.robot.clone(),
         robot_description: options.robot_description.clone(),
         noise: options.noise.clone(),
+        systems: options.systems.clone(),
     };
     let mut opened = prompt::open(journal, &beginning)?;
     if let Some(earlier) = &opened.earlier {
@@ -57,6 +58,10 @@ pub(super) fn open_journals(
         let differs = |given: &Option<PathBuf>, began: &Option<PathBuf>| {
             let given = given.as_ref().map(std::path::absolute);
             given.is_some_and(|given| given.ok() != *began)
+        };
+        let absolute = |folders: &[PathBuf]| -> Vec<PathBuf> {
+            let absolute = folders.iter().map(std::path::absolute);
+            absolute.flatten().collect()
         };
         let unused = [
             (
@@ -68,6 +73,10 @@ pub(super) fn open_journals(
             (
                 "--robot-description",
                 differs(&options.robot_description, &beginning.robot_description),
+            ),
+            (
+                "--systems",
+                !options.systems.is_empty() && absolute(&options.systems) != beginning.systems,
             ),
             (
                 "--noise",
@@ -83,6 +92,7 @@ pub(super) fn open_journals(
         options.robot = beginning.robot;
         options.robot_description = beginning.robot_description;
         options.noise = beginning.noise;
+        options.systems = beginning.systems;
     }
     Ok(opened)
 }

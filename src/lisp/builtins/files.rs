@@ -8,6 +8,7 @@ use std::rc::Rc;
 use super::keywords;
 use super::shown::shown;
 use super::strings::string;
+use crate::closest_name::closest_name;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::stream::{Stream, StreamKind};
@@ -169,6 +170,52 @@ fn rename_file(_: &mut Image, args: &[Value]) -> Outcome {
         args[1].clone(),
     ]))
 }
+
+fn file_names(_: &mut Image, args: &[Value]) -> Outcome {
+    let folder = path(&args[0])?;
+    let Ok(entries) = fs::read_dir(&folder) else {
+        return Ok(Value::NIL);
+    };
+    // Names that are no text cannot be given to OPEN either.
+    let mut names: Vec<String> = entries
+        .flatten()
+        .filter_map(|entry| {
+            let name = entry.file_name().into_string().ok()?;
+            let is_folder = fs::metadata(entry.path()).is_ok_and(|data| data.is_dir());
+            Some(if is_folder { name + "/" } else { name })
+        })
+        .collect();
+    names.sort_unstable();
+    Ok(Value::list(names.into_iter().map(Value::string)))
+}
+
+fn closest(_: &mut Image, args: &[Value]) -> Outcome {
+    let name = string(&args[0])?.text();
+    let names: Vec<String> = args[1]
+        .iter_list()
+        .map(|name| Ok(string(&name)?.text()))
+        .collect::<Result<_, Box<Raise>>>()?;
+    let near = closest_name(&name, names.iter().map(String::as_str));
+    Ok(near.map_or(Value::NIL, Value::string))
+}
+
+/// What the library needs to find files, in package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "FILE-NAMES",
+        "folder",
+        "The names in a folder, sorted; those of folders end with a slash. `NIL` if there is no such folder.",
+        &["(system:file-names \"no-such-folder\") => NIL"],
+        file_names,
+    ),
+    pure(
+        "CLOSEST-NAME",
+        "name names",
+        "The name that was probably meant, or `NIL`.",
+        &["(system:closest-name \"iterat\" '(\"fiveam\" \"iterate\")) => \"iterate\""],
+        closest,
+    ),
+];
 
 /// Files.
 pub(crate) static TABLE: &[Builtin] = &[

@@ -70,6 +70,7 @@ pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     loop_macro::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,
     streams::SYSTEM_TABLE,
+    files::SYSTEM_TABLE,
     structures::SYSTEM_TABLE,
     printing::SYSTEM_TABLE,
 ];

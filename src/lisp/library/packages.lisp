@@ -64,13 +64,20 @@
   (pushnew (string module) *modules* :test #'string=)
   t)
 
+(defun system:load-module (module)
+  "Loads a module by its name alone, or returns NIL. A layer that knows systems puts its own function in
+  place of this one."
+  (declare (ignore module))
+  nil)
+
 (defun require (module &optional files)
-  "Loads the files of a module unless it is there; an error if there are none to load.
+  "Loads the files of a module, or else the system of that name, unless it is there; an error if there
+  is none.
   Examples:
   (require :alexandria) => NIL"
   (unless (member (string module) *modules* :test #'string-equal)
-    (unless files
-      (error "There is no module ~a, and no files are given; there are~{ ~a~}."
+    (unless (or files (system:load-module module))
+      (error "There is no module or system ~a, and no files are given; there are the modules~{ ~a~}."
              (string module) *modules*))
     (mapc #'load (if (listp files) files (list files)))
     nil))

@@ -18,11 +18,13 @@ static LANGUAGE_FILES: &[File] = &[
 ];
 
 /// Lazy lists, patterns and bindings, which are CRAM's utilities, and the registration of what
-/// resolves locations. They need nothing from the plan language.
+/// resolves locations; the loader of systems. They need nothing from the plan language.
 static UTILITY_FILES: &[File] = &[
     library_file!("src/plan/library", "lazy-lists.lisp"),
     library_file!("src/plan/library", "patterns.lisp"),
     library_file!("src/plan/library", "locations.lisp"),
+    library_file!("src/plan/library", "systems.lisp"),
+    library_file!("src/plan/library", "system-files.lisp"),
 ];
 
 /// Files that need designators; installed after those.

@@ -23,4 +23,5 @@ pub(crate) mod tour;
 mod tutorial;
 mod watching;
 
+pub(super) use ros::name_system_folders;
 pub(super) use tables::install;

@@ -1,15 +1,13 @@
 //! What CRAM uses from ROS: log lines, start-up, loading of systems.
 
-use crate::closest_name::closest_name;
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
 use crate::plan::designator::names::{name_text, rosify};
-use crate::plan::packages::PACKAGES;
+use crate::plan::packages::{self, PACKAGES};
 use crate::session::LogLevel;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
@@ -52,32 +50,30 @@ pub(crate) static UTILITIES_TABLE: &[Builtin] = &[
     ),
 ];
 
-/// Builtins of package `ROS-LOAD`.
-pub(crate) static LOAD_TABLE: &[Builtin] = &[control(
-    "LOAD-SYSTEM",
-    "package &optional system",
-    "Nothing to load: the systems that there are, are built in. An error names them if there is no such system.",
-    &["(ros-load:load-system \"cram_pick_place_tutorial\") => T"],
-    host!(load_system),
-)];
-
-/// Builtins of package `ASDF`.
-pub(crate) static ASDF_TABLE: &[Builtin] = &[control(
-    "LOAD-SYSTEM",
-    "system &rest options",
-    "The same as ROS-LOAD:LOAD-SYSTEM.",
-    &["(asdf:load-system :cram-language) => T"],
-    host!(load_system),
-)];
-
-/// Builtins of package `QUICKLISP-CLIENT`.
-pub(crate) static QUICKLISP_TABLE: &[Builtin] = &[control(
-    "QUICKLOAD",
-    "systems &rest options",
-    "The same as ROS-LOAD:LOAD-SYSTEM, for a system or a list of them.",
-    &["(ql:quickload '(:cram-language :alexandria)) => T"],
-    host!(load_system),
-)];
+/// What the loader of systems, which is written in Lisp, asks: builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    control(
+        "LOAD-BUILT-IN-SYSTEM",
+        "system",
+        "Says that there is nothing to load, if a system is built in; else `NIL`.",
+        &["(system:load-built-in-system \"cram_language\") => T"],
+        host!(load_built_in_system),
+    ),
+    pure(
+        "BUILT-IN-SYSTEM-P",
+        "system",
+        "Is a system of this name built in?",
+        &["(system:built-in-system-p :cram-language) => T"],
+        |image, args| Ok(is_built_in(image, &args[0]).into()),
+    ),
+    pure(
+        "BUILT-IN-SYSTEMS",
+        "",
+        "The names of the systems that are built in, as ROS writes them.",
+        &["(first (system:built-in-systems)) => \"alexandria\""],
+        |_, _| Ok(Value::list(systems().into_iter().map(Value::string))),
+    ),
+];
 
 /// Systems that are built in and have no package of their name.
 const OTHER_SYSTEMS: [&str; 4] = [
@@ -88,8 +84,9 @@ const OTHER_SYSTEMS: [&str; 4] = [
 ];
 
 /// Packages that stand for no system that is built in.
-const NO_SYSTEMS: [&str; 6] = [
+const NO_SYSTEMS: [&str; 7] = [
     "ASDF",
+    "ASDF-USER",
     "CRAM-PR2-ENVIRONMENT-MANIPULATION",
     "CRAM-PR2-PICK-PLACE-DEMO",
     "PLANWRIGHT",
@@ -107,6 +104,13 @@ fn systems() -> Vec<String> {
         .collect();
     systems.sort_unstable();
     systems
+}
+
+/// Puts folders at the front of those in which systems are looked for.
+pub(in crate::session) fn name_system_folders(image: &mut Image, folders: &[String]) {
+    let registry = packages::symbol(image, "ASDF", "*CENTRAL-REGISTRY*");
+    let folders = folders.iter().map(|folder| Value::string(folder.as_str()));
+    image.set_special(registry, Value::list(folders));
 }
 
 impl Simulation {
@@ -173,31 +177,21 @@ fn shutdown_ros(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> 
     done(Value::NIL)
 }
 
-fn load_system(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let systems = systems();
-    let wanted: Vec<Value> = match &args[0] {
-        Value::Cons(_) => args[0].iter_list().collect(),
-        single => vec![single.clone()],
-    };
-    for system in wanted {
-        let Some(name) = name_text(image, &system) else {
-            return Err(Raise::type_error(&system, known::SYMBOL));
-        };
-        let name = rosify(&name);
-        if !systems.contains(&name) {
-            return Err(Raise::simple(format!(
-                "There is no system {}{} These are built in: {}. A file of your own is loaded by (load \"file.plan\").",
-                print::to_string(image, &system, true),
-                match closest_name(&name, systems.iter().map(String::as_str)) {
-                    Some(near) => format!("; did you mean {near}?"),
-                    None => ".".to_owned(),
-                },
-                systems.join(", ")
-            )));
-        }
-        let shown = print::to_string(image, &system, false);
+/// Whether a system is built in. The name may be written as in ROS or as in Lisp.
+fn is_built_in(image: &Image, system: &Value) -> bool {
+    name_text(image, system).is_some_and(|name| systems().contains(&rosify(&name)))
+}
+
+fn load_built_in_system(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let is_built_in = is_built_in(image, &args[0]);
+    if is_built_in {
+        let shown = print::to_string(image, &args[0], false);
         let text = format!("{shown} is built in: there is nothing to load.");
         simulation.log(image, LogLevel::Info, "(ROS-LOAD LOAD-SYSTEM)", &text);
     }
-    done(Value::T)
+    done(Value::bool(is_built_in))
 }

@@ -47,6 +47,8 @@ pub(crate) struct Beginning {
     pub(crate) robot_description: Option<PathBuf>,
     /// The errors of the robot's sensors and motors, as on the command line.
     pub(crate) noise: Option<String>,
+    /// Folders in which systems are looked for.
+    pub(crate) systems: Vec<PathBuf>,
 }
 
 /// An input of an earlier session.

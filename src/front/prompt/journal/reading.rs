@@ -109,6 +109,7 @@ impl Earlier {
                 self.beginning.robot_description = Some(file.into());
             }
             Record::Noise(settings) => self.beginning.noise = Some(settings),
+            Record::Systems(folder) => self.beginning.systems.push(folder.into()),
             Record::Input { text, stops } => {
                 *current = Some(self.inputs.len());
                 self.inputs.push(Recorded {

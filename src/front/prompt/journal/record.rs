@@ -4,6 +4,8 @@
 //! return and `\\` for a backslash. The checksum is the CRC-32 of the file up to there, without
 //! the checksums: each line is fed as `WORD TEXT` and a line break.
 
+use std::path::Path;
+
 use super::Beginning;
 
 /// First line of a journal.
@@ -24,6 +26,7 @@ pub(super) enum Record {
     Robot(String),
     RobotDescription(String),
     Noise(String),
+    Systems(String),
     /// The evaluation of an input begins.
     Input {
         text: String,
@@ -49,14 +52,15 @@ impl Record {
         ];
         let given = files.into_iter().filter_map(|(file, record)| {
             let file = file.as_ref()?;
-            // A file keeps its meaning when the session is resumed in another directory.
-            let file = std::path::absolute(file).unwrap_or_else(|_| file.clone());
-            Some(record(file.to_string_lossy().into_owned()))
+            Some(record(absolute(file)))
         });
+        let systems = beginning.systems.iter();
+        let systems = systems.map(|folder| Record::Systems(absolute(folder)));
         let noise = beginning.noise.clone().map(Record::Noise);
         std::iter::once(Record::Seed(beginning.seed))
             .chain(given)
             .chain(noise)
+            .chain(systems)
             .collect()
     }
 
@@ -68,6 +72,7 @@ impl Record {
             Record::Robot(file) => ("robot", escaped(file)),
             Record::RobotDescription(file) => ("robot-description", escaped(file)),
             Record::Noise(settings) => ("noise", escaped(settings)),
+            Record::Systems(folder) => ("systems", escaped(folder)),
             Record::Input { text, stops: true } => ("input", escaped(text)),
             Record::Input { text, stops: false } => ("pasted", escaped(text)),
             Record::Interrupted(at) => ("interrupted", at.to_string()),
@@ -86,6 +91,7 @@ impl Record {
             "robot" => Record::Robot(unescaped(value)),
             "robot-description" => Record::RobotDescription(unescaped(value)),
             "noise" => Record::Noise(unescaped(value)),
+            "systems" => Record::Systems(unescaped(value)),
             "input" | "pasted" => Record::Input {
                 text: unescaped(value),
                 stops: word == "input",
@@ -98,6 +104,13 @@ impl Record {
             _ => return None,
         })
     }
+}
+
+/// The name of a file. It keeps its meaning when the session is resumed in another directory.
+fn absolute(file: &Path) -> String {
+    let absolute = std::path::absolute(file);
+    let file = absolute.as_deref().unwrap_or(file);
+    file.to_string_lossy().into_owned()
 }
 
 /// The checksum of the lines so far.

@@ -1,0 +1,269 @@
+//! Systems, the libraries of Common Lisp, are loaded from folders that the user names.
+
+use std::fs;
+use std::path::PathBuf;
+
+use crate::session::dialogue::{Evaluate, Event};
+use crate::session::{Session, SessionOptions};
+
+/// A folder of systems, which is deleted at the end of the test.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str, files: &[(&str, &str)]) -> Folder {
+        let name = format!("planwright-systems-{}-{name}", std::process::id());
+        let folder = Folder(std::env::temp_dir().join(name));
+        for (file, text) in files {
+            let path = folder.0.join(file);
+            fs::create_dir_all(path.parent().expect("it is in the folder")).unwrap();
+            fs::write(path, text).unwrap();
+        }
+        folder
+    }
+
+    /// A session that looks for systems in the folder.
+    fn session(&self) -> Session {
+        let folder = self.0.to_str().expect("the name is text").to_owned();
+        let options = SessionOptions {
+            systems: vec![folder],
+            ..SessionOptions::default()
+        };
+        Session::new(&options).expect("a session starts")
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What is left in a folder for temporary files does no harm.
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The last value of a text, or the report of what went wrong.
+fn said(session: &mut Session, text: &str) -> String {
+    let mut said = String::new();
+    session.evaluate("test", text, &mut |event| match event {
+        Event::Values(values) => said = values.join(" ; "),
+        Event::Aborted(abort) => said = abort.report,
+        _ => {}
+    });
+    said
+}
+
+/// A file that notes that it has been loaded.
+macro_rules! noting {
+    ($name:literal) => {
+        concat!("(push ", $name, " cl-user::*loaded*)")
+    };
+}
+
+#[test]
+fn files_are_loaded_in_the_order_that_the_description_says() {
+    let folder = Folder::new(
+        "order",
+        &[
+            (
+                "deep/in/kitchen-tools.asd",
+                "(defpackage #:kitchen-tools-system (:use :cl :asdf))\n\
+                 (in-package #:kitchen-tools-system)\n\
+                 #.(error \"Nothing is evaluated.\")\n\
+                 (defsystem kitchen-tools :version (:read-file-form \"version.sexp\")\n\
+                   :depends-on (:alexandria (:feature :sbcl :sb-posix) (:version \"spoons\" \"1.0\"))\n\
+                   :components ((:static-file \"version.sexp\")\n\
+                                (:file \"last\" :depends-on (\"first\" tools))\n\
+                                (:file \"extra\" :if-feature (:and :sbcl))\n\
+                                (:module tools :serial t :pathname \"src\" :depends-on (\"first\")\n\
+                                         :components ((:file \"b\") (:file \"a\")))\n\
+                                (:file \"first\"))\n\
+                   :perform (test-op (o c) (uiop:symbol-call :fiveam '#:run!)))\n\
+                 (defmethod perform ((o test-op) (c (eql (find-system :kitchen-tools))))\n\
+                   (some-package::run))",
+            ),
+            ("deep/in/first.lisp", noting!(":first")),
+            ("deep/in/last.lisp", noting!(":last")),
+            ("deep/in/src/a.lisp", noting!(":a")),
+            ("deep/in/src/b.lisp", noting!(":b")),
+            (
+                "spoons/spoons.asd",
+                "(asdf:defsystem #:spoons :components ((:file \"spoons\")))\n\
+                 (asdf:defsystem #:spoons/test :pathname \"t\" :components ((:file \"spoons\")))",
+            ),
+            (
+                "spoons/spoons.lisp",
+                "(defpackage :spoons (:use :cl)) (in-package :spoons)\n\
+                 (setf *readtable* (copy-readtable))\n\
+                 (push :spoons cl-user::*loaded*)\n\
+                 (push (file-namestring *load-truename*) cl-user::*loaded*)",
+            ),
+            ("spoons/t/spoons.lisp", noting!(":test")),
+        ],
+    );
+    let mut session = folder.session();
+    let mut said = |text: &str| said(&mut session, text);
+    said("(defvar *loaded* '()) (defvar *mine* *readtable*)");
+    assert_eq!(said("(ql:quickload :kitchen-tools)"), "(:KITCHEN-TOOLS)");
+    assert_eq!(
+        said("(reverse *loaded*)"),
+        "(:SPOONS \"spoons.lisp\" :FIRST :B :A :LAST)"
+    );
+    assert_eq!(
+        said("(list (eq *mine* *readtable*) (package-name *package*))"),
+        "(T \"COMMON-LISP-USER\")"
+    );
+    // Once is enough, unless it is forced.
+    assert_eq!(
+        said("(progn (asdf:load-system :spoons) (length *loaded*))"),
+        "6"
+    );
+    assert_eq!(
+        said("(progn (asdf:load-system :spoons :force t) (length *loaded*))"),
+        "8"
+    );
+    assert_eq!(
+        said("(progn (require :spoons/test) (first *loaded*))"),
+        ":TEST"
+    );
+    assert_eq!(
+        said("(asdf:registered-systems)"),
+        "(\"kitchen-tools\" \"spoons\")"
+    );
+    let directory = said("(asdf:system-source-directory :spoons/test)");
+    assert!(directory.ends_with("/spoons/\""), "{directory}");
+}
+
+#[test]
+fn a_system_that_cannot_be_loaded_is_refused_with_the_reason() {
+    let system = |name: &str, options: &str| {
+        (
+            format!("{name}.asd"),
+            format!("(defsystem \"{name}\" {options})"),
+        )
+    };
+    let systems = [
+        system("needs-spoon", ":depends-on (:spoon)"),
+        system("spoons", ":components ((:file \"spoon\"))"),
+        system("chicken", ":depends-on (:egg)"),
+        system("egg", ":depends-on (:chicken)"),
+        system("foreign", ":depends-on (:cffi)"),
+        system("threads", ":depends-on (\"bordeaux-threads\")"),
+        system("grovel", ":components ((:cffi-grovel-file \"a\"))"),
+        system(
+            "round",
+            ":components ((:file \"a\" :depends-on (\"b\")) (:file \"b\" :depends-on (\"a\")))",
+        ),
+        system(
+            "nowhere",
+            ":components ((:file \"alpha\") (:file \"b\" :depends-on (\"alhpa\")))",
+        ),
+        system("computed", ":components #.(list 1)"),
+        system("inferred", ":class :package-inferred-system"),
+        system("odd", ":components"),
+        system("strange", ":components ((:file \"a\") \"b\")"),
+        system("entry", ":depends-on ((:if x))"),
+        (
+            "broken.asd".to_owned(),
+            "(defsystem \"broken\" :components (".to_owned(),
+        ),
+        ("other.asd".to_owned(), "(defsystem \"another\")".to_owned()),
+        ("alpha.lisp".to_owned(), String::new()),
+        ("spoons.lisp".to_owned(), String::new()),
+    ];
+    let files: Vec<(&str, &str)> = systems
+        .iter()
+        .map(|(file, text)| (file.as_str(), text.as_str()))
+        .collect();
+    let folder = Folder::new("refused", &files);
+    let place = format!("{}/", folder.0.display());
+    let mut session = folder.session();
+    let mut refused = |name: &str| {
+        let report = said(&mut session, &format!("(asdf:load-system {name})"));
+        report.replace(&place, "")
+    };
+    for (name, expected) in [
+        (
+            ":needs-spoon",
+            "There is no system \"spoon\", on which needs-spoon depends; did you mean spoons? ",
+        ),
+        (
+            ":chicken",
+            "Systems depend on each other in a circle: chicken, which needs egg, which needs chicken.",
+        ),
+        (
+            ":foreign",
+            "The system \"cffi\", on which foreign depends, calls foreign functions, which there are not.",
+        ),
+        (
+            ":threads",
+            "The system \"bordeaux-threads\", on which threads depends, needs threads of the machine, which there are not; ",
+        ),
+        (
+            ":grovel",
+            "grovel.asd: the component \"a\" is of the kind :CFFI-GROVEL-FILE: foreign functions there are not.",
+        ),
+        (
+            ":round",
+            "round.asd: components depend on each other in a circle: a, which needs b, which needs a.",
+        ),
+        (
+            ":nowhere",
+            "nowhere.asd: the component \"b\" depends on \"alhpa\", which is not there; did you mean alpha?",
+        ),
+        (
+            ":spoons",
+            "spoons.asd: there is no file spoon.lisp; did you mean spoons.lisp?",
+        ),
+        (
+            ":computed",
+            "computed.asd: the option :COMPONENTS of the system \"computed\" has to be computed; nothing in such a file is evaluated.",
+        ),
+        (
+            ":inferred",
+            "inferred.asd: the system \"inferred\" is a package-inferred one; only those with components can be loaded.",
+        ),
+        (
+            ":odd",
+            "odd.asd: the options of the system \"odd\" are not a list of keywords with values.",
+        ),
+        (
+            ":strange",
+            "strange.asd: a component is written (:file \"name\" …) or (:module \"name\" :components (…)), not \"b\".",
+        ),
+        (
+            ":entry",
+            "entry.asd: (:IF ASDF-USER::X) is no system to depend on; a name, ",
+        ),
+        (":broken", "broken.asd cannot be read: "),
+        (":other", "other.asd: there is no system \"other\" in it."),
+        ("7", "The value\n  7\nis not of type"),
+    ] {
+        let report = refused(name);
+        assert!(report.starts_with(expected), "{name}: {report}");
+    }
+}
+
+#[test]
+fn a_file_has_its_own_binding_of_a_file_local_variable() {
+    let folder = Folder::new(
+        "file-local",
+        &[
+            (
+                "locals.asd",
+                "(defsystem :locals :serial t :depends-on (:net.didierverna.asdf-flv)\n\
+                   :components ((:file \"define\") (:file \"change\")))",
+            ),
+            (
+                "define.lisp",
+                "(defvar cl-user::*suite* :none)\n\
+                 (net.didierverna.asdf-flv:set-file-local-variable cl-user::*suite*)",
+            ),
+            (
+                "change.lisp",
+                "(setf cl-user::*suite* :mine cl-user::*seen* cl-user::*suite*)",
+            ),
+        ],
+    );
+    let mut session = folder.session();
+    said(&mut session, "(defvar *seen* nil)");
+    assert_eq!(said(&mut session, "(asdf:load-system :locals)"), "T");
+    assert_eq!(said(&mut session, "(list *seen* *suite*)"), "(:MINE :NONE)");
+}
