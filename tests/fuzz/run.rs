@@ -123,10 +123,19 @@ fn one(target: &Target, plan: &Plan, count: u64, folder: &std::path::Path) -> Ve
         // If that fails, only the number of an input that ends the process is lost.
         let _ = position.seek(SeekFrom::Start(0));
         let _ = position.write_all(format!("{} {number:12}\n", target.name).as_bytes());
-        let begin = Instant::now();
-        let problem = match defect::caught(|| take(&input)) {
-            Ok(Ok(())) if begin.elapsed() < SLOW => None,
-            Ok(Ok(())) => Some("it takes too long".to_owned()),
+        let mut attempt = || {
+            let begin = Instant::now();
+            let outcome = defect::caught(|| take(&input));
+            (outcome, begin.elapsed() >= SLOW)
+        };
+        let (mut outcome, mut is_slow) = attempt();
+        if is_slow {
+            // Other processes may have slowed it down.
+            (outcome, is_slow) = attempt();
+        }
+        let problem = match outcome {
+            Ok(Ok(())) if is_slow => Some("it takes too long".to_owned()),
+            Ok(Ok(())) => None,
             Ok(Err(problem)) => Some(problem),
             Err(defect) => Some(format!("it panics: {defect}")),
         };
