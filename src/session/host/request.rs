@@ -149,7 +149,8 @@ impl SimulationHost {
         let mut done = Vec::new();
         let mut steps = 0u32;
         while self.simulation.jobs.is_braking() && self.tick(image, &mut done) {
-            self.step(image);
+            // Braking is short, and a viewer who has paused the session must not hold it up.
+            self.step_at_once(image);
             steps += 1;
             self.simulation.now = now + f64::from(steps) * STEP_SECONDS;
         }
@@ -292,6 +293,14 @@ impl SimulationHost {
     }
 
     fn step(&mut self, image: &mut Image) {
+        self.step_at_once(image);
+        if let Some(pace) = &mut self.audience.pace {
+            pace.wait(STEP_SECONDS, image.interrupt());
+        }
+    }
+
+    /// A step of the world, without waiting for real time to pass.
+    fn step_at_once(&mut self, image: &mut Image) {
         let simulation = &mut self.simulation;
         let step = simulation.world.steps();
         simulation.world.step();
@@ -299,8 +308,5 @@ impl SimulationHost {
         self.audience.observe(simulation);
         self.audience.film(simulation);
         self.audience.show(simulation, Cause::Step);
-        if let Some(pace) = &mut self.audience.pace {
-            pace.wait(STEP_SECONDS, image.interrupt());
-        }
     }
 }
