@@ -71,6 +71,8 @@ const LEFT_OUT: &[&str] = &[
     "DELETE-FILE",
     "RENAME-FILE",
     "ENSURE-DIRECTORIES-EXIST",
+    "WRITE-STRING-INTO-FILE",
+    "COPY-FILE",
     "LOAD",
     "SLEEP",
     "BREAK",
