@@ -130,6 +130,15 @@ fn token() -> impl Strategy<Value = String> {
     ]
 }
 
+#[test]
+fn names_with_typographic_quotation_marks_are_printed_between_bars() {
+    let mut image = Image::new();
+    for text in ["|A‘|", "|’|", "|“B”|", "|„|"] {
+        let value = read(&mut image, text);
+        assert_eq!(print::to_string(&image, &value, true), text);
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig {
         cases: 400,

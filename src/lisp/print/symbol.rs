@@ -2,6 +2,7 @@
 
 use super::settings::{Case, Settings};
 use crate::lisp::image::Image;
+use crate::lisp::reader;
 use crate::lisp::value::package::Access;
 use crate::lisp::value::symbol::Sym;
 
@@ -80,9 +81,10 @@ fn is_special(c: char) -> bool {
     matches!(
         c,
         '(' | ')' | '"' | '\'' | '`' | ',' | ';' | ':' | '|' | '\\'
-    ) || crate::lisp::reader::lexer::is_blank(c)
+    ) || reader::lexer::is_blank(c)
         || c.is_control()
-        || crate::lisp::reader::upcase(c) != c
+        || reader::upcase(c) != c
+        || reader::meant_by_quotation_mark(c).is_some()
 }
 
 /// Is the name a "potential number" (digits, signs, points, slashes, `^`, `_` and single

@@ -25,7 +25,7 @@ pub(crate) use lexer::{Lexer, Token, TokenKind};
 pub(crate) use parser::read_all;
 pub(crate) use parser::{Outcome, Reader};
 pub(crate) use suggest::nearest;
-pub(crate) use symbol::upcase;
+pub(crate) use symbol::{meant_by_quotation_mark, upcase};
 
 #[cfg(test)]
 mod tests;

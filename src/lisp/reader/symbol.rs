@@ -63,19 +63,10 @@ pub(crate) fn split(token: &str) -> Result<Name, ReadErrorKind> {
                     result.is_internal = true;
                 }
             }
-            '“' | '”' | '„' => {
-                return Err(ReadErrorKind::SmartQuote {
-                    mark: c,
-                    instead: "\" around strings",
-                });
-            }
-            '‘' | '’' => {
-                return Err(ReadErrorKind::SmartQuote {
-                    mark: c,
-                    instead: "' before a quoted form",
-                });
-            }
-            c => result.name.push(upcase(c)),
+            c => match meant_by_quotation_mark(c) {
+                Some(instead) => return Err(ReadErrorKind::SmartQuote { mark: c, instead }),
+                None => result.name.push(upcase(c)),
+            },
         }
     }
     if result.package.is_some() && result.name.is_empty() && !result.is_escaped {
@@ -84,6 +75,16 @@ pub(crate) fn split(token: &str) -> Result<Name, ReadErrorKind> {
         });
     }
     Ok(result)
+}
+
+/// What Lisp text has instead of a typographic quotation mark, which word processors put there; a
+/// name has one only between bars.
+pub(crate) fn meant_by_quotation_mark(c: char) -> Option<&'static str> {
+    match c {
+        '“' | '”' | '„' => Some("\" around strings"),
+        '‘' | '’' => Some("' before a quoted form"),
+        _ => None,
+    }
 }
 
 /// The symbol that a split token denotes.
