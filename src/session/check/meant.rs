@@ -65,7 +65,7 @@ pub(in crate::session) fn hint(image: &Image, condition: &Value) -> Option<Strin
             match there {
                 Some((sym, _)) if has_function(image, sym) || is_variable(sym) => {
                     format!(
-                        "Did you mean {package}:{name}? After (in-package :pp-tut), {name} is that."
+                        "Did you mean {package}:{name}? After (in-package :pp-tut), it needs no prefix."
                     )
                 }
                 _ => format!("Did you mean {package}:{name}?"),
