@@ -9,7 +9,6 @@ pub(super) mod grasp_search;
 pub(super) mod held;
 pub(super) mod imagined;
 pub(crate) mod jobs;
-mod location_references;
 pub(super) mod locations;
 pub(super) mod motion_types;
 pub(super) mod motions;

@@ -1,12 +1,12 @@
 //! What the Lisp part of a location's description has worked out: the poses of locations that it
 //! refers to, and numbers.
 
-use super::Simulation;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::plan::pose::value::as_placement;
+use crate::session::simulation::Simulation;
 use crate::spatial::Pose;
 
 /// One entry: `(key pose-or-nil number…)`.

@@ -1,0 +1,264 @@
+//! From location designators to descriptions of places, and the search for them.
+
+mod bases;
+mod constraints;
+mod properties;
+mod references;
+mod things;
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use super::Simulation;
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
+use crate::location::{
+    Beside, Level, Orientation, PlaceQuery, Position, Query, Scene, Stream, Support,
+};
+use crate::motion::interruption::interruptible;
+use crate::picture::LocationMap;
+use crate::plan::designator::value::{Class, Designator, as_class, current, first};
+use crate::session::LogLevel;
+use crate::world::{BodyName, WorldError};
+use properties::{metres, one_of, raised};
+use references::References;
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// The poses of a location, as its designator keeps them.
+pub(in crate::session) struct LocationStream {
+    pub(crate) stream: RefCell<Stream>,
+    class_symbol: Sym,
+}
+
+impl Foreign for LocationStream {
+    fn type_symbol(&self) -> Sym {
+        self.class_symbol
+    }
+
+    fn print(&self, _: &dyn PrintContext, _: bool) -> String {
+        "#<LOCATION-SEARCH>".to_owned()
+    }
+
+    fn describe(&self, _: &dyn PrintContext) -> String {
+        self.stream.borrow().summary()
+    }
+}
+
+impl Simulation {
+    /// What searches look at.
+    pub(in crate::session) fn location_scene(&self) -> Scene<'_> {
+        Scene {
+            world: &self.world,
+            grasps: &self.grasps,
+        }
+    }
+
+    /// The poses of a location as its chain of designators keeps them, begun if necessary; `None`
+    /// if its properties do not describe a place. `references` are what Lisp has worked out: a list
+    /// of `(key pose number…)`.
+    pub(in crate::session) fn location_stream(
+        &mut self,
+        image: &mut Image,
+        location: &Value,
+        references: &Value,
+    ) -> Result<Option<Value>> {
+        let oldest = first(location);
+        let Some(designator) = as_class(&oldest, Class::Location) else {
+            let shown = print::to_string(image, location, false);
+            return Err(Raise::simple(format!("{shown} is no location.")));
+        };
+        if let Some(memory) = designator.memory.borrow().clone()
+            && memory.as_foreign::<LocationStream>().is_some()
+        {
+            // What is offered from it is gone, and no tape takes it away.
+            self.tape.note_lasting_effect();
+            return Ok(Some(memory));
+        }
+        let references = References::read(self, image, references)?;
+        let Some(query) = self.location_query(image, designator, &references)? else {
+            return Ok(None);
+        };
+        self.tape.note_lasting_effect();
+        self.searches += 1;
+        // Any odd number tells apart the searches of sessions with different seeds.
+        let seed = self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ self.searches;
+        let class_symbol = image.keyword("LOCATION-SEARCH");
+        let memory = Value::foreign(LocationStream {
+            stream: RefCell::new(Stream::new(query, seed)),
+            class_symbol,
+        });
+        *designator.memory.borrow_mut() = Some(memory.clone());
+        Ok(Some(memory))
+    }
+
+    /// Works on the poses of a location; `None` if the user has interrupted it.
+    pub(in crate::session) fn with_stream<T>(
+        &self,
+        image: &mut Image,
+        memory: &Value,
+        work: impl FnOnce(&mut Stream, Scene<'_>) -> std::result::Result<T, WorldError>,
+    ) -> Result<Option<T>> {
+        let Some(stream) = memory.as_foreign::<LocationStream>() else {
+            return Ok(None);
+        };
+        let done = interruptible(image.interrupt(), || {
+            work(&mut stream.stream.borrow_mut(), self.location_scene())
+        });
+        match done {
+            Some(done) => done.map(Some).map_err(|error| raised(&error)),
+            None => {
+                image.polls().seen_since_last();
+                Ok(None)
+            }
+        }
+    }
+
+    /// What can be shown of the search for a location, if there is anything.
+    pub(in crate::session) fn location_map_of(
+        &self,
+        image: &mut Image,
+        memory: &Value,
+    ) -> Result<Option<Arc<LocationMap>>> {
+        let view = self.with_stream(image, memory, |stream, scene| stream.view(scene))?;
+        Ok(view.flatten().map(|view| {
+            Arc::new(LocationMap {
+                resolution: view.map.resolution,
+                cells: view.map.cells,
+                height: view.height,
+                offered: view.offered,
+                arrow: if view.is_for_robot { 0.3 } else { 0.12 },
+            })
+        }))
+    }
+
+    /// What the properties describe; `None` if that is no place on something nor one for the robot.
+    fn location_query(
+        &self,
+        image: &mut Image,
+        location: &Designator,
+        references: &References,
+    ) -> Result<Option<Query>> {
+        let given = |image: &Image, key: &str| {
+            let value = location.property_named(image, key);
+            value.filter(Value::is_true)
+        };
+        let reaches = given(image, "REACHABLE-FOR").is_some();
+        let sees = given(image, "VISIBLE-FOR").is_some();
+        if reaches || sees {
+            let query = self.base_query(image, location, references, (reaches, sees))?;
+            return Ok(Some(Query::Base(query)));
+        }
+        let places = ["ON", "ABOVE", "IN"].map(|key| given(image, key).map(|value| (key, value)));
+        let mut places = places.into_iter().flatten();
+        let constraints = self.constraints(image, location, references)?;
+        let (key, support) = match (places.next(), places.next()) {
+            (Some((one, _)), Some((other, _))) => {
+                let [one, other] = [one, other].map(str::to_lowercase);
+                return Err(Raise::simple(format!(
+                    "A location is ({one} …) something or ({other} …) it, not both."
+                )));
+            }
+            (Some((key, value)), None) => (key, self.location_support(image, key, &value)?),
+            (None, _) => match self.support_of_neighbour(image, location)? {
+                Some(support) => ("ON", support),
+                None => return Ok(None),
+            },
+        };
+        if let Some(value) = ["ATTACHMENT", "ATTACHMENTS"]
+            .iter()
+            .find_map(|k| given(image, k))
+        {
+            let shown = print::to_string(image, &value, false);
+            return Err(Raise::simple(format!(
+                "There is no attachment {shown}: none are known for this furniture."
+            )));
+        }
+        let position = match key {
+            "ON" => Position::On,
+            "ABOVE" => {
+                let offset = given(image, "Z-OFFSET");
+                let offset = offset.map(|z| metres(image, "Z-OFFSET", &z)).transpose()?;
+                Position::Above(offset.unwrap_or(0.0))
+            }
+            _ => Position::In(level(image, location)?),
+        };
+        Ok(Some(Query::Place(PlaceQuery {
+            support,
+            position,
+            constraints,
+            what: self.what_for(image, location)?,
+            orientation: self.orientation(image, location),
+        })))
+    }
+
+    /// What something stands on beside which the location is, if it does not say itself on what.
+    fn support_of_neighbour(
+        &self,
+        image: &mut Image,
+        location: &Designator,
+    ) -> Result<Option<Support>> {
+        let keys = Beside::ALL.map(Beside::key).into_iter();
+        let mut keys = keys.chain(["NEAR", "FAR-FROM"]);
+        let value = keys.find_map(|key| location.property_named(image, key));
+        let Some(value) = value.map(|v| current(&v)) else {
+            return Ok(None);
+        };
+        let Some(name) = self.named_object(image, &value) else {
+            return Ok(None);
+        };
+        let pose = self.world.object_pose(&name).map_err(|e| raised(&e))?;
+        let below = self.world.below(&name, &pose).map_err(|e| raised(&e))?;
+        Ok(match below.map(|(_, body)| body) {
+            Some(BodyName::Furniture(link)) => Some(Support::Furniture(link.id)),
+            Some(BodyName::Object(name)) => Some(Support::Object(name)),
+            _ => None,
+        })
+    }
+
+    fn orientation(&self, image: &mut Image, location: &Designator) -> Orientation {
+        let Some(value) = location.property_named(image, "ORIENTATION") else {
+            return Orientation::default();
+        };
+        let wanted = ("ORIENTATION", &value);
+        let found = one_of(image, wanted, &Orientation::ALL, Orientation::name);
+        found.unwrap_or_else(|text| {
+            self.log(image, LogLevel::Warn, "(COSTMAP ORIENTATION)", &text);
+            Orientation::default()
+        })
+    }
+}
+
+/// Which board a location is on.
+fn level(image: &Image, location: &Designator) -> Result<Level> {
+    for (key, is_inverted) in [("LEVEL", false), ("LEVEL-INVERT", true)] {
+        let Some(value) = location.property_named(image, key).filter(Value::is_true) else {
+            continue;
+        };
+        if let Value::Int(n) = value
+            && let Ok(n) = usize::try_from(n)
+        {
+            return Ok(match is_inverted {
+                true => Level::FromAbove(n),
+                false => Level::FromBelow(n),
+            });
+        }
+        let name = |level: Level| match level {
+            Level::Topmost => "topmost",
+            Level::Middle => "middle",
+            _ => "bottommost",
+        };
+        let choices = [Level::Topmost, Level::Middle, Level::FromBelow(1)];
+        let found = one_of(image, (key, &value), &choices, name).map_err(Raise::simple)?;
+        return Ok(match (found, is_inverted) {
+            (Level::Topmost, true) => Level::FromBelow(1),
+            (Level::FromBelow(_), true) => Level::Topmost,
+            (found, _) => found,
+        });
+    }
+    Ok(Level::Any)
+}
