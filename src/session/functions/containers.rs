@@ -108,21 +108,32 @@ fn kind_keyword(image: &mut Image, kind: JointKind) -> Value {
 }
 
 fn list_containers(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Reply> {
-    let kitchen = &simulation.models.kitchen;
-    let rows = containers(&simulation.models).into_iter().map(|container| {
-        let joint = kitchen.joint(container.joint);
-        let limits = simulation.travel(&container);
-        Value::list([
-            furniture_keyword(image, &kitchen.link(container.link).name),
-            Value::from(joint.name.as_str()),
-            Value::Double(simulation.opening_of(&container)),
-            Value::Double(limits.lower),
-            Value::Double(limits.upper),
-            kind_keyword(image, joint.kind),
-            pose_stamped("map", &simulation.world.furniture_pose(container.handle)),
-        ])
+    let containers = containers(&simulation.models);
+    let rows = containers.into_iter().map(|container| {
+        let mut row = state(simulation, image, &container).to_vec();
+        row.push(pose_stamped(
+            "map",
+            &simulation.world.furniture_pose(container.handle),
+        ));
+        Value::list(row)
     });
     done(Value::list(rows.collect::<Vec<_>>()))
+}
+
+/// The name of a container, that of its joint, where this is and its limits (m or rad), and its
+/// kind.
+fn state(simulation: &Simulation, image: &mut Image, container: &Container) -> [Value; 6] {
+    let kitchen = &simulation.models.kitchen;
+    let joint = kitchen.joint(container.joint);
+    let limits = simulation.travel(container);
+    [
+        furniture_keyword(image, &kitchen.link(container.link).name),
+        Value::from(joint.name.as_str()),
+        Value::Double(simulation.opening_of(container)),
+        Value::Double(limits.lower),
+        Value::Double(limits.upper),
+        kind_keyword(image, joint.kind),
+    ]
 }
 
 fn open_p(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
@@ -137,17 +148,7 @@ fn container_state(
     args: &[Value],
 ) -> Result<Reply> {
     let container = simulation.container(image, &args[0])?;
-    let limits = simulation.travel(&container);
-    let kitchen = &simulation.models.kitchen;
-    let joint = kitchen.joint(container.joint);
-    done(Value::values(vec![
-        furniture_keyword(image, &kitchen.link(container.link).name),
-        Value::from(joint.name.as_str()),
-        Value::Double(simulation.opening_of(&container)),
-        Value::Double(limits.lower),
-        Value::Double(limits.upper),
-        kind_keyword(image, joint.kind),
-    ]))
+    done(Value::values(state(simulation, image, &container).to_vec()))
 }
 
 /// What is asked of a hand that is to bring a container to a position.
