@@ -280,6 +280,6 @@ impl PullGoal {
             path.push(point.iter().copied().chain([length]).collect());
         }
         let trajectory = Trajectory::rounded(&path, &limits, &mut |_| true);
-        JointFollower::new(group.joints, trajectory, world.hands_on_handles())
+        JointFollower::new(group.joints, trajectory, world.fingers_on_handles())
     }
 }

@@ -8,7 +8,7 @@
 use super::{
     ArmKinematics, ArmPositions, JointId, JointPositions, KinematicTree, Limits, LinkId, Side,
 };
-use crate::spatial::Pose;
+use crate::spatial::{Pose, trig};
 use nalgebra::{Translation3, UnitQuaternion};
 
 /// Greatest velocity and acceleration of an axis (rad or m, and s).
@@ -168,15 +168,12 @@ pub(crate) struct Gripper {
 impl Gripper {
     /// Gap (m) between the pads at a joint position (rad); slightly negative when closed.
     pub(crate) fn gap(&self, position: f64) -> f64 {
-        let (s, c) = crate::spatial::trig::sin_cos(position);
+        let (s, c) = trig::sin_cos(position);
         2.0 * (self.tip[0] * s + self.tip[1] * c + self.pad)
     }
 
     /// Joint position (rad), within its limits, whose gap is nearest to the given one (m).
-    #[cfg(test)]
     pub(crate) fn position_for_gap(&self, gap: f64) -> f64 {
-        use crate::spatial::trig;
-
         let [along, across] = self.tip;
         let aside = (0.5 * gap - self.pad) / libm::hypot(along, across);
         self.limits

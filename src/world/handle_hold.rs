@@ -3,7 +3,7 @@
 //! Robot and kitchen are kinematic: no force moves them. So what friction does between pads and
 //! bar is a rule. While the fingers are as close together as when they pressed, the joint takes in
 //! every step the position at which the held point of the bar is nearest to where the hand carries
-//! it. It stays behind if something stops the part, if the part is pressed against something with
+//! it. A hand that turns about a bar with corners has its fingers pushed apart by them. The joint stays behind if something stops the part, if the part is pressed against something with
 //! more than the pads transmit, or if they do not even overcome the friction of its rails or
 //! hinges. The hand slips off once the held point is farther than [`GREATEST_GAP`] from the hand,
 //! or the hand has been turned farther than rubber pads yield.
@@ -17,10 +17,10 @@ use super::error::WorldError;
 use super::hash::Hasher;
 use super::moved_part::Part;
 use super::scene::World;
-use super::solid::{Solid, from_parry_vector};
+use super::solid::{Solid, from_parry_vector, to_parry};
 use crate::robot::{JointId, JointKind, LinkId, Side};
 use crate::spatial::{Pose, trig};
-use nalgebra::{Point3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 
 /// How far (m) the held point of a bar may be from where the hand carries it.
 pub(crate) const GREATEST_GAP: f64 = 0.005;
@@ -57,8 +57,10 @@ pub(crate) struct HandleHold {
     point: Point3<f64>,
     /// The direction of the bar in the frame of the handle.
     bar: Vector3<f64>,
-    /// Position of the finger joint (rad) at which the fingers press.
+    /// Position of the finger joint (rad) at which the fingers press now.
     fingers: f64,
+    /// The gap between the pads minus the width of the bar there (m): how far the pads yield.
+    give: f64,
     /// The greatest force (N) that friction transmits.
     strength: f64,
     /// What stops the part, if it does not follow.
@@ -89,9 +91,12 @@ impl HandleHold {
     }
 
     pub(super) fn hash_into(&self, hasher: &mut Hasher) {
+        hasher.integer(u64::from(self.side == Side::Left));
+        hasher.integer(self.handle.index() as u64);
         hasher.integer(self.joint.index() as u64);
         hasher.pose(&self.grip);
         hasher.number(self.fingers);
+        hasher.number(self.give);
         hasher.number(self.strength);
     }
 }
@@ -130,14 +135,17 @@ impl World {
         let pose = self.furniture_pose(handle);
         let (bar, _) = self.bar(handle);
         let tool = pose.inverse_transform_point(&Point3::from(tool.translation.vector));
+        let grip = palm.inv_mul(&pose);
+        let fingers = self.state.robot.joints.get(arm.gripper.joint);
         let hold = HandleHold {
             side,
             handle,
             joint,
-            grip: palm.inv_mul(&pose),
+            grip,
             point: Point3::from(bar * tool.coords.dot(&bar)),
             bar,
-            fingers: self.state.robot.joints.get(arm.gripper.joint),
+            fingers,
+            give: arm.gripper.gap(fingers) - self.width_of_bar(handle, &grip),
             strength: 2.0 * PAD_FRICTION * effort,
             against: None,
             direction: 0,
@@ -161,6 +169,22 @@ impl World {
         } else {
             (Vector3::z(), half.z)
         }
+    }
+
+    /// How wide (m) a handle's bar is between the fingers, by the pose of the handle in the frame
+    /// of the palm, along whose y axis the fingers close.
+    fn width_of_bar(&self, handle: LinkId, grip: &Pose) -> f64 {
+        let Some(bar) = self.handle_solids(handle).first() else {
+            return 0.0;
+        };
+        let (along, _) = self.bar(handle);
+        let closing = grip.rotation.inverse() * Vector3::y();
+        let across = closing - along * along.dot(&closing);
+        let Some(turn) = UnitQuaternion::rotation_between(&across, &Vector3::y()) else {
+            return 0.0;
+        };
+        let turn = to_parry(&Pose::from_parts(Translation3::identity(), turn));
+        2.0 * bar.shape.compute_aabb(&(turn * bar.pose)).half_extents().y
     }
 
     /// The mean place (m) of the posts that carry a handle's bar, in its frame; the origin if it
@@ -255,6 +279,7 @@ impl World {
             let gap = (carried * hold.point - real * hold.point).norm();
             let [pivot, twist] = turns(&(real.rotation.inverse() * carried.rotation), &hold.bar);
             if gap <= GREATEST_GAP && pivot.abs() <= GREATEST_PIVOT && twist <= GREATEST_TWIST {
+                hold.fingers = self.spread_fingers(&hold);
                 self.state.handles.push(hold);
                 continue;
             }
@@ -270,6 +295,21 @@ impl World {
             self.state.handle_slips.retain(|old| old.side != slip.side);
             self.state.handle_slips.push(slip);
         }
+    }
+
+    /// Lets the fingers be as far apart as the bar between them is wide; the position of their
+    /// joint (rad).
+    fn spread_fingers(&mut self, hold: &HandleHold) -> f64 {
+        let gripper = &self.models.description.arm(hold.side).gripper;
+        let joint = gripper.joint;
+        let palm = self.link_pose(gripper.palm);
+        let grip = palm.inv_mul(&self.furniture_pose(hold.handle));
+        let gap = self.width_of_bar(hold.handle, &grip) + hold.give;
+        let position = gripper.position_for_gap(gap);
+        let mut robot = self.state.robot.clone();
+        robot.joints.set(joint, position);
+        self.place_robot_links(&robot);
+        position
     }
 
     fn follow(&mut self, joint: JointId, position: f64) {
@@ -318,14 +358,14 @@ impl World {
         if let Some(hit) = moved.furniture_hit() {
             return Some(Some(hit));
         }
-        let hand = self.hand_on(hold);
+        let fingers = self.and_fingers_on(AllowedPairs::none(), hold);
         let robot = &self.state.robot;
         let is_of_part = |hit: &CollisionHit| match &hit.other {
             BodyName::Furniture(link) => part.links.contains(&link.id),
             BodyName::Object(name) => part.riders.contains(name),
             BodyName::Robot(_) | BodyName::Floor => false,
         };
-        let hits = moved.checker().all_hits(robot, &hand, -CONTACT);
+        let hits = moved.checker().all_hits(robot, &fingers, -CONTACT);
         if let Some(hit) = hits.into_iter().find(is_of_part) {
             return Some(Some(hit));
         }
@@ -341,21 +381,19 @@ impl World {
         })
     }
 
-    /// The pairs of the hand and the handle that it holds.
-    fn hand_on(&self, hold: &HandleHold) -> AllowedPairs {
+    /// Also allows the fingers to touch the handle that they hold.
+    fn and_fingers_on(&self, pairs: AllowedPairs, hold: &HandleHold) -> AllowedPairs {
         let handle = self.models.furniture_body(hold.handle);
         let gripper = &self.models.description.arm(hold.side).gripper;
-        let links = gripper.links().map(|link| self.models.robot_body(link));
-        AllowedPairs::none().and_all(links, &handle)
+        let fingers = gripper.fingers.iter().flatten();
+        pairs.and_all(fingers.map(|link| self.models.robot_body(*link)), &handle)
     }
 
-    /// The pairs of hands and the handles that they hold.
-    pub(crate) fn hands_on_handles(&self) -> AllowedPairs {
+    /// The pairs of fingers and the handles that they hold.
+    pub(crate) fn fingers_on_handles(&self) -> AllowedPairs {
         let holds = self.state.handles.iter();
-        holds.fold(AllowedPairs::none(), |all, hold| {
-            let pairs = self.hand_on(hold);
-            let pairs: Vec<_> = pairs.iter().cloned().collect();
-            pairs.into_iter().fold(all, |all, (a, b)| all.and(a, b))
+        holds.fold(AllowedPairs::none(), |pairs, hold| {
+            self.and_fingers_on(pairs, hold)
         })
     }
 

@@ -8,7 +8,7 @@ use nalgebra::Point3;
 
 use super::body_name::BodyName;
 use super::collision::{CollisionChecker, CollisionHit};
-use super::collision_search::{HeldObject, ObjectAt, Surroundings};
+use super::collision_search::ObjectAt;
 use super::object::Object;
 use super::obstacles::{Obstacle, Obstacles};
 use super::part_key::{PartKey, index};
@@ -217,27 +217,8 @@ impl MovedPart<'_> {
 
     /// A checker of robot configurations in the world as it then is.
     pub(crate) fn checker(&self) -> CollisionChecker<'_> {
-        let mut objects = Vec::new();
-        let mut held = Vec::new();
-        for object in self.world.state.objects.values() {
-            match &object.attachment {
-                Some(attachment) => held.push(HeldObject {
-                    key: object.key(),
-                    name: &object.name,
-                    solids: &object.solids,
-                    bounds: object.bounds,
-                    link: attachment.link,
-                    at: attachment.at,
-                }),
-                None => objects.push(self.object_at(object).0),
-            }
-        }
-        CollisionChecker::new(Surroundings {
-            models: &self.world.models,
-            furniture: &self.furniture,
-            objects,
-            held,
-        })
+        self.world
+            .checker_among(&self.furniture, |object| self.object_at(object).0)
     }
 
     /// What other furniture the links of the part overlap there.

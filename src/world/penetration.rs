@@ -13,8 +13,8 @@ use super::solid::to_parry;
 
 impl World {
     /// The deepest overlap, deeper than `tolerance` (m), of the robot or of an object in its
-    /// hand with anything, at their current poses. Allowed pairs, and a hand with the object or the
-    /// handle that it holds, do not count.
+    /// hand with anything, at their current poses. Allowed pairs, and a hand with the object that it
+    /// holds, do not count.
     pub(crate) fn deepest_penetration(
         &self,
         allowed: &AllowedPairs,
@@ -43,10 +43,7 @@ impl World {
             objects,
             held,
         });
-        let handles = self.hands_on_handles();
-        let handles = handles.iter().cloned();
-        let allowed = handles.fold(allowed.clone(), |all, (a, b)| all.and(a, b));
-        let hits = checker.all_hits(&self.state.robot, &allowed, -tolerance);
+        let hits = checker.all_hits(&self.state.robot, allowed, -tolerance);
         hits.into_iter().next()
     }
 

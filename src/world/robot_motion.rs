@@ -42,7 +42,8 @@ impl World {
         }
     }
 
-    fn place_robot_links(&mut self, configuration: &RobotConfiguration) {
+    /// Takes the links to where the configuration has them; the engine's bodies stay behind.
+    pub(super) fn place_robot_links(&mut self, configuration: &RobotConfiguration) {
         self.state.robot.clone_from(configuration);
         self.models.robot.forward_kinematics(
             &configuration.base,

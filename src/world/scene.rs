@@ -287,7 +287,16 @@ impl World {
 
     /// A checker of robot configurations for the current state of the world.
     pub(crate) fn collision_checker(&self) -> CollisionChecker<'_> {
-        let mut lying = Vec::new();
+        self.checker_among(&self.state.furniture, |object| self.object_at(object))
+    }
+
+    /// A checker of robot configurations with furniture and lying objects elsewhere than they are.
+    pub(super) fn checker_among<'w>(
+        &'w self,
+        furniture: &'w Obstacles,
+        at: impl Fn(&'w Object) -> ObjectAt<'w>,
+    ) -> CollisionChecker<'w> {
+        let mut objects = Vec::new();
         let mut held = Vec::new();
         for object in self.state.objects.values() {
             match &object.attachment {
@@ -299,13 +308,13 @@ impl World {
                     link: attachment.link,
                     at: attachment.at,
                 }),
-                None => lying.push(self.object_at(object)),
+                None => objects.push(at(object)),
             }
         }
         CollisionChecker::new(Surroundings {
             models: &self.models,
-            furniture: &self.state.furniture,
-            objects: lying,
+            furniture,
+            objects,
             held,
         })
     }

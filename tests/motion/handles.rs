@@ -61,13 +61,6 @@ impl Kitchen {
         };
         self.run_one(MoveJoints::new(left, right)).unwrap();
         self.run_one(to(side, choice.tool)).unwrap();
-        // From here on, hand and handle touch.
-        let (_, handle) = self.joint_and_handle(names);
-        let models = self.world.models();
-        let links = models.description.arm(side).gripper.links();
-        let links: Vec<_> = links.map(|link| models.robot_body(link)).collect();
-        let handle = models.furniture_body(handle);
-        self.declared = self.declared.clone().and_all(links, &handle);
         let grip = GripperCommand::Grip {
             object: None,
             effort: Some(effort),

@@ -3,7 +3,6 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
-use crate::location::containers;
 use crate::robot::Side;
 use crate::session::Session;
 use crate::world::{AllowedPairs, BodyName, World};
@@ -45,8 +44,7 @@ impl Overlaps {
     }
 }
 
-/// The pairs that may always overlap: hands and objects, and hands and handles, which grasping
-/// presses together.
+/// The pairs that may always overlap: hands and objects, which grasping presses together.
 fn hands_and_objects(world: &World) -> AllowedPairs {
     let models = world.models();
     let hands: Vec<BodyName> = [Side::Left, Side::Right]
@@ -54,11 +52,7 @@ fn hands_and_objects(world: &World) -> AllowedPairs {
         .flat_map(|side| models.description.arm(*side).gripper.links())
         .map(|link| models.robot_body(link))
         .collect();
-    let handles = containers(models).into_iter();
-    let handles = handles.map(|container| models.furniture_body(container.handle));
-    let none = AllowedPairs::none();
-    let pairs = handles.fold(none, |pairs, handle| pairs.and_all(hands.clone(), &handle));
-    world.objects().fold(pairs, |pairs, object| {
+    world.objects().fold(AllowedPairs::none(), |pairs, object| {
         pairs.and_all(hands.clone(), &BodyName::Object(object.name().to_owned()))
     })
 }
