@@ -39,7 +39,7 @@ pub(super) fn obstacle(
     // Only these pairs can get deeper.
     let now = world.robot_configuration();
     let moving = MovingParts::between(&world.models().robot, now, next);
-    checker.expect(moving, Pairs::Changing);
+    checker.expect_once(moving, Pairs::Changing);
     let first = checker.first_hit(next, allowed, -GUARD_DEPTH)?;
     let now = checker.all_hits(now, allowed, -NOT_YET);
     if now.is_empty() {

@@ -20,9 +20,9 @@ use crate::world::{AllowedPairs, World, WorldError};
 const PRESS: f64 = 0.004;
 /// Steps of bisection of that point, starting from one centimetre between two configurations.
 const REFINEMENTS: u32 = 6;
-/// How far (m) and how much (rad, 10 degrees) an object may move after it has been let go.
+/// How far (m) and how much (rad, 5 degrees) an object may move after it has been let go.
 const GREATEST_MOTION: f64 = 0.02;
-const GREATEST_TILT: f64 = 0.1745;
+const GREATEST_TILT: f64 = 0.0873;
 /// How far (m) above its goal the hand begins anew if it cannot move there from where it is.
 const ABOVE: f64 = 0.05;
 /// How many detours there may be: other jobs may move the torso or the base meanwhile.

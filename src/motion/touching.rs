@@ -85,7 +85,8 @@ impl TouchingPairs {
         &self.relaxed
     }
 
-    /// A pair closer than `margin` (m) in the configuration, or overlapping more than allowed.
+    /// A pair closer than `margin` (m) in the configuration, or overlapping more than allowed, which
+    /// is the lesser demand.
     pub(super) fn first_hit(
         &self,
         checker: &mut CollisionChecker<'_>,
@@ -96,7 +97,8 @@ impl TouchingPairs {
         if near.is_some() || self.is_empty() {
             return near;
         }
-        let deep = checker.all_hits(robot, &self.allowed, -self.depth);
+        // No others are that close.
+        let deep = checker.hits_among(robot, &self.relaxed, &self.allowed, -self.depth);
         deep.into_iter().find(|hit| {
             let mut before = self.hits.iter();
             let before = before.find(|b| b.moving == hit.moving && b.other == hit.other);

@@ -62,9 +62,11 @@ pub(crate) struct CollisionChecker<'w> {
     is_update: bool,
     scratch: Scratch,
     moving: Option<MovingParts>,
-    /// The pairs of solid links that move relative to each other.
-    changing: Vec<(usize, usize)>,
+    /// The pairs of solid links that move relative to each other, once they have been listed.
+    changing: Option<Vec<(usize, usize)>>,
     pairs: Pairs,
+    /// The pairs of bodies that a query is about, if not all.
+    only: Option<Vec<(PartKey, PartKey)>>,
 }
 
 impl<'w> CollisionChecker<'w> {
@@ -77,9 +79,24 @@ impl<'w> CollisionChecker<'w> {
             is_update: false,
             scratch: Scratch::default(),
             moving: None,
-            changing: Vec::new(),
+            changing: None,
             pairs: Pairs::All,
+            only: None,
         }
+    }
+
+    /// A checker that knows where the links are in a configuration.
+    pub(crate) fn knowing(mut self, robot: &RobotConfiguration, link_poses: &[Pose]) -> Self {
+        self.last = Some(robot.clone());
+        self.poses = link_poses.to_vec();
+        self
+    }
+
+    /// As [`Self::expect`], for a single query, which the preparation for many is not worth.
+    pub(crate) fn expect_once(&mut self, moving: MovingParts, pairs: Pairs) {
+        self.changing = None;
+        self.moving = Some(moving);
+        self.pairs = pairs;
     }
 
     /// Says what moves between the configurations that are queried from now on, and which pairs
@@ -90,7 +107,7 @@ impl<'w> CollisionChecker<'w> {
         let all = models.self_pairs.iter().copied();
         // The pairs are indices of this list.
         let changing = all.filter(|(a, b)| moving.part(links[*a].link, links[*b].link));
-        self.changing = changing.collect();
+        self.changing = Some(changing.collect());
         self.moving = Some(moving);
         self.pairs = pairs;
     }
@@ -185,6 +202,20 @@ impl<'w> CollisionChecker<'w> {
         found.iter().filter_map(|near| self.report(near)).collect()
     }
 
+    /// As [`Self::all_hits`], of some pairs of bodies only.
+    pub(crate) fn hits_among(
+        &mut self,
+        robot: &RobotConfiguration,
+        pairs: &AllowedPairs,
+        allowed: &AllowedPairs,
+        margin: f64,
+    ) -> Vec<CollisionHit> {
+        self.only = Some(self.allowed_keys(pairs));
+        let hits = self.all_hits(robot, allowed, margin);
+        self.only = None;
+        hits
+    }
+
     /// The pair with the smallest gap among those closer than `reach` (m) and not allowed. Pairs
     /// of the robot's own links do not count: how close those are is a matter of posture.
     pub(crate) fn clearance(
@@ -251,11 +282,12 @@ impl<'w> CollisionChecker<'w> {
         let allowed = self.allowed_keys(allowed);
         let question = Question {
             allowed: &allowed,
+            only: self.only.as_deref(),
             moving: self.moving.as_ref(),
             pairs: self.pairs,
-            self_pairs: match self.pairs {
-                Pairs::Changing => &self.changing,
-                Pairs::All | Pairs::Constant => &self.surroundings.models.self_pairs,
+            self_pairs: match (self.pairs, &self.changing) {
+                (Pairs::Changing, Some(changing)) => changing,
+                _ => &self.surroundings.models.self_pairs,
             },
             wanted,
         };

@@ -74,6 +74,8 @@ pub(crate) enum Wanted {
 pub(crate) struct Question<'q> {
     /// Pairs that do not matter.
     pub(crate) allowed: &'q [(PartKey, PartKey)],
+    /// The pairs that matter, if not all.
+    pub(crate) only: Option<&'q [(PartKey, PartKey)]>,
     /// What moves.
     pub(crate) moving: Option<&'q MovingParts>,
     /// Which pairs matter, by what moves.
@@ -168,13 +170,29 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         let links = &around.models.robot_geometry.solid_links;
         self.find_furniture();
         for place in 0..self.scratch.movers.len() {
-            self.against_world(place)?;
+            if self.may_matter(place) {
+                self.against_world(place)?;
+            }
         }
         if self.question.wanted == Wanted::HowMuchToOthers {
             return ControlFlow::Continue(());
         }
-        for &(a, b) in self.question.self_pairs {
-            self.against_each_other(a, b)?;
+        match self.question.only {
+            None => {
+                for &(a, b) in self.question.self_pairs {
+                    self.against_each_other(a, b)?;
+                }
+            }
+            Some(only) => {
+                let all = self.question.self_pairs;
+                let mut pairs: Vec<_> = only.iter().filter_map(|p| self.self_pair(*p)).collect();
+                pairs.retain(|pair| all.binary_search(pair).is_ok());
+                pairs.sort_unstable();
+                pairs.dedup();
+                for (a, b) in pairs {
+                    self.against_each_other(a, b)?;
+                }
+            }
         }
         for (i, held) in around.held.iter().enumerate() {
             let place = links.len() + i;
@@ -188,6 +206,37 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             }
         }
         ControlFlow::Continue(())
+    }
+
+    /// Whether the question is about any pair with the mover of that index.
+    fn may_matter(&self, place: usize) -> bool {
+        let (Some(only), Some(mover)) = (self.question.only, self.scratch.movers.get(place)) else {
+            return true;
+        };
+        only.iter().any(|&(a, b)| a == mover.key || b == mover.key)
+    }
+
+    /// The indices of two links of the robot, the smaller one first; `None` if the pair is another.
+    fn self_pair(&self, (a, b): (PartKey, PartKey)) -> Option<(usize, usize)> {
+        let movers = &self.scratch.movers;
+        let place = |key| movers.iter().position(|mover| mover.key == key);
+        let (a, b) = (place(a)?, place(b)?);
+        Some((a.min(b), a.max(b)))
+    }
+
+    /// Whether the bounds of two movers are closer than the margin (m).
+    fn are_near(&self, a: usize, b: usize, margin: f64) -> bool {
+        let movers = &self.scratch.movers;
+        let (Some(one), Some(two)) = (movers.get(a), movers.get(b)) else {
+            return false;
+        };
+        let (one, two, slack) = (&one.bounds, &two.bounds, margin.max(0.0));
+        one.mins.x - slack <= two.maxs.x
+            && one.maxs.x + slack >= two.mins.x
+            && one.mins.y - slack <= two.maxs.y
+            && one.maxs.y + slack >= two.mins.y
+            && one.mins.z - slack <= two.maxs.z
+            && one.maxs.z + slack >= two.mins.z
     }
 
     /// The pose of a link. The caller must pass one for every link; a link without one is taken to
@@ -333,20 +382,22 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
     }
 
     /// Checks two movers against each other.
+    #[inline]
     fn against_each_other(&mut self, a: usize, b: usize) -> ControlFlow<()> {
+        let margin = self.margin.min(SELF_MARGIN);
+        // Most pairs are far from each other.
+        if !self.are_near(a, b, margin) {
+            return ControlFlow::Continue(());
+        }
         let around = self.around;
         let movers = &self.scratch.movers;
         let (Some(one), Some(two)) = (movers.get(a), movers.get(b)) else {
             return ControlFlow::Continue(());
         };
-        if !self.asks_of_links(one.link, two.link) {
+        if !self.asks_of_links(one.link, two.link) || self.is_allowed(one.key, two.key) {
             return ControlFlow::Continue(());
         }
-        let margin = self.margin.min(SELF_MARGIN);
         let bounds = with_slack(&one.bounds, margin);
-        if !bounds.intersects(&two.bounds) || self.is_allowed(one.key, two.key) {
-            return ControlFlow::Continue(());
-        }
         let other = two.key;
         let first = self.place_solids(b);
         for (i, solid) in around.solids(b).iter().enumerate() {
@@ -415,11 +466,13 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         mover.first
     }
 
+    /// Whether the pair does not matter.
     fn is_allowed(&self, a: PartKey, b: PartKey) -> bool {
-        self.question
-            .allowed
-            .iter()
-            .any(|&(x, y)| (x == a && y == b) || (x == b && y == a))
+        let has = |pairs: &[(PartKey, PartKey)]| {
+            let mut pairs = pairs.iter();
+            pairs.any(|&(x, y)| (x == a && y == b) || (x == b && y == a))
+        };
+        has(self.question.allowed) || self.question.only.is_some_and(|only| !has(only))
     }
 
     fn report(&mut self, near: Near) -> ControlFlow<()> {

@@ -45,6 +45,11 @@ impl Hold {
         self.free >= LIFTED_STEPS
     }
 
+    /// The hand.
+    pub(super) fn side(&self) -> Side {
+        self.side
+    }
+
     pub(super) fn hash_into(&self, hasher: &mut Hasher) {
         hasher.number(self.fingers);
         hasher.number(self.strength);
@@ -96,6 +101,7 @@ impl World {
     /// attached elsewhere is detached first.
     pub(crate) fn attach(&mut self, name: &str, link: LinkId) -> Result<(), WorldError> {
         self.detach(name)?;
+        self.bring_body(link);
         let body = self.object(name)?.body;
         let Some((carrier, root)) = self.body_of_link(link) else {
             // A link of another tree has no body here that could hold anything.

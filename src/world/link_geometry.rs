@@ -4,10 +4,10 @@
 
 use std::sync::Arc;
 
-use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 
 use super::body_name::LinkName;
-use super::solid::{Solid, bounds_of};
+use super::solid::{Solid, bounds_of, to_parry};
 use crate::robot::{JointId, KinematicTree, LinkId};
 
 /// A link that can touch something.
@@ -27,6 +27,8 @@ pub(crate) struct RigidGroup {
     /// All links of the group that have solids, as indices into
     /// [`TreeGeometry::solid_links`], with the pose of each in the root's frame.
     pub(crate) members: Vec<(usize, crate::spatial::Pose)>,
+    /// Bounds (m) of their solids in the root's frame; `None` if there are none.
+    pub(crate) bounds: Option<Aabb>,
     /// Whether the body's frame can move relative to the root of the tree.
     pub(crate) moves: bool,
 }
@@ -89,6 +91,7 @@ impl TreeGeometry {
                 groups.push(RigidGroup {
                     root,
                     members: Vec::new(),
+                    bounds: None,
                     moves,
                 });
                 groups.len() - 1
@@ -98,6 +101,8 @@ impl TreeGeometry {
             // Every link has a group: the loop above ran over all of them.
             let group = &mut groups[group_of[solid_link.link.index()]];
             if let Some(pose) = tree.relative_pose(group.root, solid_link.link, &zero) {
+                let bounds = solid_link.bounds.transform_by(&to_parry(&pose));
+                group.bounds = Some(group.bounds.map_or(bounds, |all| all.merged(&bounds)));
                 group.members.push((place, pose));
             }
         }

@@ -31,11 +31,13 @@ pub(crate) mod part_key;
 #[cfg(test)]
 mod penetration;
 pub(crate) mod physics;
+mod robot_bodies;
 pub(crate) mod robot_configuration;
 mod robot_motion;
 pub(crate) mod scene;
 pub(crate) mod scene_shapes;
 mod separation;
+mod settling;
 pub(crate) mod snapshot;
 pub(crate) mod solid;
 pub(crate) mod spawn;

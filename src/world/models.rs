@@ -33,6 +33,8 @@ pub(crate) struct Models {
     pub(crate) self_pairs: Vec<(usize, usize)>,
     /// The hand that each link of the robot belongs to, if any.
     hand_of: Vec<Option<Side>>,
+    /// For each body of the robot in the physics engine, the number of the hand that it is of.
+    pub(crate) hands: Vec<Option<usize>>,
     /// The relation of each link of the robot to the floor.
     footing: Vec<Footing>,
 }
@@ -96,6 +98,18 @@ impl Models {
                 .find(|side| robot.carries(palm(side), link))
         };
         let hand_of = robot.links().map(|(link, _)| hand_of(link)).collect();
+        let hands = robot_geometry.groups.iter().map(|group| {
+            let is_of = |arm: &&Arm| {
+                let palm = arm.gripper.palm;
+                let body = robot_geometry.group_of.get(palm.index()).copied();
+                let palm_root = body.and_then(|body| robot_geometry.groups.get(body));
+                palm_root.is_some_and(|palm| palm.root == group.root)
+                    || robot.carries(palm, group.root)
+            };
+            let arm = description.arms.iter().find(is_of);
+            arm.map(|arm| arm.side.index())
+        });
+        let hands = hands.collect();
         let is_of_arm = |link| {
             let shoulder = |arm: &Arm| robot.joint(arm.joints()[0]).child;
             description
@@ -123,6 +137,7 @@ impl Models {
             map,
             self_pairs,
             hand_of,
+            hands,
             footing,
         }
     }

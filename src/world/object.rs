@@ -10,7 +10,7 @@ use super::part_key::PartKey;
 use super::physics::{BodyHandle, WeldHandle};
 use super::solid::Solid;
 use crate::robot::LinkId;
-use crate::spatial::{PlacedShape, Pose};
+use crate::spatial::{PlacedShape, Pose, Shape};
 
 /// The attachment of an object to a link.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,6 +70,12 @@ impl Object {
     /// Shapes, in the object's own frame.
     pub(crate) fn shapes(&self) -> &[PlacedShape] {
         &self.shapes
+    }
+
+    /// Whether it can tip over. A ball rolls instead, which only its place tells.
+    pub(crate) fn can_tip(&self) -> bool {
+        let is_ball = |placed: &PlacedShape| matches!(placed.shape, Shape::Sphere { .. });
+        !self.shapes.iter().all(is_ball)
     }
 
     /// The attachment, if a link carries the object.

@@ -83,6 +83,11 @@ pub(crate) enum BodyKind {
     MovingFurniture,
     /// A part of the robot, which follows its joints.
     Robot,
+    /// A thing that does not move, whatever happens to it.
+    Fixed {
+        /// Coefficient of friction.
+        friction: f64,
+    },
     /// A thing with a mass (kg) that falls, slides and is gripped.
     Object {
         /// Mass (kg).
@@ -144,6 +149,8 @@ pub(crate) struct Sets {
     multibody_joints: MultibodyJointSet,
     soft_bodies: SoftBodySet,
     ccd_solver: CCDSolver,
+    /// Whether anything was changed from outside since the last step.
+    is_edited: bool,
 }
 
 impl Clone for Physics {
@@ -179,10 +186,17 @@ impl Physics {
                 multibody_joints: MultibodyJointSet::new(),
                 soft_bodies: SoftBodySet::new(),
                 ccd_solver: CCDSolver::new(),
+                is_edited: true,
             },
             parameters,
             pipeline: PhysicsPipeline::new(),
         }
+    }
+
+    /// The state, to be changed before the next step.
+    fn edit(&mut self) -> &mut Sets {
+        self.sets.is_edited = true;
+        &mut self.sets
     }
 
     /// Adds the floor, the half-space below z = 0.
@@ -191,7 +205,7 @@ impl Physics {
             .friction(FRICTION)
             .collision_groups(groups(BodyKind::Static, Surface::Plain))
             .user_data(u128::from(key));
-        self.sets.colliders.insert(floor);
+        self.edit().colliders.insert(floor);
     }
 
     /// Adds a body made of the solids, each with the key of its part and what it is.
@@ -204,18 +218,18 @@ impl Physics {
         parts: &[(Solid, u64, Surface)],
     ) -> BodyHandle {
         let builder = match kind {
-            BodyKind::Static => RigidBodyBuilder::fixed(),
+            BodyKind::Static | BodyKind::Fixed { .. } => RigidBodyBuilder::fixed(),
             BodyKind::MovingFurniture | BodyKind::Robot => {
                 RigidBodyBuilder::kinematic_position_based()
             }
             BodyKind::Object { .. } => RigidBodyBuilder::dynamic().angular_damping(ANGULAR_DAMPING),
         };
-        let handle = self.sets.bodies.insert(builder.pose(to_parry(pose)));
+        let handle = self.edit().bodies.insert(builder.pose(to_parry(pose)));
         let volume: f64 = parts.iter().map(|(solid, ..)| solid.volume).sum();
         for (solid, key, surface) in parts {
             let (friction, rule) = match (surface, kind) {
                 (Surface::Pad(_), _) => (GRIP_FRICTION, CoefficientCombineRule::Max),
-                (_, BodyKind::Object { friction, .. }) => {
+                (_, BodyKind::Object { friction, .. } | BodyKind::Fixed { friction }) => {
                     (friction, CoefficientCombineRule::Average)
                 }
                 _ => (FRICTION, CoefficientCombineRule::Average),
@@ -240,7 +254,7 @@ impl Physics {
     /// move against the hand, and contacts that nothing can change cost a quarter of a plan's
     /// time.
     pub(crate) fn collide(&mut self, object: BodyHandle, with: Robot) {
-        let s = &mut self.sets;
+        let s = self.edit();
         let Some(body) = s.bodies.get(object.0) else {
             return;
         };
@@ -263,7 +277,7 @@ impl Physics {
 
     /// Gives an object another mass (kg), spread over its solids by volume.
     pub(crate) fn set_mass(&mut self, body: BodyHandle, mass: f64) {
-        let s = &mut self.sets;
+        let s = self.edit();
         let Some(b) = s.bodies.get(body.0) else {
             return;
         };
@@ -286,7 +300,7 @@ impl Physics {
 
     /// Removes the body and its welds; what rested on it wakes up.
     pub(crate) fn remove_body(&mut self, body: BodyHandle) {
-        let s = &mut self.sets;
+        let s = self.edit();
         s.bodies.remove(
             body.0,
             &mut s.islands,
@@ -318,7 +332,7 @@ impl Physics {
 
     /// Puts the body at the pose, at rest. An edit of the world, not a motion.
     pub(crate) fn place(&mut self, body: BodyHandle, pose: &Pose) {
-        if let Some(b) = self.sets.bodies.get_mut(body.0) {
+        if let Some(b) = self.edit().bodies.get_mut(body.0) {
             b.set_position(to_parry(pose), true);
             if b.is_dynamic() {
                 b.set_linvel(Vector::ZERO, true);
@@ -329,15 +343,27 @@ impl Physics {
 
     /// Makes a kinematic body move to the pose during the next step.
     pub(crate) fn move_to(&mut self, body: BodyHandle, pose: &Pose) {
-        if let Some(b) = self.sets.bodies.get_mut(body.0) {
-            let mut next = to_parry(pose);
-            // An orientation has two quaternions. To the engine, the wrong one would be a full
-            // turn within one step, which would throw off what the body carries.
-            if next.rotation.dot(*b.rotation()) < 0.0 {
-                next.rotation = -next.rotation;
-            }
+        let Some(b) = self.sets.bodies.get(body.0) else {
+            return;
+        };
+        let mut next = to_parry(pose);
+        // An orientation has two quaternions. To the engine, the wrong one would be a full
+        // turn within one step, which would throw off what the body carries.
+        if next.rotation.dot(*b.rotation()) < 0.0 {
+            next.rotation = -next.rotation;
+        }
+        // What is borrowed mutably counts as changed, which would cost the step time.
+        if (*b.position() != next || *b.next_position() != next)
+            && let Some(b) = self.edit().bodies.get_mut(body.0)
+        {
             b.set_next_kinematic_position(next);
         }
+    }
+
+    /// Whether the body is awake.
+    pub(crate) fn is_awake(&self, body: BodyHandle) -> bool {
+        let body = self.sets.bodies.get(body.0);
+        body.is_some_and(|b| !b.is_sleeping())
     }
 
     /// Number of bodies that are awake.
@@ -352,26 +378,33 @@ impl Physics {
     /// The engine must not be told that it sleeps: among others that are awake, it would go on
     /// falling, and its contacts would be left out.
     pub(crate) fn need_not_wait(&mut self, object: BodyHandle) {
-        let bodies = &mut self.sets.bodies;
         // What is borrowed mutably counts as changed, which would cost the step a little.
-        if bodies.get(object.0).is_some_and(|b| !b.is_sleeping())
-            && let Some(b) = bodies.get_mut(object.0)
+        if self.is_awake(object)
+            && let Some(b) = self.edit().bodies.get_mut(object.0)
         {
             let activation = b.activation_mut();
             activation.time_since_can_sleep = activation.time_until_sleep;
         }
     }
 
+    /// Puts a kinematic body that touches nothing to sleep where it is.
+    pub(crate) fn sleep(&mut self, body: BodyHandle) {
+        if self.is_awake(body)
+            && let Some(b) = self.edit().bodies.get_mut(body.0)
+        {
+            b.sleep();
+        }
+    }
+
     /// Wakes the body.
     pub(crate) fn wake(&mut self, body: BodyHandle) {
-        self.sets
-            .islands
-            .wake_up(&mut self.sets.bodies, body.0, true);
+        let s = self.edit();
+        s.islands.wake_up(&mut s.bodies, body.0, true);
     }
 
     /// Keeps a body from falling asleep.
     pub(crate) fn keep_awake(&mut self, body: BodyHandle) {
-        if let Some(b) = self.sets.bodies.get_mut(body.0) {
+        if let Some(b) = self.edit().bodies.get_mut(body.0) {
             b.activation_mut().normalized_linear_threshold = -1.0;
             b.wake_up(true);
         }
@@ -379,7 +412,7 @@ impl Physics {
 
     /// Lets a body fall asleep again.
     pub(crate) fn let_sleep(&mut self, body: BodyHandle) {
-        if let Some(b) = self.sets.bodies.get_mut(body.0) {
+        if let Some(b) = self.edit().bodies.get_mut(body.0) {
             let usual = RigidBodyActivation::default_normalized_linear_threshold();
             b.activation_mut().normalized_linear_threshold = usual;
         }
@@ -398,7 +431,7 @@ impl Physics {
             .contacts_enabled(false)
             .softness(SpringCoefficients::new(WELD_FREQUENCY, WELD_DAMPING));
         WeldHandle(
-            self.sets
+            self.edit()
                 .impulse_joints
                 .insert(carrier.0, carried.0, joint, true),
         )
@@ -406,7 +439,7 @@ impl Physics {
 
     /// Removes the weld.
     pub(crate) fn unweld(&mut self, weld: WeldHandle) {
-        self.sets.impulse_joints.remove(weld.0, true);
+        self.edit().impulse_joints.remove(weld.0, true);
     }
 
     /// Force (N) that the weld has exerted during the last step.
@@ -458,6 +491,10 @@ impl Physics {
     /// Advances by [`STEP_SECONDS`].
     pub(crate) fn step(&mut self) {
         let s = &mut self.sets;
+        // With everything asleep and nothing changed, the engine would find nothing to do.
+        if !std::mem::take(&mut s.is_edited) && s.islands.num_active_bodies() == 0 {
+            return;
+        }
         self.pipeline.step(
             Vector::new(0.0, 0.0, -GRAVITY),
             &self.parameters,
@@ -523,7 +560,9 @@ fn normal_impulse(pair: &ContactPair) -> f64 {
 /// kinematic body goes is checked geometrically before and during a motion.
 fn groups(kind: BodyKind, surface: Surface) -> InteractionGroups {
     let (own, others) = match kind {
-        BodyKind::Static | BodyKind::MovingFurniture => (FURNITURE, OBJECT),
+        BodyKind::Static | BodyKind::MovingFurniture | BodyKind::Fixed { .. } => {
+            (FURNITURE, OBJECT)
+        }
         BodyKind::Robot => (robot_group(surface), OBJECT),
         BodyKind::Object { .. } => (OBJECT, solid_for_objects()),
     };

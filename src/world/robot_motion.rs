@@ -26,14 +26,7 @@ impl World {
         self.place_robot_links(configuration);
         self.release_handles(None);
         self.state.robot_moves = false;
-        for (body, group) in self
-            .robot_bodies
-            .iter()
-            .zip(&self.models.robot_geometry.groups)
-        {
-            self.physics
-                .place(*body, &pose_of(&self.state.robot_poses, group.root));
-        }
+        self.place_robot_bodies();
         for object in self.state.objects.values() {
             if let Some(attachment) = &object.attachment {
                 let link = pose_of(&self.state.robot_poses, attachment.link);
@@ -44,12 +37,15 @@ impl World {
 
     /// Takes the links to where the configuration has them; the engine's bodies stay behind.
     pub(super) fn place_robot_links(&mut self, configuration: &RobotConfiguration) {
-        self.state.robot.clone_from(configuration);
-        self.models.robot.forward_kinematics(
-            &configuration.base,
-            &configuration.joints,
-            &mut self.state.robot_poses,
-        );
+        let (tree, state) = (&self.models.robot, &mut self.state);
+        let poses = &mut state.robot_poses;
+        if state.robot.base == configuration.base {
+            let (before, now) = (&state.robot.joints, &configuration.joints);
+            tree.update_forward_kinematics(before, now, poses, &mut Vec::new());
+        } else {
+            tree.forward_kinematics(&configuration.base, &configuration.joints, poses);
+        }
+        state.robot.clone_from(configuration);
     }
 
     /// Pose of a link of the robot in the map frame.

@@ -13,6 +13,7 @@
 use std::sync::Arc;
 
 use indexmap::IndexMap;
+use parry3d_f64::bounding_volume::Aabb;
 
 use super::collision::CollisionChecker;
 use super::collision_search::{HeldObject, ObjectAt, Surroundings};
@@ -51,6 +52,8 @@ pub(super) struct State {
     pub(super) robot: RobotConfiguration,
     pub(super) robot_poses: Vec<Pose>,
     pub(super) robot_moves: bool,
+    /// For each body of the robot that does not follow it, the bounds (m) of the body where it is.
+    pub(super) left_behind: Vec<Option<Aabb>>,
     pub(super) kitchen: JointPositions,
     pub(super) kitchen_poses: Vec<Pose>,
     pub(super) kitchen_moves: bool,
@@ -114,13 +117,14 @@ impl World {
             .collect();
 
         let furniture = Arc::new(Obstacles::new(&models.kitchen_geometry, &kitchen_poses));
-        Self {
+        let mut world = Self {
             models,
             physics,
             state: State {
                 robot,
                 robot_poses,
                 robot_moves: false,
+                left_behind: Vec::new(),
                 kitchen,
                 kitchen_poses,
                 kitchen_moves: false,
@@ -135,7 +139,9 @@ impl World {
             },
             robot_bodies,
             kitchen_bodies,
-        }
+        };
+        world.place_robot_bodies();
+        world
     }
 
     /// The models from which the world was built.
@@ -149,14 +155,9 @@ impl World {
         if self.state.robot_moves {
             self.release_opened_hands();
             self.follow_hands();
-            for (body, group) in self
-                .robot_bodies
-                .iter()
-                .zip(&self.models.robot_geometry.groups)
-            {
-                self.physics
-                    .move_to(*body, &pose_of(&self.state.robot_poses, group.root));
-            }
+        }
+        self.move_robot_bodies();
+        if self.state.robot_moves {
             for object in self
                 .state
                 .objects
@@ -311,12 +312,13 @@ impl World {
                 None => objects.push(at(object)),
             }
         }
-        CollisionChecker::new(Surroundings {
+        let surroundings = Surroundings {
             models: &self.models,
             furniture,
             objects,
             held,
-        })
+        };
+        CollisionChecker::new(surroundings).knowing(&self.state.robot, &self.state.robot_poses)
     }
 
     pub(super) fn object_at<'w>(&self, object: &'w Object) -> ObjectAt<'w> {
@@ -363,14 +365,14 @@ impl World {
 }
 
 /// Number of still steps that count as rest: a tenth of a second.
-const QUIET_STEPS: u32 = 24;
+pub(super) const QUIET_STEPS: u32 = 24;
 
 /// Speeds (m/s, rad/s) below which an object counts as resting.
 const REST_SPEED: f64 = 0.002;
 const REST_TURN: f64 = 0.02;
 
 /// Number of steps that cover the time (s), at least one; nothing for a negative time.
-fn steps_in(seconds: f64) -> u64 {
+pub(super) fn steps_in(seconds: f64) -> u64 {
     // The cast saturates.
     (seconds / STEP_SECONDS).ceil() as u64
 }

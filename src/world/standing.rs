@@ -8,7 +8,8 @@ use super::error::WorldError;
 use super::object::Object;
 use super::part_key::PartKey;
 use super::physics::{Robot, STEP_SECONDS};
-use super::scene::World;
+use super::scene::{QUIET_STEPS, World, steps_in};
+use super::settling::Trial;
 use crate::spatial::pose::{angle_between, distance_between};
 use crate::spatial::{Pose, trig};
 
@@ -20,7 +21,7 @@ const WATCHED: f64 = 2.0;
 pub(crate) struct StandTrial {
     /// How far (m) it would move.
     pub(crate) moved: f64,
-    /// How far (rad) it would tip.
+    /// How far (rad) it would tip; a ball does not.
     pub(crate) tilt: f64,
     /// What would carry it then; `None` if it would still be falling.
     pub(crate) support: Option<BodyName>,
@@ -31,6 +32,57 @@ pub(crate) struct StandTrial {
 const PROBED: f64 = 1.0;
 const CREEP: f64 = 0.0002;
 const CREEP_TURN: f64 = 0.003;
+
+/// How long (s) the objects near one that has come to rest among them, as a trial has shown, have to
+/// come to rest themselves.
+const AFTERWARDS: f64 = 5.0;
+
+impl Trial {
+    /// Lets time pass until all that may move is at rest, the object itself for good, but about
+    /// `seconds` (s) at most. Returns whether it has come to that.
+    fn settles(&mut self, restless: &[PartKey], seconds: f64) -> bool {
+        let mut left = steps_in(seconds);
+        let mut quiet = 0;
+        while left > 0 {
+            self.step();
+            left -= 1;
+            quiet = if self.is_at_rest(restless) {
+                quiet + 1
+            } else {
+                0
+            };
+            if quiet >= QUIET_STEPS {
+                if self.stays(&mut left) {
+                    return true;
+                }
+                quiet = 0;
+            }
+        }
+        false
+    }
+
+    /// As [`World::stays`].
+    fn stays(&mut self, left: &mut u64) -> bool {
+        let before = self.pose();
+        self.keep_awake(true);
+        let mut has_stayed = true;
+        for _ in 0..steps_in(PROBED) {
+            self.step();
+            *left = left.saturating_sub(1);
+            has_stayed = is_same_place(&before, &self.pose());
+            if !has_stayed {
+                break;
+            }
+        }
+        self.keep_awake(false);
+        has_stayed
+    }
+}
+
+/// Whether an object that was at the first pose has stayed there.
+fn is_same_place(before: &Pose, now: &Pose) -> bool {
+    distance_between(before, now) < CREEP && angle_between(before, now) < CREEP_TURN
+}
 
 impl World {
     /// Lets time pass until everything is at rest, the object for good, but about `seconds` (s) at
@@ -45,6 +97,17 @@ impl World {
         let moving = self.moving_objects().filter(|object| object.name() != name);
         let restless: Vec<_> = moving.map(Object::key).collect();
         let mut left = seconds;
+        let key = self.object(name)?.key();
+        if self.has_neighbours(key) {
+            let mut trial = Trial::new(self, key);
+            let has_settled = trial.settles(&restless, seconds);
+            self.adopt(&trial);
+            let is_at_rest = self.settle_without(&restless, AFTERWARDS);
+            if has_settled && is_at_rest {
+                self.let_all_sleep(&restless);
+            }
+            return Ok(has_settled && is_at_rest);
+        }
         while left > 0.0 {
             let before = self.steps();
             if !self.settle_without(&restless, left) {
@@ -74,8 +137,7 @@ impl World {
             self.step();
             left -= STEP_SECONDS;
             let now = self.physics.pose(body);
-            has_stayed = distance_between(&before, &now) < CREEP
-                && angle_between(&before, &now) < CREEP_TURN;
+            has_stayed = is_same_place(&before, &now);
         }
         self.physics.let_sleep(body);
         Ok(has_stayed)
@@ -102,11 +164,13 @@ impl World {
         world.settle(WATCHED);
         let end = world.object_pose(name)?;
         let [was_up, is_up] = [pose, &end].map(|pose| pose.rotation * Vector3::z());
+        let tilt = trig::atan2(was_up.cross(&is_up).norm(), was_up.dot(&is_up));
+        let can_tip = world.object(name)?.can_tip();
         let supports = world.supports(name)?.into_iter();
         let most = supports.max_by(|a, b| a.force.total_cmp(&b.force));
         Ok(StandTrial {
             moved: (end.translation.vector - pose.translation.vector).norm(),
-            tilt: trig::atan2(was_up.cross(&is_up).norm(), was_up.dot(&is_up)),
+            tilt: if can_tip { tilt } else { 0.0 },
             support: most.map(|most| most.body),
         })
     }

@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use indexmap::IndexMap;
+use parry3d_f64::bounding_volume::Aabb;
 use serde::{Deserialize, Serialize};
 
 use super::handle_hold::{HandleHold, HandleSlip};
@@ -28,6 +29,7 @@ use crate::spatial::{PlacedShape, Pose};
 struct StoredState {
     robot: RobotConfiguration,
     robot_moves: bool,
+    left_behind: Vec<Option<Aabb>>,
     kitchen: JointPositions,
     kitchen_moves: bool,
     objects: Vec<StoredObject>,
@@ -94,6 +96,7 @@ impl Snapshot {
         let stored = StoredState {
             robot: state.robot.clone(),
             robot_moves: state.robot_moves,
+            left_behind: state.left_behind.clone(),
             kitchen: state.kitchen.clone(),
             kitchen_moves: state.kitchen_moves,
             objects: state.objects.values().map(StoredObject::of).collect(),
@@ -117,6 +120,7 @@ impl Snapshot {
         };
         if !fits(&stored.robot.joints, &world.state.robot.joints)
             || !fits(&stored.kitchen, &world.state.kitchen)
+            || stored.left_behind.len() != world.state.left_behind.len()
         {
             return None;
         }
@@ -145,6 +149,7 @@ impl Snapshot {
                 robot: stored.robot,
                 robot_poses,
                 robot_moves: stored.robot_moves,
+                left_behind: stored.left_behind,
                 kitchen: stored.kitchen,
                 kitchen_poses,
                 kitchen_moves: stored.kitchen_moves,

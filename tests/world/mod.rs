@@ -6,4 +6,5 @@ mod kitchen_surfaces;
 mod link_shapes;
 mod motion;
 mod objects;
+mod robot_bodies;
 mod sight;

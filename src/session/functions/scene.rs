@@ -19,7 +19,7 @@ use crate::world::{Object, WorldError};
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// Tilt (degrees) from which an object counts as tipped.
-const TIPPED: f64 = 10.0;
+const TIPPED: f64 = 5.0;
 
 /// Builtins of package `CRAM-MOBILE-PICK-PLACE-PLANS`.
 pub(crate) static TABLE: &[Builtin] = &[
@@ -138,7 +138,7 @@ impl Simulation {
         if moved > limit {
             what.push(format!("was moved by {:.1} cm", moved * 100.0));
         }
-        if tilt > TIPPED {
+        if tilt > TIPPED && object.can_tip() {
             what.push(format!("was tipped by {tilt:.0} degrees"));
         }
         Ok((!what.is_empty()).then(|| format!("{name} {}", what.join(" and "))))
