@@ -37,6 +37,7 @@ mod robot;
 mod session;
 mod sexp;
 mod spatial;
+mod sweep;
 mod watch;
 mod world;
 

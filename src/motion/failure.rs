@@ -335,6 +335,12 @@ pub(crate) enum MotionFailure {
     /// No hand can open or close a drawer or door.
     #[error("{0}")]
     NoHandleGrasp(Box<NoHandleGrasp>),
+    /// A part of the robot has stopped on its way, though nothing is in it.
+    #[error("the {module} stopped on the way to the goal: the motors stalled")]
+    Stalled {
+        /// The part of the robot.
+        module: ProcessModule,
+    },
     /// A goal has a coordinate that is infinite or NaN.
     #[error("the goal for the {module} is not a finite number")]
     NotFinite {
@@ -429,6 +435,15 @@ impl MotionFailure {
                 ProcessModule::Perception => "PERCEPTION-LOW-LEVEL-FAILURE",
                 ProcessModule::Grippers => "GRIPPER-GOAL-NOT-REACHED",
                 ProcessModule::Arms => "MANIPULATION-POSE-UNREACHABLE",
+                ProcessModule::Clock => "LOW-LEVEL-FAILURE",
+            },
+            Self::Stalled { module } => match module {
+                ProcessModule::Navigation => "NAVIGATION-GOAL-NOT-REACHED",
+                ProcessModule::Torso => "TORSO-GOAL-NOT-REACHED",
+                ProcessModule::Neck => "PTU-GOAL-NOT-REACHED",
+                ProcessModule::Perception => "PERCEPTION-LOW-LEVEL-FAILURE",
+                ProcessModule::Grippers => "GRIPPER-GOAL-NOT-REACHED",
+                ProcessModule::Arms => "MANIPULATION-GOAL-NOT-REACHED",
                 ProcessModule::Clock => "LOW-LEVEL-FAILURE",
             },
             Self::UnknownName(_) => "LOW-LEVEL-FAILURE",

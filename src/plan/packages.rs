@@ -152,7 +152,13 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
     row("CRAM-PR2-PICK-PLACE-DEMO", &[], ""),
     row("CRAM-BEGINNER-TUTORIAL", &[], ""),
-    row("PLANWRIGHT", &["PW"], "VISUALIZE-COSTMAP WITH-NOISE"),
+    row(
+        "PLANWRIGHT",
+        &["PW"],
+        "VISUALIZE-COSTMAP WITH-NOISE DEFSWEEP SWEEP SWEEP-WORLD RUN-SWEEP-WORLD ON-SURFACE-P UPRIGHT-P \
+         ARMS-PARKED-P NOTHING-ON-FLOOR-P NO-PENETRATION-P \
+         WITH-INJECTED-FAILURES",
+    ),
 ];
 
 /// Packages that inherit from packages other than `COMMON-LISP`.
@@ -177,6 +183,17 @@ const IMPORTS: &[(&str, &str, &str, bool)] = &[
         false,
     ),
     ("PLANWRIGHT", "CRAM-DESIGNATORS", "DEF-ACTION", true),
+    // What sweeps, which are written in Lisp, ask of the session.
+    (
+        "PLANWRIGHT",
+        "PLAN-SYSTEM",
+        "%SWEEP-BEGIN %SWEEP-RUN-BEGINS %SWEEP-RUN-ENDS %INJECT %END-FAULTS \
+         %BEGIN-FAULTS %SWEEP-RECORD %RESTORE-QUIETLY %MUTE-OUTPUT \
+         %SWEEP-UNIT %SWEEP-OVERRIDE %SWEEP-SET %SWEEP-NOTE %NORMAL-DEVIATE %SWEEP-KNOWN \
+         %SWEEP-SUMMARY %SURFACE-POINT %PLACE-ON-SURFACE %PLACE-ON-FLOOR %SETTLE-WORLD \
+         %OBJECTS-OF-WORLD %TILT %OBSTACLE-P %ON-FLOOR-P %NO-PENETRATION-P",
+        false,
+    ),
     (
         "CRAM-PICK-PLACE-TUTORIAL",
         "CRAM-EXECUTIVE",

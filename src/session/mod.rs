@@ -21,6 +21,7 @@ mod queries;
 mod record;
 mod recovery;
 pub(crate) mod simulation;
+pub(crate) mod sweeping;
 pub(crate) mod tape;
 mod taping;
 mod text;
@@ -40,6 +41,7 @@ use crate::picture::animation::Shot;
 use crate::plan::{Evaluation, Scheduler};
 use crate::session::dialogue::{Abort, Evaluate, Event, Finding, Outcome};
 use crate::watch::Cause;
+use crate::world::Models;
 use host::SimulationHost;
 use live_host::LiveHost;
 use simulation::Simulation;
@@ -76,6 +78,14 @@ enum Ended {
 impl Session {
     /// A fresh session: the robot at the origin, no objects, package `COMMON-LISP-USER`.
     pub fn new(options: &SessionOptions) -> Result<Session, SessionError> {
+        Session::with_models(options, Arc::new(options.models()?))
+    }
+
+    /// A fresh session in a kitchen whose descriptions have been read.
+    pub(crate) fn with_models(
+        options: &SessionOptions,
+        models: Arc<Models>,
+    ) -> Result<Session, SessionError> {
         let mut image = Image::new();
         image.seed(options.seed);
         crate::plan::install(&mut image);
@@ -83,9 +93,8 @@ impl Session {
         crate::plan::designator::install(&mut image);
         functions::install(&mut image);
         functions::name_system_folders(&mut image, &options.systems);
-        let mut simulation =
-            Simulation::new(Arc::new(options.models()?), options.log_level, options.seed)
-                .map_err(|error| SessionError::Models(error.to_string()))?;
+        let mut simulation = Simulation::new(models, options.log_level, options.seed)
+            .map_err(|error| SessionError::Models(error.to_string()))?;
         simulation.set_noise(options.noise_levels()?);
         let mut session = Session {
             options: options.clone(),
@@ -129,6 +138,16 @@ impl Session {
     #[cfg(test)]
     pub(crate) fn image_mut(&mut self) -> &mut Image {
         &mut self.image
+    }
+
+    /// What it began with.
+    pub(crate) fn options(&self) -> &SessionOptions {
+        &self.options
+    }
+
+    /// The descriptions of robot, kitchen and objects.
+    pub(crate) fn models(&self) -> &Arc<Models> {
+        &self.host.simulation.models
     }
 
     /// The robot in its world.

@@ -12,7 +12,7 @@ const REQUEST: &str = "This is a defect of planwright, not of your program. The 
                        \"defect.transcript\") writes.";
 
 /// The condition as it is shown.
-const CONDITION: &str = "#<DEFECT>";
+pub(super) const CONDITION: &str = "#<DEFECT>";
 
 impl Session {
     /// Makes the session usable again after a panic: the world is taken back to before the last
@@ -22,6 +22,7 @@ impl Session {
         self.console.give_up();
         self.image.nesting = 0;
         self.image.output.set_shown(true);
+        self.image.output.set_muted(false);
         let simulation = &mut self.host.simulation;
         self.host
             .person

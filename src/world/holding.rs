@@ -152,6 +152,18 @@ impl World {
         }
     }
 
+    /// The fingers that hold the object transmit no force any more, as if it were wet: it slips out of
+    /// the hand. Returns whether fingers hold it.
+    pub(crate) fn loosen(&mut self, name: &str) -> bool {
+        let object = self.state.objects.get_mut(name);
+        let attachment = object.and_then(|object| object.attachment.as_mut());
+        let hold = attachment.and_then(|attachment| attachment.hold.as_mut());
+        hold.is_some_and(|hold| {
+            hold.strength = 0.0;
+            true
+        })
+    }
+
     /// Notes what the load on the hands has done in the last step: what has been lifted, and
     /// what has slipped away.
     pub(super) fn watch_holds(&mut self) {

@@ -28,7 +28,6 @@ pub(crate) mod object;
 pub(crate) mod object_library;
 mod obstacles;
 pub(crate) mod part_key;
-#[cfg(test)]
 mod penetration;
 pub(crate) mod physics;
 mod robot_bodies;

@@ -279,6 +279,22 @@ impl<'w> StandingRoom<'w> {
         Ok(())
     }
 
+    /// The first object that is nearer to the load at the pose than the gap (m).
+    pub(crate) fn too_near(&self, load: &Load, at: &Pose, gap: f64) -> Option<BodyName> {
+        let at = to_parry(at);
+        let objects = self.around.iter();
+        let objects = objects.filter(|n| matches!(n.key, PartKey::Object(_)));
+        for other in objects {
+            let is_near = |solid: &Solid| {
+                separation(&(at * solid.pose), solid, &other.pose, &other.solid, gap).is_some()
+            };
+            if gap > 0.0 && load.solids.iter().any(is_near) {
+                return self.world.body_name(other.key);
+            }
+        }
+        None
+    }
+
     /// What is within the bounds or below them.
     fn below(&self, bounds: &Aabb) -> Vec<Neighbour> {
         let mut column = *bounds;

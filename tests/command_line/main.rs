@@ -4,6 +4,7 @@
 
 #[cfg(unix)]
 mod pseudo_terminal;
+mod sweep;
 #[cfg(unix)]
 mod terminal;
 #[cfg(unix)]

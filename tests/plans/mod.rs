@@ -23,6 +23,7 @@ mod putting_down;
 mod refusals;
 mod searching;
 mod spawning;
+mod sweeps;
 mod systems;
 mod tasks;
 mod transporting;

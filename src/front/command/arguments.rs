@@ -8,6 +8,7 @@ use clap_complete::Shell;
 
 use super::heap;
 use super::picture::PictureArguments;
+use super::sweep::SweepOptions;
 
 /// Program a simulated kitchen robot in a Common-Lisp-like plan language.
 ///
@@ -46,7 +47,7 @@ pub(crate) struct PromptOptions {
 }
 
 /// Options of all commands.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub(crate) struct Options {
     /// Seed for everything random
     #[arg(long, global = true, value_name = "N", default_value_t = 0)]
@@ -159,6 +160,8 @@ pub(crate) enum Command {
     ///
     /// The picture is drawn even after an unhandled condition; the exit status is then 1.
     Picture(Box<PictureArguments>),
+    /// Run a plan in many worlds that differ in a declared way: how often does it work?
+    Sweep(Box<SweepOptions>),
     /// Find mistakes in plan files without running them
     Check {
         /// Plan files

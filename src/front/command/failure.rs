@@ -65,6 +65,9 @@ pub(crate) enum CommandError {
     /// The robot and its world cannot be set up.
     #[error("{0}")]
     Open(String),
+    /// A sweep cannot be run.
+    #[error("{0}")]
+    Sweep(String),
     /// An earlier session cannot be resumed.
     #[error("{0}")]
     Resume(#[from] JournalError),

@@ -21,6 +21,7 @@ mod reference;
 mod replay;
 mod run;
 mod stop_at;
+mod sweep;
 mod view_recording;
 mod watching;
 
@@ -99,6 +100,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
             files, bless, jobs, ..
         }) => replay::replay(options, &files, bless, jobs),
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
+        Some(Command::Sweep(wanted)) => sweep::sweep(arguments.options, &wanted),
         Some(Command::Check { files }) => check::check(options, &files),
         Some(Command::Reference) => reference::print(),
         Some(Command::Man) => man::print(),

@@ -16,7 +16,7 @@ use crate::session::dialogue::Evaluate;
 use crate::session::{self, Session, SessionOptions};
 
 /// Bytes of stack for nested forms; the threads of all commands have more.
-const COMPILER_STACK: usize = 48 << 20;
+pub(super) const COMPILER_STACK: usize = 48 << 20;
 
 /// A fresh evaluator with its own world. Call it on a thread with a large stack.
 pub(crate) fn open(options: &Options) -> Result<Box<dyn Evaluate>, CommandError> {

@@ -12,6 +12,7 @@ pub(crate) struct Polls {
     count: Cell<u64>,
     seen_at: Cell<Option<u64>>,
     due_at: Cell<Option<u64>>,
+    again: Cell<Option<u64>>,
 }
 
 impl Polls {
@@ -20,6 +21,11 @@ impl Polls {
         self.count.set(0);
         self.seen_at.set(None);
         self.due_at.set(due_at);
+    }
+
+    /// After a poll at which it was due, the flag will be found set again after so many more.
+    pub(crate) fn set_again(&self, after: Option<u64>) {
+        self.again.set(after);
     }
 
     /// The first poll at which the flag was set.
@@ -78,7 +84,11 @@ impl Polls {
     pub(crate) fn look(&self) -> bool {
         let count = self.count.get() + 1;
         self.count.set(count);
-        let is_set = self.flag.load(Ordering::Relaxed) || self.due_at.get() == Some(count);
+        let is_due = self.due_at.get() == Some(count);
+        if let Some(after) = self.again.get().filter(|_| is_due) {
+            self.due_at.set(Some(count + after));
+        }
+        let is_set = self.flag.load(Ordering::Relaxed) || is_due;
         if is_set {
             self.flag.store(true, Ordering::Relaxed);
             if self.seen_at.get().is_none() {

@@ -9,11 +9,16 @@ pub(crate) struct Output {
     is_shown: bool,
     /// Is there a whole line, or what the program wants to be seen?
     is_due: bool,
+    /// Is what is written dropped?
+    is_muted: bool,
 }
 
 impl Output {
     /// Writes a text.
     pub(crate) fn write(&mut self, text: &str) {
+        if self.is_muted {
+            return;
+        }
         match text.rfind('\n') {
             Some(i) => {
                 self.column = text[i + 1..].chars().count();
@@ -51,6 +56,11 @@ impl Output {
         self.text.get(len..)
     }
 
+    /// Sets whether what is written from now on is dropped; returns whether it was.
+    pub(crate) fn set_muted(&mut self, is_muted: bool) -> bool {
+        std::mem::replace(&mut self.is_muted, is_muted)
+    }
+
     /// Sets whether somebody shows what is written as soon as it is due.
     pub(crate) fn set_shown(&mut self, is_shown: bool) -> bool {
         std::mem::replace(&mut self.is_shown, is_shown)
@@ -71,5 +81,22 @@ impl Output {
     pub(crate) fn take(&mut self) -> String {
         self.is_due = false;
         std::mem::take(&mut self.text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_muted_is_dropped() {
+        let mut output = Output::default();
+        output.write("a");
+        assert!(!output.set_muted(true));
+        output.write("b\n");
+        assert!(output.set_muted(false));
+        output.write("c");
+        assert_eq!(output.column(), 2);
+        assert_eq!(output.take(), "ac");
     }
 }

@@ -18,6 +18,8 @@ mod robot_state;
 mod ros;
 mod scene;
 mod snapshots;
+mod sweep_things;
+mod sweeps;
 mod tables;
 pub(crate) mod tour;
 mod tutorial;

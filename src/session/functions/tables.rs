@@ -36,6 +36,8 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("PLANWRIGHT", functions::pictures::TABLE),
     ("PLANWRIGHT", functions::prompt::TABLE),
     ("PLANWRIGHT", functions::watching::TABLE),
+    ("PLAN-SYSTEM", functions::sweeps::TABLE),
+    ("PLAN-SYSTEM", functions::sweep_things::TABLE),
     ("PLANWRIGHT", crate::session::record::TABLE),
     ("SYSTEM", functions::prompt::SYSTEM_TABLE),
 ];

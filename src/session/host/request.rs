@@ -197,6 +197,7 @@ impl SimulationHost {
                 let name = request.motion_type.to_lowercase();
                 let reply = self.answered(image, &name, &given, |host, image| {
                     let (motion, subject) = host.simulation.motion_for(image, &request)?;
+                    let motion = host.simulation.with_faults(image, motion, &request);
                     // Report the task before its actions.
                     host.audience.tell_tasks(image);
                     Ok(Reply::Later(host.start(motion, subject, name.clone())))
@@ -304,6 +305,8 @@ impl SimulationHost {
         let simulation = &mut self.simulation;
         let step = simulation.world.steps();
         simulation.world.step();
+        let base = simulation.base().translation;
+        simulation.tally.base_at([base.x, base.y]);
         simulation.tell_of_slips(image, step);
         self.audience.observe(simulation);
         self.audience.film(simulation);

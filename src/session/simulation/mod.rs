@@ -8,6 +8,7 @@ pub(super) mod grasp_choice;
 pub(super) mod grasp_search;
 pub(super) mod held;
 pub(super) mod imagined;
+pub(super) mod injection;
 pub(crate) mod jobs;
 pub(super) mod locations;
 pub(super) mod motion_types;
@@ -17,6 +18,8 @@ pub(super) mod outcome;
 mod pose_argument;
 pub(super) mod properties;
 pub(super) mod seen;
+mod sweep_world;
+mod tally;
 pub(super) mod transforms;
 
 use std::cell::OnceCell;
@@ -38,7 +41,9 @@ use crate::world::noise::{Noise, NoiseLevels};
 use crate::world::object_library::ObjectLibrary;
 use crate::world::{Models, RobotConfiguration, World};
 
+use injection::SharedInjection;
 use jobs::Jobs;
+use tally::Tally;
 
 /// Coordinate axes that the user asked to see.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -64,6 +69,10 @@ pub(crate) struct Simulation {
     /// What the world answers is recorded here, or comes from here.
     pub(super) tape: Tape,
     looks: OnceCell<Looks>,
+    /// What the present run of a plan costs.
+    pub(super) tally: Tally,
+    /// The faults that may strike motions.
+    pub(super) injection: SharedInjection,
     physical: Physical,
 }
 
@@ -90,6 +99,8 @@ pub(crate) struct Physical {
     noises: u64,
     /// How many searches for locations have begun in this world.
     pub(super) searches: u64,
+    /// What a sweep has put into the world, and where.
+    pub(super) put_for_sweep: Vec<(String, Pose)>,
 }
 
 impl Deref for Simulation {
@@ -130,6 +141,7 @@ impl Simulation {
                 sought: None,
                 noises: 0,
                 searches: 0,
+                put_for_sweep: Vec::new(),
             },
             models,
             grasps,
@@ -138,6 +150,8 @@ impl Simulation {
             now: 0.0,
             tape: Tape::default(),
             looks: OnceCell::new(),
+            tally: Tally::default(),
+            injection: SharedInjection::default(),
         })
     }
 
@@ -153,6 +167,7 @@ impl Simulation {
         self.resolved_map = None;
         self.sought = None;
         self.searches = 0;
+        self.put_for_sweep.clear();
     }
 
     /// How large the errors of sensors and motors are, if there are any.

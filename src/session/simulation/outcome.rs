@@ -105,6 +105,7 @@ impl Simulation {
         subject: &Value,
     ) -> Box<Raise> {
         self.remember(failure);
+        self.tally.failed(failure.class_name());
         let package = image
             .packages
             .find("CRAM-COMMON-FAILURES")

@@ -1,0 +1,80 @@
+//! Work on several threads, whose results come in the order of the work.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+
+use crate::front::command::STACK_BYTES;
+
+/// Does the work on several threads. `tell` gets every result, in the order of the work, as soon as it
+/// and all before it are known; if it returns false, no more work is begun. Returns all results up to
+/// the first that is missing.
+pub(super) fn in_order<W: Sync, R: Send>(
+    threads: usize,
+    work: &[W],
+    run: impl Fn(&W) -> R + Sync,
+    mut tell: impl FnMut(&R) -> bool,
+) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let mut done = Vec::with_capacity(work.len());
+    thread::scope(|scope| {
+        let (sender, receiver) = mpsc::channel();
+        for _ in 0..threads.min(work.len()) {
+            let (sender, next, run) = (sender.clone(), &next, &run);
+            let worker = move || {
+                loop {
+                    let at = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(work) = work.get(at) else {
+                        return;
+                    };
+                    if sender.send((at, run(work))).is_err() {
+                        return;
+                    }
+                }
+            };
+            let thread = thread::Builder::new().stack_size(STACK_BYTES);
+            // If the machine has no more threads, those that there are do the work.
+            if thread.spawn_scoped(scope, worker).is_err() {
+                break;
+            }
+        }
+        drop(sender);
+        let mut early = BTreeMap::new();
+        for (at, result) in receiver {
+            early.insert(at, result);
+            while let Some(result) = early.remove(&done.len()) {
+                let goes_on = tell(&result);
+                done.push(result);
+                if !goes_on {
+                    next.store(work.len(), Ordering::Relaxed);
+                    return;
+                }
+            }
+        }
+    });
+    done
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_come_in_order_on_any_number_of_threads() {
+        let work: Vec<u64> = (0..100).collect();
+        for threads in [1, 2, 7] {
+            let mut told = Vec::new();
+            let slow = |n: &u64| {
+                thread::sleep(std::time::Duration::from_micros(n * 7919 % 500));
+                n * n
+            };
+            let done = in_order(threads, &work, slow, |square| {
+                told.push(*square);
+                told.len() < 60
+            });
+            assert_eq!(done, (0..60).map(|n| n * n).collect::<Vec<u64>>());
+            assert_eq!(told, done);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The worlds of a sweep, each in a session of its own.
+
+use std::sync::Arc;
+
+use super::file::SweepFile;
+use crate::defect;
+use crate::front::command::arguments::{LogLevel, Options};
+use crate::front::command::failure::CommandError;
+use crate::front::command::open::{COMPILER_STACK, open_session};
+use crate::lisp::guard::set_stack_budget;
+use crate::session::sweeping::{Known, MOST_POLLS};
+use crate::session::{Session, SessionOptions};
+use crate::sweep::{Ending, Record};
+use crate::world::Models;
+
+/// The worlds of a sweep.
+pub(super) struct Worlds {
+    file: SweepFile,
+    name: String,
+    seed: u64,
+    options: SessionOptions,
+    /// Shared by all sessions.
+    models: Arc<Models>,
+}
+
+impl Worlds {
+    /// The worlds of the sweep with that name, or of the last one, in a file.
+    pub(super) fn open(
+        options: &Options,
+        file: SweepFile,
+        name: Option<&str>,
+    ) -> Result<(Self, Known), CommandError> {
+        let quiet = Options {
+            log_level: LogLevel::None,
+            realtime: None,
+            ..options.clone()
+        };
+        let mut session = open_session(&quiet)?;
+        if let Some(abort) = file.load(&mut session) {
+            let place = abort
+                .main_place()
+                .map_or_else(|| file.name.clone(), |place| place.to_string());
+            let report = abort.report.trim_end();
+            return Err(CommandError::Sweep(format!("{place}: {report}")));
+        }
+        let sweeps = session.known_sweeps();
+        let named = |known: &&Known| name.is_none_or(|name| known.name.eq_ignore_ascii_case(name));
+        let Some(known) = sweeps.iter().rfind(named).cloned() else {
+            return Err(CommandError::Sweep(missing(&file.name, name, &sweeps)));
+        };
+        let worlds = Self {
+            file,
+            name: known.name.clone(),
+            seed: options.seed,
+            options: session.options().clone(),
+            models: Arc::clone(session.models()),
+        };
+        Ok((worlds, known))
+    }
+
+    /// A session in which the file has been loaded.
+    fn session(&self) -> Result<Session, String> {
+        set_stack_budget(COMPILER_STACK);
+        let models = Arc::clone(&self.models);
+        let mut session =
+            Session::with_models(&self.options, models).map_err(|error| error.to_string())?;
+        match self.file.load(&mut session) {
+            Some(abort) => Err(abort.report),
+            None => Ok(session),
+        }
+    }
+
+    /// Runs the plan in a world, in which draws are set as told. What a panic ends is a defect.
+    pub(super) fn run(&self, world: u64, set: &[(String, String)]) -> Record {
+        let run = || match self.session() {
+            Ok(mut session) => {
+                session.run_sweep_world(&self.name, self.seed, world, set, MOST_POLLS)
+            }
+            Err(report) => {
+                let mut record = Record::new(world, Ending::Defect);
+                record.cause = Some(report);
+                record
+            }
+        };
+        defect::caught(run).unwrap_or_else(|defect| {
+            let mut record = Record::new(world, Ending::Defect);
+            record.cause = Some(defect.to_string());
+            record
+        })
+    }
+}
+
+fn missing(file: &str, name: Option<&str>, sweeps: &[Known]) -> String {
+    let names: Vec<&str> = sweeps.iter().map(|known| known.name.as_str()).collect();
+    match (name, names.as_slice()) {
+        (_, []) => format!("{file} defines no sweep: (defsweep NAME …) does"),
+        (Some(name), _) => match crate::closest_name::closest_name(name, names.iter().copied()) {
+            Some(near) => format!("{file} defines no sweep {name}; did you mean {near}?"),
+            None => format!(
+                "{file} defines no sweep {name}; there are {}",
+                names.join(", ")
+            ),
+        },
+        (None, _) => format!("{file} defines no sweep"),
+    }
+}

@@ -1,0 +1,397 @@
+//! Filling the world of a sweep, and questions about what is in it.
+
+use nalgebra::Vector3;
+
+use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtins::keywords::optional;
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::plan::Reply;
+use crate::robot::LinkId;
+use crate::session::host::call::{done, host};
+use crate::session::simulation::Simulation;
+use crate::session::simulation::names::{name_text, suggestion, type_text};
+use crate::spatial::pose::from_xy_yaw;
+use crate::spatial::{PlacedShape, Pose, Shape, trig};
+use crate::world::body_name::BodyName;
+use crate::world::object_library::{FRICTION, ObjectType};
+use crate::world::{AllowedPairs, Ground, Load, NoRoom, Object, StandingRoom, WorldError};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// The type of obstacles on the floor.
+const OBSTACLE: &str = "obstacle";
+/// Density (kg/m³) of an obstacle: one that the robot does not push about by chance.
+const DENSITY: f64 = 300.0;
+/// Colour of an obstacle.
+const OBSTACLE_COLOR: [f32; 4] = [0.45, 0.35, 0.25, 1.0];
+/// Range (m) of the edges of an obstacle.
+const EDGES: std::ops::RangeInclusive<f64> = 0.02..=3.0;
+/// How far (m) above a surface a thing begins to be lowered onto it.
+const ABOVE: f64 = 0.02;
+/// How much higher or lower (m) than the surface the ground below a thing may be.
+const LEVEL: f64 = 0.005;
+/// Longest time (s) that a thing has to come to rest.
+const SETTLE: f64 = 10.0;
+/// How far (m) a thing may move while it comes to rest, and how far (rad) it may tip.
+const MOVED: f64 = 0.01;
+const TIPPED: f64 = 0.05;
+/// Overlap (m) that does not count.
+const TOLERANCE: f64 = 0.002;
+/// Height (m) of a lowest point up to which a thing is on the floor.
+const FLOOR: f64 = 0.02;
+
+/// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
+pub(crate) static TABLE: &[Builtin] = &[
+    control(
+        "%SURFACE-POINT",
+        "surface u v",
+        "The point (x y), in the map (m), at the shares U and V of the edges of a surface; NIL if it is none.",
+        &["(length (pw::%surface-point :table-area-main 0.5 0.5)) => 2"],
+        host!(surface_point),
+    ),
+    control(
+        "%PLACE-ON-SURFACE",
+        "name type surface x y yaw apart &optional color mass",
+        "Puts an object onto a surface where it stands level, with so much room (m) to other objects. NIL, or a text that says why it cannot.",
+        &[
+            "(progn (pw::%sweep-begin 0 0) (pw::%place-on-surface 'cup-1 :cup :table-area-main -1.6 -0.9 0 0)) => NIL",
+        ],
+        host!(place_on_surface),
+    ),
+    control(
+        "%PLACE-ON-FLOOR",
+        "name x y yaw size height",
+        "Puts a box with a square base (m) onto the floor. NIL, or a text that says why it cannot.",
+        &[],
+        host!(place_on_floor),
+    ),
+    control(
+        "%SETTLE-WORLD",
+        "",
+        "Lets everything come to rest. A list of the name of an object that does not stay where it was put, and what became of it; or NIL.",
+        &["(progn (pw::%sweep-begin 0 0) (pw::%settle-world)) => NIL"],
+        host!(settle_world),
+    ),
+    control(
+        "%OBJECTS-OF-WORLD",
+        "",
+        "The names of all objects.",
+        &["(progn (pp-tut:init-projection) (pw::%objects-of-world)) => NIL"],
+        host!(objects_of_world),
+    ),
+    control(
+        "%TILT",
+        "object",
+        "The angle (rad) between the axis of an object and the vertical.",
+        &[],
+        host!(tilt),
+    ),
+    control(
+        "%OBSTACLE-P",
+        "object",
+        "Has a sweep put the object onto the floor, as an obstacle?",
+        &[],
+        host!(is_obstacle),
+    ),
+    control(
+        "%ON-FLOOR-P",
+        "object",
+        "Is the lowest point of an object at the floor?",
+        &[],
+        host!(is_on_floor),
+    ),
+    control(
+        "%NO-PENETRATION-P",
+        "",
+        "Is nothing deeper in anything else than 2 mm?",
+        &[],
+        host!(no_penetration),
+    ),
+];
+
+fn world_error(error: WorldError) -> Box<Raise> {
+    Raise::simple(format!("{error}."))
+}
+
+fn real(value: &Value) -> Result<f64> {
+    number::to_f64(value)
+        .filter(|number| number.is_finite())
+        .ok_or_else(|| Raise::simple("The place of a thing consists of finite numbers."))
+}
+
+impl Simulation {
+    /// The surface with that name; an error suggests others.
+    fn surface_named(&self, image: &Image, name: &Value) -> Result<LinkId> {
+        if let Some(link) = self.furniture_of(image, name) {
+            return Ok(link);
+        }
+        let shown = print::to_string(image, name, false).to_lowercase();
+        let wanted = shown.replace('-', "_");
+        let links = self.models.kitchen.links();
+        let links = links.filter(|(_, link)| !link.collisions.is_empty());
+        let names = links.map(|(_, link)| link.name.as_str());
+        let near = suggestion(&wanted, names, |name| name.replace('_', "-"));
+        Err(Raise::simple(format!(
+            "The kitchen has no furniture named {shown}{}",
+            if near.is_empty() {
+                "; (list-surfaces) lists the surfaces."
+            } else {
+                &near
+            }
+        )))
+    }
+}
+
+fn surface_point(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let link = simulation.surface_named(image, &args[0])?;
+    let Some(extent) = simulation.world.furniture_extent(link) else {
+        return done(Value::NIL);
+    };
+    let [u, v] = [real(&args[1])?, real(&args[2])?];
+    let [width, depth, _] = extent.size();
+    let local = nalgebra::Point3::new(extent.min[0] + u * width, extent.min[1] + v * depth, 0.0);
+    let point = extent.frame * local;
+    done(Value::list([
+        Value::Double(point.x),
+        Value::Double(point.y),
+    ]))
+}
+
+/// The name of an object and its type.
+fn name_and_kind(
+    simulation: &Simulation,
+    image: &Image,
+    name: &Value,
+    kind: &Value,
+) -> Result<(String, ObjectType)> {
+    let wanted = type_text(image, kind).unwrap_or_default();
+    let types = &simulation.models.objects;
+    let Some(known) = types.get(&wanted) else {
+        let names = types.types().map(|kind| kind.name.as_str());
+        let near = suggestion(&wanted, names, |n| format!(":{}", n.to_uppercase()));
+        let shown = print::to_string(image, kind, true);
+        return Err(Raise::simple(format!(
+            "There is no type of objects {shown}{}",
+            if near.is_empty() {
+                "; (list-available-objects) lists the types."
+            } else {
+                &near
+            }
+        )));
+    };
+    let Some(name) = name_text(image, name) else {
+        return Err(Raise::simple("An object is named by a symbol."));
+    };
+    Ok((name, known.clone()))
+}
+
+fn why_no_room(reason: &NoRoom) -> String {
+    match reason {
+        NoRoom::NoSupport => "nothing is below it".to_owned(),
+        NoRoom::On(body) => format!("{body} is below it"),
+        NoRoom::Edge => "it would stick out beyond the edge".to_owned(),
+        NoRoom::Touches(body) => format!("{body} is there"),
+    }
+}
+
+fn place_on_surface(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let (name, mut kind) = name_and_kind(simulation, image, &args[0], &args[1])?;
+    let link = simulation.surface_named(image, &args[2])?;
+    let [x, y, yaw, apart] = [&args[3], &args[4], &args[5], &args[6]].map(real);
+    let (x, y, yaw, apart) = (x?, y?, yaw?, apart?);
+    if let Some(mass) = optional(args, 8) {
+        kind.mass = real(mass)?;
+    }
+    match simulation.standing_place(&kind, link, [x, y, yaw], apart) {
+        Err(why) => done(Value::from(why.as_str())),
+        Ok(pose) => {
+            let report = simulation
+                .world
+                .spawn_kind(&name, &kind, &pose)
+                .map_err(world_error)?;
+            if let Some(body) = report.blocked_by {
+                simulation.world.remove(&name).map_err(world_error)?;
+                return done(Value::from(format!("{body} is there").as_str()));
+            }
+            simulation.put(name, &args[0], report.pose);
+            done(Value::NIL)
+        }
+    }
+}
+
+impl Simulation {
+    /// The pose in which a thing of a kind stands on a surface at a place (m, m, rad), with so much
+    /// room (m) to other objects; or why it does not.
+    fn standing_place(
+        &self,
+        kind: &ObjectType,
+        surface: LinkId,
+        [x, y, yaw]: [f64; 3],
+        apart: f64,
+    ) -> std::result::Result<Pose, String> {
+        let world = &self.world;
+        let extent = world.furniture_extent(surface);
+        let Some(extent) = extent else {
+            return Err("the surface has no shape".to_owned());
+        };
+        let load = Load::of_shapes(&kind.shapes);
+        let at = from_xy_yaw(x, y, yaw);
+        let [width, depth, _] = load.size(&at);
+        let reach = width.max(depth) + apart;
+        let room = StandingRoom::new(
+            world,
+            [[x - reach, y - reach], [x + reach, y + reach]],
+            None,
+        );
+        let top = extent.top();
+        let levels = room.levels(surface, [x, y], [top + ABOVE, top - ABOVE]);
+        let Some(level) = levels.first() else {
+            let mut here = at;
+            here.translation.z = top + load.depth(&at);
+            return Err(match room.too_near(&load, &here, apart.max(TOLERANCE)) {
+                Some(body) => format!("{body} is there"),
+                None => "it would stick out beyond the edge".to_owned(),
+            });
+        };
+        let pose = room
+            .stand(&load, &at, level + ABOVE, ABOVE + LEVEL, Ground::Furniture)
+            .map_err(|reason| why_no_room(&reason))?;
+        match room.too_near(&load, &pose, apart) {
+            Some(body) => Err(format!("{body} is too near")),
+            None => Ok(pose),
+        }
+    }
+
+    /// An object has been put at a pose, under a symbol.
+    fn put(&mut self, name: String, symbol: &Value, pose: Pose) {
+        self.names.insert(name.clone(), symbol.clone());
+        self.put_for_sweep.push((name, pose));
+    }
+}
+
+fn place_on_floor(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let Some(name) = name_text(image, &args[0]) else {
+        return Err(Raise::simple("An object is named by a symbol."));
+    };
+    let [x, y, yaw] = [&args[1], &args[2], &args[3]].map(real);
+    let [size, height] = [&args[4], &args[5]].map(real);
+    let (x, y, yaw, size, height) = (x?, y?, yaw?, size?, height?);
+    if ![size, height].iter().all(|edge| EDGES.contains(edge)) {
+        return Err(Raise::simple(format!(
+            "An obstacle has edges from {} to {} m, not {size} and {height} m.",
+            EDGES.start(),
+            EDGES.end()
+        )));
+    }
+    let kind = ObjectType {
+        name: OBSTACLE.to_owned(),
+        shapes: vec![PlacedShape {
+            shape: Shape::Box {
+                size: [size, size, height],
+            },
+            pose: Pose::translation(0.0, 0.0, height / 2.0),
+            color: None,
+        }],
+        mass: DENSITY * size * size * height,
+        friction: FRICTION,
+        color: OBSTACLE_COLOR,
+        is_round: false,
+    };
+    let report = simulation
+        .world
+        .spawn_kind(&name, &kind, &from_xy_yaw(x, y, yaw))
+        .map_err(world_error)?;
+    if let Some(body) = report.blocked_by.filter(|body| *body != BodyName::Floor) {
+        simulation.world.remove(&name).map_err(world_error)?;
+        return done(Value::from(format!("{body} is there").as_str()));
+    }
+    simulation.put(name, &args[0], report.pose);
+    done(Value::NIL)
+}
+
+fn settle_world(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let put = simulation.put_for_sweep.clone();
+    for (name, _) in &put {
+        if !simulation
+            .world
+            .come_to_rest(name, SETTLE)
+            .map_err(world_error)?
+        {
+            return restless(name, "does not come to rest");
+        }
+    }
+    for (name, before) in &put {
+        let now = simulation.world.object_pose(name).map_err(world_error)?;
+        let way = (now.translation.vector - before.translation.vector).norm();
+        if tilt_of(&now) > TIPPED {
+            return restless(name, "falls over");
+        }
+        if way > MOVED {
+            return restless(name, "does not stay where it was put");
+        }
+    }
+    done(Value::NIL)
+}
+
+fn restless(name: &str, what: &str) -> Result<Reply> {
+    done(Value::list([
+        Value::from(name.to_lowercase().as_str()),
+        Value::from(what),
+    ]))
+}
+
+fn objects_of_world(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let names = simulation.world.objects().map(Object::name);
+    let names: Vec<Value> = names.map(|name| simulation.symbol_of(name)).collect();
+    done(Value::list(names))
+}
+
+/// The angle (rad) between the z axis of a pose and the vertical.
+fn tilt_of(pose: &Pose) -> f64 {
+    let up = pose.rotation * Vector3::z();
+    trig::atan2(up.xy().norm(), up.z)
+}
+
+fn tilt(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let pose = simulation.world.object_pose(&name).map_err(world_error)?;
+    done(Value::Double(tilt_of(&pose)))
+}
+
+fn is_obstacle(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let object = simulation.world.object(&name).map_err(world_error)?;
+    done(object.type_name() == OBSTACLE)
+}
+
+fn is_on_floor(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let extent = simulation.world.object_extent(&name).map_err(world_error)?;
+    let lowest = extent.frame.translation.z + extent.min[2];
+    done(lowest < FLOOR)
+}
+
+fn no_penetration(simulation: &mut Simulation, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let world = &simulation.world;
+    if world
+        .deepest_penetration(&AllowedPairs::default(), TOLERANCE)
+        .is_some()
+    {
+        return done(false);
+    }
+    for object in world.objects().filter(|o| o.attachment().is_none()) {
+        let (depth, _) = world.depth_of(object.name()).map_err(world_error)?;
+        if depth > TOLERANCE {
+            return done(false);
+        }
+    }
+    done(true)
+}

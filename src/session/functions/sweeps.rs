@@ -1,0 +1,380 @@
+//! What sweeps ask of the session: a fresh world, the numbers of its draws, and the record of what
+//! came of it. The rest of sweeps is written in Lisp (`plans/lib/sweeps.plan`).
+
+use crate::closest_name::closest_name;
+use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::image::Image;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::number;
+use crate::lisp::value::raise::Raise;
+use crate::plan::Reply;
+use crate::session::host::SimulationHost;
+use crate::session::host::call::{done, host};
+use crate::session::simulation::injection::{Fault, FaultKind};
+use crate::session::simulation::names::name_text;
+use crate::session::sweeping::{Known, Sweeping};
+use crate::sweep::summary::{Summary, Title};
+use crate::sweep::{Drawn, Ending, Record, normal_quantile};
+
+type Result<T> = std::result::Result<T, Box<Raise>>;
+
+/// Builtins of package `PLAN-SYSTEM`, which `PLANWRIGHT` imports.
+pub(crate) static TABLE: &[Builtin] = &[
+    control(
+        "%SWEEP-BEGIN",
+        "seed world",
+        "Takes everything to the start of a world of a sweep: no objects, the robot at the origin, random numbers as its seed and number say.",
+        &[],
+        host!(begin),
+    ),
+    control(
+        "%SWEEP-RUN-BEGINS",
+        "",
+        "The plan begins: from here on its time is counted.",
+        &[],
+        host!(run_begins),
+    ),
+    control(
+        "%SWEEP-RUN-ENDS",
+        "",
+        "The plan has ended.",
+        &[],
+        host!(run_ends),
+    ),
+    control(
+        "%INJECT",
+        "kind probability after duration of position yaw",
+        "A fault may strike motions from now on.",
+        &[],
+        host!(inject),
+    ),
+    control(
+        "%END-FAULTS",
+        "",
+        "No fault strikes any more. Returns the faults that have struck, as strings.",
+        &["(pw::%end-faults) => NIL"],
+        host!(end_faults),
+    ),
+    control(
+        "%BEGIN-FAULTS",
+        "seed",
+        "Faults are drawn anew, as the seed says.",
+        &[],
+        host!(begin_faults),
+    ),
+    control(
+        "%SWEEP-RECORD",
+        "&key outcome class cause expectations measures",
+        "What came of the world, as a line of JSON.",
+        &[],
+        host!(record),
+    ),
+    control(
+        "%RESTORE-QUIETLY",
+        "name",
+        "As RESTORE, without a word.",
+        &[],
+        host!(restore_quietly),
+    ),
+    pure(
+        "%MUTE-OUTPUT",
+        "muted",
+        "Whether what is written from now on is dropped. Returns whether it was.",
+        &["(pw::%mute-output nil) => NIL"],
+        mute_output,
+    ),
+    pure(
+        "%SWEEP-UNIT",
+        "path",
+        "The next number from 0 to 1 of a path.",
+        &[],
+        unit,
+    ),
+    pure(
+        "%SWEEP-OVERRIDE",
+        "path",
+        "A list of the value that is set for a draw; NIL if none is.",
+        &[],
+        overriding,
+    ),
+    pure(
+        "%SWEEP-SET",
+        "path value",
+        "Sets the value of a draw in the worlds that begin from now on.",
+        &[],
+        set,
+    ),
+    pure(
+        "%SWEEP-NOTE",
+        "path value",
+        "Notes what was drawn.",
+        &[],
+        note,
+    ),
+    pure(
+        "%NORMAL-DEVIATE",
+        "unit &optional low high",
+        "The standard normal deviate at that share of the distribution, or of its part between two deviates.",
+        &["(pw::%normal-deviate 0.5d0) => 0.0d0"],
+        deviate,
+    ),
+    pure(
+        "%SWEEP-KNOWN",
+        "name worlds goal",
+        "Tells the command line of a sweep.",
+        &[],
+        known,
+    ),
+    pure(
+        "%SWEEP-SUMMARY",
+        "name seed goal lines",
+        "What the lines of a sweep say together, as text.",
+        &[],
+        summary,
+    ),
+];
+
+fn state(image: &mut Image) -> std::rc::Rc<Sweeping> {
+    let state = image.extension::<Sweeping>();
+    state.unwrap_or_else(|| image.extend(Sweeping::default()))
+}
+
+/// A number that is not negative.
+fn index(value: &Value) -> Result<u64> {
+    match value {
+        Value::Int(number) => u64::try_from(*number).ok(),
+        _ => None,
+    }
+    .ok_or_else(|| Raise::simple("A seed or the number of a world is an integer from 0 on."))
+}
+
+fn begin(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let (seed, world) = (index(&args[0])?, index(&args[1])?);
+    let state = state(image);
+    state.begin(seed, world);
+    image.seed(state.bits("lisp"));
+    let injection = std::rc::Rc::clone(&host.simulation.injection);
+    injection.borrow_mut().begin(seed, world, state.off());
+    host.simulation.restart_with(state.bits("simulation"));
+    done(Value::NIL)
+}
+
+fn run_begins(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    host.simulation.begin_tally();
+    done(Value::NIL)
+}
+
+fn run_ends(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    host.simulation.end_tally();
+    done(Value::NIL)
+}
+
+fn begin_faults(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let seed = index(&args[0])?;
+    let off = state(image).off();
+    host.simulation.injection.borrow_mut().begin(seed, 0, off);
+    host.simulation.begin_tally();
+    done(Value::NIL)
+}
+
+fn end_faults(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let mut injection = host.simulation.injection.borrow_mut();
+    injection.end();
+    let struck = injection.struck().into_iter().map(Value::string);
+    done(Value::list(struck.collect::<Vec<_>>()))
+}
+
+fn inject(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = name_text(image, &args[0]).unwrap_or_default();
+    let names = FaultKind::ALL.map(FaultKind::name);
+    let mut kinds = FaultKind::ALL.into_iter();
+    let Some(kind) = kinds.find(|kind| kind.name().eq_ignore_ascii_case(&name)) else {
+        let name = name.to_lowercase();
+        let near = closest_name(&name, names).map_or_else(
+            || format!("; there are {}.", names.join(", ")),
+            |near| format!("; did you mean {near}?"),
+        );
+        return Err(Raise::simple(format!("{name} is no kind of fault{near}")));
+    };
+    let number_from = |at: usize, what: &str, most: f64| match &args[at] {
+        value if !value.is_true() => Ok(None),
+        value => match number::to_f64(value).filter(|number| (0.0..=most).contains(number)) {
+            Some(number) => Ok(Some(number)),
+            None => Err(Raise::simple(format!(
+                "{} is no {what}: a number from 0 to {most} was expected.",
+                print::to_string(image, value, true)
+            ))),
+        },
+    };
+    let of = match &args[4] {
+        value if !value.is_true() => None,
+        value => Some(name_text(image, value).ok_or_else(|| {
+            Raise::simple("What a fault is :OF is the name of an object or of a type.")
+        })?),
+    };
+    let fault = Fault {
+        kind,
+        probability: number_from(1, "probability", 1.0)?.unwrap_or(1.0),
+        after: number_from(2, "time", 1e9)?,
+        duration: number_from(3, "duration", 1e9)?,
+        of,
+        position: number_from(5, "standard deviation of positions", 1.0)?.unwrap_or(0.0),
+        yaw: number_from(6, "standard deviation of angles", 4.0)?.unwrap_or(0.0),
+    };
+    host.simulation.injection.borrow_mut().add(fault);
+    done(Value::NIL)
+}
+
+fn restore_quietly(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = args[0].as_symbol().map(|sym| image.name(sym).to_owned());
+    let name = name.unwrap_or_default();
+    host.person
+        .snapshots
+        .restore_kept(&mut host.simulation, image, &name)?;
+    done(Value::NIL)
+}
+
+fn text(value: &Value) -> Result<String> {
+    value
+        .as_text()
+        .ok_or_else(|| Raise::simple("The path of a draw is a string."))
+}
+
+fn mute_output(image: &mut Image, args: &[Value]) -> Result<Value> {
+    Ok(image.output.set_muted(args[0].is_true()).into())
+}
+
+fn unit(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let path = text(&args[0])?;
+    Ok(Value::Double(state(image).unit(&path)))
+}
+
+fn overriding(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let path = text(&args[0])?;
+    let found = state(image).overriding(&path);
+    Ok(found.map_or(Value::NIL, |value| Value::list([value])))
+}
+
+fn set(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let path = text(&args[0])?;
+    state(image).set(&path, args[1].clone());
+    Ok(Value::NIL)
+}
+
+fn note(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let path = text(&args[0])?;
+    let drawn = drawn(image, &args[1]);
+    state(image).note(&path, drawn);
+    Ok(Value::NIL)
+}
+
+/// A value as it is recorded.
+fn drawn(image: &Image, value: &Value) -> Drawn {
+    match value {
+        Value::Int(number) => Drawn::Integer(*number),
+        // As it was written: 0.3, not the nearest number of less precision.
+        Value::Single(number) if number.is_finite() => number
+            .to_string()
+            .parse()
+            .map_or(Drawn::Flag(false), Drawn::Number),
+        _ if !value.is_true() => Drawn::Flag(false),
+        Value::Symbol(sym, ..) if image.name(*sym) == "T" => Drawn::Flag(true),
+        _ => match number::to_f64(value).filter(|number| number.is_finite()) {
+            Some(number) => Drawn::Number(number),
+            None => Drawn::Text(print::to_string(image, value, false)),
+        },
+    }
+}
+
+fn deviate(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let bound = |at: usize| args.get(at).and_then(number::to_f64);
+    let unit = number::to_f64(&args[0]).unwrap_or(0.5);
+    // The share of the distribution below a deviate.
+    let below = |z: f64| 0.5 * libm::erfc(-z / std::f64::consts::SQRT_2);
+    let low = bound(1).map_or(0.0, below);
+    let high = bound(2).map_or(1.0, below);
+    let share = (low + unit * (high - low)).clamp(f64::MIN_POSITIVE, 1.0 - f64::EPSILON / 2.0);
+    let deviate = normal_quantile(share);
+    let least = bound(1).unwrap_or(f64::NEG_INFINITY);
+    let most = bound(2).unwrap_or(f64::INFINITY);
+    Ok(Value::Double(deviate.max(least).min(most)))
+}
+
+fn known(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let known = Known {
+        name: text(&args[0])?,
+        worlds: index(&args[1])?,
+        goal: number::to_f64(&args[2]),
+    };
+    state(image).know(known);
+    Ok(Value::NIL)
+}
+
+fn summary(_: &mut Image, args: &[Value]) -> Result<Value> {
+    let title = Title {
+        name: text(&args[0])?,
+        seed: index(&args[1])?,
+        goal: number::to_f64(&args[2]),
+    };
+    let lines = args[3].iter_list().filter_map(|line| line.as_text());
+    let records: Vec<Record> = lines
+        .filter_map(|line| serde_json::from_str(&line).ok())
+        .collect();
+    Ok(Value::string(Summary::new(&title, &records).to_string()))
+}
+
+fn record(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let state = state(image);
+    let mut record = state.record(Ending::Success);
+    let simulation = &host.simulation;
+    for pair in args.chunks(2) {
+        let [key, value] = pair else {
+            continue;
+        };
+        let key = key.as_symbol().map(|sym| image.name(sym).to_owned());
+        match key.as_deref() {
+            Some("OUTCOME") => record.outcome = ending(image, value),
+            Some("CLASS") => record.class = value.as_text().filter(|_| value.is_true()),
+            Some("CAUSE") => match value {
+                Value::Symbol(sym, ..) if image.is_keyword(*sym) => {
+                    record.cause = simulation.failed_by();
+                    record.bodies = simulation.bodies_of_failure();
+                }
+                _ => record.cause = value.as_text().filter(|_| value.is_true()),
+            },
+            Some("EXPECTATIONS") => {
+                for answer in value.iter_list() {
+                    let name = answer.car_or_nil().as_text().unwrap_or_default();
+                    record
+                        .expectations
+                        .set(&name, answer.cdr_or_nil().is_true());
+                }
+            }
+            Some("MEASURES") => {
+                for answer in value.iter_list() {
+                    let name = answer.car_or_nil().as_text().unwrap_or_default();
+                    record
+                        .measures
+                        .set(&name, drawn(image, &answer.cdr_or_nil()));
+                }
+            }
+            _ => {}
+        }
+    }
+    simulation.complete(&mut record);
+    let line = record.line();
+    state.keep(record);
+    done(Value::string(line))
+}
+
+fn ending(image: &Image, value: &Value) -> Ending {
+    let name = value.as_symbol().map_or("", |sym| image.name(sym));
+    match name {
+        "SUCCESS" => Ending::Success,
+        "EXPECTATION" => Ending::Expectation,
+        "LIMIT" => Ending::Limit,
+        "INVALID" => Ending::Invalid,
+        _ => Ending::Failure,
+    }
+}

@@ -1,0 +1,84 @@
+//! One kind of fault, and when it strikes.
+
+use super::is_named;
+use crate::world::World;
+
+/// What goes wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::session) enum FaultKind {
+    /// A hand loses what it holds in the middle of a motion: the object falls.
+    GripperSlip,
+    /// The fingers close beside the object.
+    GripperMisses,
+    /// An object in sight is overlooked.
+    PerceptionMiss,
+    /// An object appears to be somewhat elsewhere.
+    PerceptionNoise,
+    /// An object is taken for one of another type.
+    PerceptionConfusion,
+    /// A box appears in the way of the base.
+    NavigationBlocked,
+    /// The base stops on its way.
+    NavigationStopsShort,
+    /// The arms stop on their way.
+    ArmStuck,
+    /// The torso stops on its way.
+    TorsoStuck,
+}
+
+impl FaultKind {
+    /// All of them.
+    pub(in crate::session) const ALL: [FaultKind; 9] = [
+        Self::GripperSlip,
+        Self::GripperMisses,
+        Self::PerceptionMiss,
+        Self::PerceptionNoise,
+        Self::PerceptionConfusion,
+        Self::NavigationBlocked,
+        Self::NavigationStopsShort,
+        Self::ArmStuck,
+        Self::TorsoStuck,
+    ];
+
+    /// Its name in sweeps.
+    pub(in crate::session) fn name(self) -> &'static str {
+        match self {
+            Self::GripperSlip => "gripper-slip",
+            Self::GripperMisses => "gripper-misses",
+            Self::PerceptionMiss => "perception-miss",
+            Self::PerceptionNoise => "perception-noise",
+            Self::PerceptionConfusion => "perception-confusion",
+            Self::NavigationBlocked => "navigation-blocked",
+            Self::NavigationStopsShort => "navigation-stops-short",
+            Self::ArmStuck => "arm-stuck",
+            Self::TorsoStuck => "torso-stuck",
+        }
+    }
+}
+
+/// A fault that may strike.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::session) struct Fault {
+    /// What goes wrong.
+    pub(in crate::session) kind: FaultKind,
+    /// The probability with which it strikes a motion that it could strike.
+    pub(in crate::session) probability: f64,
+    /// When (s) after the plan has begun it may strike first; at any time if absent.
+    pub(in crate::session) after: Option<f64>,
+    /// How long (s): from then on, or else from when it has struck.
+    pub(in crate::session) duration: Option<f64>,
+    /// The object, or the type of objects, that it concerns; any if absent.
+    pub(in crate::session) of: Option<String>,
+    /// Standard deviation of perceived positions (m).
+    pub(in crate::session) position: f64,
+    /// Standard deviation of perceived yaw angles (rad).
+    pub(in crate::session) yaw: f64,
+}
+
+impl Fault {
+    /// Whether it concerns the object with that name.
+    pub(super) fn concerns(&self, world: &World, object: &str) -> bool {
+        let wanted = self.of.as_deref();
+        wanted.is_none_or(|wanted| is_named(world, object, wanted))
+    }
+}

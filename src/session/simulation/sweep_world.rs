@@ -1,0 +1,92 @@
+//! The world of a sweep: fresh, filled, and described in the end.
+
+use serde_json::Value as Json;
+
+use super::Simulation;
+use super::tally::Tally;
+use crate::motion::{MotionFailure, UnreachableReason};
+use crate::sweep::Record;
+
+impl Simulation {
+    /// Resets everything to the start of a session with that seed. Simulated time continues.
+    pub(in crate::session) fn restart_with(&mut self, seed: u64) {
+        self.seed = seed;
+        self.noises = 0;
+        self.restart();
+        self.last_failure = None;
+        self.last_account = None;
+        self.tally = Tally::beginning(self.now);
+    }
+
+    /// A plan begins.
+    pub(in crate::session) fn begin_tally(&mut self) {
+        self.tally = Tally::beginning(self.now);
+    }
+
+    /// The plan has ended, if it had not before.
+    pub(in crate::session) fn end_tally(&mut self) {
+        let now = self.now;
+        let began = self.tally.began;
+        self.tally.took.get_or_insert(now - began);
+        self.injection.borrow_mut().end();
+    }
+
+    /// Fills in what the world shows at the end.
+    pub(in crate::session) fn complete(&self, record: &mut Record) {
+        record.time = self.tally.took.unwrap_or(0.0);
+        record.steps = self.world.steps();
+        record.distance = self.tally.distance;
+        for (class, count) in &self.tally.failures {
+            record.failures.set(class, *count);
+        }
+        record.faults = self.injection.borrow().struck();
+        record.hash = format!("{:016x}", self.world.hash());
+    }
+
+    fn last_motion_failure(&self) -> Option<&MotionFailure> {
+        self.last_failure.as_ref().map(|last| &last.failure)
+    }
+
+    /// The kind of the last failure of a motion, and of its reason if it has kinds of reasons.
+    pub(in crate::session) fn failed_by(&self) -> Option<String> {
+        let json = serde_json::to_value(self.last_motion_failure()?).ok()?;
+        let (kind, data) = variant(&json)?;
+        let reason = data.and_then(|data| variant(data.get("reason")?));
+        Some(match reason {
+            Some((reason, _)) => format!("{kind} {reason}"),
+            None => kind.to_owned(),
+        })
+    }
+
+    /// The bodies that the last failure of a motion is about.
+    pub(in crate::session) fn bodies_of_failure(&self) -> Vec<String> {
+        let Some(failure) = self.last_motion_failure() else {
+            return Vec::new();
+        };
+        let hit = match failure {
+            MotionFailure::PoseUnreachable(pose) => match &pose.reason {
+                UnreachableReason::Collisions { hit, .. } => Some(hit),
+                _ => None,
+            },
+            _ => failure.hit(),
+        };
+        match (hit, failure) {
+            (Some(hit), _) => vec![hit.moving.to_string(), hit.other.to_string()],
+            (None, MotionFailure::HeldObjectSlipped(slip)) => vec![slip.object.clone()],
+            (None, MotionFailure::HeldObjectStuck(stuck)) => vec![stuck.object.clone()],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// The name of a variant and its data, as serde writes them.
+fn variant(json: &Json) -> Option<(&str, Option<&Json>)> {
+    match json {
+        Json::String(name) => Some((name, None)),
+        Json::Object(map) => map
+            .iter()
+            .next()
+            .map(|(name, data)| (name.as_str(), Some(data))),
+        _ => None,
+    }
+}

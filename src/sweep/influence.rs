@@ -1,0 +1,493 @@
+//! Which draws explain failures?
+//!
+//! The values of a draw are divided into bins. The deviance between the rates of the bins and the
+//! overall rate is compared with what it is after the outcomes have been shuffled. Many draws are
+//! looked at, so the probabilities are corrected by Holm's method (1979).
+
+use std::collections::BTreeMap;
+use std::fmt::{self, Display};
+
+use super::draw::Draws;
+use super::record::{Drawn, Record};
+
+/// Most bins of a number.
+const BINS: usize = 10;
+/// How often the outcomes are shuffled.
+const SHUFFLES: usize = 999;
+/// Corrected probability below which a draw has an effect.
+const SIGNIFICANT: f64 = 0.05;
+/// Smallest share of the worlds on either side of a bound.
+const LEAST_SHARE: f64 = 0.05;
+/// Fewest failures, and fewest successes, about which anything can be said.
+const FEWEST: usize = 5;
+/// Most draws that are named as having no effect.
+const MOST_NAMED: usize = 6;
+
+/// What a draw is in every world: a number, or one of several values.
+struct Feature {
+    name: String,
+    values: Vec<Level>,
+}
+
+/// The value of a feature in a world.
+#[derive(Clone, Debug, PartialEq)]
+enum Level {
+    Number(f64),
+    Text(String),
+    /// Not drawn in that world.
+    Absent,
+}
+
+/// What a draw has to do with failures.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Effect {
+    /// The path of the draw.
+    pub(crate) name: String,
+    /// The corrected probability that this is chance.
+    pub(crate) p: f64,
+    /// Where failures are most frequent.
+    pub(crate) worst: Option<Part>,
+}
+
+/// A part of all worlds, and how many of them fail.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Part {
+    /// What is so in them.
+    pub(crate) condition: String,
+    /// Which they are, by their places among those that were tried.
+    members: Vec<bool>,
+    /// How many of them fail, and how many there are.
+    pub(crate) failed: [usize; 2],
+    /// The same of all others.
+    pub(crate) others: [usize; 2],
+}
+
+/// Which draws explain failures, the most likely cause first.
+pub(crate) struct Influence {
+    effects: Vec<Effect>,
+    tried: usize,
+    failed: usize,
+}
+
+impl Influence {
+    /// Looks at all draws of the records.
+    pub(crate) fn of(records: &[Record]) -> Self {
+        let tried: Vec<&Record> = records.iter().filter(|r| r.outcome.counts()).collect();
+        let fails: Vec<bool> = tried.iter().map(|r| !r.is_success()).collect();
+        let failed = fails.iter().filter(|fails| **fails).count();
+        let mut effects = Vec::new();
+        if failed >= FEWEST && tried.len() - failed >= FEWEST {
+            let features = features(&tried);
+            let chances = shuffled(&features, &fails);
+            for (feature, p) in features.iter().zip(holm(&chances)) {
+                effects.push(Effect {
+                    name: feature.name.clone(),
+                    p,
+                    worst: worst_part(feature, &fails),
+                });
+            }
+            // Equal probabilities: the larger difference first.
+            effects.sort_by(|a, b| a.p.total_cmp(&b.p).then(gain(b).total_cmp(&gain(a))));
+        }
+        Self {
+            effects,
+            tried: tried.len(),
+            failed,
+        }
+    }
+
+    /// The draws that have an effect.
+    pub(crate) fn significant(&self) -> impl Iterator<Item = &Effect> {
+        self.effects.iter().filter(|effect| effect.p < SIGNIFICANT)
+    }
+}
+
+/// The gain in deviance of the worst part.
+fn gain(effect: &Effect) -> f64 {
+    effect
+        .worst
+        .as_ref()
+        .map_or(0.0, |part| deviance(&[part.failed, part.others]))
+}
+
+fn features(tried: &[&Record]) -> Vec<Feature> {
+    let mut names: Vec<&str> = Vec::new();
+    let mut groups: Vec<(String, String)> = Vec::new();
+    for (path, value) in tried.iter().flat_map(|record| record.draws.iter()) {
+        match group_of(path) {
+            None if !names.contains(&path) => names.push(path),
+            Some((group, "")) => {
+                if let Drawn::Text(kind) = value {
+                    let member = (group.to_owned(), kind.clone());
+                    if !groups.contains(&member) {
+                        groups.push(member);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    groups.sort();
+    let drawn = names.into_iter().map(|name| Feature {
+        name: name.to_owned(),
+        values: tried.iter().map(|r| level(r.draws.get(name))).collect(),
+    });
+    // Whether a group has a thing of a kind.
+    let has = |record: &Record, group: &str, kind: &str| {
+        record.draws.iter().any(|(path, value)| {
+            group_of(path) == Some((group, "")) && *value == Drawn::Text(kind.to_owned())
+        })
+    };
+    let of_groups = groups.iter().map(|(group, kind)| Feature {
+        name: format!("{group} has {}", kind.to_lowercase()),
+        values: tried
+            .iter()
+            .map(|r| Level::Text(has(r, group, kind).to_string()))
+            .collect(),
+    });
+    drawn.chain(of_groups).collect()
+}
+
+/// The group to whose numbered members a path belongs, and what of the member it is.
+fn group_of(path: &str) -> Option<(&str, &str)> {
+    let (group, member) = path.split_once('.')?;
+    let (number, rest) = member.split_once('.').unwrap_or((member, ""));
+    number.parse::<u32>().ok().map(|_| (group, rest))
+}
+
+fn level(value: Option<&Drawn>) -> Level {
+    match value {
+        None => Level::Absent,
+        Some(value @ (Drawn::Flag(_) | Drawn::Text(_))) => Level::Text(value.to_string()),
+        Some(value) => value.number().map_or(Level::Absent, Level::Number),
+    }
+}
+
+/// The bin of each world.
+fn bins(values: &[Level]) -> Vec<usize> {
+    let mut numbers: Vec<f64> = values.iter().filter_map(number).collect();
+    numbers.sort_by(f64::total_cmp);
+    let mut different = numbers.clone();
+    different.dedup();
+    let bounds: Vec<f64> = if different.len() <= BINS {
+        different
+    } else {
+        (1..=BINS)
+            .filter_map(|bin| {
+                numbers
+                    .get((bin * numbers.len() / BINS).max(1) - 1)
+                    .copied()
+            })
+            .collect()
+    };
+    let mut texts: BTreeMap<&str, usize> = BTreeMap::new();
+    for value in values {
+        if let Level::Text(text) = value {
+            texts.insert(text, 0);
+        }
+    }
+    for (at, place) in texts.values_mut().enumerate() {
+        *place = BINS + 1 + at;
+    }
+    let bin = |value: &Level| match value {
+        Level::Number(number) => bounds.partition_point(|bound| bound < number),
+        Level::Text(text) => texts.get(text.as_str()).copied().unwrap_or(0),
+        Level::Absent => BINS + 1 + texts.len(),
+    };
+    values.iter().map(bin).collect()
+}
+
+fn number(value: &Level) -> Option<f64> {
+    match value {
+        Level::Number(number) => Some(*number),
+        _ => None,
+    }
+}
+
+/// Twice the gain in log-likelihood of one rate for each bin, [failed, all], over one for all.
+fn deviance(bins: &[[usize; 2]]) -> f64 {
+    let term = |failed: usize, all: usize| {
+        let part = |hits: usize| match hits {
+            0 => 0.0,
+            _ => hits as f64 * libm::log(hits as f64 / all as f64),
+        };
+        part(failed) + part(all - failed)
+    };
+    let sum = |i: usize| bins.iter().map(|bin| bin[i]).sum::<usize>();
+    let each: f64 = bins
+        .iter()
+        .filter(|b| b[1] > 0)
+        .map(|b| term(b[0], b[1]))
+        .sum();
+    2.0 * (each - term(sum(0), sum(1)))
+}
+
+fn counts(bins: &[usize], fails: &[bool]) -> Vec<[usize; 2]> {
+    let most = bins.iter().max().map_or(0, |bin| bin + 1);
+    let mut counts = vec![[0, 0]; most];
+    for (bin, fails) in bins.iter().zip(fails) {
+        counts[*bin][0] += usize::from(*fails);
+        counts[*bin][1] += 1;
+    }
+    counts
+}
+
+/// The probability, for each feature, that shuffled outcomes give as large a deviance.
+fn shuffled(features: &[Feature], fails: &[bool]) -> Vec<f64> {
+    let bins: Vec<Vec<usize>> = features.iter().map(|f| bins(&f.values)).collect();
+    let found: Vec<f64> = bins.iter().map(|b| deviance(&counts(b, fails))).collect();
+    let mut as_large = vec![0_usize; features.len()];
+    let mut numbers = Draws::new(0, 0, "influence");
+    let mut shuffled = fails.to_vec();
+    for _ in 0..SHUFFLES {
+        // Fisher and Yates.
+        for last in (1..shuffled.len()).rev() {
+            // The cast rounds down.
+            let other = (numbers.unit() * (last + 1) as f64) as usize;
+            shuffled.swap(last, other);
+        }
+        for ((bins, found), as_large) in bins.iter().zip(&found).zip(&mut as_large) {
+            *as_large += usize::from(deviance(&counts(bins, &shuffled)) >= found - 1e-9);
+        }
+    }
+    let chance = |count: usize| (count + 1) as f64 / (SHUFFLES + 1) as f64;
+    as_large.into_iter().map(chance).collect()
+}
+
+/// Probabilities of several tests, corrected so that all of them together err as seldom as each says.
+fn holm(chances: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..chances.len()).collect();
+    order.sort_by(|a, b| chances[*a].total_cmp(&chances[*b]));
+    let mut corrected = vec![1.0; chances.len()];
+    let mut least: f64 = 0.0;
+    for (rank, at) in order.iter().enumerate() {
+        least = least.max(chances[*at] * (chances.len() - rank) as f64);
+        corrected[*at] = least.min(1.0);
+    }
+    corrected
+}
+
+/// The part, beyond a bound or with one value, that tells failures best from successes.
+fn worst_part(feature: &Feature, fails: &[bool]) -> Option<Part> {
+    let values = &feature.values;
+    let mut numbers: Vec<f64> = values.iter().filter_map(number).collect();
+    numbers.sort_by(f64::total_cmp);
+    numbers.dedup();
+    let mut parts = Vec::new();
+    for pair in numbers.windows(2) {
+        let bound = short_between(pair[0], pair[1]);
+        let below = |value: &Level| number(value).is_some_and(|number| number < bound);
+        let above = |value: &Level| number(value).is_some_and(|number| number >= bound);
+        parts.push(part(
+            format!("{} < {bound}", feature.name),
+            values,
+            fails,
+            below,
+        ));
+        parts.push(part(
+            format!("{} ≥ {bound}", feature.name),
+            values,
+            fails,
+            above,
+        ));
+    }
+    if numbers.len() <= BINS {
+        for wanted in &numbers {
+            let same = |value: &Level| number(value) == Some(*wanted);
+            parts.push(part(
+                format!("{} = {wanted}", feature.name),
+                values,
+                fails,
+                same,
+            ));
+        }
+    }
+    let mut texts: Vec<&String> = Vec::new();
+    for value in values {
+        match value {
+            Level::Text(text) if !texts.contains(&text) => texts.push(text),
+            _ => {}
+        }
+    }
+    texts.sort();
+    for text in texts {
+        let same = |value: &Level| matches!(value, Level::Text(known) if known == text);
+        let condition = match text.as_str() {
+            "true" => feature.name.clone(),
+            "false" => format!("not {}", feature.name),
+            _ => format!("{} = {}", feature.name, text.to_lowercase()),
+        };
+        parts.push(part(condition, values, fails, same));
+    }
+    let least = (LEAST_SHARE * fails.len() as f64).ceil() as usize;
+    let rate = |[failed, all]: [usize; 2]| failed as f64 / all.max(1) as f64;
+    parts
+        .into_iter()
+        .filter(|p| p.failed[1] >= least && rate(p.failed) > rate(p.others))
+        .max_by(|a, b| {
+            let gain = |p: &Part| deviance(&[p.failed, p.others]);
+            gain(a).total_cmp(&gain(b))
+        })
+}
+
+fn part(
+    condition: String,
+    values: &[Level],
+    fails: &[bool],
+    is_in: impl Fn(&Level) -> bool,
+) -> Part {
+    let members: Vec<bool> = values.iter().map(is_in).collect();
+    let count = |inside: bool| {
+        let all = members
+            .iter()
+            .zip(fails)
+            .filter(|(member, _)| **member == inside);
+        [
+            all.clone().filter(|(_, fails)| **fails).count(),
+            all.count(),
+        ]
+    };
+    Part {
+        condition,
+        failed: count(true),
+        others: count(false),
+        members,
+    }
+}
+
+/// A number between two others, the second included, with as few digits as possible.
+fn short_between(low: f64, high: f64) -> f64 {
+    for digits in 0..12 {
+        let scale = libm::pow(10.0, f64::from(digits));
+        let rounded = (high * scale).floor() / scale;
+        if rounded > low {
+            return rounded;
+        }
+    }
+    high
+}
+
+impl Display for Influence {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if self.effects.is_empty() {
+            return Ok(());
+        }
+        let mut sentences = Vec::new();
+        for effect in self.significant() {
+            let Some(part) = &effect.worst else {
+                sentences.push(format!("{}: p = {:.3}", effect.name, effect.p));
+                continue;
+            };
+            let percent = |[failed, all]: [usize; 2]| 100.0 * failed as f64 / all.max(1) as f64;
+            sentences.push(format!(
+                "{}: {:.0} % fail of {} (else {:.0} %)",
+                part.condition,
+                percent(part.failed),
+                part.failed[1],
+                percent(part.others)
+            ));
+        }
+        let without: Vec<&str> = self
+            .effects
+            .iter()
+            .filter(|effect| effect.p >= SIGNIFICANT)
+            .map(|effect| effect.name.as_str())
+            .collect();
+        if sentences.is_empty() {
+            let (failed, tried) = (self.failed, self.tried);
+            sentences.push(format!(
+                "no draw explains the {failed} failures of {tried} worlds"
+            ));
+        } else if !without.is_empty() {
+            let more = if without.len() > MOST_NAMED {
+                ", …"
+            } else {
+                ""
+            };
+            let named: Vec<&str> = without.into_iter().take(MOST_NAMED).collect();
+            sentences.push(format!("{}{more}: no effect seen", named.join(", ")));
+        }
+        writeln!(f, "what matters: {}", sentences.join(" · "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::Ending;
+
+    /// Worlds with ten numbers, which fail with a probability that the numbers decide.
+    fn worlds(seed: u64, rate: impl Fn(&[f64]) -> f64) -> Vec<Record> {
+        let world = |world| {
+            let mut draws = Draws::new(seed, world, "test");
+            let values: Vec<f64> = (0..10).map(|_| draws.unit()).collect();
+            let ending = match draws.unit() < rate(&values) {
+                true => Ending::Failure,
+                false => Ending::Success,
+            };
+            let mut record = Record::new(world, ending);
+            for (i, value) in values.iter().enumerate() {
+                record.draws.set(&format!("v{i}"), Drawn::Number(*value));
+            }
+            record
+        };
+        (0..400).map(world).collect()
+    }
+
+    #[test]
+    fn a_planted_cause_is_found() {
+        let records = worlds(1, |v| if v[3] < 0.25 { 0.6 } else { 0.05 });
+        let influence = Influence::of(&records);
+        let first = influence.significant().next().map(|e| e.name.as_str());
+        assert_eq!(first, Some("v3"));
+        let text = influence.to_string();
+        assert!(text.starts_with("what matters: v3 < 0.2"), "{text}");
+        assert!(text.contains("no effect seen"), "{text}");
+        // Failures at both ends, which no line through the values would show.
+        let records = worlds(2, |v| {
+            if (0.2..0.8).contains(&v[7]) {
+                0.05
+            } else {
+                0.6
+            }
+        });
+        let influence = Influence::of(&records);
+        let first = influence.significant().next().map(|e| e.name.as_str());
+        assert_eq!(first, Some("v7"));
+    }
+
+    #[test]
+    fn where_nothing_matters_little_is_found() {
+        let found = (0..40).filter(|seed| {
+            let records = worlds(100 + seed, |_| 0.3);
+            Influence::of(&records).significant().next().is_some()
+        });
+        // Two are expected; six or more happen in one of 60 such tests.
+        let found = found.count();
+        assert!(found < 6, "{found}");
+    }
+
+    #[test]
+    fn kinds_of_things_in_groups_count() {
+        let world = |world: u64| {
+            let mut draws = Draws::new(9, world, "test");
+            let kind = if draws.unit() < 0.4 { "BOWL" } else { "CUP" };
+            let fails = kind == "BOWL" && draws.unit() < 0.8;
+            let mut record = Record::new(
+                world,
+                if fails {
+                    Ending::Failure
+                } else {
+                    Ending::Success
+                },
+            );
+            record.draws.set("clutter", Drawn::Integer(1));
+            record.draws.set("clutter.1", Drawn::Text(kind.to_owned()));
+            record.draws.set("clutter.1.x", Drawn::Number(draws.unit()));
+            record
+        };
+        let records: Vec<Record> = (0..200).map(world).collect();
+        let text = Influence::of(&records).to_string();
+        assert!(text.contains("clutter has bowl: "), "{text}");
+    }
+}

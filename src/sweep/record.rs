@@ -1,0 +1,210 @@
+//! What came of one world: a line of JSON.
+//!
+//! A line has fixed keys in a fixed order, and nothing that depends on the machine or the time of
+//! day: the same world is the same bytes.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::pairs::Pairs;
+
+/// How a world ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Ending {
+    /// No condition left the plan, and everything expected holds.
+    Success,
+    /// A condition left the plan.
+    Failure,
+    /// Something that was expected does not hold.
+    Expectation,
+    /// The plan took more simulated time than it may.
+    Limit,
+    /// The plan computed without end while no simulated time passed.
+    Endless,
+    /// What the world was to contain found no place. This says nothing about the plan.
+    Invalid,
+    /// planwright itself failed.
+    Defect,
+    /// The process that ran the world was killed by it.
+    Crashed,
+}
+
+impl Ending {
+    /// Whether the plan was tried at all.
+    pub(crate) fn counts(self) -> bool {
+        self != Self::Invalid
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Success => "success",
+            Self::Failure => "failure",
+            Self::Expectation => "expectation",
+            Self::Limit => "limit",
+            Self::Endless => "endless",
+            Self::Invalid => "invalid",
+            Self::Defect => "defect",
+            Self::Crashed => "crashed",
+        }
+    }
+}
+
+impl fmt::Display for Ending {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A value that was drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Drawn {
+    /// Whether something is so.
+    Flag(bool),
+    /// An integer.
+    Integer(i64),
+    /// A number.
+    Number(f64),
+    /// Anything else, as the language prints it.
+    Text(String),
+}
+
+impl Drawn {
+    /// It as a number; a flag is 0 or 1.
+    pub(crate) fn number(&self) -> Option<f64> {
+        match self {
+            Self::Flag(is_set) => Some(f64::from(u8::from(*is_set))),
+            Self::Integer(number) => Some(*number as f64),
+            Self::Number(number) => Some(*number),
+            Self::Text(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Drawn {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Flag(is_set) => write!(f, "{is_set}"),
+            Self::Integer(number) => write!(f, "{number}"),
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+/// What came of one world.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Record {
+    /// Its number.
+    pub(crate) world: u64,
+    /// How it ended.
+    pub(crate) outcome: Ending,
+    /// The class of the condition, the expectation, or the variable that found no place.
+    pub(crate) class: Option<String>,
+    /// The cause: the kind of failure of the last motion that failed, or why there was no place.
+    pub(crate) cause: Option<String>,
+    /// The bodies that touched, or would have.
+    pub(crate) bodies: Vec<String>,
+    /// Whether each expectation holds.
+    pub(crate) expectations: Pairs<bool>,
+    /// What was drawn, by path.
+    pub(crate) draws: Pairs<Drawn>,
+    /// The faults that were injected.
+    pub(crate) faults: Vec<String>,
+    /// Simulated time that the plan took (s).
+    pub(crate) time: f64,
+    /// Steps of the world since it began.
+    pub(crate) steps: u64,
+    /// How far the base has driven (m).
+    pub(crate) distance: f64,
+    /// How many motions failed, by class; the plan may have handled them.
+    pub(crate) failures: Pairs<u64>,
+    /// What was measured.
+    pub(crate) measures: Pairs<Drawn>,
+    /// The hash of the world at the end.
+    pub(crate) hash: String,
+}
+
+impl Record {
+    /// A world about which nothing is known yet but how it ended.
+    pub(crate) fn new(world: u64, outcome: Ending) -> Self {
+        Self {
+            world,
+            outcome,
+            class: None,
+            cause: None,
+            bodies: Vec::new(),
+            expectations: Pairs::default(),
+            draws: Pairs::default(),
+            faults: Vec::new(),
+            time: 0.0,
+            steps: 0,
+            distance: 0.0,
+            failures: Pairs::default(),
+            measures: Pairs::default(),
+            hash: String::new(),
+        }
+    }
+
+    /// Whether the plan worked.
+    pub(crate) fn is_success(&self) -> bool {
+        self.outcome == Ending::Success
+    }
+
+    /// The line of JSON, without its end.
+    pub(crate) fn line(&self) -> String {
+        // Nothing in a record fails to be written: names are texts, and numbers that are not finite
+        // become null.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+
+    /// Why it ended as it did: worlds with the same kind are counted together.
+    pub(crate) fn kind(&self) -> [String; 3] {
+        let class = match (&self.outcome, &self.class) {
+            (Ending::Expectation, Some(name)) => format!("expectation {name}"),
+            (_, Some(class)) => class.clone(),
+            (outcome, None) => outcome.to_string(),
+        };
+        [
+            class,
+            self.cause.clone().unwrap_or_default(),
+            self.bodies.join("/"),
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_reads_back_to_the_same_line() {
+        let mut record = Record::new(17, Ending::Failure);
+        record.class = Some("TORSO-GOAL-NOT-REACHED".to_owned());
+        for (name, value) in [
+            ("b", Drawn::Number(-1.0)),
+            ("a", Drawn::Number(0.1 + 0.2)),
+            ("n", Drawn::Integer(3)),
+            ("f", Drawn::Flag(true)),
+            ("t", Drawn::Text(":CUP".to_owned())),
+        ] {
+            record.draws.set(name, value);
+        }
+        let line = record.line();
+        assert!(
+            line.starts_with(r#"{"world":17,"outcome":"failure","class":"TORSO"#),
+            "{line}"
+        );
+        assert!(
+            line.contains(
+                r#""draws":{"b":-1.0,"a":0.30000000000000004,"n":3,"f":true,"t":":CUP"}"#
+            ),
+            "{line}"
+        );
+        let again: Record = serde_json::from_str(&line).unwrap();
+        assert_eq!(again, record);
+        assert_eq!(again.line(), line);
+    }
+}
