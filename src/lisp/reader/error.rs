@@ -219,6 +219,6 @@ impl ReadError {
         } else {
             known::READER_ERROR
         };
-        Raise::new(class, self.to_string())
+        Raise::new(class, self.to_string()).at(self.place)
     }
 }

@@ -85,10 +85,10 @@ const TABLE: &[(&str, &str)] = &[
         "(g 1) (defun g (&optional a b) (list a b)) (g 1 2 3)",
         "1:44: G takes at most 2 arguments, but is called with 3.",
     ),
-    ("(nopackage:foo)", "Package NOPACKAGE does not exist."),
+    ("(nopackage:foo)", "1:2: Package NOPACKAGE does not exist."),
     (
         "(pp-tut:nosuch)",
-        "Symbol \"NOSUCH\" not found in the CRAM-PICK-PLACE-TUTORIAL package.",
+        "1:2: Symbol \"NOSUCH\" not found in the CRAM-PICK-PLACE-TUTORIAL package.",
     ),
     (
         "(defvar *speed* 1) (print *sped*)",
@@ -98,7 +98,10 @@ const TABLE: &[(&str, &str)] = &[
         "(defmacro twice (x) `(progn ,x ,x)) (twice (nosuch 1))",
         "1:45: The function NOSUCH is not defined.",
     ),
-    ("(list 1", "end of file in a list that starts on line 1"),
+    (
+        "(list 1",
+        "1:1: end of file in a list that starts on line 1",
+    ),
     (
         "(defun one () 1) (one 1 2)",
         "1:18: ONE takes no arguments, but is called with 2.",
