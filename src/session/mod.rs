@@ -93,6 +93,7 @@ impl Session {
         crate::plan::designator::install(&mut image);
         functions::install(&mut image);
         functions::name_system_folders(&mut image, &options.systems);
+        functions::install_topics(&mut image, Arc::clone(&models));
         let mut simulation = Simulation::new(models, options.log_level, options.seed)
             .map_err(|error| SessionError::Models(error.to_string()))?;
         simulation.set_noise(options.noise_levels()?);
@@ -220,7 +221,7 @@ impl Session {
         if self.console.level() > 0 {
             return self.console_input(source_name, text, sink);
         }
-        let asked = self.question(source_name, text);
+        let asked = self.in_full(source_name, text);
         let text = asked.as_deref().unwrap_or(text);
         self.evaluate_text(source_name, text, sink)
     }

@@ -27,7 +27,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "object &optional stream",
         "Writes what is known about an object: of a symbol what it means as a function, a variable and a class, with examples.",
         &[
-            "(with-output-to-string (s) (describe :cup s)) => \":CUP: a keyword\n\"",
+            "(with-output-to-string (s) (describe :other s)) => \":OTHER: a keyword\n\"",
             "(null (search \"(first list)\" (with-output-to-string (s) (describe 'first s)))) => NIL",
         ],
         describe,
@@ -50,9 +50,29 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
+/// What names mean to layers above the language, which they keep in the image.
+pub(crate) struct Topics(pub(crate) Box<dyn Fn(&Image, Sym) -> Vec<Topic>>);
+
+/// A meaning of a name.
+pub(crate) struct Topic {
+    /// What it is, such as `action`.
+    pub(crate) kind: &'static str,
+    /// What is known about it, in lines.
+    pub(crate) text: String,
+}
+
+/// What a symbol means to the layers above.
+fn topics(image: &Image, sym: Sym) -> Vec<Topic> {
+    let known = image.extension::<Topics>();
+    known.map_or_else(Vec::new, |topics| (topics.0)(image, sym))
+}
+
 fn describe(image: &mut Image, args: &[Value]) -> Outcome {
     let text = match &args[0] {
-        Value::Symbol(sym, ..) => of_symbol(image, *sym),
+        Value::Symbol(sym, ..) => {
+            let topics = topics(image, *sym).into_iter().map(|topic| topic.text);
+            of_symbol(image, *sym) + &topics.collect::<String>()
+        }
         other => of_value(image, other),
     };
     let to = args.get(1).cloned().unwrap_or(Value::NIL);
@@ -403,7 +423,7 @@ fn apropos(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::values(Vec::new()))
 }
 
-/// What a symbol means, one word for each meaning.
+/// What a symbol means, a word or two for each meaning.
 fn meanings(image: &Image, sym: Sym) -> Vec<&'static str> {
     let data = image.symbol(sym);
     let function = match &data.function {
@@ -421,5 +441,10 @@ fn meanings(image: &Image, sym: Sym) -> Vec<&'static str> {
         VariableKind::Lexical => Some("variable"),
     };
     let class = image.class(sym).map(|class| kind_of_class(class));
-    [function, variable, class].into_iter().flatten().collect()
+    let topics = topics(image, sym).into_iter().map(|topic| topic.kind);
+    [function, variable, class]
+        .into_iter()
+        .flatten()
+        .chain(topics)
+        .collect()
 }

@@ -25,5 +25,6 @@ pub(crate) mod tour;
 mod tutorial;
 mod watching;
 
+pub(super) use prompt::install_topics;
 pub(super) use ros::name_system_folders;
 pub(super) use tables::install;

@@ -1,16 +1,18 @@
 //! Functions for use at the prompt: help, the list of actions, the tour, tasks, time, and
 //! inspecting values.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::tour;
 use crate::lisp::builtin::{Builtin, Operator, control};
-use crate::lisp::builtins::help;
+use crate::lisp::builtins::help::{self, Topic, Topics};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::run;
 use crate::plan::designator::schema;
 use crate::plan::designator::value::Class;
@@ -21,6 +23,7 @@ use crate::session::host::parts::View;
 use crate::session::person::Person;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::names::{name_text, type_text};
+use crate::world::Models;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -132,6 +135,29 @@ fn list_actions(_: &mut Simulation, image: &mut Image, _: &[Value]) -> Result<Re
     let text: String = rows.iter().map(|row| row_text(row)).collect();
     say(image, &text);
     nothing()
+}
+
+/// Makes known what names mean to the robot: actions, motions and types of objects.
+pub(in crate::session) fn install_topics(image: &mut Image, models: Arc<Models>) {
+    let topics = move |image: &Image, sym: Sym| {
+        let name = image.name(sym);
+        let mut topics = Vec::new();
+        for (class, kind) in [(Class::Action, "action"), (Class::Motion, "motion")] {
+            let rows = schema::rows(image, class, name);
+            topics.extend(rows.iter().map(|row| Topic {
+                kind,
+                text: row_text(row) + &keys_text(row),
+            }));
+        }
+        if let Some(object) = models.objects.get(&name.to_lowercase()) {
+            topics.push(Topic {
+                kind: "type of objects",
+                text: format!("A type of objects: {} kg\n", object.mass),
+            });
+        }
+        topics
+    };
+    image.extend(Topics(Box::new(topics)));
 }
 
 /// An action or motion with its keys.
