@@ -1,5 +1,6 @@
 //! The syntactic context of the cursor.
 
+use super::locals::locals;
 use crate::lisp::reader::{Lexer, Token, TokenKind};
 
 /// A list that is open at the cursor.
@@ -34,6 +35,8 @@ pub(super) struct Context<'t> {
     pub(crate) in_comment: bool,
     /// Whether a `'` or `#'` precedes the word.
     pub(crate) is_quoted: bool,
+    /// The variables that are bound there by the text itself.
+    pub(crate) locals: Vec<&'t str>,
 }
 
 impl<'t> Context<'t> {
@@ -47,6 +50,7 @@ impl<'t> Context<'t> {
             in_string: false,
             in_comment: false,
             is_quoted: false,
+            locals: locals(before),
         };
         let mut quoted = false;
         for token in Lexer::new(before) {

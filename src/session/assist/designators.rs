@@ -202,7 +202,7 @@ impl Session {
     }
 
     /// The furniture: surfaces and what can be opened first, then all else that has a shape.
-    fn furniture_names(&self) -> Vec<Candidate> {
+    pub(super) fn furniture_names(&self) -> Vec<Candidate> {
         let world = self.host.simulation.world();
         let models = world.models();
         let surfaces = surfaces(world).into_iter();

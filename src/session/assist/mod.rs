@@ -6,6 +6,7 @@ mod context;
 mod designators;
 mod files;
 mod hint;
+mod locals;
 mod symbols;
 
 use super::Session;

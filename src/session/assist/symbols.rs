@@ -1,5 +1,7 @@
 //! Completions of functions, macros, variables, keywords and packages.
 
+use std::collections::HashSet;
+
 use super::context::Context;
 use super::{first_sentence, lower};
 use crate::lisp::builtins::help;
@@ -27,17 +29,40 @@ impl Session {
             Some((prefix, name)) => self.names_of_package(prefix, name),
             None => self.accessible_names(word, is_operator),
         };
-        if context.is_quoted {
-            found.extend(self.object_names());
-        }
+        found.sort();
+        let mut first = if context.is_quoted {
+            self.things_by_name()
+        } else {
+            self.local_variables(context)
+        };
+        first.append(&mut found);
+        let mut found = first;
         if !word.contains(char::is_uppercase) {
             found.iter_mut().for_each(|c| c.text = lower(&c.text));
         }
         let wanted = word.to_uppercase();
-        found.retain(|c| c.text.to_uppercase().starts_with(&wanted));
-        found.sort();
-        found.dedup_by(|a, b| a.text == b.text);
+        let mut seen = HashSet::new();
+        found.retain(|c| c.text.to_uppercase().starts_with(&wanted) && seen.insert(c.text.clone()));
         found.truncate(MOST_NAMES);
+        found
+    }
+
+    /// The variables that the form being typed binds around the cursor.
+    fn local_variables(&self, context: &Context<'_>) -> Vec<Candidate> {
+        let mut names = context.locals.clone();
+        names.sort_unstable();
+        let candidates = names.into_iter().map(|name| Candidate {
+            text: name.to_owned(),
+            doc: "a local variable".to_owned(),
+        });
+        candidates.collect()
+    }
+
+    /// The objects in the world, then furniture.
+    fn things_by_name(&self) -> Vec<Candidate> {
+        let mut found = self.object_names();
+        found.sort();
+        found.extend(self.furniture_names());
         found
     }
 
