@@ -4,4 +4,7 @@ mod recovery;
 mod reference;
 mod resume;
 mod session;
+mod shorthand;
 mod soak;
+mod standing_still;
+mod talk;

@@ -60,6 +60,11 @@ const BANNER: &str = concat!(
     "(help) lists what you can do; (tour) guides you through a first session.\n",
 );
 
+/// The input that brings back for editing what was left out of a pasted text.
+const BRING_BACK: &str = ":pasted";
+/// How many lines of that are shown.
+const SHOWN_LINES: usize = 3;
+
 /// If an interrupt takes longer than this, the user is told why.
 const SOON: Duration = Duration::from_millis(90);
 
@@ -121,6 +126,8 @@ pub(crate) fn run(
         screen,
         keeper: Keeper::new(journal),
         number: options.inputs_before,
+        left_out: None,
+        draft: None,
     };
     match earlier {
         Some(mut earlier) => repl.resume(&mut earlier, &mut editor)?,
@@ -143,6 +150,10 @@ struct Repl {
     keeper: Keeper,
     /// Number of the latest input.
     number: usize,
+    /// What was left out of the text pasted last.
+    left_out: Option<String>,
+    /// What is offered for editing next.
+    draft: Option<String>,
 }
 
 impl Repl {
@@ -151,7 +162,7 @@ impl Repl {
         loop {
             let (prompt, draft, level, answer) = {
                 let mut evaluator = self.evaluator.borrow_mut();
-                let draft = evaluator.take_draft();
+                let draft = self.draft.take().or_else(|| evaluator.take_draft());
                 let answer = evaluator.answer_to_interrupt();
                 (evaluator.prompt(), draft, evaluator.level(), answer)
             };
@@ -184,33 +195,64 @@ impl Repl {
 
     /// Evaluates typed or pasted text; returns the exit status if that ends the session.
     fn take(&mut self, text: &str) -> Result<Option<u8>, ReplError> {
-        let inputs = Inputs::of(text);
-        match inputs.output_lines {
-            0 => {}
-            1 => writeln!(io::stdout(), "; 1 line of pasted output is left out")?,
-            n => writeln!(io::stdout(), "; {n} lines of pasted output are left out")?,
+        if text.trim() == BRING_BACK {
+            self.draft = std::mem::take(&mut self.left_out);
+            if self.draft.is_none() {
+                writeln!(io::stdout(), "; Nothing was left out of what was pasted.")?;
+            }
+            return Ok(None);
         }
+        let Inputs { inputs, left_out } = Inputs::of(text);
+        self.leave_out("it looks like output", left_out)?;
         // An interrupt also discards the rest of the pasted inputs.
         self.interrupt.store(false, Ordering::Relaxed);
-        let count = inputs.inputs.len();
-        for (at, input) in inputs.inputs.iter().enumerate() {
+        let count = inputs.len();
+        let level = self.evaluator.borrow().level();
+        for (at, input) in inputs.iter().enumerate() {
             let input = input.trim_end();
             if count > 1 {
                 // Typed text already follows a prompt; pasted inputs get one each.
                 let prompt = self.evaluator.borrow().prompt();
                 writeln!(io::stdout(), "{prompt}> {input}")?;
             }
-            // A pasted session continues after a condition, as it did when it was recorded.
-            let stops = at + 1 == count;
-            match self.evaluate(input, stops)? {
-                Outcome::Quit(code) => return Ok(Some(code)),
-                Outcome::Finished | Outcome::Aborted | Outcome::Stopped => {}
+            // A pasted session continues after a condition, as it did when it was recorded, unless
+            // a plan stands still that this would end.
+            let stops = level > 0 || at + 1 == count;
+            let outcome = self.evaluate(input, stops)?;
+            if let Outcome::Quit(code) = outcome {
+                return Ok(Some(code));
             }
-            if self.interrupt.load(Ordering::Relaxed) || self.was_interrupted() {
+            let is_over = self.interrupt.load(Ordering::Relaxed)
+                || self.was_interrupted()
+                || level > 0 && outcome == Outcome::Stopped;
+            if is_over {
+                let rest = inputs.iter().skip(at + 1);
+                let rest = rest.flat_map(|input| input.lines().map(str::to_owned));
+                self.leave_out("an input before it failed", rest.collect())?;
                 break;
             }
         }
         Ok(None)
+    }
+
+    /// Shows lines of a pasted text that are not evaluated, and keeps them.
+    fn leave_out(&mut self, reason: &str, lines: Vec<String>) -> io::Result<()> {
+        if lines.is_empty() {
+            return Ok(());
+        }
+        let mut out = io::stdout();
+        writeln!(
+            out,
+            "; Not evaluated, since {reason}; {BRING_BACK} brings it back:"
+        )?;
+        for line in lines.iter().take(SHOWN_LINES) {
+            writeln!(out, ";   {line}")?;
+        }
+        if lines.len() > SHOWN_LINES {
+            writeln!(out, ";   …")?;
+        }
+        self.left_out = Some(lines.join("\n"));
+        Ok(())
     }
 
     fn was_interrupted(&self) -> bool {

@@ -1,8 +1,10 @@
-//! Strips the prompts from text copied from a session.
+//! Finds the inputs in text copied from a session or a tutorial: strips prompts, and tells
+//! forms from output.
 
 use std::borrow::Cow;
 
 use crate::front::transcript::Transcript;
+use crate::lisp::reader::{Lexer, TokenKind};
 use crate::session::dialogue::is_whole;
 use crate::session::dialogue::prompt_line::prompt_line;
 
@@ -11,8 +13,8 @@ use crate::session::dialogue::prompt_line::prompt_line;
 pub(crate) struct Inputs<'a> {
     /// To be evaluated one after the other.
     pub(crate) inputs: Vec<Cow<'a, str>>,
-    /// Number of lines of output that were copied along with the inputs.
-    pub(crate) output_lines: usize,
+    /// Lines that look like output, and answers to a debugger.
+    pub(crate) left_out: Vec<String>,
 }
 
 impl<'a> Inputs<'a> {
@@ -26,21 +28,31 @@ impl<'a> Inputs<'a> {
             };
             return Inputs {
                 inputs,
-                output_lines: 0,
+                left_out: Vec::new(),
             };
         };
         let (before, session) = text.split_at(at);
-        let mut inputs = Inputs::of(before);
+        let mut found = Inputs::of(before);
         for entry in Transcript::parse("", session).entries {
-            inputs.output_lines += entry.expected.len();
+            let mut inputs = split_at_prompts(&entry.input);
+            let (forms, output) = forms_among(&entry.expected);
             if entry.is_stopped {
                 // An answer to the debugger: without a condition it means nothing.
-                inputs.output_lines += entry.input.lines().count().max(1);
-            } else if !entry.input.trim().is_empty() {
-                inputs.inputs.push(Cow::Owned(entry.input));
+                found
+                    .left_out
+                    .extend(entry.input.lines().map(str::to_owned));
+                inputs.clear();
             }
+            let last = inputs
+                .pop()
+                .into_iter()
+                .filter(|input| !input.trim().is_empty());
+            inputs.push(last.chain(forms).collect::<Vec<_>>().join("\n"));
+            found.left_out.extend(output);
+            let inputs = inputs.into_iter().filter(|input| !input.trim().is_empty());
+            found.inputs.extend(inputs.map(Cow::Owned));
         }
-        inputs
+        found
     }
 
     /// Whether the inputs are complete.
@@ -63,6 +75,95 @@ fn first_prompt(text: &str) -> Option<usize> {
     None
 }
 
+/// The inputs of an entry: text whose line breaks were lost has prompts in the middle of lines,
+/// after complete forms.
+fn split_at_prompts(input: &str) -> Vec<String> {
+    let mut inputs = Vec::new();
+    let mut rest = input;
+    let mut from = 0;
+    while let Some(found) = rest
+        .get(from..)
+        .and_then(|text| text.find(char::is_whitespace))
+    {
+        let at = from + found;
+        let (before, after) = (rest.get(..at).unwrap_or_default(), rest.get(at..));
+        let after = after.unwrap_or_default().trim_start();
+        let line = after.lines().next().unwrap_or_default();
+        let next = prompt_line(line).filter(|prompt| prompt.state.is_empty());
+        // A name such as `A>` at the very beginning may be meant.
+        if let Some(next) = next
+            && before.trim_end().ends_with(')')
+            && is_whole(before)
+        {
+            inputs.push(before.to_owned());
+            rest = after
+                .get(line.len() - next.input.len()..)
+                .unwrap_or_default();
+            from = 0;
+        } else {
+            from = rest.len() - after.len();
+            if after.is_empty() {
+                break;
+            }
+        }
+    }
+    inputs.push(rest.to_owned());
+    inputs
+}
+
+/// Tells the forms that somebody has written from lines of output; comments are neither.
+fn forms_among(lines: &[String]) -> (Vec<String>, Vec<String>) {
+    let (mut forms, mut output) = (Vec::new(), Vec::new());
+    let mut at = 0;
+    while let Some(line) = lines.get(at) {
+        let rest = lines.get(at..).unwrap_or_default();
+        let ends = (1..=rest.len()).find(|count| is_whole(&rest[..*count].join("\n")));
+        let text = ends.map(|count| rest[..count].join("\n"));
+        match text.filter(|text| line.starts_with('(') && is_written(text)) {
+            Some(text) => {
+                at += text.lines().count();
+                forms.push(text);
+            }
+            None => {
+                at += 1;
+                if !line.is_empty() && !line.starts_with(';') {
+                    output.push(line.clone());
+                }
+            }
+        }
+    }
+    (forms, output)
+}
+
+/// Whether a text consists of lists that may be forms, at least the first written by somebody: what
+/// is printed has its symbols in upper case.
+fn is_written(text: &str) -> bool {
+    let mut depth = 0usize;
+    let mut operators = Vec::new();
+    let mut opens = false;
+    for token in Lexer::new(text) {
+        let is_comment = matches!(token.kind, TokenKind::LineComment | TokenKind::BlockComment);
+        if is_comment {
+            continue;
+        }
+        if opens {
+            let operator = text.get(token.start..token.end).unwrap_or_default();
+            operators.push((token.kind, operator));
+        }
+        opens = token.kind == TokenKind::Open && depth == 0;
+        match token.kind {
+            TokenKind::Open => depth += 1,
+            TokenKind::Close => depth = depth.saturating_sub(1),
+            _ if depth == 0 => return false,
+            _ => {}
+        }
+    }
+    let is_operator = |(kind, name): &(TokenKind, &str)| {
+        *kind == TokenKind::Atom && name.contains(char::is_lowercase)
+    };
+    !operators.is_empty() && operators.iter().all(is_operator)
+}
+
 #[cfg(test)]
 mod tests {
     use crate::front::prompt::pasted::*;
@@ -70,7 +171,11 @@ mod tests {
     fn inputs(text: &str) -> (Vec<String>, usize) {
         let found = Inputs::of(text);
         let inputs = found.inputs.into_iter().map(Cow::into_owned).collect();
-        (inputs, found.output_lines)
+        (inputs, found.left_out.len())
+    }
+
+    fn of(inputs: &[&str], left_out: usize) -> (Vec<String>, usize) {
+        (inputs.iter().map(|&i| i.to_owned()).collect(), left_out)
     }
 
     #[test]
@@ -92,7 +197,7 @@ mod tests {
     fn copied_output_is_left_out() {
         assert_eq!(
             inputs("A> (print 1)\n\n1 \n1\nA> 2"),
-            (vec!["(print 1)".to_owned(), "2".to_owned()], 3)
+            (vec!["(print 1)".to_owned(), "2".to_owned()], 2)
         );
     }
 
@@ -109,6 +214,49 @@ mod tests {
         assert_eq!(
             inputs("(print \"\nA> \")"),
             (vec!["(print \"\nA> \")".to_owned()], 0)
+        );
+    }
+
+    #[test]
+    fn forms_on_the_lines_after_a_prompt_are_evaluated_too() {
+        assert_eq!(
+            inputs("A> (a\n 1)\n;; A comment.\n\n(with-b\n  (c)) ; d\nA> 2"),
+            of(&["(a\n 1)\n(with-b\n  (c)) ; d", "2"], 0)
+        );
+        assert_eq!(inputs("A> (a)\n1\n(b)"), of(&["(a)\n(b)"], 1));
+        assert_eq!(inputs("A>\n(b)"), of(&["(b)"], 0));
+    }
+
+    #[test]
+    fn printed_lists_are_no_forms() {
+        for output in [
+            "(3)",
+            "(LIST 1 2)",
+            "(:KEY \"a\")",
+            "((1.0 2.0) (0 0 0 1))",
+            "(help) lists what you can do; (tour) begins.",
+            "(\"a\" b)",
+            "NIL",
+        ] {
+            assert_eq!(inputs(&format!("A> (a)\n{output}")), of(&["(a)"], 1));
+        }
+    }
+
+    #[test]
+    fn prompts_in_the_middle_of_a_line_begin_an_input() {
+        assert_eq!(
+            inputs("A> (a \"B> c\" :d) CL-USER> (b) C> (c\n d)"),
+            of(&["(a \"B> c\" :d)", "(b)", "(c\n d)"], 0)
+        );
+        assert_eq!(inputs("A> (f X> 1)"), of(&["(f X> 1)"], 0));
+        assert_eq!(inputs("A> x B> 1"), of(&["x B> 1"], 0));
+    }
+
+    #[test]
+    fn answers_to_a_debugger_are_left_out() {
+        assert_eq!(
+            inputs("A> (car 1)\nno\nA 1]> q\nA> 2"),
+            of(&["(car 1)", "2"], 2)
         );
     }
 

@@ -78,7 +78,8 @@ const TABLE: &[Entry] = &[
     entry(
         "%SIMPLE-PROGRAM-ERROR",
         &["SIMPLE-CONDITION", "PROGRAM-ERROR"],
-        &[],
+        // The function that was called with a wrong number of arguments.
+        &["?NAME"],
     ),
     entry(
         "%SIMPLE-CONTROL-ERROR",

@@ -31,7 +31,7 @@ impl Machine<'_> {
         match &function.body {
             Body::Native(native) => {
                 if !native.accepts(args.len()) {
-                    return self.raise(wrong_count(args.len()));
+                    return self.raise(wrong_count(native.name.into(), args.len()));
                 }
                 match self.image.native_call(native) {
                     NativeCall::Pure(f) => match f(self.image, &args) {
@@ -91,7 +91,7 @@ impl Machine<'_> {
         let parameters = &code.parameters;
         if parameters.is_simple() {
             if count != usize::from(parameters.required) {
-                return Err(wrong_count(count));
+                return Err(wrong_count(code.name.clone(), count));
             }
         } else {
             self.arrange_arguments(code, count)?;
@@ -133,7 +133,7 @@ impl Machine<'_> {
         let positional = required + optional;
         let takes_more = parameters.rest || parameters.has_keys;
         if count < required || (count > positional && !takes_more) {
-            return Err(wrong_count(count));
+            return Err(wrong_count(code.name.clone(), count));
         }
         let stack = &mut self.fiber.stack;
         let start = stack.len() - count;
@@ -212,8 +212,9 @@ impl Machine<'_> {
     }
 }
 
-fn wrong_count(count: usize) -> Box<Raise> {
-    Raise::program(format!("invalid number of arguments: {count}"))
+/// The error of a call of the named function with so many arguments.
+fn wrong_count(name: Value, count: usize) -> Box<Raise> {
+    Raise::program(format!("invalid number of arguments: {count}")).with(known::K_NAME, name)
 }
 
 fn check_keywords(image: &Image, code: &Code, more: &[Value]) -> Result<(), Box<Raise>> {

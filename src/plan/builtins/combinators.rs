@@ -108,10 +108,13 @@ fn group(
     }))
 }
 
+/// The report of a plan that is begun in a plan.
+pub(crate) const NESTED: &str = "top-level calls cannot be nested.";
+
 fn start(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
     let current = Plan::of(machine.image).names.current_task;
     if machine.image.special(current).is_true() {
-        return Err(Raise::simple("top-level calls cannot be nested."));
+        return Err(Raise::simple(NESTED));
     }
     Ok(Step::request(Request::TopLevel {
         name: args[0].as_symbol().filter(|_| args[0].is_true()),

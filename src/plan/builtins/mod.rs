@@ -2,7 +2,7 @@
 
 mod arithmetic;
 mod code_search;
-mod combinators;
+pub(crate) mod combinators;
 mod common;
 mod failures;
 mod fluents;

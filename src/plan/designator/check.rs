@@ -10,6 +10,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::plan::packages;
 use crate::plan::pose::names;
 use crate::plan::pose::value::{as_placement, as_pose_stamped};
@@ -119,6 +120,15 @@ fn hint(image: &Image, value: &Value, kind: &Kind, name: &str) -> Option<String>
             let name = print::to_string(image, value, false);
             Some(format!("The variable {name} is not defined."))
         }
+        Kind::PoseStamped | Kind::Place if let Some(sym) = keyword(image, value) => {
+            let name = image.name(sym).to_lowercase();
+            Some(format!(
+                "Names in a designator stand for themselves, but for variables, whose names begin with a question mark: bind ?{name} and write ({key} ?{name})."
+            ))
+        }
+        Kind::Number if value.as_text().is_some() => Some(format!(
+            "Write a number without quotes, such as ({key} 0.3)."
+        )),
         Kind::Object | Kind::DetectedObject | Kind::Objects if value.as_symbol().is_some() => {
             Some(format!(
                 "Write ({key} (an object (type …))), or ({key} ?variable) with what was detected."
@@ -131,6 +141,11 @@ fn hint(image: &Image, value: &Value, kind: &Kind, name: &str) -> Option<String>
 /// Whether the name is that of a global variable by convention, `*NAME*`.
 fn is_variable_name(name: &str) -> bool {
     name.len() > 2 && name.starts_with('*') && name.ends_with('*')
+}
+
+/// The symbol if the value is a keyword, as which names in designators are read.
+fn keyword(image: &Image, value: &Value) -> Option<Sym> {
+    value.as_symbol().filter(|sym| image.is_keyword(*sym))
 }
 
 /// Checks one value of a designator of a class.

@@ -1,6 +1,7 @@
 //! What somebody may have meant by a name that means nothing.
 
 use crate::closest_name::closest_name;
+use crate::lisp::builtins::help;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -49,6 +50,15 @@ pub(in crate::session) fn hint(image: &Image, condition: &Value) -> Option<Strin
         return None;
     };
     let name = instance.slot(known::NAME)?.as_symbol()?;
+    if instance.class().name == known::SIMPLE_PROGRAM_ERROR {
+        let signature = help::signature(image, name)?;
+        return Some(format!("A call of it: {}", signature.call(image, name)));
+    }
+    if instance.class().name == known::UNDEFINED_FUNCTION && image.name(name) == "RETRY" {
+        return Some(
+            "(retry) has a meaning only in the handlers of with-failure-handling.".to_owned(),
+        );
+    }
     let is_variable = |sym| image.symbol(sym).kind == VariableKind::Special;
     let meant = match instance.class().name {
         known::UNDEFINED_FUNCTION => Meant::by(image, name, |sym| has_function(image, sym)),

@@ -1,5 +1,7 @@
 //! The choices for continuing a stopped evaluation.
 
+use std::ops::Range;
+
 use super::{Asking, Outcome, Session};
 use crate::lisp::evaluator::nested;
 use crate::lisp::evaluator::restart::Restart;
@@ -214,7 +216,7 @@ impl Session {
             }
             Choice::RetryForm => self.retry_form(sink, false),
             Choice::RewindForm => self.retry_form(sink, true),
-            Choice::EditForm => self.edit_form(),
+            Choice::EditForm => self.edit_form(sink),
             Choice::AbortLevel => self.leave_level(sink),
             Choice::Abort => self.give_up(sink),
         }
@@ -259,6 +261,27 @@ impl Session {
         });
         self.replace_frame(frame, Value::Function(identity), vec![value], sink)
     }
+}
+
+/// The choices that another level offers, too: the restarts outside all others, and what the robot
+/// could do.
+pub(super) fn shared(choices: &[(Choice, String)], below: &[(Choice, String)]) -> Range<usize> {
+    let restarts = |choices: &[(Choice, String)]| -> Vec<Value> {
+        let restarts = choices.iter().map_while(|(choice, _)| match choice {
+            Choice::Restart { restart, .. } => Some(restart.clone()),
+            _ => None,
+        });
+        restarts.collect()
+    };
+    let (own, outer) = (restarts(choices), restarts(below));
+    let pairs = own.iter().rev().zip(outer.iter().rev());
+    let count = pairs.take_while(|(a, b)| a.is_eq(b)).count();
+    let is_shared = |choice: &&(Choice, String)| {
+        let is_call = matches!(choice.0, Choice::Call { .. });
+        is_call && below.iter().any(|(_, label)| *label == choice.1)
+    };
+    let calls = choices.iter().skip(own.len()).take_while(is_shared).count();
+    own.len() - count..own.len() + calls
 }
 
 /// Whether a restart needs a value from the user.

@@ -21,7 +21,9 @@ pub(super) enum Command<'a> {
     Down,
     /// Show the variables of the frame.
     Locals,
-    /// Show the choices.
+    /// Show again why the evaluation has stopped.
+    Again,
+    /// Show that with all choices.
     Choices,
     /// Show the tasks.
     Tasks,
@@ -46,8 +48,8 @@ q          aborts: back to the top          a        aborts this level only
 :bt [N]    the frames, innermost first      :frame N selects a frame
 :up :down  the frame further out, in        :locals  the variables of the frame
 :tasks     the tasks
-:r         the restarts again               c        continues, where that is possible
-:retry     evaluates the form again         :edit    the same, but lets you change it
+:r         all restarts                     c        continues, where that is possible
+:retry     evaluates the form again         :edit    lets you change the last form
 :return F  returns the value of form F from the frame
 Anything else is evaluated in the selected frame.
 ";
@@ -68,8 +70,9 @@ impl<'a> Command<'a> {
         }
         let number = || rest.parse::<usize>().ok();
         match (word.to_lowercase().as_str(), rest.is_empty()) {
-            ("" | ":r" | ":restarts", true) => Command::Choices,
-            ("q" | ":q" | ":quit" | ":abort", true) => Command::Abort,
+            ("", true) => Command::Again,
+            (":r" | ":restarts", true) => Command::Choices,
+            ("q" | ":q" | "quit" | ":quit" | "exit" | ":exit" | ":abort", true) => Command::Abort,
             ("a" | ":a", true) => Command::AbortLevel,
             ("c" | ":c" | ":continue", true) => Command::Continue,
             (":bt" | ":backtrace", true) => Command::Backtrace(None),
@@ -89,7 +92,7 @@ impl<'a> Command<'a> {
             (":e" | ":edit", true) => Command::Edit,
             (":return", false) => Command::Return(rest),
             (":return", true) => Command::Wrong("; :return takes a form."),
-            (":h" | ":help" | "?", true) => Command::Help,
+            ("help" | ":h" | ":help" | "?", true) => Command::Help,
             _ => Command::Evaluate(text),
         }
     }

@@ -10,7 +10,10 @@ mod commands;
 mod inspector;
 mod robot_choices;
 mod settle;
+mod shorthand;
 mod stack_frames;
+
+use std::ops::Range;
 
 use super::dialogue::{Abort, Event, Outcome};
 use crate::lisp::evaluator::aside::Aside;
@@ -34,6 +37,8 @@ pub(super) struct Console {
     base: Option<Suspended>,
     asking: Asking,
     draft: Option<String>,
+    /// The form that was typed last while an evaluation was stopped.
+    typed: Option<String>,
     /// The value being inspected, last, after those through which it was reached.
     inspected: Vec<Value>,
     /// The poll at which the next input is to be interrupted.
@@ -64,6 +69,10 @@ struct Level {
     cause: Cause,
     abort: Abort,
     choices: Vec<(Choice, String)>,
+    /// Those of the choices that the level below offers, too.
+    outer: Range<usize>,
+    /// The text typed at the level below that has led here.
+    typed: Option<String>,
     /// The evaluation in progress on top of it.
     aside: Option<Aside>,
     /// Index of the selected frame among those shown.
@@ -165,7 +174,11 @@ impl Session {
             return self.after_interrupt(text, sink);
         }
         match Command::of(text) {
-            Command::Evaluate(text) => self.evaluate_aside(source_name, text, sink),
+            Command::Evaluate(text) => {
+                let whole = self.in_full(source_name, text);
+                self.console.typed = Some(text.to_owned());
+                self.evaluate_aside(source_name, whole.as_deref().unwrap_or(text), sink)
+            }
             Command::Choose(number, "") => self.choose_or_ask(number, sink),
             Command::Choose(number, value) => self.choose(number, source_name, value, sink),
             Command::Abort => self.give_up(sink),
@@ -176,10 +189,11 @@ impl Session {
             Command::Up => self.look_at_next_frame(1, sink),
             Command::Down => self.look_at_next_frame(-1, sink),
             Command::Locals => self.tell_locals(sink),
-            Command::Choices => self.tell_stop(sink),
+            Command::Again => self.tell_stop(sink),
+            Command::Choices => self.tell_all_choices(sink),
             Command::Tasks => self.tell_tasks(sink),
             Command::Retry => self.retry_form(sink, false),
-            Command::Edit => self.edit_form(),
+            Command::Edit => self.edit_form(sink),
             Command::Return(form) => self.return_from_frame(source_name, form, sink),
             Command::Help => self.tell(commands::HELP, sink),
             Command::Wrong(message) => self.tell(message, sink),
@@ -278,7 +292,23 @@ impl Session {
         }
     }
 
-    fn edit_form(&mut self) -> Outcome {
+    /// Lets the user change what has led to this level and evaluate it again.
+    fn edit_form(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let typed = self
+            .console
+            .levels
+            .last_mut()
+            .and_then(|level| level.typed.take());
+        if let Some(typed) = typed {
+            let outcome = self.leave_level(&mut |event| {
+                // The level below is known.
+                if !matches!(event, Event::Stopped(_)) {
+                    sink(event);
+                }
+            });
+            self.console.draft = Some(typed);
+            return outcome;
+        }
         let base = self.console.base.as_ref();
         let text = base.and_then(|base| self.image.sources.text(base.place));
         self.console.draft = text.map(str::to_owned);

@@ -1,13 +1,18 @@
 //! Handling the result of an evaluation that was continued.
 
-use super::{Asking, Cause, Level, Suspended};
+use std::ops::Range;
+
+use super::{Asking, Cause, Level, Suspended, choices};
 use crate::lisp::evaluator::aside::AsideState;
 use crate::lisp::image::Image;
+use crate::lisp::print;
 use crate::lisp::value::Value;
+use crate::plan::builtins::combinators::NESTED;
 use crate::plan::{Evaluation, Scheduler};
 use crate::session::Session;
 use crate::session::dialogue::{Abort, Event, Outcome, Stop};
 use crate::session::live_host::LiveHost;
+use crate::session::printing::on_one_line;
 
 const DEBUGGER_REMARK: &str =
     "; Type a number, or a form to look around; q aborts, :bt shows the frames, :help the rest.";
@@ -53,6 +58,8 @@ impl Session {
                     cause: Cause::Interrupt,
                     abort: super::super::interrupted(),
                     choices: Vec::new(),
+                    outer: 0..0,
+                    typed: None,
                     aside: None,
                     frame: 0,
                     task: None,
@@ -108,16 +115,26 @@ impl Session {
             return self.tell_stop(sink);
         }
         self.console.inspected.clear();
+        let typed = self
+            .console
+            .typed
+            .take()
+            .filter(|_| !self.console.levels.is_empty());
         let abort = self.described_in_place(&condition);
         self.console.levels.push(Level {
             cause: Cause::Condition(condition),
             abort,
             choices: Vec::new(),
+            outer: 0..0,
+            typed,
             aside: None,
             frame: 0,
             task,
         });
         let choices = self.choices();
+        if let [.., below, last] = self.console.levels.as_mut_slice() {
+            last.outer = choices::shared(&choices, &below.choices);
+        }
         if let Some(level) = self.console.levels.last_mut() {
             level.choices = choices;
         }
@@ -137,8 +154,18 @@ impl Session {
         self.tell_values(values, sink).unwrap_or(Outcome::Finished)
     }
 
-    /// Reports where the evaluation is stopped, and the choices.
+    /// Reports where the evaluation is stopped, and the choices that only this level has.
     pub(super) fn tell_stop(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        let outer = self.console.levels.last().map(|level| level.outer.clone());
+        self.tell_stop_without(outer.unwrap_or_default(), sink)
+    }
+
+    /// Reports where the evaluation is stopped, and all choices.
+    pub(super) fn tell_all_choices(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {
+        self.tell_stop_without(0..0, sink)
+    }
+
+    fn tell_stop_without(&mut self, folded: Range<usize>, sink: &mut dyn FnMut(Event)) -> Outcome {
         let level = self.console.levels.len();
         let Some(last) = self.console.levels.last() else {
             return Outcome::Finished;
@@ -151,6 +178,7 @@ impl Session {
             level,
             abort: last.abort.clone(),
             choices: last.labels(),
+            folded,
             remark,
         };
         sink(Event::Stopped(Box::new(stop)));
@@ -162,6 +190,12 @@ impl Session {
     /// stopped.
     fn described_in_place(&mut self, condition: &Value) -> Abort {
         let mut abort = self.describe(condition);
+        if let (Some(base), true) = (&self.console.base, abort.report == NESTED) {
+            let plan = on_one_line(&print::to_string(&self.image, &base.form, false));
+            abort.hint = Some(format!(
+                "{plan} stands still: q abandons it, a restart goes on with it."
+            ));
+        }
         let actions = self.open_actions();
         if !actions.is_empty() {
             abort.actions = actions;

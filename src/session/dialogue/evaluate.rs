@@ -1,5 +1,6 @@
 //! The evaluator as the front ends see it.
 
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -35,6 +36,8 @@ pub struct Stop {
     pub abort: Abort,
     /// The choices for continuing; each is chosen by its index.
     pub choices: Vec<String>,
+    /// Those of the choices that the level below offers, too, and that need not be shown again.
+    pub folded: Range<usize>,
     /// A remark on what else can be typed.
     pub remark: &'static str,
 }

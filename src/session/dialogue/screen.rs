@@ -4,6 +4,7 @@
 //! of a line, that line is ended first.
 
 use std::io::{self, Write};
+use std::ops::Range;
 
 use crate::lisp::source::Location;
 use crate::picture::{Image, InlinePictures};
@@ -173,12 +174,17 @@ impl<W: Write> Screen<W> {
         if self.is_terminal && stop.abort.condition == INTERRUPT {
             self.at_line_start = false;
         }
-        self.report(&stop.abort)?;
+        self.report_of(&stop.abort, true)?;
         let width = stop.choices.len().saturating_sub(1).to_string().len();
         // The last ones lead out.
         let left_out = FIRST_CHOICES..stop.choices.len().saturating_sub(LAST_CHOICES);
         for (number, choice) in stop.choices.iter().enumerate() {
-            if !left_out.contains(&number) {
+            if stop.folded.contains(&number) {
+                if number == stop.folded.start {
+                    let (range, below) = (&stop.folded, stop.level.saturating_sub(1));
+                    self.line(&folded(range, width, below))?;
+                }
+            } else if !left_out.contains(&number) {
                 self.line(&format!(" {number:>width$}: {choice}"))?;
             } else if number == left_out.start {
                 let more = left_out.len();
@@ -192,9 +198,16 @@ impl<W: Write> Screen<W> {
     }
 
     fn report(&mut self, abort: &Abort) -> io::Result<()> {
+        self.report_of(abort, false)
+    }
+
+    fn report_of(&mut self, abort: &Abort, names_class: bool) -> io::Result<()> {
         let report = abort.report.trim_end();
         if !report.is_empty() {
             self.line(report)?;
+        }
+        if names_class && !abort.class.is_empty() {
+            self.line(&format!("   [Condition of type {}]", abort.class))?;
         }
         if let Some(hint) = &abort.hint {
             self.line(&format!("; {hint}"))?;
@@ -232,6 +245,16 @@ impl<W: Write> Screen<W> {
             (!is_input_name(&place.name)).then(|| place.to_string())
         }
     }
+}
+
+/// The line in place of choices that the level below offers, too.
+fn folded(range: &Range<usize>, width: usize, below: usize) -> String {
+    let first = range.start;
+    if range.len() == 1 {
+        return format!(" {first:>width$}: as at level {below}; :r shows it.");
+    }
+    let last = range.end - 1;
+    format!(" {first:>width$} to {last}: as at level {below}; :r shows them.")
 }
 
 /// An interrupt as printed.
