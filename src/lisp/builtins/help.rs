@@ -50,8 +50,11 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// What names mean to layers above the language, which they keep in the image.
-pub(crate) struct Topics(pub(crate) Box<dyn Fn(&Image, Sym) -> Vec<Topic>>);
+/// Tells what a name means to the layers above the language, which keep it in the image.
+pub(crate) struct Topics(pub(crate) Box<MeaningsOf>);
+
+/// What a name means.
+type MeaningsOf = dyn Fn(&Image, Sym) -> Vec<Topic>;
 
 /// A meaning of a name.
 pub(crate) struct Topic {
