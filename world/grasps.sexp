@@ -445,3 +445,13 @@
        :translation (0 0 -0.004) :rotation top-across-x
        :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
        :lift (0 0 0.1) :second-lift (0 0 0.1))
+; A beaker from above, with the fingers around it: for drawers. CRAM's grasp of its rim, with one
+; finger inside, needs a wider beaker. It is not listed above, so it is tried only if it is asked for.
+(grasp top-around :types (cup) :arms (left right)
+       :translation (0 0 0.01) :rotation top-across-y
+       :pregrasp (0 0 0.15) :second-pregrasp (0 0 0.15)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))
+(grasp top-around-left :types (cup) :arms (left right)
+       :translation (0 0 0.01) :rotation top-across-x
+       :pregrasp (0 0 0.15) :second-pregrasp (0 0 0.15)
+       :lift (0 0 0.15) :second-lift (0 0 0.15))

@@ -367,7 +367,10 @@ fn candidates(models: &Models, grasps: &GraspLibrary, question: &GraspQuestion) 
         let wanted = |name: &String| question.grasps.is_empty() || question.grasps.contains(name);
         // A type without grasps of its own has those of its supertype.
         let mut kinds = models.objects.lineage(&question.kind).map(|kind| {
-            let names = grasps.grasps(kind).iter();
+            let listed = grasps.grasps(kind);
+            // What is not listed has to be asked for.
+            let others = question.grasps.iter().filter(|n| !listed.contains(n));
+            let names = listed.iter().chain(others);
             let known = names.filter_map(|name| Some((name, grasps.get(kind, *side, name)?)));
             known.collect::<Vec<_>>()
         });

@@ -207,6 +207,20 @@ impl GraspLibrary {
         self.order.get(object_type).map_or(&[], Vec::as_slice)
     }
 
+    /// The grasps of a type by which a hand comes from above, in the order in which they are
+    /// defined: also those that are not tried unless they are asked for.
+    pub(crate) fn from_above(&self, object_type: &str) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for ((kind, _, name), definition) in &self.grasps {
+            // The hand approaches along the third column.
+            let is_downward = definition.rotation[2][2] < -0.99;
+            if kind == object_type && is_downward && !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
     /// The grasp with that name for objects of that type with that arm.
     pub(crate) fn get(
         &self,
@@ -372,6 +386,17 @@ mod tests {
             ["back", "front", "left-side", "right-side"]
         );
         assert!(library.grasps("bread").is_empty());
+    }
+
+    #[test]
+    fn grasps_from_above_need_not_be_listed() {
+        let library = library();
+        assert_eq!(
+            library.from_above("cup"),
+            ["top", "top-around", "top-around-left"]
+        );
+        assert_eq!(library.from_above("bowl"), ["top"]);
+        assert!(library.from_above("milk").is_empty());
     }
 
     #[test]

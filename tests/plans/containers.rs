@@ -264,6 +264,106 @@ fn a_spoon_is_put_into_a_closed_drawer() {
     cook.assert_no_overlap();
 }
 
+#[test]
+fn a_search_by_itself_closes_what_it_opens_and_fetching_opens_it_again() {
+    let mut cook = cook();
+    cook.done("(put-in 'spoon-1 :spoon :sink-area-left-upper-drawer-main)");
+    let upper = "sink_area_left_upper_drawer_main_joint";
+    cook.done(
+        "(defparameter *spoon* (an object (type spoon)))
+         (defun search-in (?object ?name)
+           (with-simulated-robot
+             (let ((?drawer (an object (urdf-name ?name))))
+               (perform (an action (type searching) (object ?object)
+                            (location (a location (in ?drawer))))))))
+         (search-in *spoon* :sink-area-left-upper-drawer-main)",
+    );
+    assert!(cook.joint(upper).abs() < 0.01);
+    assert_eq!(
+        cook.done("(desig-prop-value (current-desig *spoon*) :name)"),
+        "SPOON-1\n"
+    );
+    cook.done(
+        "(with-simulated-robot
+           (let ((?spoon *spoon*))
+             (perform (an action (type fetching) (object ?spoon)))))",
+    );
+    assert!(cook.joint(upper).abs() < 0.01);
+    let held = cook.done("(mapcan #'pp-plans::objects-in-hand '(:left :right))");
+    assert_eq!(held, "(SPOON-1)\n");
+    // So does delivering, with the other hand.
+    cook.done(
+        "(with-simulated-robot
+           (let ((?spoon *spoon*)
+                 (?drawer (an object (urdf-name sink-area-left-middle-drawer-main))))
+             (perform (an action (type delivering) (object ?spoon)
+                          (target (a location (in ?drawer)))))))",
+    );
+    assert!(cook.joint(MIDDLE).abs() < 0.01);
+    assert!((0.43..0.46).contains(&cook.pose("SPOON-1").translation.z));
+    // Where it is now is known, too.
+    cook.done(
+        "(with-simulated-robot
+           (let ((?spoon *spoon*))
+             (perform (an action (type fetching) (object ?spoon)))))",
+    );
+    assert!(cook.joint(MIDDLE).abs() < 0.01);
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn a_search_behind_what_is_jammed_names_what_is_in_the_way() {
+    let mut cook = cook();
+    cook.done(
+        "(btr-utils:spawn-object 'box-1 :breakfast-cereal :pose '((0.95 1.1 0.15) (0 0 0 1)))",
+    );
+    let before = cook.pose("BOX-1");
+    let report = cook.fails(
+        "ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED",
+        "(let ((?drawer (an object (urdf-name sink-area-left-bottom-drawer-main))))
+           (perform (an action (type searching) (object (an object (type cup)))
+                        (location (a location (in ?drawer))))))",
+    );
+    assert!(report.contains("would run into BOX-1"), "{report}");
+    assert!(cook.distance("BOX-1", &before) < 0.01);
+    assert!(cook.joint("sink_area_left_bottom_drawer_main_joint").abs() < 0.01);
+}
+
+/// Brings a thing from a closed container to the island; the container is closed again.
+fn brought_from(furniture: &str, kind: &str, joint: &str) {
+    let mut cook = cook();
+    cook.done(&format!("(put-in 'thing :{kind} :{furniture})"));
+    cook.done(&format!(
+        "(with-simulated-robot
+           (let ((?pose (make-pose \"map\" '((-0.8 1.5 0.95) (0 0 1 0))))
+                 (?container (an object (urdf-name {furniture}))))
+             (perform (an action (type transporting) (object (an object (type {kind})))
+                          (location (a location (in ?container)))
+                          (target (a location (pose ?pose)))))))"
+    ));
+    let at = cook.pose("THING").translation;
+    assert!(
+        (at.x + 0.8).abs() < 0.05 && (at.y - 1.5).abs() < 0.05 && at.z > 0.86,
+        "{at}"
+    );
+    assert!(cook.joint(joint).abs() < 0.035);
+    cook.assert_no_overlap();
+}
+
+#[test]
+fn milk_is_brought_from_the_fridge() {
+    brought_from("iai-fridge-main", "milk", "iai_fridge_door_joint");
+}
+
+#[test]
+fn a_cup_is_brought_from_a_drawer_of_the_island() {
+    brought_from(
+        "kitchen-island-left-upper-drawer-main",
+        "cup",
+        "kitchen_island_left_upper_drawer_main_joint",
+    );
+}
+
 /// A free base pose somewhere in the room.
 fn somewhere(cook: &Cook, rng: &mut Pcg64) -> [f64; 3] {
     let mut share = || f64::from(rng.next_u32()) / f64::from(u32::MAX);

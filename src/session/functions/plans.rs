@@ -8,6 +8,7 @@ use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
+use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::motion::{Effort, HeldGrip, LetGo, PutReach, about_z, take_hold};
@@ -49,6 +50,13 @@ pub(crate) static TABLE: &[Builtin] = &[
         "The grasps that are defined for an object and an arm.",
         &[],
         host!(grasps_of_object),
+    ),
+    control(
+        "GRASPS-FROM-ABOVE",
+        "type",
+        "The grasps of a type by which a hand comes from above, also those that LIST-DEFINED-GRASPS does not list: they are tried only if they are asked for.",
+        &["(pp-plans::grasps-from-above :cup) => (:TOP :TOP-AROUND :TOP-AROUND-LEFT)"],
+        host!(grasps_from_above),
     ),
     control(
         "GRASPING-POSES",
@@ -318,6 +326,19 @@ fn grasps_of_object(
     let side = side(image, &args[1])?;
     let names = simulation.defined_grasps(&object.kind, side);
     let keywords: Vec<Value> = names.iter().map(|n| type_keyword(image, n)).collect();
+    done(Value::list(keywords))
+}
+
+fn grasps_from_above(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let Some(kind) = type_text(image, &args[0]) else {
+        return Err(Raise::type_error(&args[0], known::SYMBOL));
+    };
+    let names = simulation.grasps.from_above(&kind).into_iter();
+    let keywords: Vec<Value> = names.map(|name| type_keyword(image, name)).collect();
     done(Value::list(keywords))
 }
 
