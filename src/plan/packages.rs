@@ -150,7 +150,6 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
     row("QUICKLISP-CLIENT", &["QL", "QUICKLISP"], ""),
     row("SWANK", &[], ""),
     row("CRAM-BULLET-WORLD-TUTORIAL", &["BTW-TUT"], ""),
-    row("CRAM-PR2-PICK-PLACE-DEMO", &[], ""),
     row("CRAM-BEGINNER-TUTORIAL", &[], ""),
     row(
         "PLANWRIGHT",

@@ -1,4 +1,5 @@
-//! The built-in plans: `plans/lib`.
+//! The plans that are built in: `plans/lib`, which every session loads, and the demos, which are
+//! systems of their own.
 
 use super::{Ended, Session, SessionError};
 use crate::lisp::reader::Reader;
@@ -42,6 +43,30 @@ const LIBRARY: &[(&str, &str)] = library![
     "transporting.plan",
     "tutorial-package.plan",
 ];
+
+/// Name and text of the demos' files, of `plans/demos`.
+const DEMOS: &[(&str, &str)] = &[
+    (
+        "plans/demos/pick-place-demo.plan",
+        include_str!("../../plans/demos/pick-place-demo.plan"),
+    ),
+    (
+        "plans/demos/household-demo.plan",
+        include_str!("../../plans/demos/household-demo.plan"),
+    ),
+];
+
+/// CRAM's systems with demos, and the names of the files that they consist of here.
+pub(in crate::session) const DEMO_SYSTEMS: &[(&str, &[&str])] = &[
+    ("cram_pr2_pick_place_demo", &[DEMOS[0].0, DEMOS[1].0]),
+    ("cram_projection_demos", &[DEMOS[0].0, DEMOS[1].0]),
+];
+
+/// The text of one of the demos' files.
+pub(in crate::session) fn demo_text(name: &str) -> Option<&'static str> {
+    let (_, text) = DEMOS.iter().find(|(file, _)| *file == name)?;
+    Some(text)
+}
 
 impl Session {
     /// Loads the built-in plans. The current package stays the same.

@@ -29,6 +29,15 @@ impl Cook {
     fn watched(is_watched: bool) -> Self {
         let mut session = Session::new(&SessionOptions::default()).unwrap();
         let overlaps = is_watched.then(|| Overlaps::watch(&mut session));
+        Self::in_session(session, overlaps)
+    }
+
+    /// One in a session of their own; nobody watches the overlaps.
+    pub(crate) fn with(options: &SessionOptions) -> Self {
+        Self::in_session(Session::new(options).unwrap(), None)
+    }
+
+    fn in_session(session: Session, overlaps: Option<Overlaps>) -> Self {
         let mut cook = Self { session, overlaps };
         cook.done("(in-package :pp-tut) (load \"plans/tutorial/skills.plan\")");
         cook

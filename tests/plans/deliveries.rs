@@ -7,8 +7,6 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::cook::Cook;
-use crate::session::dialogue::{Evaluate, Outcome};
-use crate::session::{Session, SessionOptions};
 
 /// A surface: the name of its link, the corners of its top, and its height (m).
 struct Surface {
@@ -225,45 +223,4 @@ fn how_often_objects_are_transported() {
         }
     }
     all.line("all");
-}
-
-const DEMO: &str = include_str!("../../plans/demos/table-setting.plan");
-
-/// How far (m) the things of the demo are from their places.
-fn off_their_places(cook: &Cook) -> Vec<f64> {
-    let places = [
-        ("BREAKFAST-CEREAL-1", [-0.78, 0.9]),
-        ("CUP-1", [-0.79, 1.35]),
-        ("BOWL-1", [-0.76, 1.19]),
-        ("MILK-1", [-0.75, 1.7]),
-    ];
-    let off = |(name, [x, y]): (&str, [f64; 2])| {
-        let t = cook.pose(name).translation;
-        libm::hypot(t.x - x, t.y - y)
-    };
-    places.map(off).to_vec()
-}
-
-#[test]
-fn the_table_is_set_and_not_again() {
-    let mut cook = Cook::new();
-    let said = cook.done(DEMO);
-    let off = off_their_places(&cook);
-    assert!(off.iter().all(|off| *off < NEAR), "{off:?}\n{said}");
-    assert!(!said.contains("Skipping"), "{said}");
-    cook.assert_no_overlap();
-    let before = cook.session.simulation().now();
-    cook.done("(with-simulated-robot (bring-all))");
-    assert_eq!(cook.session.simulation().now(), before, "no motion");
-}
-
-/// `cargo test --release --lib -- --ignored --nocapture how_long_it_takes_to_set_the_table`
-#[test]
-#[ignore = "prints how long it takes to set the table"]
-fn how_long_it_takes_to_set_the_table() {
-    let mut session = Session::new(&SessionOptions::default()).unwrap();
-    let start = Instant::now();
-    let outcome = session.evaluate("demo", DEMO, &mut |_| {});
-    assert_ne!(outcome, Outcome::Aborted);
-    eprintln!("{:.2} s", start.elapsed().as_secs_f64());
 }

@@ -6,6 +6,7 @@ mod cluttered_tables;
 mod containers;
 mod cook;
 mod deliveries;
+mod demos;
 mod designators;
 mod every_type;
 mod exercises;

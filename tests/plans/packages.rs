@@ -111,9 +111,6 @@ fn a_symbol_that_is_not_there_is_told_with_where_it_may_be() {
         ),
         "{missing}"
     );
-    assert!(
-        said("(ros-load:load-system :cram-pr2-pick-place-demo)")
-            .starts_with("There is no system \"cram-pr2-pick-place-demo\"")
-    );
+    assert_eq!(said("(ros-load:load-system :cram-pr2-pick-place-demo)"), "");
     assert_eq!(said("(ros-load:load-system :cram-language)"), "");
 }

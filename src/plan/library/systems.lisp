@@ -13,6 +13,9 @@ names.")
 (defvar system::%*loading-systems* '()
   "The names of the systems that are being loaded, the innermost first.")
 
+(defvar system::%*loaded-built-in-files* '()
+  "The names of the files of built-in systems that have been loaded.")
+
 (defvar system::%*file-local-variables* '()
   "Variables that each file of a system binds anew.")
 
@@ -22,8 +25,10 @@ names.")
   Examples:
   (asdf:load-system :cram-language) => T"
   (declare (ignore verbose version force-not))
-  (unless (system:load-built-in-system system)
-    (%load-system (%system-name system) force nil))
+  (cond ((system:built-in-files system)
+         (%load-built-in-files system force))
+        ((system:load-built-in-system system))
+        (t (%load-system (%system-name system) force nil)))
   t)
 
 (defun quicklisp-client:quickload (systems &key verbose silent prompt explain)
@@ -198,11 +203,20 @@ names.")
                   (%*loading-systems* (cons name %*loading-systems*)))
              (declare (special %*loading-systems*))
              (dolist (needed (%dependencies options file))
-               (unless (system:built-in-system-p needed)
-                 (%check-possible needed name)
-                 (%load-system needed nil name)))
+               (cond ((system:built-in-system-p needed)
+                      (%load-built-in-files needed nil))
+                     (t
+                      (%check-possible needed name)
+                      (%load-system needed nil name))))
              (mapc #'%load-file (%files-of options file)))
            (pushnew name %*loaded-systems* :test #'string=)))))
+
+(defun %load-built-in-files (system force)
+  "Loads the files of a built-in system that has some, unless they are there already."
+  (dolist (file (system:built-in-files system))
+    (when (or force (not (member file %*loaded-built-in-files* :test #'string=)))
+      (system:load-built-in-file file)
+      (pushnew file %*loaded-built-in-files* :test #'string=))))
 
 (defun %load-file (file)
   "Loads a file of a system. It has its own package and readtable."

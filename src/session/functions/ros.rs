@@ -1,6 +1,7 @@
 //! What CRAM uses from ROS: log lines, start-up, loading of systems.
 
 use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::builtins::loading::load_text;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -10,6 +11,7 @@ use crate::plan::designator::names::{name_text, rosify};
 use crate::plan::packages::{self, PACKAGES};
 use crate::session::LogLevel;
 use crate::session::host::call::{done, host};
+use crate::session::plans::{DEMO_SYSTEMS, demo_text};
 use crate::session::simulation::Simulation;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
@@ -73,6 +75,26 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         &["(first (system:built-in-systems)) => \"alexandria\""],
         |_, _| Ok(Value::list(systems().into_iter().map(Value::string))),
     ),
+    pure(
+        "BUILT-IN-FILES",
+        "system",
+        "The names of the files of plans that a system consists of which is built in.",
+        &["(system:built-in-files :cram-language) => NIL"],
+        |image, args| Ok(built_in_files(image, &args[0])),
+    ),
+    control(
+        "LOAD-BUILT-IN-FILE",
+        "file",
+        "Evaluates all forms of a file of plans that is built in.",
+        &[],
+        |machine, args| {
+            let name = args[0].as_text().unwrap_or_default();
+            match demo_text(&name) {
+                Some(text) => load_text(machine, &name, text),
+                None => Err(Raise::simple(format!("No file {name:?} is built in."))),
+            }
+        },
+    ),
 ];
 
 /// Systems that are built in and have no package of their name.
@@ -84,11 +106,10 @@ const OTHER_SYSTEMS: [&str; 4] = [
 ];
 
 /// Packages that stand for no system that is built in.
-const NO_SYSTEMS: [&str; 7] = [
+const NO_SYSTEMS: [&str; 6] = [
     "ASDF",
     "ASDF-USER",
     "CRAM-PR2-ENVIRONMENT-MANIPULATION",
-    "CRAM-PR2-PICK-PLACE-DEMO",
     "PLANWRIGHT",
     "QUICKLISP-CLIENT",
     "SWANK",
@@ -101,6 +122,7 @@ fn systems() -> Vec<String> {
         .filter(|name| !NO_SYSTEMS.contains(name))
         .map(rosify)
         .chain(OTHER_SYSTEMS.map(str::to_owned))
+        .chain(DEMO_SYSTEMS.iter().map(|(name, _)| (*name).to_owned()))
         .collect();
     systems.sort_unstable();
     systems
@@ -180,6 +202,15 @@ fn shutdown_ros(simulation: &mut Simulation, image: &mut Image, _: &[Value]) -> 
 /// Whether a system is built in. The name may be written as in ROS or as in Lisp.
 fn is_built_in(image: &Image, system: &Value) -> bool {
     name_text(image, system).is_some_and(|name| systems().contains(&rosify(&name)))
+}
+
+fn built_in_files(image: &Image, system: &Value) -> Value {
+    let name = name_text(image, system).map(|name| rosify(&name));
+    let files = DEMO_SYSTEMS
+        .iter()
+        .find(|(system, _)| name.as_deref() == Some(system))
+        .map_or(&[][..], |(_, files)| files);
+    Value::list(files.iter().map(|file| Value::from(*file)))
 }
 
 fn load_built_in_system(
