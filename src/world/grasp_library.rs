@@ -209,7 +209,7 @@ impl GraspLibrary {
 
     /// The grasps of a type by which a hand comes from above, in the order in which they are
     /// defined: also those that are not tried unless they are asked for.
-    pub(crate) fn from_above(&self, object_type: &str) -> Vec<&str> {
+    pub(crate) fn grasps_from_above(&self, object_type: &str) -> Vec<&str> {
         let mut names: Vec<&str> = Vec::new();
         for ((kind, _, name), definition) in &self.grasps {
             // The hand approaches along the third column.
@@ -392,11 +392,11 @@ mod tests {
     fn grasps_from_above_need_not_be_listed() {
         let library = library();
         assert_eq!(
-            library.from_above("cup"),
+            library.grasps_from_above("cup"),
             ["top", "top-around", "top-around-left"]
         );
-        assert_eq!(library.from_above("bowl"), ["top"]);
-        assert!(library.from_above("milk").is_empty());
+        assert_eq!(library.grasps_from_above("bowl"), ["top"]);
+        assert!(library.grasps_from_above("milk").is_empty());
     }
 
     #[test]

@@ -337,7 +337,7 @@ fn grasps_from_above(
     let Some(kind) = type_text(image, &args[0]) else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
     };
-    let names = simulation.grasps.from_above(&kind).into_iter();
+    let names = simulation.grasps.grasps_from_above(&kind).into_iter();
     let keywords: Vec<Value> = names.map(|name| type_keyword(image, name)).collect();
     done(Value::list(keywords))
 }
