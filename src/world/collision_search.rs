@@ -92,6 +92,8 @@ pub(crate) struct Scratch {
     solids: Vec<PlacedSolid>,
     /// The furniture near the robot, as places in the list of all.
     furniture: Vec<usize>,
+    /// The pairs of links with bounds that are near each other.
+    near: Vec<(usize, usize)>,
 }
 
 /// A link or a held object, placed for one query.
@@ -179,9 +181,12 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         }
         match self.question.only {
             None => {
-                for &(a, b) in self.question.self_pairs {
+                let mut near = std::mem::take(&mut self.scratch.near);
+                self.find_near_pairs(&mut near);
+                for &(a, b) in &near {
                     self.against_each_other(a, b)?;
                 }
+                self.scratch.near = near;
             }
             Some(only) => {
                 let all = self.question.self_pairs;
@@ -224,7 +229,21 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         Some((a.min(b), a.max(b)))
     }
 
+    /// Finds the pairs of links with bounds that are near each other; most are far apart.
+    fn find_near_pairs(&self, near: &mut Vec<(usize, usize)>) {
+        let margin = self.margin.min(SELF_MARGIN);
+        near.clear();
+        let moves_as_a_whole = |moving: &&MovingParts| !moving.any_part();
+        let whole = self.question.moving.filter(moves_as_a_whole);
+        if self.question.pairs == Pairs::Changing && whole.is_some() {
+            return;
+        }
+        let pairs = self.question.self_pairs.iter().copied();
+        near.extend(pairs.filter(|&(a, b)| self.are_near(a, b, margin)));
+    }
+
     /// Whether the bounds of two movers are closer than the margin (m).
+    #[inline]
     fn are_near(&self, a: usize, b: usize, margin: f64) -> bool {
         let movers = &self.scratch.movers;
         let (Some(one), Some(two)) = (movers.get(a), movers.get(b)) else {
@@ -382,7 +401,6 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
     }
 
     /// Checks two movers against each other.
-    #[inline]
     fn against_each_other(&mut self, a: usize, b: usize) -> ControlFlow<()> {
         let margin = self.margin.min(SELF_MARGIN);
         // Most pairs are far from each other.

@@ -71,6 +71,11 @@ impl MovingParts {
         self.group(link) != AT_REST
     }
 
+    /// Whether any two links may move relative to each other.
+    pub(crate) fn any_part(&self) -> bool {
+        self.groups.windows(2).any(|pair| pair[0] != pair[1])
+    }
+
     /// Whether two links may move relative to each other.
     pub(crate) fn part(&self, one: LinkId, other: LinkId) -> bool {
         self.group(one) != self.group(other)

@@ -104,7 +104,9 @@ impl Table {
                     let (depth, other) = world.depth_of(object.name()).unwrap();
                     if depth > DEEPEST {
                         let other = world.body_name(other);
-                        text = Some(format!("{} is {depth} m deep in {other:?}", object.name()));
+                        let by = world.object_contacts(object.name()).unwrap();
+                        let name = object.name();
+                        text = Some(format!("{name} is {depth} m deep in {other:?}: {by:?}"));
                     }
                 }
                 let text = text.map(|text| format!("{:.2} s: {text}", world.time()));
