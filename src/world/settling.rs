@@ -122,6 +122,16 @@ impl Trial {
         self.world.step();
     }
 
+    /// Where the objects are that may move (in the map frame), but for those with the given keys.
+    pub(super) fn poses(&self, restless: &[PartKey]) -> Vec<Pose> {
+        let free = self.free.iter().map(|(key, _)| *key);
+        let free = free.filter(|key| !restless.contains(key));
+        let objects = free.filter_map(|key| self.world.object_of(key));
+        objects
+            .map(|object| self.world.physics.pose(object.body))
+            .collect()
+    }
+
     /// Keeps the object from falling asleep, or no longer.
     pub(super) fn keep_awake(&mut self, awake: bool) {
         if let Some(object) = self.world.object_of(self.key) {

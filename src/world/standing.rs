@@ -33,9 +33,9 @@ const PROBED: f64 = 1.0;
 const CREEP: f64 = 0.0002;
 const CREEP_TURN: f64 = 0.003;
 
-/// How long (s) the objects near one that has come to rest among them, as a trial has shown, have to
-/// come to rest themselves.
-const AFTERWARDS: f64 = 5.0;
+/// For how many steps objects are kept from moving that a trial has shown to be at rest, until the
+/// engine knows what touches what.
+const STILL_STEPS: u32 = 3;
 
 impl Trial {
     /// Lets time pass until all that may move is at rest, the object itself for good, but about
@@ -43,9 +43,19 @@ impl Trial {
     fn settles(&mut self, restless: &[PartKey], seconds: f64) -> bool {
         let mut left = steps_in(seconds);
         let mut quiet = 0;
+        let mut mark = (left, self.poses(restless));
         while left > 0 {
             self.step();
             left -= 1;
+            // What leans on something may rock for long without getting anywhere.
+            if mark.0 - left >= steps_in(PROBED) {
+                let now = self.poses(restless);
+                let is_same = |(before, now)| is_same_place(before, now);
+                if mark.1.len() == now.len() && mark.1.iter().zip(&now).all(is_same) {
+                    return true;
+                }
+                mark = (left, now);
+            }
             quiet = if self.is_at_rest(restless) {
                 quiet + 1
             } else {
@@ -61,7 +71,7 @@ impl Trial {
         false
     }
 
-    /// As [`World::stays`].
+    /// Whether the object, which does not sleep meanwhile, stays where it is, as [`World::stays`].
     fn stays(&mut self, left: &mut u64) -> bool {
         let before = self.pose();
         self.keep_awake(true);
@@ -102,11 +112,10 @@ impl World {
             let mut trial = Trial::new(self, key);
             let has_settled = trial.settles(&restless, seconds);
             self.adopt(&trial);
-            let is_at_rest = self.settle_without(&restless, AFTERWARDS);
-            if has_settled && is_at_rest {
-                self.let_all_sleep(&restless);
+            if has_settled {
+                self.stand_still(&restless);
             }
-            return Ok(has_settled && is_at_rest);
+            return Ok(has_settled);
         }
         while left > 0.0 {
             let before = self.steps();
@@ -141,6 +150,26 @@ impl World {
         }
         self.physics.let_sleep(body);
         Ok(has_stayed)
+    }
+
+    /// Lets all objects sleep where they are but those with the given keys. They are at rest there,
+    /// as a trial has shown.
+    fn stand_still(&mut self, restless: &[PartKey]) {
+        for _ in 0..STILL_STEPS {
+            let objects = self.objects();
+            let still = objects.filter(|object| {
+                object.attachment().is_none() && !restless.contains(&object.key())
+            });
+            let still: Vec<_> = still
+                .filter(|object| self.physics.is_awake(object.body))
+                .map(|object| (object.body, self.physics.pose(object.body)))
+                .collect();
+            self.step();
+            for (body, pose) in still {
+                self.physics.place(body, &pose);
+            }
+        }
+        self.let_all_sleep(restless);
     }
 
     /// Lets all objects sleep but those with the given keys. They are at rest; if they stayed awake
