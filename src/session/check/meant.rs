@@ -7,6 +7,8 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::{Access, PackageId, PackageTable};
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::plan::designator::schema;
+use crate::plan::designator::value::Class;
 
 /// What may be meant by a name.
 pub(super) enum Meant {
@@ -50,18 +52,27 @@ pub(in crate::session) fn hint(image: &Image, condition: &Value) -> Option<Strin
         return None;
     };
     let name = instance.slot(known::NAME)?.as_symbol()?;
-    if instance.class().name == known::SIMPLE_PROGRAM_ERROR {
-        let signature = help::signature(image, name)?;
-        return Some(format!("A call of it: {}", signature.call(image, name)));
-    }
-    if instance.class().name == known::UNDEFINED_FUNCTION && image.name(name) == "RETRY" {
-        return Some(
-            "(retry) has a meaning only in the handlers of with-failure-handling.".to_owned(),
-        );
-    }
     let is_variable = |sym| image.symbol(sym).kind == VariableKind::Special;
+    let is_action = || !schema::rows(image, Class::Action, image.name(name)).is_empty();
+    let call = || {
+        let signature = help::signature(image, name)?;
+        Some(format!("A call of it: {}", signature.call(image, name)))
+    };
     let meant = match instance.class().name {
+        known::SIMPLE_PROGRAM_ERROR => return call(),
+        known::UNDEFINED_FUNCTION if image.name(name) == "RETRY" => {
+            return Some(
+                "(retry) has a meaning only in the handlers of with-failure-handling.".to_owned(),
+            );
+        }
+        known::UNDEFINED_FUNCTION if is_action() => {
+            let name = image.name(name).to_lowercase();
+            return Some(format!(
+                "{name} is an action: (with-simulated-robot (perform (an action (type {name}) …)))"
+            ));
+        }
         known::UNDEFINED_FUNCTION => Meant::by(image, name, |sym| has_function(image, sym)),
+        known::UNBOUND_VARIABLE if has_function(image, name) => return call(),
         known::UNBOUND_VARIABLE => Meant::by(image, name, is_variable),
         _ => None,
     };

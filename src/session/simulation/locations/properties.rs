@@ -15,7 +15,7 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 /// An error of the world as a condition.
 pub(super) fn raised(error: &WorldError) -> Box<Raise> {
     let text = error.to_string();
-    let end = if text.ends_with('?') { "" } else { "." };
+    let end = if text.ends_with(['?', '.']) { "" } else { "." };
     Raise::simple(text + end)
 }
 
