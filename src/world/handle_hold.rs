@@ -3,10 +3,11 @@
 //! Robot and kitchen are kinematic: no force moves them. So what friction does between pads and
 //! bar is a rule. While the fingers are as close together as when they pressed, the joint takes in
 //! every step the position at which the held point of the bar is nearest to where the hand carries
-//! it. A hand that turns about a bar with corners has its fingers pushed apart by them. The joint stays behind if something stops the part, if the part is pressed against something with
-//! more than the pads transmit, or if they do not even overcome the friction of its rails or
-//! hinges. The hand slips off once the held point is farther than [`GREATEST_GAP`] from the hand,
-//! or the hand has been turned farther than rubber pads yield.
+//! it. A hand that turns about a bar with corners has its fingers pushed apart by them. The joint
+//! stays behind if something stops the part, if the part is pressed against something with more
+//! than the pads transmit, or if they do not even overcome the friction of its rails or hinges. The
+//! hand slips off once the held point is farther than [`GREATEST_GAP`] from the hand, or the hand
+//! has been turned farther than rubber pads yield.
 
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +31,8 @@ const GREATEST_TWIST: f64 = 0.1;
 pub(crate) const GREATEST_PIVOT: f64 = 0.75;
 /// How far (rad) a finger joint opens before its fingers count as pressing no more.
 const OPENED: f64 = 1e-4;
+/// How far (m) a bar sinks into both pads together, at most: they are of rubber.
+const MOST_GIVE: f64 = 0.002;
 /// Coefficient of friction of the pads on a bar.
 const PAD_FRICTION: f64 = 1.0;
 /// The force (N) at the handle that it takes to move a drawer on its rails or a door in its
@@ -59,7 +62,7 @@ pub(crate) struct HandleHold {
     bar: Vector3<f64>,
     /// Position of the finger joint (rad) at which the fingers press now.
     fingers: f64,
-    /// The gap between the pads minus the width of the bar there (m): how far the pads yield.
+    /// The gap between the pads minus the width of the bar there (m): negative, since pads yield.
     give: f64,
     /// The greatest force (N) that friction transmits.
     strength: f64,
@@ -137,7 +140,8 @@ impl World {
         let tool = pose.inverse_transform_point(&Point3::from(tool.translation.vector));
         let grip = palm.inv_mul(&pose);
         let fingers = self.state.robot.joints.get(arm.gripper.joint);
-        let hold = HandleHold {
+        let give = arm.gripper.gap(fingers) - self.width_of_bar(handle, &grip);
+        let mut hold = HandleHold {
             side,
             handle,
             joint,
@@ -145,12 +149,13 @@ impl World {
             point: Point3::from(bar * tool.coords.dot(&bar)),
             bar,
             fingers,
-            give: arm.gripper.gap(fingers) - self.width_of_bar(handle, &grip),
+            give: give.max(-MOST_GIVE),
             strength: 2.0 * PAD_FRICTION * effort,
             against: None,
             direction: 0,
         };
         self.release_handle(side);
+        hold.fingers = self.spread_fingers(&hold);
         self.state.handles.push(hold);
         true
     }
@@ -308,7 +313,7 @@ impl World {
         let position = gripper.position_for_gap(gap);
         let mut robot = self.state.robot.clone();
         robot.joints.set(joint, position);
-        self.place_robot_links(&robot);
+        self.set_robot_configuration(&robot);
         position
     }
 

@@ -59,7 +59,7 @@ fn the_table_is_set_and_not_again() {
 
 #[test]
 fn the_steps_of_the_demo_are_made_by_hand() {
-    let mut cook = Cook::unwatched();
+    let mut cook = Cook::new();
     cook.done(LOAD);
     cook.done("(demo::spawn-objects-on-sink-counter) (demo::go-to-sink-or-island :sink)");
     let base = cook.session.simulation().world().robot_configuration().base;
@@ -95,6 +95,7 @@ fn the_steps_of_the_demo_are_made_by_hand() {
         let (said, _) = cook.say(step).unwrap_err();
         assert_eq!(said, report);
     }
+    cook.assert_no_overlap();
 }
 
 #[test]
