@@ -402,6 +402,15 @@ impl Physics {
         s.islands.wake_up(&mut s.bodies, body.0, true);
     }
 
+    /// Wakes the body and gives it the velocity that a step of falling would give it.
+    pub(crate) fn begin_to_fall(&mut self, body: BodyHandle) {
+        self.wake(body);
+        if let Some(b) = self.edit().bodies.get_mut(body.0) {
+            let velocity = b.linvel() - Vector::new(0.0, 0.0, GRAVITY * STEP_SECONDS);
+            b.set_linvel(velocity, true);
+        }
+    }
+
     /// Keeps a body from falling asleep.
     pub(crate) fn keep_awake(&mut self, body: BodyHandle) {
         if let Some(b) = self.edit().bodies.get_mut(body.0) {

@@ -44,7 +44,7 @@ impl World {
     }
 
     /// The bounds (m) of the object in the map frame.
-    fn bounds_of(&self, object: &Object) -> Aabb {
+    pub(super) fn bounds_of(&self, object: &Object) -> Aabb {
         let pose = self.physics.pose(object.body);
         object.bounds.transform_by(&to_parry(&pose))
     }

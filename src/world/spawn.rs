@@ -16,11 +16,14 @@ use super::error::WorldError;
 use super::object::Object;
 use super::object_library::ObjectType;
 use super::part_key::PartKey;
-use super::physics::{BodyKind, Surface};
+use super::physics::{BodyHandle, BodyKind, Surface};
 use super::scene::World;
 use super::separation::{lowest_point, separation};
 use super::solid::{Solid, bounds_of, from_parry_vector, to_parry};
 use crate::spatial::Pose;
+
+/// Objects whose bounds are nearer to each other than this (m) may touch.
+const TOUCHING: f64 = 0.01;
 
 /// Step (m) by which an overlapping object is lifted in search of free space.
 const LIFT_STEP: f64 = 0.005;
@@ -200,6 +203,9 @@ impl World {
         let (key, body) = (object.key(), object.body);
         let (solids, bounds) = (Arc::clone(&object.solids), object.bounds);
         let report = self.find_place(key, &solids, &bounds, pose);
+        if let Some(object) = self.state.objects.get(name).cloned() {
+            self.let_fall_around(&object);
+        }
         self.physics.place(body, &report.pose);
         Ok(report)
     }
@@ -209,9 +215,25 @@ impl World {
         self.detach(name)?;
         // The line above has found it. The remaining objects keep their order.
         if let Some(object) = self.state.objects.shift_remove(name) {
+            self.let_fall_around(&object);
             self.physics.remove_body(object.body);
         }
         Ok(())
+    }
+
+    /// Lets the objects fall that may rest on an object or lean on it, as far as nothing else holds
+    /// them. Among objects that sleep since they were spawned, the engine knows of no contact; and
+    /// time passes without steps while nothing moves.
+    fn let_fall_around(&mut self, object: &Object) {
+        let near = self.bounds_of(object).loosened(TOUCHING);
+        let others = self.objects().filter(|other| {
+            let is_free = other.attachment.is_none() && other.body != object.body;
+            is_free && near.intersects(&self.bounds_of(other))
+        });
+        let others: Vec<BodyHandle> = others.map(|other| other.body).collect();
+        for body in others {
+            self.physics.begin_to_fall(body);
+        }
     }
 
     /// Removes all objects from the world.

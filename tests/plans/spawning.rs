@@ -112,3 +112,21 @@ fn what_stands_on_an_edge_has_fallen_over_when_it_counts_as_at_rest() {
         cook.done(&format!("(btr-utils:kill-object '{name})"));
     }
 }
+
+#[test]
+fn what_stands_on_a_spawned_object_falls_when_that_goes_away() {
+    let stack = "(spawn-object '((-1.4 -1.05 0.755) (0 0 0 1)) :cube 'below)
+         (spawn-object '((-1.4 -1.05 0.825) (0 0 0 1)) :cube 'above)";
+    for goes in [
+        "(btr-utils:kill-object 'below)",
+        "(btr-utils:move-object 'below (make-pose \"map\" '((-1.7 -0.9 0.8) (0 0 0 1))))",
+    ] {
+        let mut cook = Cook::new();
+        cook.done(stack);
+        let stood = cook.pose("ABOVE").translation.z;
+        cook.done(goes);
+        cook.done("(cpl:sleep 1)");
+        let fell = stood - cook.pose("ABOVE").translation.z;
+        assert!((fell - 0.07).abs() < 0.005, "{goes}: it fell by {fell} m");
+    }
+}
