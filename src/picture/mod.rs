@@ -28,6 +28,7 @@ pub(crate) mod view;
 pub(crate) use camera_picture::CameraPicture;
 pub use image::Image;
 pub(crate) use inline::InlinePictures;
+pub(crate) use lettering::Line;
 pub(crate) use location_map::LocationMap;
 pub(crate) use looks::Looks;
 pub(crate) use map_picture::{FloorMap, map_scene};

@@ -38,6 +38,8 @@ struct State {
     draws: BTreeMap<String, Draws>,
     /// What has been drawn, in order.
     drawn: Pairs<Drawn>,
+    /// The simplest values that could have been drawn.
+    simplest: Pairs<Drawn>,
     /// Values that are set instead of drawn.
     set: Vec<(String, Value)>,
     known: Vec<Known>,
@@ -53,6 +55,7 @@ impl Sweeping {
         state.world = world;
         state.draws.clear();
         state.drawn = Pairs::default();
+        state.simplest = Pairs::default();
         state.record = None;
     }
 
@@ -72,6 +75,16 @@ impl Sweeping {
     /// Notes what was drawn.
     pub(super) fn note(&self, path: &str, drawn: Drawn) {
         self.0.borrow_mut().drawn.set(path, drawn);
+    }
+
+    /// Notes the simplest value that could have been drawn.
+    pub(super) fn note_simplest(&self, path: &str, drawn: Drawn) {
+        self.0.borrow_mut().simplest.set(path, drawn);
+    }
+
+    /// Draws are set no more.
+    pub(super) fn forget(&self) {
+        self.0.borrow_mut().set.clear();
     }
 
     /// Sets the value of a draw.
@@ -128,6 +141,11 @@ impl Session {
         let ask = "(planwright::%describe-sweeps)";
         self.evaluate("sweep", ask, &mut |_| {});
         self.sweeping().0.borrow().known.clone()
+    }
+
+    /// The simplest values that the draws of the world at hand could have had.
+    pub(crate) fn simplest_draws(&mut self) -> Pairs<Drawn> {
+        self.sweeping().0.borrow().simplest.clone()
     }
 
     /// Runs the plan of a sweep in one world. `set` are values of draws as the language writes

@@ -9,6 +9,7 @@ mod beta;
 pub(crate) mod draw;
 pub(crate) mod influence;
 mod normal;
+pub(crate) mod paired;
 pub(crate) mod pairs;
 mod plural;
 pub(crate) mod rate;

@@ -59,6 +59,11 @@ impl<'r> Summary<'r> {
         }
     }
 
+    /// The number of worlds.
+    pub(crate) fn count(&self) -> u64 {
+        self.records.len() as u64
+    }
+
     /// The share of worlds in which the plan worked.
     pub(crate) fn rate(&self) -> f64 {
         self.successes as f64 / (self.tried as f64).max(1.0)

@@ -72,3 +72,267 @@ fn a_goal_that_is_missed_and_a_wrong_file_have_their_statuses() {
         text(&none.stderr)
     );
 }
+
+/// A plan that fails if the bottle is far to the right and there is a bowl.
+const PLANTED: &str = "
+    (in-package :pp-tut)
+    (defsweep planted (:worlds 60)
+      (vary
+        (bottle (object bottle :on table-area-main :x (uniform -1.9 -1.2) :y (uniform -1.05 -0.75)))
+        (clutter (objects (between 0 3) :of (cup bowl milk) :on table-area-main :apart 0.02))
+        (torso (choice 0.1 0.2)))
+      (run (let ((y (cl-transforms:y (cl-transforms:origin (btr-utils:object-pose bottle)))))
+             (when (and (< y -0.9)
+                        (some (lambda (thing) (btr-utils:object-exists thing)) clutter)
+                        (some (lambda (thing) (eq :bowl (pw::%type-of-object thing))) clutter))
+               (error 'end-of-file)))))";
+
+#[test]
+fn a_planted_cause_is_found_and_shrunk_to_what_matters() {
+    let file = scratch("planted.plan", PLANTED);
+    let file = file.to_str().expect("a name");
+    let records = planwright(&["sweep", file, "--seed", "1", "--worlds", "12", "--json"]);
+    let failing = text(&records.stdout);
+    let failing = failing
+        .lines()
+        .find(|line| line.contains("END-OF-FILE") && line.contains("\"clutter\":3"))
+        .expect("one of the worlds fails");
+    let world = failing["{\"world\":".len()..]
+        .split(',')
+        .next()
+        .expect("a number");
+    for threads in ["1", "3"] {
+        let shrunk = planwright(&[
+            "sweep",
+            file,
+            "--seed",
+            "1",
+            "--shrink",
+            world,
+            "--threads",
+            threads,
+        ]);
+        let shown = text(&shrunk.stdout);
+        assert!(
+            shown.starts_with(&format!("world {world}, END-OF-FILE, after ")),
+            "{shown}"
+        );
+        assert_eq!(shown.matches(" bowl\n").count(), 1, "{shown}");
+        assert!(
+            !shown.contains(" cup\n") && !shown.contains(" milk\n"),
+            "{shown}"
+        );
+        assert!(shown.contains("bottle.yaw 0\n"), "{shown}");
+        // The simplest y below -0.9 would be -1, but there the bottle, at the middle of its x, would
+        // stand where the bowl is.
+        assert!(
+            shown.contains("bottle.x -1.55\n  bottle.y -1.03\n"),
+            "{shown}"
+        );
+        let form = &shown[shown.find("(sweep-world").expect("a form")..];
+        let again = scratch(
+            "again.plan",
+            &format!("{PLANTED}\n{form}\n(run-sweep-world)"),
+        );
+        let again = planwright(&["run", again.to_str().expect("a name")]);
+        assert_eq!(again.status.code(), Some(1), "{}", text(&again.stderr));
+        assert!(
+            text(&again.stderr).contains("END-OF-FILE"),
+            "{}",
+            text(&again.stderr)
+        );
+        let nearer = form.replace("-1.03d0", "-1d0");
+        let nearer = scratch("nearer.plan", &format!("{PLANTED}\n{nearer}"));
+        let nearer = planwright(&["run", nearer.to_str().expect("a name")]);
+        assert!(
+            text(&nearer.stderr).contains("clutter.1 found no place in 100 tries: BOTTLE is"),
+            "{}",
+            text(&nearer.stderr)
+        );
+    }
+}
+
+#[test]
+fn shards_in_any_number_and_order_are_merged_to_the_same_bytes() {
+    let file = scratch("shards.plan", SWEEP);
+    let file = file.to_str().expect("a name");
+    let folder = |name: &str| {
+        let folder = scratch("shards.plan", SWEEP).with_file_name(name);
+        let _old = std::fs::remove_dir_all(&folder);
+        folder
+    };
+    let merged = |folder: &PathBuf| std::fs::read(folder.join("records.jsonl")).expect("merged");
+    let arguments = ["--seed", "5", "--worlds", "23"];
+    let whole = folder("whole");
+    let run = |more: &[&str]| planwright(&[&["sweep"], more].concat());
+    let into = whole.to_str().expect("a name");
+    let output = run(&[&[file, "--into", into], arguments.as_slice()].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let plain = run(&[&[file, "--json"], arguments.as_slice()].concat());
+    assert_eq!(text(&plain.stdout).into_bytes(), merged(&whole));
+
+    let parts = folder("parts");
+    let into = parts.to_str().expect("a name");
+    let first = run(&[
+        &[file, "--into", into, "--shard", "3/7"],
+        arguments.as_slice(),
+    ]
+    .concat());
+    assert_eq!(first.status.code(), Some(0), "{}", text(&first.stderr));
+    // A worker knows the rest from the folder, and its index from an engine.
+    for index in ["6", "0"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_planwright"))
+            .args(["sweep", "--into", into])
+            .env("SLURM_ARRAY_TASK_ID", index)
+            .output()
+            .expect("the program runs");
+        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    }
+    // What was cut off, or changed, is missing.
+    let shard = std::fs::read(parts.join("shard-6.jsonl")).expect("a shard");
+    std::fs::write(parts.join("shard-6.jsonl"), &shard[..shard.len() / 2]).expect("written");
+    let status = run(&["--status", into]);
+    assert_eq!(status.status.code(), Some(3));
+    assert!(
+        text(&status.stdout).ends_with("missing: 1-2,4-6\n"),
+        "{}",
+        text(&status.stdout)
+    );
+    assert!(text(&status.stdout).contains("2 of 7 shards are there, 7 worlds of 23"));
+    let untouched = std::fs::metadata(parts.join("shard-3.jsonl")).and_then(|m| m.modified());
+    let resumed = run(&["--resume", into]);
+    assert_eq!(resumed.status.code(), Some(0), "{}", text(&resumed.stderr));
+    assert_eq!(merged(&parts), merged(&whole));
+    let now = std::fs::metadata(parts.join("shard-3.jsonl")).and_then(|m| m.modified());
+    assert_eq!(
+        untouched.ok(),
+        now.ok(),
+        "a shard that is there is not done again"
+    );
+
+    // Another sweep does not get into the folder, nor a file that has been changed.
+    let other = run(&[&[file, "--into", into, "--seed", "6"], &arguments[2..]].concat());
+    assert_eq!(other.status.code(), Some(2));
+    assert!(
+        text(&other.stderr).contains("is of another sweep"),
+        "{}",
+        text(&other.stderr)
+    );
+    std::fs::write(parts.join("sweep.plan"), "(print 1)").expect("written");
+    std::fs::remove_file(parts.join("shard-3.jsonl")).expect("removed");
+    let changed = run(&["--into", into, "--shard", "3/7"]);
+    assert_eq!(changed.status.code(), Some(2));
+    assert!(
+        text(&changed.stderr).contains("has been changed since"),
+        "{}",
+        text(&changed.stderr)
+    );
+}
+
+#[test]
+fn plans_are_compared_in_the_same_worlds_and_reports_are_written() {
+    let file = scratch("old.plan", SWEEP);
+    let other = scratch(
+        "new.plan",
+        &SWEEP
+            .replace("(< x 0.2)", "(> x 0.9)")
+            .replace("(> x 0.3)", "t"),
+    );
+    let (file, other) = (
+        file.to_str().expect("a name"),
+        other.to_str().expect("a name"),
+    );
+    let output = planwright(&[
+        "sweep",
+        file,
+        "--worlds",
+        "40",
+        "--seed",
+        "2",
+        "--compare",
+        other,
+    ]);
+    let shown = text(&output.stdout);
+    assert!(shown.contains("40 worlds in both: "), "{shown}");
+    assert!(
+        shown.contains("worse with ") && shown.contains("p = 0.0"),
+        "{shown}"
+    );
+    let at = |name: &str| scratch("old.plan", SWEEP).with_file_name(name);
+    let [csv, xml, html, png] = ["a.csv", "a.xml", "a.html", "a.png"].map(at);
+    let path = |path: &PathBuf| path.to_str().expect("a name").to_owned();
+    let map = format!("x,cup.x={}", path(&png));
+    let output = planwright(&[
+        "sweep",
+        file,
+        "--csv",
+        &path(&csv),
+        "--junit",
+        &path(&xml),
+        "--html",
+        &path(&html),
+        "--heat-map",
+        &map,
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let read = |path: &PathBuf| std::fs::read(path).expect("written");
+    assert_eq!(text(&read(&csv)).lines().count(), 31);
+    assert!(text(&read(&xml)).contains("success at least 50 %"));
+    assert!(
+        text(&read(&html)).contains("what matters: x &lt; 0.3"),
+        "{}",
+        text(&read(&html))
+    );
+    assert!(read(&png).starts_with(b"\x89PNG"));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_keeps_what_is_done() {
+    let file = scratch("interrupted.plan", SWEEP);
+    let folder = file.with_file_name("interrupted");
+    let mut sweep = Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .args(["sweep", file.to_str().expect("a name"), "--worlds", "4000"])
+        .args(["--shards", "1000", "--into"])
+        .arg(&folder)
+        .stdout(std::process::Stdio::null())
+        .spawn()
+        .expect("the program runs");
+    while !folder.join("shard-0.jsonl").exists() {
+        let ended = sweep.try_wait().expect("it can be asked");
+        assert_eq!(ended, None, "it ended before its first shard");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    let interrupt = Command::new("kill")
+        .args(["-INT", &sweep.id().to_string()])
+        .status();
+    assert!(interrupt.is_ok_and(|status| status.success()));
+    let ended = sweep.wait().expect("it ends");
+    assert_eq!(ended.code(), Some(3));
+    let report = planwright(&[
+        "sweep",
+        "--report",
+        folder.to_str().expect("a name"),
+        "--json",
+    ]);
+    assert_eq!(report.status.code(), Some(3));
+    let first = text(&report.stdout);
+    assert!(first.starts_with("{\"world\":0,"), "{first}");
+}
+
+#[test]
+fn options_that_say_too_little_are_refused_at_once() {
+    let file = scratch("refused.plan", SWEEP);
+    let file = file.to_str().expect("a name");
+    for (arguments, why) in [
+        (["--engine", "slurm"], "--into"),
+        (["--heat-map", "x=map.png"], "bottle.x,bottle.y=map.png"),
+        (["--heat-map", "x,=map.png"], "bottle.x,bottle.y=map.png"),
+        (["--shard", "1/2"], "--into"),
+    ] {
+        let refused = planwright(&[&["sweep", file], arguments.as_slice()].concat());
+        let said = text(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(2), "{said}");
+        assert!(said.contains(why), "{said}");
+    }
+}

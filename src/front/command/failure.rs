@@ -20,6 +20,8 @@ pub(crate) enum Status {
     Bad,
     /// The work could not be done.
     Unusable,
+    /// A part of the work is missing.
+    Incomplete,
     /// The program exited with a status of its own.
     Left(u8),
 }
@@ -30,6 +32,7 @@ impl Status {
             Status::Good => 0,
             Status::Bad => 1,
             Status::Unusable => 2,
+            Status::Incomplete => 3,
             Status::Left(code) => code,
         }
     }

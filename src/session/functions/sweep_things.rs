@@ -13,7 +13,7 @@ use crate::plan::Reply;
 use crate::robot::LinkId;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
-use crate::session::simulation::names::{name_text, suggestion, type_text};
+use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
 use crate::spatial::pose::from_xy_yaw;
 use crate::spatial::{PlacedShape, Pose, Shape, trig};
 use crate::world::body_name::BodyName;
@@ -89,6 +89,13 @@ pub(crate) static TABLE: &[Builtin] = &[
         "The angle (rad) between the axis of an object and the vertical.",
         &[],
         host!(tilt),
+    ),
+    control(
+        "%TYPE-OF-OBJECT",
+        "object",
+        "The type of an object, whatever the robot takes it for.",
+        &[],
+        host!(type_of_object),
     ),
     control(
         "%OBSTACLE-P",
@@ -364,6 +371,13 @@ fn tilt(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Resul
     let name = simulation.object_named(image, &args[0])?;
     let pose = simulation.world.object_pose(&name).map_err(world_error)?;
     done(Value::Double(tilt_of(&pose)))
+}
+
+fn type_of_object(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let name = simulation.object_named(image, &args[0])?;
+    let object = simulation.world.object(&name).map_err(world_error)?;
+    let kind = object.type_name().to_owned();
+    done(type_keyword(image, &kind))
 }
 
 fn is_obstacle(simulation: &mut Simulation, image: &mut Image, args: &[Value]) -> Result<Reply> {

@@ -106,9 +106,16 @@ pub(crate) static TABLE: &[Builtin] = &[
         set,
     ),
     pure(
+        "%SWEEP-FORGET",
+        "",
+        "Draws are set no more.",
+        &["(pw::%sweep-forget) => NIL"],
+        forget,
+    ),
+    pure(
         "%SWEEP-NOTE",
-        "path value",
-        "Notes what was drawn.",
+        "path value &optional simplest",
+        "Notes what was drawn, and the simplest value that could have been.",
         &[],
         note,
     ),
@@ -262,10 +269,19 @@ fn set(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::NIL)
 }
 
+fn forget(image: &mut Image, _: &[Value]) -> Result<Value> {
+    state(image).forget();
+    Ok(Value::NIL)
+}
+
 fn note(image: &mut Image, args: &[Value]) -> Result<Value> {
     let path = text(&args[0])?;
     let drawn = drawn(image, &args[1]);
     state(image).note(&path, drawn);
+    if let Some(simplest) = args.get(2) {
+        let simplest = self::drawn(image, simplest);
+        state(image).note_simplest(&path, simplest);
+    }
     Ok(Value::NIL)
 }
 

@@ -1,85 +1,357 @@
-//! Runs sweeps: one plan in many worlds, on all processors.
+//! Runs sweeps: one plan in many worlds, on all processors or on many machines.
 
+mod engine;
 mod file;
+mod heat_map;
+mod interrupt;
+mod job;
 mod options;
 mod pool;
 mod progress;
 mod replay;
+mod reports;
+mod shrink;
+mod worker;
 mod worlds;
 
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
-use std::thread;
+use std::path::{Path, PathBuf};
 
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
+use crate::session::sweeping::Known;
 use crate::sweep::Record;
 use crate::sweep::influence::Influence;
-use crate::sweep::summary::{Summary, Title};
+use crate::sweep::paired::{Comparison, error_at_look, is_narrow};
+use crate::sweep::summary::{CONFIDENCE, Summary, Title};
 use file::SweepFile;
+use heat_map::HeatMap;
+use job::{Job, lines, write_whole};
 pub(crate) use options::SweepOptions;
 use progress::Progress;
 use worlds::Worlds;
 
-/// Runs the sweep, or one of its worlds.
+/// Runs the sweep, one of its worlds or one of its shards, or tells how far it has got.
 pub(crate) fn sweep(options: Options, wanted: &SweepOptions) -> Result<Status, CommandError> {
-    let file = SweepFile::read(&wanted.file)?;
-    if let Some(world) = wanted.replay {
-        return replay::replay(options, wanted, &file, world);
+    let threads = wanted.threads.map_or_else(worker::threads, usize::from);
+    if let Some(folder) = &wanted.status {
+        return status(&Job::open(folder)?);
     }
-    let (worlds, known) = Worlds::open(&options, file, wanted.name.as_deref())?;
-    let count = wanted.worlds.map_or(known.worlds, |count| count.get());
-    let title = Title {
-        name: known.name,
+    if let Some(folder) = &wanted.report {
+        return report_job(&Job::open(folder)?, wanted);
+    }
+    if let Some(folder) = &wanted.resume {
+        let job = Job::open(folder)?;
+        if let Some(engine) = wanted.engine {
+            return submit(engine, &job, threads, wanted);
+        }
+        interrupt::expect();
+        // Whether this is the same program is checked before anything is begun.
+        job.file()?;
+        worker::apart(&job, threads)?;
+        return report_job(&job, wanted);
+    }
+    match (&wanted.file, &wanted.into) {
+        (Some(path), into) => {
+            let file = SweepFile::read(path)?;
+            if let Some(world) = wanted.replay {
+                return replay::replay(options, wanted, &file, world);
+            }
+            match into {
+                None => in_memory(&options, wanted, file, threads),
+                Some(folder) => into_folder(&options, wanted, file, folder, threads),
+            }
+        }
+        (None, Some(folder)) => work(&options, wanted, folder, threads),
+        (None, None) => Err(CommandError::Sweep("a file was expected".to_owned())),
+    }
+}
+
+fn title(options: &Options, known: &Known) -> Title {
+    Title {
+        name: known.name.clone(),
         seed: options.seed,
         goal: known.goal,
+    }
+}
+
+/// Runs the sweep and keeps nothing but what is asked for.
+fn in_memory(
+    options: &Options,
+    wanted: &SweepOptions,
+    file: SweepFile,
+    threads: usize,
+) -> Result<Status, CommandError> {
+    let file_name = file.name.clone();
+    let (worlds, known) = Worlds::open(options, file, wanted.name.as_deref())?;
+    let title = title(options, &known);
+    if let Some(world) = wanted.shrink {
+        shrink::shrink(&worlds, &known.name, options.seed, world, threads)?;
+        return Ok(Status::Good);
+    }
+    interrupt::expect();
+    let count = wanted.worlds.map_or(known.worlds, |count| count.get());
+    let records = run(&worlds, &title, count, threads, wanted.until_width);
+    if let Some(path) = &wanted.compare {
+        let other = SweepFile::read(path)?;
+        let names = [file_name, other.name.clone()];
+        let (others, known) = Worlds::open(options, other, wanted.name.as_deref())?;
+        let other_title = self::title(options, &known);
+        let other_records = run(&others, &other_title, count, threads, None);
+        let mut out = io::stdout();
+        for (title, records) in [(&title, &records), (&other_title, &other_records)] {
+            write!(out, "{}", Summary::new(title, records))?;
+        }
+        write!(out, "{}", Comparison::new(names, &records, &other_records))?;
+        write_reports(wanted, &title, &records)?;
+        return Ok(ending(&Summary::new(&other_title, &other_records), count));
+    }
+    if let Some(folder) = &wanted.record_failures {
+        record_failures(&worlds, &records, folder, wanted.most)?;
+    }
+    let count = match wanted.until_width {
+        Some(_) if !interrupt::has_come() => records.len() as u64,
+        _ => count,
     };
-    let threads = wanted
-        .threads
-        .or_else(|| thread::available_parallelism().ok());
-    let threads = threads.map_or(1, |threads| threads.get());
-    let mut progress = Progress::new(&title, count);
+    report(wanted, &title, &records, count)
+}
+
+/// Runs worlds until all are done, an interrupt comes, or the interval of the rate is narrow enough.
+fn run(
+    worlds: &Worlds,
+    title: &Title,
+    count: u64,
+    threads: usize,
+    width: Option<f64>,
+) -> Vec<Record> {
+    let mut progress = Progress::new(title, count);
     let numbers: Vec<u64> = (0..count).collect();
+    let (mut tried, mut worked) = (0, 0);
     let records = pool::in_order(
         threads,
         &numbers,
         |world| worlds.run(*world, &[]),
-        |record| progress.record(record),
+        |record| {
+            tried += usize::from(record.outcome.counts());
+            worked += usize::from(record.is_success());
+            let error = error_at_look(record.world + 1, 1.0 - CONFIDENCE);
+            let is_enough = width
+                .zip(error)
+                .is_some_and(|(width, error)| is_narrow(worked, tried, error, width));
+            progress.record(record) && !is_enough && !interrupt::has_come()
+        },
     );
     progress.end();
-    if let Some(folder) = &wanted.into {
-        write_records(folder, &records)?;
+    records
+}
+
+/// Runs the sweep, or a shard of it, into a folder.
+fn into_folder(
+    options: &Options,
+    wanted: &SweepOptions,
+    file: SweepFile,
+    folder: &Path,
+    threads: usize,
+) -> Result<Status, CommandError> {
+    let is_special = options.world.is_some()
+        || options.robot.is_some()
+        || options.robot_description.is_some()
+        || options.noise.is_some()
+        || !options.systems.is_empty();
+    if is_special {
+        return Err(CommandError::Sweep(
+            "--into keeps the file and the seed of a sweep, but not --world, --robot, --noise or \
+             --systems: leave them out, or leave out --into"
+                .to_owned(),
+        ));
     }
-    let mut out = io::BufWriter::new(io::stdout());
-    if wanted.json {
-        for record in &records {
-            writeln!(out, "{}", record.line())?;
+    let (worlds, known) = Worlds::open(options, file.clone(), wanted.name.as_deref())?;
+    let title = title(options, &known);
+    let count = wanted.worlds.map_or(known.worlds, |count| count.get());
+    let shard = wanted.shard.as_deref().map(shard_of).transpose()?;
+    let shards = shard.map(|(_, of)| of).or(wanted.shards.map(|of| of.get()));
+    let job = Job::prepare(folder, &file, &title, count, shards)?;
+    if let Some((shard, _)) = shard {
+        return worker::shard(options, &job, shard, threads);
+    }
+    if let Some(engine) = wanted.engine {
+        return submit(engine, &job, threads, wanted);
+    }
+    interrupt::expect();
+    worker::all(&job, &worlds, threads)?;
+    if let Some(folder) = &wanted.record_failures {
+        record_failures(&worlds, &job.records(), folder, wanted.most)?;
+    }
+    report_job(&job, wanted)
+}
+
+/// Does a shard of the sweep that is in the folder.
+fn work(
+    options: &Options,
+    wanted: &SweepOptions,
+    folder: &Path,
+    threads: usize,
+) -> Result<Status, CommandError> {
+    let job = Job::open(folder)?;
+    if let Some(world) = wanted.world_of_shard {
+        let record = worker::one_world(options, &job, world)?;
+        writeln!(io::stdout(), "{}", record.line())?;
+        return Ok(Status::Good);
+    }
+    let shard = match &wanted.shard {
+        Some(text) => {
+            let (shard, of) = shard_of(text)?;
+            if of != job.plan.shards {
+                return Err(CommandError::Sweep(format!(
+                    "the sweep in {} has {} shards, not {of}",
+                    folder.display(),
+                    job.plan.shards
+                )));
+            }
+            shard
         }
-        out.flush()?;
-    }
-    let summary = Summary::new(&title, &records);
-    if !wanted.json {
-        write!(out, "{summary}{}", Influence::of(&records))?;
-        out.flush()?;
-    }
-    Ok(match summary.meets_goal() {
-        true => Status::Good,
-        false => Status::Bad,
+        None => worker::index_of_engine()
+            .map(|index| index + wanted.shard_offset)
+            .ok_or_else(|| {
+                CommandError::Sweep(format!(
+                    "which shard? --shard I/{} says, or an engine; --resume {} does all that are \
+                     missing",
+                    job.plan.shards,
+                    folder.display()
+                ))
+            })?,
+    };
+    worker::shard(options, &job, shard, threads)
+}
+
+/// The two numbers of `I/K`.
+fn shard_of(text: &str) -> Result<(u64, u64), CommandError> {
+    let numbers = text.split_once('/');
+    let numbers = numbers.and_then(|(i, k)| Some((i.parse().ok()?, k.parse().ok()?)));
+    numbers.filter(|(i, k)| i < k).ok_or_else(|| {
+        CommandError::Sweep(format!(
+            "{text:?} is no shard: I/K was expected, as in 3/50, with I from 0 to K - 1"
+        ))
     })
 }
 
-/// Writes the records into a folder, which is made if necessary: all of them or none.
-fn write_records(folder: &Path, records: &[Record]) -> Result<(), CommandError> {
-    let mut text = String::new();
-    for record in records {
-        text.push_str(&record.line());
-        text.push('\n');
+fn submit(
+    engine: engine::Engine,
+    job: &Job,
+    threads: usize,
+    wanted: &SweepOptions,
+) -> Result<Status, CommandError> {
+    let said = engine.submit(job, threads, &wanted.engine_arguments)?;
+    write!(io::stdout(), "{said}")?;
+    Ok(Status::Good)
+}
+
+/// Tells which shards are there.
+fn status(job: &Job) -> Result<Status, CommandError> {
+    let missing = job.missing();
+    let shards = job.plan.shards;
+    let mut out = io::stdout();
+    writeln!(
+        out,
+        "{}: {} of {shards} shards are there, {} worlds of {}",
+        job.plan.name,
+        shards - missing.len() as u64,
+        job.records().len(),
+        job.plan.worlds
+    )?;
+    if missing.is_empty() {
+        return Ok(Status::Good);
     }
-    let path = folder.join("records.jsonl");
-    let unfinished = folder.join("records.jsonl.tmp");
-    fs::create_dir_all(folder)
-        .and_then(|()| fs::write(&unfinished, text))
-        .and_then(|()| fs::rename(&unfinished, &path))
-        .map_err(|error| CommandError::Rewrite { path, error })
+    writeln!(out, "missing: {}", engine::ranges(&missing))?;
+    Ok(Status::Incomplete)
+}
+
+/// Merges what is there and tells what it says.
+fn report_job(job: &Job, wanted: &SweepOptions) -> Result<Status, CommandError> {
+    let records = job.merge()?;
+    report(wanted, &job.title(), &records, job.plan.worlds)
+}
+
+/// Tells what the records say, and writes what is asked for; `count` is how many there should be.
+fn report(
+    wanted: &SweepOptions,
+    title: &Title,
+    records: &[Record],
+    count: u64,
+) -> Result<Status, CommandError> {
+    let summary = Summary::new(title, records);
+    let mut out = io::BufWriter::new(io::stdout());
+    if wanted.json {
+        write!(out, "{}", lines(records))?;
+    } else {
+        write!(out, "{summary}{}", Influence::of(records))?;
+        if (records.len() as u64) < count {
+            writeln!(
+                out,
+                "{} of {count} worlds are missing",
+                count - records.len() as u64
+            )?;
+        }
+    }
+    out.flush()?;
+    write_reports(wanted, title, records)?;
+    Ok(ending(&summary, count))
+}
+
+fn ending(summary: &Summary<'_>, count: u64) -> Status {
+    if summary.count() < count {
+        return Status::Incomplete;
+    }
+    match summary.meets_goal() {
+        true => Status::Good,
+        false => Status::Bad,
+    }
+}
+
+fn write_reports(
+    wanted: &SweepOptions,
+    title: &Title,
+    records: &[Record],
+) -> Result<(), CommandError> {
+    if let Some(path) = &wanted.csv {
+        write_whole(path, reports::csv(records).as_bytes())?;
+    }
+    if let Some(path) = &wanted.junit {
+        write_whole(path, reports::junit(title, records).as_bytes())?;
+    }
+    if let Some(path) = &wanted.html {
+        write_whole(path, reports::html(title, records).as_bytes())?;
+    }
+    let Some(HeatMap { axes, path }) = &wanted.heat_map else {
+        return Ok(());
+    };
+    let [x, y] = axes;
+    let Some(image) = heat_map::heat_map(records, [x, y]) else {
+        return Err(CommandError::Sweep(format!(
+            "{x} and {y} are not two draws whose numbers differ between worlds"
+        )));
+    };
+    write_whole(path, &image.to_png()?)
+}
+
+/// Runs failing worlds again and records them.
+fn record_failures(
+    worlds: &Worlds,
+    records: &[Record],
+    folder: &Path,
+    most: usize,
+) -> Result<(), CommandError> {
+    fs::create_dir_all(folder).map_err(|error| CommandError::Rewrite {
+        path: folder.to_owned(),
+        error,
+    })?;
+    let failed = records
+        .iter()
+        .filter(|r| r.outcome.counts() && !r.is_success());
+    for record in failed.take(most) {
+        let path: PathBuf = folder.join(format!("world-{}.mcap", record.world));
+        worlds.run_recorded(record.world, &path)?;
+    }
+    Ok(())
 }

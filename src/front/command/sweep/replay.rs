@@ -1,6 +1,7 @@
 //! One world of a sweep, at the prompt or run to its end.
 
 use std::io;
+use std::path::PathBuf;
 
 use super::{SweepFile, SweepOptions};
 use crate::front::command::arguments::{Options, WatchArguments};
@@ -30,7 +31,7 @@ pub(super) fn replay(
     let set_up = format!("(planwright:sweep-world {name} {world} :seed {seed})");
     if wanted.run {
         let forms = [set_up, "(planwright:run-sweep-world)".to_owned()];
-        let files = [wanted.file.clone()];
+        let files = [PathBuf::from(&file.name)];
         return run(&options, &files, &forms, &WatchArguments::default());
     }
     let mut session = open_session(&options)?;

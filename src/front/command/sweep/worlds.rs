@@ -1,5 +1,6 @@
 //! The worlds of a sweep, each in a session of its own.
 
+use std::path::Path;
 use std::sync::Arc;
 
 use super::file::SweepFile;
@@ -10,7 +11,8 @@ use crate::front::command::open::{COMPILER_STACK, open_session};
 use crate::lisp::guard::set_stack_budget;
 use crate::session::sweeping::{Known, MOST_POLLS};
 use crate::session::{Session, SessionOptions};
-use crate::sweep::{Ending, Record};
+use crate::sweep::pairs::Pairs;
+use crate::sweep::{Drawn, Ending, Record};
 use crate::world::Models;
 
 /// The worlds of a sweep.
@@ -72,22 +74,42 @@ impl Worlds {
 
     /// Runs the plan in a world, in which draws are set as told. What a panic ends is a defect.
     pub(super) fn run(&self, world: u64, set: &[(String, String)]) -> Record {
+        self.run_noting(world, set).0
+    }
+
+    /// Runs the plan in a world and records it in an MCAP file.
+    pub(super) fn run_recorded(&self, world: u64, path: &Path) -> Result<(), CommandError> {
+        let mut session = self.session().map_err(CommandError::Sweep)?;
+        session.begin_recording(path)?;
+        session.run_sweep_world(&self.name, self.seed, world, &[], MOST_POLLS);
+        session.end_recording()?;
+        Ok(())
+    }
+
+    /// As [`Self::run`], with the simplest values of the draws.
+    pub(super) fn run_noting(
+        &self,
+        world: u64,
+        set: &[(String, String)],
+    ) -> (Record, Pairs<Drawn>) {
+        let nothing = Pairs::default;
         let run = || match self.session() {
             Ok(mut session) => {
-                session.run_sweep_world(&self.name, self.seed, world, set, MOST_POLLS)
+                let record = session.run_sweep_world(&self.name, self.seed, world, set, MOST_POLLS);
+                (record, session.simplest_draws())
             }
-            Err(report) => {
-                let mut record = Record::new(world, Ending::Defect);
-                record.cause = Some(report);
-                record
-            }
+            Err(report) => (defective(world, report), nothing()),
         };
-        defect::caught(run).unwrap_or_else(|defect| {
-            let mut record = Record::new(world, Ending::Defect);
-            record.cause = Some(defect.to_string());
-            record
-        })
+        defect::caught(run)
+            .unwrap_or_else(|defect| (defective(world, defect.to_string()), nothing()))
     }
+}
+
+/// The record of a world that planwright could not run.
+fn defective(world: u64, cause: String) -> Record {
+    let mut record = Record::new(world, Ending::Defect);
+    record.cause = Some(cause);
+    record
 }
 
 fn missing(file: &str, name: Option<&str>, sweeps: &[Known]) -> String {
