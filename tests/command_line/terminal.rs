@@ -131,9 +131,45 @@ fn a_pasted_session_runs_without_its_prompts_and_output() {
          PP-TUT> (list 1\n  2)\n(1 2)\n",
     );
     terminal.keys(ENTER);
-    terminal.wait_for("; 3 lines of pasted output are left out");
+    terminal.wait_for(
+        "; Not evaluated, since it looks like output; :pasted brings it back:\n\
+         ;   #<PACKAGE \"OLD\">\n;   old report\n;   (1 2)\n",
+    );
     terminal.wait_for("; Evaluation aborted on #<TYPE-ERROR");
     terminal.wait_for("(1 2)\nPP-TUT>");
+    terminal.keys(":pasted\r");
+    terminal.wait_for("PP-TUT> #<PACKAGE \"OLD\">");
+}
+
+#[test]
+fn forms_after_a_comment_and_prompts_in_a_line_are_evaluated() {
+    let state = State::new("tutorial");
+    let terminal = Terminal::start(&state, &[]);
+    terminal.paste("CL-USER> (list 1)\n;; A comment.\n\n(list\n  2)\n");
+    terminal.keys(ENTER);
+    terminal.wait_for("(1)\n(2)\nCL-USER>");
+    terminal.paste("CL-USER> (list 3) CL-USER> (in-package :pp-tut)");
+    terminal.keys(ENTER);
+    terminal.wait_for(
+        "(3)\nCL-USER> (in-package :pp-tut)\n#<PACKAGE \"CRAM-PICK-PLACE-TUTORIAL\">\nPP-TUT>",
+    );
+}
+
+#[test]
+fn what_is_pasted_where_an_evaluation_stands_still_leaves_it_there() {
+    let state = State::new("nested");
+    let terminal = Terminal::start(&state, &[]);
+    terminal.keys("(list nothing-yet)\r");
+    terminal.wait_for("CL-USER 1]>");
+    terminal.paste("CL-USER> (list 1)\nCL-USER> (car 2)\nCL-USER> (list 3)");
+    terminal.keys(ENTER);
+    terminal.wait_for(
+        "; Not evaluated, since an input before it failed; :pasted brings it back:\n;   (list 3)\nCL-USER 2]>",
+    );
+    terminal.keys("a\r");
+    terminal.wait_for("CL-USER 1]>");
+    terminal.keys("1 5\r");
+    terminal.wait_for("(5)\nCL-USER>");
 }
 
 #[test]
