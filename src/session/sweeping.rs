@@ -2,9 +2,11 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 use super::Session;
 use super::dialogue::{Evaluate, Event, Outcome, Repeat};
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::sweep::pairs::Pairs;
 use crate::sweep::{Drawn, Draws, Ending, Record};
@@ -48,6 +50,12 @@ struct State {
 }
 
 impl Sweeping {
+    /// The state that an image keeps.
+    pub(super) fn of(image: &mut Image) -> Rc<Sweeping> {
+        let state = image.extension::<Sweeping>();
+        state.unwrap_or_else(|| image.extend(Sweeping::default()))
+    }
+
     /// Begins a world.
     pub(super) fn begin(&self, seed: u64, world: u64) {
         let mut state = self.0.borrow_mut();
@@ -131,21 +139,16 @@ impl Sweeping {
 }
 
 impl Session {
-    fn sweeping(&mut self) -> std::rc::Rc<Sweeping> {
-        let state = self.image.extension::<Sweeping>();
-        state.unwrap_or_else(|| self.image.extend(Sweeping::default()))
-    }
-
     /// The sweeps that have been defined, in order.
     pub(crate) fn known_sweeps(&mut self) -> Vec<Known> {
         let ask = "(planwright::%describe-sweeps)";
         self.evaluate("sweep", ask, &mut |_| {});
-        self.sweeping().0.borrow().known.clone()
+        Sweeping::of(&mut self.image).0.borrow().known.clone()
     }
 
     /// The simplest values that the draws of the world at hand could have had.
     pub(crate) fn simplest_draws(&mut self) -> Pairs<Drawn> {
-        self.sweeping().0.borrow().simplest.clone()
+        Sweeping::of(&mut self.image).0.borrow().simplest.clone()
     }
 
     /// Runs the plan of a sweep in one world. `set` are values of draws as the language writes
@@ -166,7 +169,7 @@ impl Session {
         form.push_str(&format!(
             "(planwright::%sweep-one-world {name:?} {seed} {world}))"
         ));
-        let state = self.sweeping();
+        let state = Sweeping::of(&mut self.image);
         state.begin(seed, world);
         self.interrupt_next_at(most_polls);
         self.image

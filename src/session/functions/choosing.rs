@@ -5,7 +5,6 @@ use crate::lisp::builtins::keywords;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::motion::GraspQuestion;
@@ -17,7 +16,7 @@ use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
 use crate::session::simulation::grasp_choice::PlacingTarget;
 use crate::session::simulation::motions::{side, side_keyword, sides};
-use crate::session::simulation::names::{type_keyword, type_text};
+use crate::session::simulation::names::{type_keyword, type_text, type_text_of};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
@@ -127,9 +126,7 @@ fn failed_grasp(image: &Image, value: &Value) -> Result<(Side, String, f64)> {
             print::to_string(image, value, true)
         )));
     };
-    let Some(grasp) = type_text(image, grasp) else {
-        return Err(Raise::type_error(grasp, known::SYMBOL));
-    };
+    let grasp = type_text_of(image, grasp)?;
     Ok((
         side(image, arm)?,
         grasp,

@@ -13,7 +13,7 @@ use crate::plan::pose::value::pose_stamped;
 use crate::session::LogLevel;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
-use crate::session::simulation::names::{name_text, suggestion, type_text};
+use crate::session::simulation::names::{name_text, suggestion, type_text_of};
 use crate::spatial::Pose;
 use crate::world::{Object, SpawnReport, WorldError};
 
@@ -98,9 +98,7 @@ impl Simulation {
         let Some(name) = name_text(image, spawning.name) else {
             return Err(Raise::type_error(spawning.name, known::SYMBOL));
         };
-        let Some(kind) = type_text(image, spawning.kind) else {
-            return Err(Raise::type_error(spawning.kind, known::SYMBOL));
-        };
+        let kind = type_text_of(image, spawning.kind)?;
         if self.models.objects.get(&kind).is_none() {
             let types = self.models.objects.types();
             let near = suggestion(&kind, types.map(|t| t.name.as_str()), |n| {

@@ -8,7 +8,6 @@ use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::motion::{Effort, HeldGrip, LetGo, PutReach, about_z, take_hold};
@@ -22,7 +21,9 @@ use crate::session::simulation::Simulation;
 use crate::session::simulation::held::Held;
 use crate::session::simulation::imagined::Imagined;
 use crate::session::simulation::motions::{side, side_keyword};
-use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
+use crate::session::simulation::names::{
+    name_text, suggestion, type_keyword, type_text, type_text_of,
+};
 use crate::spatial::{Pose, pose};
 use crate::world::grasp_library::{GraspDefinition, Grip};
 
@@ -334,9 +335,7 @@ fn grasps_from_above(
     image: &mut Image,
     args: &[Value],
 ) -> Result<Reply> {
-    let Some(kind) = type_text(image, &args[0]) else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
-    };
+    let kind = type_text_of(image, &args[0])?;
     let names = simulation.grasps.grasps_from_above(&kind).into_iter();
     let keywords: Vec<Value> = names.map(|name| type_keyword(image, name)).collect();
     done(Value::list(keywords))

@@ -14,20 +14,15 @@ use crate::robot::LinkId;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::Simulation;
 use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
+use crate::session::simulation::obstacle::{OBSTACLE, obstacle};
 use crate::spatial::pose::from_xy_yaw;
-use crate::spatial::{PlacedShape, Pose, Shape, trig};
+use crate::spatial::{Pose, trig};
 use crate::world::body_name::BodyName;
-use crate::world::object_library::{FRICTION, ObjectType};
+use crate::world::object_library::ObjectType;
 use crate::world::{AllowedPairs, Ground, Load, NoRoom, Object, StandingRoom, WorldError};
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// The type of obstacles on the floor.
-const OBSTACLE: &str = "obstacle";
-/// Density (kg/m³) of an obstacle: one that the robot does not push about by chance.
-const DENSITY: f64 = 300.0;
-/// Colour of an obstacle.
-const OBSTACLE_COLOR: [f32; 4] = [0.45, 0.35, 0.25, 1.0];
 /// Range (m) of the edges of an obstacle.
 const EDGES: std::ops::RangeInclusive<f64> = 0.02..=3.0;
 /// How far (m) above a surface a thing begins to be lowered onto it.
@@ -298,20 +293,7 @@ fn place_on_floor(simulation: &mut Simulation, image: &mut Image, args: &[Value]
             EDGES.end()
         )));
     }
-    let kind = ObjectType {
-        name: OBSTACLE.to_owned(),
-        shapes: vec![PlacedShape {
-            shape: Shape::Box {
-                size: [size, size, height],
-            },
-            pose: Pose::translation(0.0, 0.0, height / 2.0),
-            color: None,
-        }],
-        mass: DENSITY * size * size * height,
-        friction: FRICTION,
-        color: OBSTACLE_COLOR,
-        is_round: false,
-    };
+    let kind = obstacle([size, size, height]);
     let report = simulation
         .world
         .spawn_kind(&name, &kind, &from_xy_yaw(x, y, yaw))

@@ -142,11 +142,6 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-fn state(image: &mut Image) -> std::rc::Rc<Sweeping> {
-    let state = image.extension::<Sweeping>();
-    state.unwrap_or_else(|| image.extend(Sweeping::default()))
-}
-
 /// A number that is not negative.
 fn index(value: &Value) -> Result<u64> {
     match value {
@@ -158,7 +153,7 @@ fn index(value: &Value) -> Result<u64> {
 
 fn begin(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let (seed, world) = (index(&args[0])?, index(&args[1])?);
-    let state = state(image);
+    let state = Sweeping::of(image);
     state.begin(seed, world);
     image.seed(state.bits("lisp"));
     let injection = std::rc::Rc::clone(&host.simulation.injection);
@@ -179,7 +174,7 @@ fn run_ends(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Rep
 
 fn begin_faults(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let seed = index(&args[0])?;
-    let off = state(image).off();
+    let off = Sweeping::of(image).off();
     host.simulation.injection.borrow_mut().begin(seed, 0, off);
     host.simulation.begin_tally();
     done(Value::NIL)
@@ -254,33 +249,33 @@ fn mute_output(image: &mut Image, args: &[Value]) -> Result<Value> {
 
 fn unit(image: &mut Image, args: &[Value]) -> Result<Value> {
     let path = text(&args[0])?;
-    Ok(Value::Double(state(image).unit(&path)))
+    Ok(Value::Double(Sweeping::of(image).unit(&path)))
 }
 
 fn overriding(image: &mut Image, args: &[Value]) -> Result<Value> {
     let path = text(&args[0])?;
-    let found = state(image).overriding(&path);
+    let found = Sweeping::of(image).overriding(&path);
     Ok(found.map_or(Value::NIL, |value| Value::list([value])))
 }
 
 fn set(image: &mut Image, args: &[Value]) -> Result<Value> {
     let path = text(&args[0])?;
-    state(image).set(&path, args[1].clone());
+    Sweeping::of(image).set(&path, args[1].clone());
     Ok(Value::NIL)
 }
 
 fn forget(image: &mut Image, _: &[Value]) -> Result<Value> {
-    state(image).forget();
+    Sweeping::of(image).forget();
     Ok(Value::NIL)
 }
 
 fn note(image: &mut Image, args: &[Value]) -> Result<Value> {
     let path = text(&args[0])?;
     let drawn = drawn(image, &args[1]);
-    state(image).note(&path, drawn);
+    Sweeping::of(image).note(&path, drawn);
     if let Some(simplest) = args.get(2) {
         let simplest = self::drawn(image, simplest);
-        state(image).note_simplest(&path, simplest);
+        Sweeping::of(image).note_simplest(&path, simplest);
     }
     Ok(Value::NIL)
 }
@@ -323,7 +318,7 @@ fn known(image: &mut Image, args: &[Value]) -> Result<Value> {
         worlds: index(&args[1])?,
         goal: number::to_f64(&args[2]),
     };
-    state(image).know(known);
+    Sweeping::of(image).know(known);
     Ok(Value::NIL)
 }
 
@@ -341,7 +336,7 @@ fn summary(_: &mut Image, args: &[Value]) -> Result<Value> {
 }
 
 fn record(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let state = state(image);
+    let state = Sweeping::of(image);
     let mut record = state.record(Ending::Success);
     let simulation = &host.simulation;
     for pair in args.chunks(2) {

@@ -17,7 +17,7 @@ use crate::plan::pose::value::{as_placement, frame_of, pose_stamped, transform_s
 use crate::session::LogLevel;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::motions::side;
-use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text};
+use crate::session::simulation::names::{name_text, suggestion, type_keyword, type_text_of};
 use crate::session::simulation::properties::property;
 use crate::session::simulation::{Axes, Simulation};
 
@@ -178,9 +178,7 @@ fn list_defined_grasps(
     image: &mut Image,
     args: &[Value],
 ) -> Result<Reply> {
-    let Some(kind) = type_text(image, &args[0]) else {
-        return Err(Raise::type_error(&args[0], known::SYMBOL));
-    };
+    let kind = type_text_of(image, &args[0])?;
     let arm = match optional(args, 1) {
         Some(arm) => Some(side(image, arm)?),
         None => None,

@@ -14,6 +14,7 @@ pub(super) mod locations;
 pub(super) mod motion_types;
 pub(super) mod motions;
 pub(super) mod names;
+pub(super) mod obstacle;
 pub(super) mod outcome;
 mod pose_argument;
 pub(super) mod properties;

@@ -23,6 +23,11 @@ pub(in crate::session) fn type_text(image: &Image, name: &Value) -> Option<Strin
     name_text(image, name).map(|text| text.to_lowercase())
 }
 
+/// The same; an error if the value is no name.
+pub(in crate::session) fn type_text_of(image: &Image, name: &Value) -> Result<String, Box<Raise>> {
+    type_text(image, name).ok_or_else(|| Raise::type_error(name, known::SYMBOL))
+}
+
 /// The keyword of a type of the object library.
 pub(in crate::session) fn type_keyword(image: &mut Image, name: &str) -> Value {
     image.keyword(&name.to_uppercase()).into()

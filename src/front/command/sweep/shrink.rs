@@ -59,9 +59,11 @@ pub(super) fn shrink(
     for fault in &world.record.faults {
         writeln!(out, "  {fault}")?;
     }
-    let set: Vec<String> = world
-        .set
-        .iter()
+    // What belongs to things that have been taken out is not drawn any more.
+    let set = world.set.iter();
+    let set = set
+        .filter(|(path, _)| path.starts_with("inject.") || world.record.draws.get(path).is_some());
+    let set: Vec<String> = set
         .map(|(path, value)| format!("({path:?} {value})"))
         .collect();
     writeln!(
@@ -102,8 +104,12 @@ fn simplified(worlds: &Worlds, number: u64, threads: usize, first: World) -> (Wo
                     .iter()
                     .map(|change| with(&world.set, change))
                     .collect();
-                let same =
-                    |tried: &World| tried.record.outcome == outcome && tried.record.kind() == kind;
+                // A value that a draw cannot have changes nothing.
+                let same = |tried: &World| {
+                    tried.record.outcome == outcome
+                        && tried.record.kind() == kind
+                        && tried.record.draws != world.record.draws
+                };
                 let results = tried(worlds, number, threads, &ways);
                 // The first in order wins, so that the number of threads does not matter.
                 match results

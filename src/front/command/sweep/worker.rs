@@ -67,15 +67,19 @@ fn open(options: &Options, job: &Job) -> Result<Worlds, CommandError> {
     Ok(Worlds::open(&options, job.file()?, Some(&job.plan.name))?.0)
 }
 
+/// The shards that are missing, and the progress of their worlds.
+fn missing(job: &Job) -> (Vec<u64>, Progress) {
+    let missing = job.missing();
+    let worlds = missing.iter().map(|shard| job.worlds_of(*shard).len());
+    let count: usize = worlds.sum();
+    let progress = Progress::new(&job.title(), count as u64);
+    (missing, progress)
+}
+
 /// Does all shards that are missing, in this process. An interrupt ends it between two worlds; shards
 /// that are not done then are missing.
 pub(super) fn all(job: &Job, worlds: &Worlds, threads: usize) -> Result<(), CommandError> {
-    let missing = job.missing();
-    let count: usize = missing
-        .iter()
-        .map(|shard| job.worlds_of(*shard).len())
-        .sum();
-    let mut progress = Progress::new(&job.title(), count as u64);
+    let (missing, mut progress) = missing(job);
     for shard in missing {
         let numbers = job.worlds_of(shard);
         let records = pool::in_order(
@@ -96,12 +100,7 @@ pub(super) fn all(job: &Job, worlds: &Worlds, threads: usize) -> Result<(), Comm
 /// Does all shards that are missing, each in a process of its own, which a world may kill. Where it
 /// does so repeatedly, each of its worlds gets a process, to find out which it is.
 pub(super) fn apart(job: &Job, threads: usize) -> Result<(), CommandError> {
-    let missing = job.missing();
-    let count: usize = missing
-        .iter()
-        .map(|shard| job.worlds_of(*shard).len())
-        .sum();
-    let mut progress = Progress::new(&job.title(), count as u64);
+    let (missing, mut progress) = missing(job);
     for shard in missing {
         let mut tries = 0;
         while job.read(shard).is_none() && tries < TRIES && !interrupt::has_come() {

@@ -8,18 +8,15 @@ use super::{Blow, SharedInjection};
 use crate::motion::job::Progress;
 use crate::motion::{Motion, MotionFailure, MotionStatus, PlannedTrajectory, ProcessModule};
 use crate::robot::Side;
+use crate::session::simulation::obstacle::obstacle;
+use crate::spatial::Pose;
 use crate::spatial::pose::from_xy_yaw;
-use crate::spatial::{PlacedShape, Pose, Shape};
 use crate::world::World;
-use crate::world::object_library::{FRICTION, ObjectType};
 
 /// How far ahead (m) of the base's centre the centre of an obstacle appears.
 const AHEAD: f64 = 0.9;
-/// Edges (m) and mass (kg) of an obstacle.
+/// Edges (m) of an obstacle.
 const SIZE: [f64; 3] = [0.3, 0.3, 1.0];
-const MASS: f64 = 27.0;
-/// Its colour.
-const COLOR: [f32; 4] = [0.45, 0.35, 0.25, 1.0];
 /// The base moves if it has moved by this much (m) in a step.
 const MOVES: f64 = 1e-5;
 
@@ -124,18 +121,7 @@ fn block_way(world: &mut World, before: Option<&Pose>) -> Option<String> {
     let ahead = now.translation.vector + way * (AHEAD / length);
     let number = world.steps();
     let name = format!("OBSTACLE-{number}");
-    let kind = ObjectType {
-        name: "obstacle".to_owned(),
-        shapes: vec![PlacedShape {
-            shape: Shape::Box { size: SIZE },
-            pose: Pose::translation(0.0, 0.0, SIZE[2] / 2.0),
-            color: None,
-        }],
-        mass: MASS,
-        friction: FRICTION,
-        color: COLOR,
-        is_round: false,
-    };
+    let kind = obstacle(SIZE);
     let report = world
         .spawn_kind(&name, &kind, &from_xy_yaw(ahead.x, ahead.y, 0.0))
         .ok()?;
