@@ -1,5 +1,6 @@
 //! A session as a person talks to it.
 
+mod after_interrupt;
 mod recovery;
 mod reference;
 mod resume;

@@ -105,7 +105,8 @@ impl Machine<'_> {
                             *budget -= 1;
                             if *budget == 0 {
                                 *budget = INTERRUPT_INTERVAL;
-                                self.save_pc(target);
+                                // After an interrupt it jumps again: here, variables are in scope.
+                                self.save_pc(pc - 1);
                                 if let Some(next) = self.pause() {
                                     return next;
                                 }

@@ -61,9 +61,10 @@ impl Scheduler {
             .collect()
     }
 
-    /// The stopped entry and those above it, the root last.
-    fn stopped_chain(&self) -> Vec<Slot> {
-        let first = self.stopped();
+    /// The stopped or interrupted entry and those above it, the root last.
+    pub(super) fn stopped_chain(&self) -> Vec<Slot> {
+        let stopped = self.interrupted.or_else(|| self.stopped());
+        let first = stopped.or_else(|| self.waited_for());
         std::iter::successors(first, |slot| self.live(*slot)?.parent).collect()
     }
 

@@ -11,6 +11,7 @@
 
 mod advance;
 mod answer;
+mod beside;
 mod debug;
 mod dying;
 mod finish;
@@ -59,6 +60,8 @@ pub(crate) struct Scheduler {
     interrupted: Option<Slot>,
     /// Whether a task with an unhandled condition stays where it is.
     stops_in_place: bool,
+    /// Whether what would have to wait is an error.
+    time_stands_still: bool,
     /// Tasks stopped at unhandled conditions, with the conditions, newest last.
     stops: Vec<(Slot, Value)>,
     /// The condition of a stop that has not been reported yet.

@@ -3,6 +3,7 @@
 use std::any::Any;
 
 use super::Scheduler;
+use super::beside::STANDS_STILL;
 use super::group::Group;
 use super::live::{Answer, Beginning, Slot, Told, Wait};
 use crate::lisp::guard::Stopped;
@@ -68,7 +69,12 @@ impl Scheduler {
                 name,
             } => {
                 if self.live(slot).is_none_or(|live| live.task.is_none()) {
-                    return Some(Answer::Raise(outside_a_plan(name)));
+                    let raise = if self.time_stands_still {
+                        Raise::simple(STANDS_STILL)
+                    } else {
+                        outside_a_plan(name)
+                    };
+                    return Some(Answer::Raise(raise));
                 }
                 if functions.is_empty() {
                     return Some(Answer::Raise(Raise::simple(
@@ -160,6 +166,10 @@ impl Scheduler {
         match host.request(image, id, request) {
             Reply::Now(Ok(value)) => Some(Answer::Value(value)),
             Reply::Now(Err(raise)) => Some(Answer::Raise(raise)),
+            Reply::Later(ticket) if self.time_stands_still => {
+                host.cancel(image, ticket);
+                Some(Answer::Raise(Raise::simple(STANDS_STILL)))
+            }
             Reply::Later(ticket) => {
                 self.tickets.push((ticket, slot));
                 self.block(slot, Wait::Ticket(ticket), None);

@@ -2,6 +2,7 @@
 
 use super::Scheduler;
 use super::advance::Passed;
+use super::beside::STANDS_STILL;
 use super::live::{Answer, Ending, Live, Slot, Wait};
 use super::run::Stopped;
 use crate::lisp::image::Image;
@@ -214,7 +215,11 @@ impl Scheduler {
         if self.bury(image, host) || self.tell_stop_again() {
             return;
         }
-        let text = self.describe_deadlock(image);
+        let text = if self.time_stands_still {
+            STANDS_STILL.to_owned()
+        } else {
+            self.describe_deadlock(image)
+        };
         self.evaporate_children(image, host, root);
         self.give_up_wait(image, host, root);
         self.make_ready(root, Answer::Raise(Raise::simple(text)));

@@ -12,10 +12,15 @@ use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{Sym, VariableKind};
 use crate::session::dialogue::{Event, Outcome};
 
-/// A function with the variables of a frame as its parameters, and their values.
-struct InFrame {
-    function: Value,
-    args: Vec<Value>,
+/// A function of the variables of a frame, a function that assigns them, and a tag.
+pub(super) struct InFrame {
+    pub(super) function: Value,
+    /// The values of the variables.
+    pub(super) values: Vec<Value>,
+    /// Where these are stored.
+    pub(super) places: Vec<VariablePlace>,
+    /// Index of the fiber to which the frame belongs.
+    pub(super) link: usize,
 }
 
 impl Session {
@@ -36,7 +41,10 @@ impl Session {
         };
         let mut outcome = Outcome::Finished;
         for form in forms {
-            outcome = self.evaluate_form_aside(&form, sink);
+            outcome = match self.console.answer_to_interrupt() {
+                Some(_) => self.evaluate_form_beside(&form, sink),
+                None => self.evaluate_form_aside(&form, sink),
+            };
             if outcome != Outcome::Finished {
                 break;
             }
@@ -77,16 +85,26 @@ impl Session {
             return Outcome::Aborted;
         };
         let condition = condition.clone();
-        let in_frame = match self.in_frame(form, &aside) {
+        let in_frame = match self.in_frame(form) {
             Ok(in_frame) => in_frame,
-            Err(raise) => {
-                let abort = self.raised(raise);
-                sink(Event::Aborted(Box::new(abort)));
-                self.image.output.begin_line();
-                return Outcome::Aborted;
-            }
+            Err(raise) => return self.tell_raised(raise, sink),
         };
-        let call = aside.call(condition, in_frame.function, in_frame.args);
+        let InFrame {
+            function,
+            values,
+            mut places,
+            link,
+        } = in_frame;
+        if link > 0 {
+            // Variables on other tasks' stacks cannot be assigned from here.
+            for place in &mut places {
+                if matches!(place, VariablePlace::Stack(_)) {
+                    *place = VariablePlace::Closure;
+                }
+            }
+        }
+        let args = [values, vec![store(places), aside.tag()]].concat();
+        let call = aside.call(condition, function, args);
         if let Some(level) = self.console.levels.last_mut() {
             level.aside = Some(aside);
         }
@@ -98,16 +116,27 @@ impl Session {
         self.settle(evaluation, sink)
     }
 
-    /// The form as the body of a function of the frame's variables:
+    /// Reports an error that has come before the evaluation of a form.
+    pub(super) fn tell_raised(
+        &mut self,
+        raise: Box<Raise>,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        let abort = self.raised(raise);
+        sink(Event::Aborted(Box::new(abort)));
+        self.image.output.begin_line();
+        Outcome::Aborted
+    }
+
+    /// The form as the body of a function of the selected frame's variables:
     /// `(lambda (variable… store tag)
     ///    (catch tag (multiple-value-prog1 form (funcall store variable…))))`.
-    fn in_frame(&mut self, form: &Value, aside: &Aside) -> Result<InFrame, Box<Raise>> {
+    pub(super) fn in_frame(&mut self, form: &Value) -> Result<InFrame, Box<Raise>> {
         let (link, frame) = self.selected_frame().unwrap_or((0, usize::MAX));
         let fibers = self.scheduler.stopped_fibers();
         let variables = fibers.get(link).map(|fiber| fiber.variables(frame));
-        let is_own = link == 0;
         let mut names: Vec<Value> = Vec::new();
-        let mut args = Vec::new();
+        let mut values = Vec::new();
         let mut places = Vec::new();
         for variable in variables.unwrap_or_default() {
             let is_lexical = self.image.symbol(variable.name).kind == VariableKind::Lexical;
@@ -115,20 +144,16 @@ impl Session {
                 continue;
             }
             names.push(variable.name.into());
-            places.push(match variable.place() {
-                // Variables on other tasks' stacks cannot be assigned from here.
-                VariablePlace::Stack(_) if !is_own => VariablePlace::Closure,
-                place => place,
-            });
-            args.push(variable.value);
+            places.push(variable.place());
+            values.push(variable.value);
         }
-        args.push(store(places));
-        args.push(aside.tag());
         let lambda = self.lambda(form, names);
         let function = compile::compile_lambda(&mut self.image, &lambda)?;
         Ok(InFrame {
             function: Value::Function(function),
-            args,
+            values,
+            places,
+            link,
         })
     }
 

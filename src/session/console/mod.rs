@@ -5,6 +5,7 @@
 //! inputs alone. Without a user (`is_interactive` is false) nothing ever stops.
 
 mod aside;
+mod beside;
 mod choices;
 mod commands;
 mod inspector;
@@ -170,8 +171,10 @@ impl Session {
             Asking::Value(choice) => return self.choose(choice, source_name, text, sink),
             Asking::Form => return self.evaluate_instead(source_name, text, sink),
         }
-        if self.console.answer_to_interrupt().is_some() {
-            return self.after_interrupt(text, sink);
+        if self.console.answer_to_interrupt().is_some()
+            && let Some(outcome) = self.after_interrupt(text, sink)
+        {
+            return outcome;
         }
         match Command::of(text) {
             Command::Evaluate(text) => {
@@ -248,27 +251,33 @@ impl Session {
         self.settle(evaluation, sink)
     }
 
-    /// Handles the input after an interrupt.
-    fn after_interrupt(&mut self, text: &str, sink: &mut dyn FnMut(Event)) -> Outcome {
-        match text.trim().trim_start_matches(':').to_lowercase().as_str() {
-            "0" | "c" | "continue" => {
+    /// Handles an input that means something else after an interrupt than at a condition.
+    fn after_interrupt(&mut self, text: &str, sink: &mut dyn FnMut(Event)) -> Option<Outcome> {
+        let word = text.trim().to_lowercase();
+        let outcome = match (word.trim_start_matches(':'), Command::of(text)) {
+            ("0" | "c" | "continue", _) => {
                 self.console.levels.pop();
                 let evaluation =
                     self.go_on_with(sink, |scheduler, image, host| scheduler.go_on(image, host));
                 self.settle(evaluation, sink)
             }
-            "1" | "a" | "q" | "abort" => self.give_up(sink),
-            "2" | "p" | "park" => {
+            ("1" | "abort", _) | (_, Command::Abort | Command::AbortLevel) => self.give_up(sink),
+            ("2" | "p" | "park", _) => {
                 self.give_up(sink);
                 self.evaluate_text("park", PARK, sink)
             }
-            "" => self.tell_stop(sink),
-            "tasks" | "(tasks)" => self.tell_tasks(sink),
-            _ => self.tell(
+            ("tasks" | "(tasks)", _) => self.tell_tasks(sink),
+            (_, Command::Choose(..)) => self.tell(
                 "; Type 0 to continue, 1 to abort, or 2 to abort and park.",
                 sink,
             ),
-        }
+            (_, Command::Return(_)) => self.tell(
+                "; After an interrupt, no value can be returned from a frame.",
+                sink,
+            ),
+            _ => return None,
+        };
+        Some(outcome)
     }
 
     fn tell_tasks(&mut self, sink: &mut dyn FnMut(Event)) -> Outcome {

@@ -16,7 +16,8 @@ use crate::session::printing::on_one_line;
 
 const DEBUGGER_REMARK: &str =
     "; Type a number, or a form to look around; q aborts, :bt shows the frames, :help the rest.";
-const INTERRUPT_REMARK: &str = "; Type a number; another Ctrl-C aborts.";
+const INTERRUPT_REMARK: &str =
+    "; Type a number, or a form to look around; another Ctrl-C aborts, :bt shows the frames.";
 
 impl Session {
     /// Runs the scheduler.
@@ -149,7 +150,7 @@ impl Session {
     }
 
     /// Reports the values of a form that was evaluated on top of a level.
-    fn tell_aside(&mut self, values: &[Value], sink: &mut dyn FnMut(Event)) -> Outcome {
+    pub(super) fn tell_aside(&mut self, values: &[Value], sink: &mut dyn FnMut(Event)) -> Outcome {
         self.shift_values(values);
         self.tell_values(values, sink).unwrap_or(Outcome::Finished)
     }
