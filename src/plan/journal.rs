@@ -1,21 +1,47 @@
-//! A journal of changes in the states of tasks, for followers of a session. Nothing depends on it.
+//! A journal of what happens in plans, for followers of a session: tasks, and the actions that
+//! they perform. Nothing depends on it.
 
-use std::cell::RefCell;
-use std::collections::VecDeque;
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, VecDeque};
 
 use super::task::{Status, TaskId};
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 
 /// Maximum number of entries kept until they are fetched; the oldest are discarded first.
 const MOST_ENTRIES: usize = 20_000;
+
+/// Identifies an action that is or was performed.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) struct ActionId(pub(crate) u64);
+
+/// What starts a task, an action or a motion.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Starter {
+    /// A task.
+    Task(TaskId),
+    /// An action that a task performs.
+    Action(ActionId),
+}
+
+/// An entry of the journal.
+#[derive(Clone)]
+pub(crate) enum Change {
+    /// A task has begun, or its status has changed.
+    Task(TaskChange),
+    /// An action has begun.
+    Begun(BegunAction),
+    /// An action has ended.
+    Ended(EndedAction),
+}
 
 /// A task that has begun, or whose status has changed.
 #[derive(Clone)]
 pub(crate) struct TaskChange {
     /// Which task.
     pub(crate) id: TaskId,
-    /// The task that started it; `None` if it was started from the prompt.
-    pub(crate) parent: Option<TaskId>,
+    /// What started it; `None` if it was started from the prompt.
+    pub(crate) starter: Option<Starter>,
     /// Its name.
     pub(crate) name: String,
     /// Its new status.
@@ -26,10 +52,54 @@ pub(crate) struct TaskChange {
     pub(crate) time: f64,
 }
 
+/// An action that has begun.
+#[derive(Clone)]
+pub(crate) struct BegunAction {
+    /// Which action.
+    pub(crate) id: ActionId,
+    /// What performs it.
+    pub(crate) starter: Option<Starter>,
+    /// Its designator.
+    pub(crate) designator: Value,
+    /// Where it is performed.
+    pub(crate) place: Place,
+    /// Simulated time (s).
+    pub(crate) time: f64,
+}
+
+/// An action that has ended.
+#[derive(Clone)]
+pub(crate) struct EndedAction {
+    /// What it was.
+    pub(crate) begun: BegunAction,
+    /// How it has ended.
+    pub(crate) end: ActionEnd,
+    /// Simulated time (s).
+    pub(crate) time: f64,
+}
+
+/// How an action has ended.
+#[derive(Clone)]
+pub(crate) enum ActionEnd {
+    /// With a value.
+    Succeeded(Value),
+    /// With a failure.
+    Failed(Value),
+    /// Its task was told to end, or its plan was left otherwise.
+    Evaporated,
+}
+
 /// A list of changes, if the journal is kept.
 #[derive(Default)]
 pub(super) struct Journal {
-    entries: RefCell<Option<VecDeque<TaskChange>>>,
+    entries: RefCell<Option<VecDeque<Change>>>,
+    /// The task, or the root, that runs.
+    running: Cell<Option<TaskId>>,
+    /// Why the one that runs is unwound as a whole, if it is.
+    unwinding: RefCell<Option<ActionEnd>>,
+    /// The actions that tasks perform, innermost last.
+    open: RefCell<BTreeMap<TaskId, Vec<ActionId>>>,
+    last_action: Cell<u64>,
 }
 
 impl Journal {
@@ -41,7 +111,7 @@ impl Journal {
         self.entries.borrow().is_some()
     }
 
-    pub(super) fn note(&self, change: TaskChange) {
+    pub(super) fn note(&self, change: Change) {
         if let Some(entries) = self.entries.borrow_mut().as_mut() {
             if entries.len() >= MOST_ENTRIES {
                 entries.pop_front();
@@ -50,10 +120,53 @@ impl Journal {
         }
     }
 
-    pub(super) fn fetch(&self) -> Vec<TaskChange> {
+    pub(super) fn fetch(&self) -> Vec<Change> {
         match self.entries.borrow_mut().as_mut() {
             Some(entries) => std::mem::take(entries).into(),
             None => Vec::new(),
+        }
+    }
+
+    /// A task or a root runs from now on.
+    pub(super) fn set_running(&self, id: TaskId) {
+        self.running.set(Some(id));
+        self.unwinding.replace(None);
+    }
+
+    /// The one that runs is unwound as a whole from now on.
+    pub(super) fn set_unwinding(&self, why: ActionEnd) {
+        self.unwinding.replace(Some(why));
+    }
+
+    pub(super) fn unwinding(&self) -> Option<ActionEnd> {
+        self.unwinding.borrow().clone()
+    }
+
+    pub(super) fn running(&self) -> Option<TaskId> {
+        self.running.get()
+    }
+
+    /// The innermost action that a task performs.
+    pub(super) fn action_of(&self, task: TaskId) -> Option<ActionId> {
+        self.open.borrow().get(&task)?.last().copied()
+    }
+
+    /// A task performs a new action.
+    pub(super) fn open_action(&self, task: TaskId) -> ActionId {
+        self.last_action.set(self.last_action.get() + 1);
+        let id = ActionId(self.last_action.get());
+        self.open.borrow_mut().entry(task).or_default().push(id);
+        id
+    }
+
+    /// A task does not perform an action any more.
+    pub(super) fn close_action(&self, task: TaskId, id: ActionId) {
+        let mut open = self.open.borrow_mut();
+        if let Some(actions) = open.get_mut(&task) {
+            actions.retain(|action| *action != id);
+            if actions.is_empty() {
+                open.remove(&task);
+            }
         }
     }
 }

@@ -7,7 +7,7 @@ use std::rc::Rc;
 use indexmap::IndexMap;
 
 use super::fluent::Waiter;
-use super::journal::{Journal, TaskChange};
+use super::journal::{Change, Journal};
 use super::names::Names;
 use super::tree::TreeNode;
 use crate::lisp::image::Image;
@@ -91,8 +91,8 @@ impl Plan {
         self.journal.begin();
     }
 
-    /// The changes in the states of tasks since the last fetch.
-    pub(crate) fn fetch_journal(&self) -> Vec<TaskChange> {
+    /// What has happened to tasks and actions since the last fetch.
+    pub(crate) fn fetch_journal(&self) -> Vec<Change> {
         self.journal.fetch()
     }
 

@@ -25,6 +25,8 @@ impl Session {
             name: task.name,
             state: TaskState::Stopped,
             failure: aside(image, || report(image, &condition)),
+            result: String::new(),
+            about: None,
         });
         let stopped = stopped.collect();
         let now = self.host.simulation.now();

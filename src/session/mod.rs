@@ -195,6 +195,17 @@ impl Session {
         self.host.audience.end_recording(&self.host.simulation)
     }
 
+    /// Keeps what happens from now on, to be written into a file as a page.
+    pub(crate) fn keep_run(&mut self, path: &Path) -> Result<(), WatchError> {
+        let host = &mut self.host;
+        host.audience.keep_run(&host.simulation, &self.image, path)
+    }
+
+    /// Writes the page of the run that was to be kept, if there is one.
+    pub(crate) fn write_kept_run(&mut self) -> Result<(), WatchError> {
+        self.host.audience.write_kept_run(&self.host.simulation)
+    }
+
     /// Evaluates an input; a panic ends it, but not the session.
     fn evaluate_or_recover(
         &mut self,

@@ -28,13 +28,18 @@ fn is_built_in(place: &Location) -> bool {
 
 /// `#<AN ACTION …>` as `(AN ACTION …)` on one line, truncated if it is long.
 pub(super) fn on_one_line(shown: &str) -> String {
+    on_line_of(shown, LONGEST_ACTION)
+}
+
+/// The same, truncated to so many characters.
+pub(super) fn on_line_of(shown: &str, longest: usize) -> String {
     let words: Vec<&str> = shown.split_whitespace().collect();
     let line = words.join(" ");
     let line = match line.strip_prefix("#<").and_then(|l| l.strip_suffix('>')) {
         Some(inner) => format!("({inner})"),
         None => line,
     };
-    match line.char_indices().nth(LONGEST_ACTION) {
+    match line.char_indices().nth(longest) {
         Some((end, _)) => format!("{} …)", line.get(..end).unwrap_or(&line)),
         None => line,
     }

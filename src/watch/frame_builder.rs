@@ -69,33 +69,46 @@ impl FrameBuilder {
         let actuated = models.robot.joints().filter(|(_, j)| j.is_actuated());
         frame_builder.joints = actuated.map(|(id, _)| id).collect();
         let camera = models.description.camera().frame;
-        for (link, _) in models.robot.links() {
+        let robot = models.robot.links().map(|(link, _)| {
             let scene = Scene::of_link(&models.robot, link, true);
-            if scene.bodies.is_empty() && link != models.robot.root() && link != camera {
-                continue;
-            }
-            let node = frame_builder.add_link(&models.robot, link, Kind::Robot, &scene, None);
-            frame_builder.robot.insert(link.index(), node);
-            frame_builder.robot_links.push((link, node));
+            (link, scene)
+        });
+        let robot: Vec<_> = robot
+            .filter(|(link, scene)| {
+                !scene.bodies.is_empty() || *link == models.robot.root() || *link == camera
+            })
+            .collect();
+        frame_builder.robot = frame_builder.numbers(robot.iter().map(|(link, _)| *link));
+        for (link, scene) in &robot {
+            let parent = carrier(&models.robot, *link, &frame_builder.robot);
+            let carried = Carried {
+                parent,
+                still: None,
+            };
+            let node = frame_builder.add_link(&models.robot, *link, Kind::Robot, scene, carried);
+            frame_builder.robot_links.push((*link, node));
         }
         frame_builder.base = frame_builder
             .node_of(models.robot.root().index())
             .unwrap_or(0);
-        for (link, _) in models.kitchen.links() {
+        let kitchen = models.kitchen.links().map(|(link, _)| {
             let scene = Scene::of_link(&models.kitchen, link, false);
-            if scene.bodies.is_empty() {
-                continue;
-            }
+            (link, scene)
+        });
+        let kitchen: Vec<_> = kitchen
+            .filter(|(_, scene)| !scene.bodies.is_empty())
+            .collect();
+        frame_builder.furniture = frame_builder.numbers(kitchen.iter().map(|(link, _)| *link));
+        for (link, scene) in &kitchen {
+            let parent = carrier(&models.kitchen, *link, &frame_builder.furniture);
             let is_still = |joint: JointId| models.kitchen.joint(joint).kind == JointKind::Fixed;
-            let still = models.kitchen.ancestors(link).all(is_still);
-            // The number is assigned when the node is added.
-            let place = Placed::new(0, &world.furniture_pose(link));
-            let still = still.then_some(place);
+            let is_still = models.kitchen.ancestors(*link).all(is_still);
+            let still = is_still.then(|| Placed::new(0, &world.furniture_pose(*link)));
+            let carried = Carried { parent, still };
             let node =
-                frame_builder.add_link(&models.kitchen, link, Kind::Furniture, &scene, still);
-            frame_builder.furniture.insert(link.index(), node);
-            if still.is_none() {
-                frame_builder.moving_furniture.push((link, node));
+                frame_builder.add_link(&models.kitchen, *link, Kind::Furniture, scene, carried);
+            if !is_still {
+                frame_builder.moving_furniture.push((*link, node));
             }
         }
         frame_builder
@@ -254,6 +267,7 @@ impl FrameBuilder {
             name: key.0.clone(),
             kind: Kind::Object,
             type_name: key.1.clone(),
+            parent: None,
             still: None,
             mesh,
         });
@@ -277,6 +291,7 @@ impl FrameBuilder {
             name: "location".to_owned(),
             kind: Kind::Object,
             type_name: "map of a location".to_owned(),
+            parent: None,
             still: None,
             mesh: VisualMesh::of(&scene).into(),
         });
@@ -290,21 +305,31 @@ impl FrameBuilder {
         link: LinkId,
         kind: Kind,
         scene: &Scene,
-        still: Option<Placed>,
+        carried: Carried,
     ) -> u32 {
         self.add(Node {
             id: 0,
             name: tree.link(link).name.clone(),
             kind,
             type_name: String::new(),
-            still,
+            parent: carried.parent,
+            still: carried.still,
             mesh: VisualMesh::of(scene).into(),
         })
     }
 
+    /// The numbers that the nodes of these links will have, by the links' indices, if they are
+    /// added next.
+    fn numbers(&self, links: impl Iterator<Item = LinkId>) -> IndexMap<usize, u32> {
+        let first = self.nodes.len();
+        links
+            .enumerate()
+            .map(|(i, link)| (link.index(), number(first + i)))
+            .collect()
+    }
+
     fn add(&mut self, mut node: Node) -> u32 {
-        // Four billion nodes do not fit into memory.
-        node.id = u32::try_from(self.nodes.len()).unwrap_or(u32::MAX);
+        node.id = number(self.nodes.len());
         if let Some(still) = &mut node.still {
             still.node = node.id;
         }
@@ -312,4 +337,23 @@ impl FrameBuilder {
         self.nodes.push(Arc::new(node));
         id
     }
+}
+
+/// How a link hangs together with others.
+struct Carried {
+    /// The node that carries it.
+    parent: Option<u32>,
+    /// Its pose, if it cannot move.
+    still: Option<Placed>,
+}
+
+/// The number of the node at an index: four billion nodes do not fit into memory.
+fn number(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
+}
+
+/// The node of the nearest link above a link that is among these nodes.
+fn carrier(tree: &KinematicTree, link: LinkId, nodes: &IndexMap<usize, u32>) -> Option<u32> {
+    let mut above = tree.ancestors(link).map(|joint| tree.joint(joint).parent);
+    above.find_map(|link| nodes.get(&link.index()).copied())
 }

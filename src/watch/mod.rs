@@ -5,6 +5,7 @@
 //! thing that has a pose. Nothing here changes the world, and no result depends on whether
 //! there are followers.
 
+mod base64;
 mod frame;
 mod frame_builder;
 mod halt;
@@ -18,7 +19,7 @@ pub(crate) use frame::{Frame, Hit, Hold, Path, Placed};
 pub(crate) use frame_builder::FrameBuilder;
 pub(crate) use halt::{Halt, HaltKind};
 pub(crate) use node::{Kind, Node, Vertex, VisualMesh};
-pub(crate) use watch_event::{TaskId, TaskNews, TaskState, WatchEvent};
+pub(crate) use watch_event::{About, TaskId, TaskNews, TaskState, WatchEvent};
 
 use std::sync::Arc;
 

@@ -44,6 +44,9 @@ pub(crate) struct Node {
     pub(crate) kind: Kind,
     /// Type of an object in the object library; empty for other nodes.
     pub(crate) type_name: String,
+    /// The node that carries it: the nearest link above it that is a node. `None` for roots and
+    /// objects, which are in the map.
+    pub(crate) parent: Option<u32>,
     /// Its pose, if it cannot move.
     pub(crate) still: Option<Placed>,
     /// Its mesh in its own frame; empty for a bare frame. Nodes that look the same share it.

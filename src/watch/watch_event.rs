@@ -1,14 +1,41 @@
 //! What happens in a session besides motion.
 
+use std::sync::Arc;
+
 use super::halt::Halt;
 
-/// Identifies a task or a motion of a session.
+/// Identifies a task, an action or a motion of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum TaskId {
     /// A task of a plan, by its number.
     Task(u64),
+    /// An action that a task performs, by its number.
+    Action(u64),
     /// A motion that a task waits for, by its number.
     Motion(u64),
+}
+
+impl TaskId {
+    /// The number with a letter for its kind: `t`, `a` or `m`.
+    pub(crate) fn text(self) -> String {
+        match self {
+            Self::Task(number) => format!("t{number}"),
+            Self::Action(number) => format!("a{number}"),
+            Self::Motion(number) => format!("m{number}"),
+        }
+    }
+
+    /// What has that text.
+    pub(crate) fn of_text(text: &str) -> Option<Self> {
+        let (kind, number) = text.split_at_checked(1)?;
+        let number = number.parse().ok()?;
+        match kind {
+            "t" => Some(Self::Task(number)),
+            "a" => Some(Self::Action(number)),
+            "m" => Some(Self::Motion(number)),
+            _ => None,
+        }
+    }
 }
 
 /// An event of a session.
@@ -37,6 +64,21 @@ pub(crate) struct TaskNews {
     pub(crate) state: TaskState,
     /// Why it failed or stopped; empty otherwise.
     pub(crate) failure: String,
+    /// What it returned, as text; empty for what is not an action.
+    pub(crate) result: String,
+    /// What it is, told when it begins; `None` for what is only a task.
+    pub(crate) about: Option<Arc<About>>,
+}
+
+/// What an action or a motion is.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct About {
+    /// The keys of its designator in lower case, with their values as text.
+    pub(crate) keys: Vec<(String, String)>,
+    /// `FILE:LINE:COLUMN` where it is performed; empty if that is not known.
+    pub(crate) place: String,
+    /// The text of that line.
+    pub(crate) line: String,
 }
 
 /// The state of a task.

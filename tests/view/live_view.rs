@@ -41,7 +41,7 @@ fn the_page_is_whole_and_tells_the_browser_to_trust_nothing_else() {
     assert!(page.ends_with("</html>\n"));
     // Nothing comes from elsewhere.
     assert!(!page.contains("https://") && !page.contains("src=") && !page.contains("@import"));
-    assert!(page.len() < 90_000, "{} bytes", page.len());
+    assert!(page.len() < 160_000, "{} bytes", page.len());
 }
 
 #[test]

@@ -6,4 +6,5 @@ mod live_view;
 mod pictures;
 mod pictures_at_the_prompt;
 mod recording;
+mod run_file;
 mod viewed;

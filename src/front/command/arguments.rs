@@ -119,6 +119,10 @@ pub(crate) struct WatchArguments {
     /// MCAP file to record the run to
     #[arg(long, value_name = "MCAP")]
     pub(crate) record: Option<PathBuf>,
+    /// HTML file to write the run to: the page of the live view with the whole run in it, which
+    /// any browser shows without planwright
+    #[arg(long, value_name = "HTML")]
+    pub(crate) html: Option<PathBuf>,
 }
 
 /// The subcommands.
@@ -140,6 +144,10 @@ pub(crate) enum Command {
         /// MCAP file written by `run --record` or (record "…")
         #[arg(value_name = "MCAP")]
         file: PathBuf,
+        /// Write the recording into an HTML file instead, which any browser shows without
+        /// planwright
+        #[arg(long, value_name = "HTML")]
+        html: Option<PathBuf>,
     },
     /// Run transcripts, each in a fresh world, and compare their output
     Replay {

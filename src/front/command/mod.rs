@@ -75,6 +75,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
     let mut watch = WatchArguments {
         view: arguments.view,
         record: None,
+        html: None,
     };
     match arguments.command {
         None if io::IsTerminal::is_terminal(&io::stdin()) => {
@@ -88,9 +89,10 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         }) => {
             watch.view |= of_run.view;
             watch.record = of_run.record;
+            watch.html = of_run.html;
             run::run(options, &files, &eval, &watch)
         }
-        Some(Command::View { file }) => view_recording::view(options, &file),
+        Some(Command::View { file, html }) => view_recording::view(options, &file, html.as_deref()),
         Some(Command::Replay {
             files,
             stop_at: Some(entry),

@@ -28,7 +28,9 @@ pub(crate) fn run(
         Ok(session)
     };
     let (status, mut session) = run_in(options, files, forms, open)?;
-    session.end_recording()?;
+    let recorded = session.end_recording();
+    session.write_kept_run()?;
+    recorded?;
     watching::linger(&session, has_browser);
     Ok(status)
 }

@@ -9,11 +9,17 @@ use std::thread;
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
-use crate::watch::live::{History, Origin, Place, Server, Views, open_in_browser};
+use crate::watch::live::{History, Origin, Place, Server, Views, open_in_browser, run_file};
 use crate::watch::recording::{RecordingError, read_recording};
 
 /// Serves the page with the recording until interrupted.
-pub(crate) fn view(options: &Options, file: &Path) -> Result<Status, CommandError> {
+///
+/// With `html`, writes the page with the recording into that file instead.
+pub(crate) fn view(
+    options: &Options,
+    file: &Path,
+    html: Option<&Path>,
+) -> Result<Status, CommandError> {
     let failed = |error: RecordingError| CommandError::Recording {
         path: file.to_owned(),
         error,
@@ -31,6 +37,16 @@ pub(crate) fn view(options: &Options, file: &Path) -> Result<Status, CommandErro
     let session = open_session(options)?;
     let world = session.simulation().world();
     let views = Views::new(world, |link| history.link_named(link));
+    if let Some(path) = html {
+        let text = run_file(&history, &views);
+        return match fs::write(path, text) {
+            Ok(()) => Ok(Status::Good),
+            Err(error) => Err(CommandError::Rewrite {
+                path: path.to_owned(),
+                error,
+            }),
+        };
+    }
     let mut place = Place::new(options.view_port);
     let server = Server::start(&mut place, history.clone(), None, views);
     let server = server.map_err(CommandError::Serve)?;

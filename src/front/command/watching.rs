@@ -12,11 +12,14 @@ use crate::watch::live::open_in_browser;
 /// How long to wait for a browser to show the page.
 const BROWSER_START: Duration = Duration::from_secs(5);
 
-/// Starts the recording and the live view if they are asked for, and prints the view's address
+/// Starts the recording, the page of the run and the live view if they are asked for, and prints the view's address
 /// on standard error. Returns whether a browser was started.
 pub(crate) fn begin(session: &mut Session, watch: &WatchArguments) -> Result<bool, CommandError> {
     if let Some(path) = &watch.record {
         session.begin_recording(path)?;
+    }
+    if let Some(path) = &watch.html {
+        session.keep_run(path)?;
     }
     if watch.view {
         let address = session.open_view()?;

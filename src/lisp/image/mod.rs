@@ -6,7 +6,7 @@ pub(crate) mod notes;
 pub(crate) mod open_call;
 mod output;
 pub(crate) mod setf_expander;
-mod signalled;
+pub(crate) mod signalled;
 
 use std::any::Any;
 use std::cell::RefCell;

@@ -19,6 +19,36 @@ const MOST_CALLS: usize = 512;
 pub(super) struct Signalled {
     /// Newest last; conditions that share their calls have one list.
     recent: VecDeque<(Value, Rc<RefCell<Vec<OpenCall>>>)>,
+    last: LastCondition,
+}
+
+/// The condition that was signalled last, and how many have been signalled; for code that notices
+/// the end of a call when it has no image at hand.
+#[derive(Clone, Default)]
+pub(crate) struct LastCondition(Rc<RefCell<(u64, Option<Value>)>>);
+
+impl LastCondition {
+    /// How many conditions have been signalled.
+    pub(crate) fn count(&self) -> u64 {
+        self.0.borrow().0
+    }
+
+    /// The condition, if it has been signalled since `count` was returned and not been forgotten.
+    pub(crate) fn since(&self, count: u64) -> Option<Value> {
+        let last = self.0.borrow();
+        last.1.clone().filter(|_| last.0 > count)
+    }
+
+    /// Forgets the condition: it has been dealt with.
+    pub(crate) fn forget(&self) {
+        self.0.borrow_mut().1 = None;
+    }
+
+    fn set(&self, condition: &Value) {
+        let mut last = self.0.borrow_mut();
+        last.0 += 1;
+        last.1 = Some(condition.clone());
+    }
 }
 
 impl Signalled {
@@ -50,9 +80,15 @@ impl Image {
         calls.map_or_else(Vec::new, |calls| calls.borrow().clone())
     }
 
+    /// The condition that was signalled last.
+    pub(crate) fn last_condition(&self) -> LastCondition {
+        self.signalled.last.clone()
+    }
+
     /// Remembers the calls that were open where a condition was signalled.
     pub(crate) fn set_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
         let calls = Rc::new(RefCell::new(calls));
+        self.signalled.last.set(condition);
         self.signalled.remember(condition, calls);
     }
 

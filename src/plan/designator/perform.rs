@@ -1,5 +1,7 @@
 //! `perform`: an action calls its plan; a motion becomes a request to the host.
 
+use std::rc::Rc;
+
 use super::failure;
 use super::failure::Unresolved;
 use super::ground;
@@ -12,6 +14,7 @@ use super::value::{Class, Designator};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
 use crate::lisp::print;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
@@ -20,6 +23,7 @@ use crate::lisp::value::symbol::FunctionCell;
 use crate::lisp::vm::calls::{Annotation, Args, Calls, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
+use crate::plan::open_action::OpenAction;
 use crate::plan::{Result, packages};
 
 /// Functions of package `CRAM-EXECUTIVE`.
@@ -220,6 +224,8 @@ pub(crate) struct MotionsBegun(pub(crate) u64);
 pub(crate) struct Performance {
     /// Number of motions begun before it.
     pub(crate) motions_before: u64,
+    /// What the journal knows of it, if it is kept.
+    action: Option<Rc<OpenAction>>,
 }
 
 /// Calls the function of a plan. The stack frame of the call records the action.
@@ -234,13 +240,23 @@ async fn call_plan(
         let image = &mut *machine.image;
         check_defined(image, &action, &function)?;
         let motions_before = image.extension::<MotionsBegun>().map_or(0, |begun| begun.0);
-        Ok::<_, Box<Raise>>(Performance { motions_before })
+        let action = OpenAction::begin(machine.image, &action, machine.place());
+        Ok::<_, Box<Raise>>(Performance {
+            motions_before,
+            action,
+        })
     });
+    let performance = performance.await?;
+    let open = performance.action.clone();
     let annotation = Annotation {
-        note: Box::new(performance.await?),
+        note: Box::new(performance),
         subject: designator.clone(),
     };
-    Ok(calls.call_about(annotation, &plan, args).await)
+    let value = calls.call_about(annotation, &plan, args).await;
+    if let Some(action) = open {
+        action.succeed(&value);
+    }
+    Ok(value)
 }
 
 fn check_defined(image: &mut Image, designator: &Value, plan: &Value) -> Result<()> {
@@ -286,13 +302,16 @@ async fn perform_motion(calls: &Calls, designator: &Value) -> Result<Step> {
     }
     let motion = designator.clone();
     let mut request = calls
-        .with(move |machine| motion_request(machine.image, &motion))
+        .with(move |machine| {
+            let place = machine.place();
+            motion_request(machine.image, &motion, place)
+        })
         .await?;
     resolve_places(calls, &mut request).await?;
     Ok(Step::request(request))
 }
 
-fn motion_request(image: &mut Image, designator: &Value) -> Result<MotionRequest> {
+fn motion_request(image: &mut Image, designator: &Value, place: Place) -> Result<MotionRequest> {
     let motion = value::designator(image, designator)?;
     let grounding = match ground::ground(image, motion) {
         Ok(grounding) => grounding,
@@ -309,6 +328,7 @@ fn motion_request(image: &mut Image, designator: &Value) -> Result<MotionRequest
     Ok(MotionRequest {
         designator: designator.clone(),
         motion_type: grounding.row.name.to_string(),
+        place,
         properties: grounding.properties,
     })
 }

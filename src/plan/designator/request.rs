@@ -1,5 +1,6 @@
 //! What a motion requests from the host.
 
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 
 /// A motion to carry out. The fiber that made the request is resumed with the motion's value, or
@@ -9,6 +10,8 @@ pub(crate) struct MotionRequest {
     pub(crate) designator: Value,
     /// The motion's type in upper case, aliases resolved: `"GOING"`, `"MOVING-TCP"`, ….
     pub(crate) motion_type: String,
+    /// Where the motion is performed.
+    pub(crate) place: Place,
     /// The properties by key name in upper case, aliases resolved; locations remain designators.
     pub(crate) properties: Vec<(String, Value)>,
 }

@@ -12,7 +12,7 @@ use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::fiber::{Dynamic, Fiber};
 use crate::plan::fluent;
-use crate::plan::journal::TaskChange;
+use crate::plan::journal::{Change, TaskChange};
 use crate::plan::request::Call;
 use crate::plan::state::Plan;
 use crate::plan::task::{Status, TaskId, TaskRef};
@@ -89,14 +89,15 @@ impl Scheduler {
         }
         let Some(live) = self.live(slot) else { return };
         let Some(task) = &live.task else { return };
-        plan.journal.note(TaskChange {
+        let parent = live.parent.and_then(|slot| self.task_id(slot));
+        plan.journal.note(Change::Task(TaskChange {
             id: live.id,
-            parent: live.parent.and_then(|slot| self.task_id(slot)),
+            starter: parent.map(|parent| plan.starter(parent)),
             name: task.get().name.to_string(),
             status,
             failure: None,
             time: plan.now(),
-        });
+        }));
     }
 
     /// The number of the task at an entry; `None` for a root.
@@ -197,14 +198,14 @@ impl Scheduler {
             let plan = Plan::of(image);
             if plan.journal.is_kept() {
                 let failure = (status == Status::Failed).then(|| unwrapped(&plan, result.clone()));
-                plan.journal.note(TaskChange {
+                plan.journal.note(Change::Task(TaskChange {
                     id: live.id,
-                    parent,
+                    starter: parent.map(|parent| plan.starter(parent)),
                     name: task.get().name.to_string(),
                     status,
                     failure,
                     time: plan.now(),
-                });
+                }));
             }
             *task.get().result.borrow_mut() = result;
             task.get().slot.set(None);

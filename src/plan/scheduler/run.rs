@@ -8,6 +8,7 @@ use crate::lisp::value::Value;
 use crate::lisp::vm::fiber::Fiber;
 use crate::lisp::vm::machine::{Event, Machine};
 use crate::plan::host::Host;
+use crate::plan::journal::ActionEnd;
 use crate::plan::state::Plan;
 use crate::plan::task::Status;
 
@@ -33,6 +34,7 @@ impl Scheduler {
             return Stopped::Waiting;
         };
         let mut fiber = std::mem::take(&mut live.fiber);
+        Plan::of(image).journal.set_running(live.id);
         if let Some(task) = live.task.clone()
             && task.get().status() == Status::Created
         {
@@ -67,6 +69,13 @@ impl Scheduler {
                 Answer::Unwind => {
                     if let Some(live) = self.live_mut(slot) {
                         live.is_unwinding = true;
+                        let plan = Plan::of(image);
+                        plan.journal.set_unwinding(match &live.ending {
+                            Some(Ending::Failed(failure)) => {
+                                ActionEnd::Failed(unwrapped(&plan, failure.clone()))
+                            }
+                            _ => ActionEnd::Evaporated,
+                        });
                     }
                     Machine::new(image, &mut fiber).unwind_all()
                 }

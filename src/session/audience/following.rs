@@ -1,11 +1,9 @@
 //! The session's followers, which are notified of every step, of edits and of other events.
 
-use super::Audience;
+use super::{Audience, task_news};
 use crate::lisp::image::Image;
-use crate::lisp::image::identity::aside;
-use crate::lisp::print;
 use crate::motion::PlannedTrajectory;
-use crate::plan::{Plan, Status};
+use crate::plan::Plan;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::jobs::Job;
 use crate::watch::{Cause, Follower, Halt, Observation, TaskId, TaskNews, TaskState, WatchEvent};
@@ -120,21 +118,10 @@ impl Audience {
             return;
         }
         for change in Plan::of(image).fetch_journal() {
-            let report = |f| aside(image, || print::report::report(image, &f));
-            let failure = change.failure.map(report);
+            let (time, news) = task_news::of_change(image, change);
             // Whatever has become of it, it is not stopped any more.
-            let id = TaskId::Task(change.id.0);
-            self.followers.stopped.retain(|task| task.id != id);
-            let news = WatchEvent::Task(TaskNews {
-                id,
-                parent: change.parent.map(|parent| TaskId::Task(parent.0)),
-                name: change.name,
-                state: state(change.status),
-                failure: failure.unwrap_or_default(),
-            });
-            for (_, follower) in &mut self.followers.all {
-                follower.hear(change.time, &news);
-            }
+            self.followers.stopped.retain(|task| task.id != news.id);
+            self.tell(time, &WatchEvent::Task(news));
         }
     }
 
@@ -147,10 +134,12 @@ impl Audience {
             now,
             &WatchEvent::Task(TaskNews {
                 id: TaskId::Motion(job.ticket.0),
-                parent: Some(TaskId::Task(job.task.0)),
+                parent: job.told.parent.or(Some(TaskId::Task(job.task.0))),
                 name: job.name.clone(),
                 state,
                 failure: failure.to_owned(),
+                result: String::new(),
+                about: (job.told.about.clone()).filter(|_| state == TaskState::Running),
             }),
         );
     }
@@ -181,15 +170,5 @@ fn observation<'a>(
             .as_ref()
             .or(simulation.shown().resolved_map.as_ref()),
         trajectories,
-    }
-}
-
-fn state(status: Status) -> TaskState {
-    match status {
-        Status::Created | Status::Running => TaskState::Running,
-        Status::Suspended => TaskState::Suspended,
-        Status::Succeeded => TaskState::Succeeded,
-        Status::Failed => TaskState::Failed,
-        Status::Evaporated => TaskState::Evaporated,
     }
 }

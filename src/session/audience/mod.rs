@@ -4,6 +4,7 @@
 mod film;
 mod following;
 mod pace;
+pub(super) mod task_news;
 mod views;
 
 use std::sync::Arc;
@@ -17,7 +18,7 @@ pub(crate) use film::Filming;
 use following::Followers;
 use pace::Pace;
 pub(crate) use views::WatchError;
-use views::{LiveView, OpenRecording};
+use views::{KeptRun, LiveView, OpenRecording};
 
 /// Called with the world after every step of a motion.
 pub(crate) type Observer = Box<dyn FnMut(&World)>;
@@ -34,6 +35,7 @@ pub(crate) struct Audience {
     /// Where the live view is whenever it is open.
     place: Place,
     recording: Option<OpenRecording>,
+    kept: Option<KeptRun>,
     /// Pictures that have not been reported as events yet.
     pictures: Vec<Arc<Image>>,
 }
@@ -50,9 +52,9 @@ impl Audience {
         }
     }
 
-    /// Whether a film or a recording is being made.
+    /// Whether a film, a recording or a page of the run is being made.
     pub(super) fn writes_files(&self) -> bool {
-        self.film.is_some() || self.recording.is_some()
+        self.film.is_some() || self.recording.is_some() || self.kept.is_some()
     }
 
     /// Sets a function to be called after every step of a motion.

@@ -1,5 +1,7 @@
 //! The live view and recordings.
 
+use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -10,7 +12,7 @@ use super::pace::Pace;
 use crate::lisp::image::Image;
 use crate::session::simulation::Simulation;
 use crate::watch::live::{
-    History, LiveFollower, Origin, PaceControl, PlaceError, Server, Speed, Views,
+    History, LiveFollower, Origin, PaceControl, PlaceError, Server, Speed, Views, run_file,
 };
 use crate::watch::recording::{Recorder, RecordingError, RecordingResult};
 use crate::watch::{Cause, FrameBuilder};
@@ -22,10 +24,25 @@ pub(crate) struct OpenRecording {
     result: RecordingResult,
 }
 
+/// A run that is kept to be written into a file at its end.
+pub(crate) struct KeptRun {
+    follower: FollowerId,
+    path: PathBuf,
+    file: File,
+    seen: Seen,
+}
+
+/// What a follower sees, and the views of it.
+struct Seen {
+    history: History,
+    views: Views,
+}
+
 /// The live view while it is open.
 pub(crate) struct LiveView {
     server: Server,
     follower: FollowerId,
+    seen: Seen,
     /// Whether there was a pace before the view was opened.
     had_pace: bool,
 }
@@ -36,6 +53,14 @@ pub(crate) enum WatchError {
     /// The server cannot be started.
     #[error("the live view cannot be opened: {0}")]
     View(PlaceError),
+    /// The page with the run cannot be written.
+    #[error("cannot write {}: {error}", path.display())]
+    Save {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: RecordingError,
+    },
     /// The recording cannot be written.
     #[error("cannot record into {}: {error}", path.display())]
     Record {
@@ -66,6 +91,10 @@ impl Audience {
         let witness = FrameBuilder::new(world);
         let views = Views::new(world, |link| witness.node_named(link));
         let shown = Some(control.clone());
+        let seen = Seen {
+            history: history.clone(),
+            views: views.clone(),
+        };
         let server = Server::start(&mut self.place, history.clone(), shown, views);
         let server = server.map_err(WatchError::View)?;
         self.pace.get_or_insert_with(|| Pace::new(control));
@@ -75,6 +104,7 @@ impl Audience {
         self.view = Some(LiveView {
             server,
             follower,
+            seen,
             had_pace,
         });
         Ok(address)
@@ -128,6 +158,56 @@ impl Audience {
         }
     }
 
+    /// Keeps what happens from now on, to be written into the file as a page.
+    pub(crate) fn keep_run(
+        &mut self,
+        simulation: &Simulation,
+        image: &Image,
+        path: &Path,
+    ) -> Result<(), WatchError> {
+        // A file that cannot be written is known before the robot moves.
+        let file = File::create(path).map_err(|error| unsaved(path, error.into()))?;
+        let (seen, follower) = follower_of(simulation);
+        let follower = self.add_follower(simulation, image, follower);
+        self.kept = Some(KeptRun {
+            follower,
+            path: path.to_owned(),
+            file,
+            seen,
+        });
+        Ok(())
+    }
+
+    /// Writes the run that was to be kept, if there is one.
+    pub(crate) fn write_kept_run(&mut self, simulation: &Simulation) -> Result<(), WatchError> {
+        let Some(kept) = self.kept.take() else {
+            return Ok(());
+        };
+        self.show(simulation, Cause::Rest);
+        self.remove_follower(kept.follower);
+        write(kept.file, &kept.path, &kept.seen)
+    }
+
+    /// Writes what has been seen since the live view was opened, or since the beginning of a run
+    /// that is kept, into a file as a page; otherwise the world as it is now.
+    pub(crate) fn save_view(
+        &mut self,
+        simulation: &Simulation,
+        image: &Image,
+        path: &Path,
+    ) -> Result<(), WatchError> {
+        let file = File::create(path).map_err(|error| unsaved(path, error.into()))?;
+        self.show(simulation, Cause::Rest);
+        let kept = self.kept.as_ref().map(|kept| &kept.seen);
+        if let Some(seen) = kept.or(self.view.as_ref().map(|view| &view.seen)) {
+            return write(file, path, seen);
+        }
+        let (seen, follower) = follower_of(simulation);
+        let follower = self.add_follower(simulation, image, follower);
+        self.remove_follower(follower);
+        write(file, path, &seen)
+    }
+
     /// The reason why the recording has ended by itself, if it has; told once.
     pub(in crate::session) fn broken_recording(&mut self) -> Option<WatchError> {
         let error = self.recording.as_ref()?.result.take()?;
@@ -142,5 +222,28 @@ impl Audience {
     /// The server of the live view, if it is open.
     pub(crate) fn view_server(&self) -> Option<&Server> {
         self.view.as_ref().map(|view| &view.server)
+    }
+}
+
+/// A follower that keeps a run, and where it keeps it.
+fn follower_of(simulation: &Simulation) -> (Seen, Box<LiveFollower>) {
+    let history = History::new(Origin::Recording);
+    let world = &simulation.shown().world;
+    let frames = FrameBuilder::new(world);
+    let views = Views::new(world, |link| frames.node_named(link));
+    let follower = LiveFollower::without_viewers(history.clone(), frames);
+    (Seen { history, views }, Box::new(follower))
+}
+
+fn write(mut file: File, path: &Path, seen: &Seen) -> Result<(), WatchError> {
+    let text = run_file(&seen.history, &seen.views);
+    file.write_all(text.as_bytes())
+        .map_err(|error| unsaved(path, error.into()))
+}
+
+fn unsaved(path: &Path, error: RecordingError) -> WatchError {
+    WatchError::Save {
+        path: path.to_owned(),
+        error,
     }
 }

@@ -403,10 +403,12 @@ fn detach_object(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -
     let side = side(image, &args[1])?;
     let motion = LetGo::new(side, Some(name));
     let name = "letting-go".to_owned();
+    let told = host.told(image, None);
     Ok(Reply::Later(host.start(
         Box::new(motion),
         args[0].clone(),
         name,
+        told,
     )))
 }
 

@@ -28,6 +28,13 @@ pub(crate) static TABLE: &[Builtin] = &[
         &["(pw:record nil) => NIL"],
         host!(record),
     ),
+    control(
+        "SAVE-VIEW",
+        "file",
+        "Writes one HTML file that any browser shows without planwright and without a network: the page of the live view with all that has been seen since the view was opened, with its slider; if it is not open, the world as it is now. Returns the file's name.",
+        &[],
+        host!(answered save_view),
+    ),
 ];
 
 fn view(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply, Box<Raise>> {
@@ -44,6 +51,25 @@ fn view(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<
         open_in_browser(&address);
     }
     done(Value::string(address))
+}
+
+fn save_view(
+    host: &mut SimulationHost,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply, Box<Raise>> {
+    let Value::Str(name) = &args[0] else {
+        return Err(Raise::type_error(&args[0], known::STRING));
+    };
+    let SimulationHost {
+        simulation,
+        audience,
+        ..
+    } = host;
+    audience
+        .save_view(simulation, image, Path::new(&name.text()))
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    done(args[0].clone())
 }
 
 fn record(

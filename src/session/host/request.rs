@@ -10,7 +10,8 @@ use crate::lisp::value::raise::Raise;
 use crate::motion::{Motion, MotionStatus};
 use crate::plan::designator::MotionRequest;
 use crate::plan::{Advance, Host, Reply, TaskId, Ticket};
-use crate::session::simulation::jobs::{Completion, Job};
+use crate::session::audience::task_news;
+use crate::session::simulation::jobs::{Completion, Job, Told};
 use crate::session::tape::{Done, RaiseData};
 use crate::watch::{Cause, TaskState};
 use crate::world::physics::STEP_SECONDS;
@@ -200,11 +201,29 @@ impl SimulationHost {
                     let motion = host.simulation.with_faults(image, motion, &request);
                     // Report the task before its actions.
                     host.audience.tell_tasks(image);
-                    Ok(Reply::Later(host.start(motion, subject, name.clone())))
+                    let told = host.told(image, Some(&request));
+                    Ok(Reply::Later(host.start(
+                        motion,
+                        subject,
+                        name.clone(),
+                        told,
+                    )))
                 });
                 reply.unwrap_or_else(|raise| Reply::Now(Err(raise)))
             }
             Err(_) => Reply::Now(Err(Raise::control("This cannot be waited for."))),
+        }
+    }
+
+    /// What followers are told of a motion.
+    pub(in crate::session) fn told(&self, image: &Image, request: Option<&MotionRequest>) -> Told {
+        if !self.audience.has_followers() {
+            return Told::default();
+        }
+        let about = request.map(|r| task_news::about(image, &r.designator, r.place).into());
+        Told {
+            parent: Some(task_news::starter_in(image, self.asking)),
+            about,
         }
     }
 
@@ -214,11 +233,14 @@ impl SimulationHost {
         motion: Box<dyn Motion>,
         subject: Value,
         name: String,
+        told: Told,
     ) -> Ticket {
         let simulation = &mut self.simulation;
         self.person.snapshots.begin_motion(simulation);
         let now = simulation.now;
-        let job = simulation.jobs.add(motion, subject, self.asking, name);
+        let job = simulation
+            .jobs
+            .add(motion, subject, self.asking, name, told);
         self.audience.tell_motion(now, job, TaskState::Running, "");
         job.ticket
     }

@@ -1,6 +1,7 @@
 //! Active motions, and those that wait for the part of the robot that they need.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -8,6 +9,7 @@ use crate::lisp::value::raise::Raise;
 use crate::motion::interruption::interruptible;
 use crate::motion::{Motion, MotionStatus, PlannedTrajectory, ProcessModule};
 use crate::plan::{TaskId, Ticket};
+use crate::watch::{self, About};
 use crate::world::World;
 
 /// A motion that a task waits for.
@@ -21,7 +23,18 @@ pub(crate) struct Job {
     pub(crate) task: TaskId,
     /// The kind of motion, for display.
     pub(crate) name: String,
+    /// What followers are told of it.
+    pub(crate) told: Told,
     pub(crate) is_paused: bool,
+}
+
+/// What followers are told of a motion, if there are any when it begins.
+#[derive(Clone, Default)]
+pub(crate) struct Told {
+    /// The action or the task that performs it.
+    pub(crate) parent: Option<watch::TaskId>,
+    /// What it is.
+    pub(crate) about: Option<Arc<About>>,
 }
 
 /// All motions.
@@ -90,6 +103,7 @@ impl Jobs {
         subject: Value,
         task: TaskId,
         name: String,
+        told: Told,
     ) -> &Job {
         self.begun += 1;
         self.waiting.push_back(Job {
@@ -99,6 +113,7 @@ impl Jobs {
             subject,
             task,
             name,
+            told,
             is_paused: false,
         });
         // The motion has just been added.

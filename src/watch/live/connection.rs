@@ -5,7 +5,7 @@ use std::net::TcpStream;
 use std::sync::Arc;
 
 use super::door::Stranger;
-use super::frame_json::frame_json;
+use super::frame_json::frames_json;
 use super::http::{HttpError, Request, answer, read_request};
 use super::mesh_bytes::mesh_bytes;
 use super::pace_control::{PaceControl, Speed};
@@ -139,13 +139,7 @@ fn send_page(to: &mut TcpStream) -> io::Result<()> {
 fn past(shared: &Shared, request: &Request) -> String {
     let from = request.number("from").unwrap_or(0.0);
     let to = request.number("to").unwrap_or(from);
-    let frames = shared.history.past(from, to, MOST_FRAMES);
-    let mut before = None;
-    let frames: Vec<String> = frames
-        .iter()
-        .map(|frame| frame_json(frame, before.replace(frame.as_ref())))
-        .collect();
-    format!("[{}]", frames.join(","))
+    frames_json(&shared.history.past(from, to, MOST_FRAMES))
 }
 
 /// Carries out a viewer's request: `pause`, `go`, or `speed` and a speed. Returns whether the

@@ -11,14 +11,24 @@ pub(crate) fn news((time, event): &(f64, WatchEvent)) -> Value {
         WatchEvent::Halted(halt) => json!({"t": time, "halted": halt.report}),
         // It is told as the end of a halt, not as news.
         WatchEvent::Resumed => Value::Null,
-        WatchEvent::Task(news) => json!({
-            "t": time,
-            "task": id(news.id),
-            "parent": news.parent.map(id),
-            "name": news.name,
-            "state": news.state.name(),
-            "failure": news.failure,
-        }),
+        WatchEvent::Task(news) => {
+            let mut value = json!({
+                "t": time,
+                "task": news.id.text(),
+                "parent": news.parent.map(TaskId::text),
+                "name": news.name,
+                "state": news.state.name(),
+                "failure": news.failure,
+            });
+            if !news.result.is_empty() {
+                value["result"] = json!(news.result);
+            }
+            if let Some(about) = &news.about {
+                value["about"] =
+                    json!({"keys": about.keys, "place": about.place, "line": about.line});
+            }
+            value
+        }
     }
 }
 
@@ -41,14 +51,8 @@ pub(crate) fn node(node: &Node) -> Value {
         "name": node.name,
         "kind": node.kind.name(),
         "type": node.type_name,
+        "parent": node.parent,
         "still": node.still.as_ref().map(crate::watch::live::frame_json::numbers),
         "seen": !node.mesh.triangles.is_empty(),
     })
-}
-
-fn id(id: TaskId) -> String {
-    match id {
-        TaskId::Task(number) => format!("t{number}"),
-        TaskId::Motion(number) => format!("m{number}"),
-    }
 }

@@ -20,6 +20,8 @@ pub(crate) struct LiveFollower {
     frame_builder: FrameBuilder,
     left: Option<Instant>,
     kept: f64,
+    /// Whether there are viewers to be, who want to see more than what is kept.
+    is_live: bool,
 }
 
 impl LiveFollower {
@@ -30,16 +32,25 @@ impl LiveFollower {
             frame_builder,
             left: None,
             kept: f64::NEG_INFINITY,
+            is_live: true,
         }
+    }
+
+    /// A follower that adds only what is kept: the same session gives the same history.
+    pub(crate) fn without_viewers(history: History, frame_builder: FrameBuilder) -> Self {
+        let mut follower = Self::new(history, frame_builder);
+        follower.is_live = false;
+        follower
     }
 }
 
 impl Follower for LiveFollower {
     fn see(&mut self, observation: &Observation<'_>, cause: Cause) {
         let keep = observation.time >= self.kept + BETWEEN_KEPT || cause == Cause::Rest;
-        let is_due = self
-            .left
-            .is_none_or(|left| left.elapsed() >= BETWEEN_FRAMES);
+        let is_due = match self.is_live {
+            true => (self.left).is_none_or(|left| left.elapsed() >= BETWEEN_FRAMES),
+            false => cause == Cause::Edit,
+        };
         if !keep && !is_due {
             return;
         }

@@ -45,6 +45,16 @@ pub(crate) fn frame_json(frame: &Frame, before: Option<&Frame>) -> String {
     list(&mut text, "gone", gone, |text, p| {
         let _ = write!(text, "{}", p.node);
     });
+    // Positions of joints that have changed, each after its index.
+    let joints = before.map_or(&[][..], |b| &b.joints);
+    let changed = frame.joints.iter().enumerate().filter_map(|(i, position)| {
+        let now = joint_units(*position);
+        let is_same = joints.get(i).is_some_and(|then| joint_units(*then) == now);
+        (!is_same).then_some((i, now))
+    });
+    list(&mut text, "j", changed, |text, (i, position)| {
+        let _ = write!(text, "{i},{position}");
+    });
     list(&mut text, "held", &frame.holds, |text, hold| {
         let _ = write!(text, "[{},{}]", hold.object, quoted(&hold.link));
     });
@@ -70,6 +80,16 @@ pub(crate) fn frame_json(frame: &Frame, before: Option<&Frame>) -> String {
     }
     text.push('}');
     text
+}
+
+/// Frames in order of time as a JSON list, each as its difference from the one before.
+pub(crate) fn frames_json(frames: &[Arc<Frame>]) -> String {
+    let mut before = None;
+    let frames: Vec<String> = frames
+        .iter()
+        .map(|frame| frame_json(frame, before.replace(frame.as_ref())))
+        .collect();
+    format!("[{}]", frames.join(","))
 }
 
 fn path(text: &mut String, path: &Path) {
@@ -108,6 +128,12 @@ pub(crate) fn numbers(placed: &Placed) -> [i32; 7] {
 
 fn units<const N: usize>(values: [f32; N], unit: f32) -> [i32; N] {
     values.map(|value| rounded(value, unit))
+}
+
+/// A joint's position in the page's units: ten-thousandths of a radian or of a metre.
+fn joint_units(position: f64) -> i64 {
+    // The cast saturates.
+    (position * f64::from(METRE)).round() as i64
 }
 
 fn rounded(value: f32, unit: f32) -> i32 {

@@ -122,6 +122,7 @@ impl History {
                 let mut news = news.clone();
                 news.name = shortened(&news.name);
                 news.failure = shortened(&news.failure);
+                news.result = shortened(&news.result);
                 (WatchEvent::Task(news), None)
             }
         };
@@ -185,7 +186,6 @@ impl History {
     }
 
     /// The news items that are kept, with their simulated times (s).
-    #[cfg(test)]
     pub(crate) fn news(&self) -> Vec<Arc<(f64, WatchEvent)>> {
         self.state().news.iter().cloned().collect()
     }

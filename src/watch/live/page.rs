@@ -1,7 +1,7 @@
 //! The page, assembled from its parts.
 
 /// Parts of the page's script, in the order of definition.
-const SCRIPTS: [&str; 16] = [
+const SCRIPTS: [&str; 25] = [
     include_str!("page/algebra.js"),
     include_str!("page/program.js"),
     include_str!("page/orbit.js"),
@@ -10,13 +10,22 @@ const SCRIPTS: [&str; 16] = [
     include_str!("page/tasks.js"),
     include_str!("page/log.js"),
     include_str!("page/past.js"),
+    include_str!("page/run.js"),
     include_str!("page/state.js"),
     include_str!("page/halt.js"),
     include_str!("page/session.js"),
-    include_str!("page/views.js"),
-    include_str!("page/pointer.js"),
     include_str!("page/card.js"),
+    include_str!("page/forms.js"),
+    include_str!("page/views.js"),
+    include_str!("page/tabs.js"),
+    include_str!("page/pointer.js"),
     include_str!("page/time.js"),
+    include_str!("page/lanes.js"),
+    include_str!("page/address.js"),
+    include_str!("page/scene_tree.js"),
+    include_str!("page/joints.js"),
+    include_str!("page/capture.js"),
+    include_str!("page/inset.js"),
     include_str!("page/draw.js"),
 ];
 
@@ -26,10 +35,30 @@ const FRAME: &str = include_str!("page/page.html");
 /// The page; `word` is the nonce that tells the browser that style and script are the page's
 /// own.
 pub(crate) fn page(word: &str) -> String {
-    // The nonce is inserted first, so that nothing in the parts is mistaken for its
-    // placeholder.
+    filled(word, "", "")
+}
+
+/// The page of a saved run, which is a JSON text without `<`. It is in a file, so the policy that
+/// the server would send is in its head: nothing from elsewhere, and no way to anywhere.
+pub(crate) fn page_of_run(run: &str) -> String {
+    let policy = format!(
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; \
+         script-src 'nonce-{WORD}'; style-src 'nonce-{WORD}'; img-src data: blob:; \
+         base-uri 'none'; form-action 'none'\">"
+    );
+    let run = format!("<script type=\"application/json\" id=\"run\">{run}</script>");
+    filled(WORD, &policy, &run)
+}
+
+/// The nonce in a file. Whoever could insert a script there could insert the nonce, too.
+const WORD: &str = "planwright";
+
+fn filled(word: &str, policy: &str, run: &str) -> String {
+    // What comes last is longest; nothing in it is mistaken for a placeholder.
     FRAME
         .replace("{word}", word)
+        .replace("<!--policy-->", policy)
         .replace("{style}", STYLE)
         .replace("{script}", &SCRIPTS.concat())
+        .replace("<!--run-->", run)
 }

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::picture::View;
-use crate::robot::LinkId;
+use crate::robot::{JointKind, LinkId};
 use crate::world::World;
 
 /// Length (m) of the drawn frustum of the robot's camera.
@@ -42,9 +42,21 @@ fn views(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Value {
     let camera = world.models().description.camera();
     let robot = &world.models().robot;
     let node = |link: LinkId| node_of(&robot.link(link).name);
+    // In the order of the positions in a frame.
+    let joints = robot.joints().filter(|(_, joint)| joint.is_actuated());
+    let joints = joints.map(|(_, joint)| {
+        json!({
+            "name": joint.name,
+            "unit": if joint.kind == JointKind::Prismatic { "m" } else { "rad" },
+            "limits": joint.limits.map(|limits| [limits.lower, limits.upper]),
+            "velocity": joint.max_velocity,
+            "child": node(joint.child),
+        })
+    });
     json!({
         "fixed": fixed.collect::<Vec<_>>(),
         "base": node(robot.root()),
+        "joints": joints.collect::<Vec<_>>(),
         "camera": {
             "node": node(camera.frame),
             "fov": camera.vertical_view,

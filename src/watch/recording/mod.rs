@@ -5,7 +5,6 @@
 //! simulated: the same session gives the same bytes. [`Recorder`] writes, [`read_recording`]
 //! reads.
 
-mod base64;
 mod channel;
 mod decompress;
 mod follower;

@@ -251,6 +251,7 @@ impl Reader<'_> {
             name: frame_id.to_owned(),
             kind: Kind::Robot,
             type_name: String::new(),
+            parent: None,
             still: None,
             mesh: Arc::default(),
         });
@@ -284,18 +285,12 @@ fn parsed<T: DeserializeOwned>(data: &[u8]) -> Result<T, RecordingError> {
 
 fn news(task: Task) -> Option<TaskNews> {
     Some(TaskNews {
-        id: task_id(&task.id)?,
-        parent: task_id(&task.parent),
+        id: TaskId::of_text(&task.id)?,
+        parent: TaskId::of_text(&task.parent),
         name: task.name,
         state: TaskState::named(&task.state)?,
         failure: task.failure,
+        result: String::new(),
+        about: None,
     })
-}
-
-fn task_id(text: &str) -> Option<TaskId> {
-    let number = |rest: &str| rest.parse().ok();
-    match text.strip_prefix('t') {
-        Some(rest) => number(rest).map(TaskId::Task),
-        None => number(text.strip_prefix('m')?).map(TaskId::Motion),
-    }
 }

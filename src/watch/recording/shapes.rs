@@ -93,6 +93,7 @@ pub(crate) fn node(entity: &SceneEntity, id: u32, still: Option<Placed>) -> Opti
         name: entity.metadata("name")?.to_owned(),
         kind,
         type_name: entity.metadata("type").unwrap_or_default().to_owned(),
+        parent: None,
         still,
         mesh: mesh.into(),
     })

@@ -8,7 +8,6 @@ use mcap::records::MessageHeader;
 use serde::Serialize;
 
 use super::RecordingError;
-use super::base64::base64;
 use super::channel::Channel;
 use super::message::{
     Axes, CameraCalibration, CompressedImage, FrameTransform, FrameTransforms, Held, JointState,
@@ -19,6 +18,7 @@ use super::shapes::{MAP, entity, frame_of, lines, tidy};
 use crate::perception::camera::Camera;
 use crate::picture::{Scene, render};
 use crate::spatial::Pose;
+use crate::watch::base64::base64;
 use crate::watch::{Frame, Kind, Node, Placed, TaskId, TaskNews, WatchEvent};
 use crate::world::World;
 
@@ -297,14 +297,10 @@ impl<W: Write + Seek> RecordingWriter<W> {
     }
 
     fn task(&mut self, time: f64, news: &TaskNews) -> Result<(), RecordingError> {
-        let id = |id: TaskId| match id {
-            TaskId::Task(number) => format!("t{number}"),
-            TaskId::Motion(number) => format!("m{number}"),
-        };
         let task = Task {
             timestamp: Time::new(time),
-            id: id(news.id),
-            parent: news.parent.map(id).unwrap_or_default(),
+            id: news.id.text(),
+            parent: news.parent.map(TaskId::text).unwrap_or_default(),
             name: news.name.clone(),
             state: news.state.name().to_owned(),
             failure: news.failure.clone(),

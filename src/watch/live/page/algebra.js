@@ -19,6 +19,35 @@ function turned(place, v) {
 }
 const placed = (place, v) => add(turned(place, v), place);
 
+// A pose as seen from another one.
+function within(from, place) {
+  const [x, y, z, i, j, k, w] = from;
+  const back = [0, 0, 0, -i, -j, -k, w];
+  const [a, b, c, d] = place.slice(3);
+  return [
+    ...turned(back, minus(place, [x, y, z])),
+    w * a - i * d - j * c + k * b, w * b + i * c - j * d - k * a,
+    w * c - i * b + j * a - k * d, w * d + i * a + j * b + k * c,
+  ];
+}
+
+// A pose that is given as seen from another one.
+function combined(from, place) {
+  const [, , , i, j, k, w] = from;
+  const [a, b, c, d] = place.slice(3);
+  return [
+    ...placed(from, place),
+    w * a + i * d + j * c - k * b, w * b - i * c + j * d + k * a,
+    w * c + i * b - j * a + k * d, w * d - i * a - j * b - k * c,
+  ];
+}
+
+// Whether two poses differ by more than a millimetre or a quarter of a degree.
+function isElsewhere(a, b) {
+  const alike = Math.abs(a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6]);
+  return length(minus(a, b)) > 1e-3 || alike < 1 - 2.5e-6;
+}
+
 function matrixOf(place) {
   const [x, y, z, i, j, k, w] = place;
   return new Float32Array([

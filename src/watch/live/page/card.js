@@ -1,27 +1,65 @@
-// The card about the selected node.
+// The card about what is selected: a node of the scene, or a task of the plan.
 
 function select(id) {
   page.selected = id;
+  page.task = null;
+  page.marked = null;
   page.isDirty = true;
+}
+
+// Selects a task, and goes to its begin, or to another time.
+function selectTask(task, time = task.since) {
+  page.selected = null;
+  page.task = task;
+  page.marked = null;
+  tasks.reveal(task);
+  goTo(time);
+  markUsed(task);
+}
+
+function unselect() {
+  page.moved = null;
+  if (page.measured) measure(null);
+  else select(null);
+}
+
+const element = (name, text, kind = '') => {
+  const made = document.createElement(name);
+  made.textContent = text;
+  if (kind) made.className = kind;
+  return made;
+};
+
+function pushButton(text, title, act) {
+  const button = element('button', text);
+  button.type = 'button';
+  button.title = title;
+  button.addEventListener('click', act);
+  return button;
+}
+
+// Fills the card, unless it shows just that: rows are names with texts, `more` what follows.
+function fillCard(title, rows, more, key = null) {
+  const card = $('card');
+  const text = JSON.stringify([title, rows, key]);
+  if (card.dataset.text === text) return;
+  card.dataset.text = text;
+  const close = pushButton('×', 'Close (Escape)', () => select(null));
+  close.className = 'close';
+  close.setAttribute('aria-label', 'Close');
+  const list = document.createElement('dl');
+  list.append(...rows.flatMap(([name, value, kind]) => [element('dt', name), element('dd', value, kind)]));
+  card.replaceChildren(element('h3', title), close, list, ...more());
 }
 
 function showCard(state) {
   const node = scene.nodes.get(page.selected);
-  const card = $('card');
-  card.hidden = !node;
-  showLabel(node);
-  if (!node) return;
-  if (card.dataset.id !== String(node.id)) {
-    card.dataset.id = node.id;
-    const title = document.createElement('h3');
-    title.textContent = node.name;
-    const close = document.createElement('button');
-    close.type = 'button';
-    close.textContent = '×';
-    close.title = 'Close (Escape)';
-    close.addEventListener('click', () => select(null));
-    card.replaceChildren(title, close, document.createElement('dl'));
-  }
+  $('card').hidden = !node && !page.task;
+  if (node) showNode(node, state);
+  else if (page.task) showTask(page.task);
+}
+
+function showNode(node, state) {
   const place = scene.place(node, state);
   const by = scene.holder(state, node.id);
   const rows = [['type', node.type || { robot: 'link of the robot', furniture: 'furniture' }[node.kind] || node.kind]];
@@ -31,31 +69,82 @@ function showCard(state) {
   } else {
     rows.push(['position', 'not in the world']);
   }
+  const parent = scene.nodes.get(node.parent);
+  if (parent) rows.push(['carried by', parent.name]);
   if (node.kind === 'object') rows.push(['held by', by ?? 'nothing']);
   const touched = scene.touched(state, node.id);
   if (touched.length) rows.push(['touches', touched.join(', ')]);
   const holds = state.held.filter(([, link]) => link === node.name && node.kind === 'robot').map(([id]) => scene.nodes.get(id)?.name);
   if (holds.length) rows.push(['holds', holds.join(', ')]);
-  const text = JSON.stringify(rows);
-  if (card.dataset.text === text) return;
-  card.dataset.text = text;
-  card.lastChild.replaceChildren(...rows.flatMap(([name, value]) => {
-    const [dt, dd] = [document.createElement('dt'), document.createElement('dd')];
-    dt.textContent = name;
-    dd.textContent = value;
-    return [dt, dd];
-  }));
+  // What has been dragged or clicked changes the forms.
+  const key = [page.moved?.id === node.id && page.moved.place, page.clicked?.id === node.id && page.clicked.at, node.kind === 'furniture' ? '' : place];
+  fillCard(node.name, rows, () => formsOf(node), key);
 }
 
-// The name label at the selected node itself.
-const label = document.createElement('span');
-$('labels').append(label);
-function showLabel(node) {
-  const at = node && screenOf(node.id);
-  label.hidden = !at;
-  if (!at) return;
-  const box = canvas.getBoundingClientRect();
-  label.textContent = node.name;
-  label.style.left = `${at[0] - box.left}px`;
-  label.style.top = `${at[1] - box.top}px`;
+function showTask(task) {
+  const state = Tasks.stateAt(task, Infinity);
+  const rows = [[task.what, state]];
+  const end = task.end;
+  rows.push(['time', end === null ? `since ${task.since.toFixed(2)} s` : `${task.since.toFixed(2)} – ${end.toFixed(2)} s, ${(end - task.since).toFixed(2)} s`]);
+  for (const [key, value] of task.about?.keys ?? []) rows.push([key, value, 'code']);
+  if (task.result) rows.push(['result', task.result, 'code']);
+  if (task.failure) rows.push(['failure', task.failure, 'bad']);
+  const cause = originOf(task);
+  if (cause && cause !== task) rows.push(['cause', cause.name]);
+  if (page.marked?.names) rows.push(['used', page.marked.names]);
+  if (task.about?.place) rows.push(['source', task.about.place, 'code'], ['', task.about.line.trim(), 'code']);
+  fillCard(task.name, rows, () => {
+    const actions = document.createElement('p');
+    actions.className = 'actions';
+    actions.append(pushButton('begin', 'Go to its begin', () => goTo(task.since)));
+    if (end !== null) actions.append(pushButton('end', 'Go to its end', () => goTo(end)));
+    if (cause && cause !== task) actions.append(pushButton('cause', 'Show what failed first', () => selectTask(cause, cause.end ?? cause.since)));
+    if (task.parent) actions.append(pushButton('outer', 'Show the task that it belongs to', () => selectTask(task.parent, page.time ?? task.since)));
+    return [actions];
+  });
+}
+
+// The task inside a failed one that failed first for the same reason.
+function originOf(task) {
+  if (Tasks.stateAt(task, Infinity) !== 'failed') return null;
+  const inner = task.children.find((child) => child.failure === task.failure);
+  return inner ? originOf(inner) ?? inner : task;
+}
+
+// Finds out which parts of the robot moved relative to what carries them during a task, and which
+// things moved, were held or touched, or are named in its description.
+async function markUsed(task) {
+  const end = task.end ?? past.span[1];
+  const times = [0, 0.25, 0.5, 0.75, 1].map((share) => task.since + (end - task.since) * share);
+  const states = [];
+  for (const time of times) states.push(await past.get(Math.max(past.span[0], Math.min(past.span[1], time))));
+  if (page.task !== task || states.includes(null)) return;
+  const relative = (node, state) => {
+    const place = scene.place(node, state);
+    const parent = scene.nodes.get(node.parent);
+    const carrier = parent && scene.place(parent, state);
+    return place && carrier ? within(carrier, place) : place;
+  };
+  const isMoved = (node) => {
+    const [first, ...later] = states.map((state) => relative(node, state));
+    return !!first && later.some((place) => place && isElsewhere(first, place));
+  };
+  const words = new Set((task.about?.keys ?? []).flatMap(([, value]) => value.toLowerCase().match(/[a-z][\w-]*/g) ?? []));
+  const ids = new Set(), things = new Set(), parts = new Set();
+  for (const node of scene.nodes.values()) {
+    if (node.still) {
+      if (words.has(node.name.toLowerCase())) ids.add(node.id), things.add(node.name);
+      continue;
+    }
+    // What moves in so short a time moves for other reasons.
+    const mayMove = end - task.since > 0.04;
+    const isNamed = node.kind !== 'robot' && words.has(node.name.toLowerCase());
+    const isHeld = node.kind === 'object' && states.some((state) => state.held.some(([id]) => id === node.id));
+    if (!isNamed && !(isHeld && task.what !== 'task') && !(mayMove && isMoved(node))) continue;
+    ids.add(node.id);
+    (node.kind === 'robot' ? parts : things).add(node.name);
+  }
+  const list = (names) => [...names].slice(0, 6).join(', ') + (names.size > 6 ? ` and ${names.size - 6} more` : '');
+  page.marked = { task, ids, names: [list(things), list(parts)].filter(Boolean).join('; ') };
+  page.isDirty = true;
 }

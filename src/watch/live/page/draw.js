@@ -6,11 +6,12 @@ function showTime() {
   const slider = $('slider');
   const [start, end] = past.span;
   // The clock tells the time of the scene that is shown, also while another one is fetched.
-  const shown = page.isKnown ? page.time ?? page.shown.t : page.shown.t;
+  const shown = page.isKnown ? page.peek ?? page.time ?? page.shown.t : page.shown.t;
   // A plan that has just begun must not make the slider jump.
   slider.min = start;
   slider.max = Math.max(end, start + 0.01);
   slider.value = page.time ?? slider.max;
+  slider.setAttribute('aria-valuetext', seconds(Number(slider.value)));
   $('now').textContent = seconds(shown);
   $('end').textContent = page.time === null ? '' : `of ${seconds(end)}`;
 }
@@ -25,11 +26,13 @@ function tick(now) {
     page.isDirty = true;
     if (page.time >= past.span[1]) {
       page.isPlaying = false;
+      film?.stop();
       if (!page.isRecording && page.link === 'live') goLive();
       showTransport();
     }
   }
   if (orbit.advance(now)) page.isDirty = true;
+  if (page.sought || page.wanted !== undefined) findSought();
   if (tasks.isDirty) page.isDirty = true;
   if (document.hidden) return;
   // A scene that has come to rest is drawn once more at the best quality.
@@ -38,20 +41,27 @@ function tick(now) {
   isRefined = isFine;
   if (!isFine) lastDraw = now;
   page.isDirty = false;
-  const found = page.time === null ? scene.live : past.at(page.time, fetched);
+  const time = page.peek ?? page.time;
+  const found = time === null ? scene.live : past.at(time, fetched);
   page.isKnown = !!found;
   if (found) page.shown = found;
   if (stage) {
     const { eye, matrix, fov } = bodyView(page.shown);
     stage.resize(isFine);
     const view = stage.projection(fov, matrix);
-    stage.draw(page.shown, { eye, view, selected: page.selected, isFine, isThroughCamera: page.bound === 'robot' });
+    stage.draw(dragged(page.shown), { eye, view, selected: page.selected, isFine, isThroughCamera: page.bound === 'robot' });
+    inset.draw(dragged(page.shown));
+    capture();
     if (!isFine) adapt(passed);
   }
   counts.drawn += 1;
   showTime();
   showCard(page.shown);
+  showLabels();
+  sceneTree.render(page.shown);
+  jointPanel.render(page.shown, page.peek ?? page.time ?? past.span[1]);
   tasks.render(page.time ?? Infinity);
+  lanes.render(page.time ?? Infinity, past.span, page.task);
   log.render(page.time ?? Infinity);
 }
 
@@ -78,5 +88,12 @@ function adapt(passed) {
 new ResizeObserver(() => { page.isDirty = true; }).observe(canvas);
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { page.isDirty = true; });
 showTransport();
-connect();
+const saved = $('run');
+if (saved) {
+  openRun(saved.textContent);
+  // It is large, and has been read.
+  saved.remove();
+} else {
+  connect();
+}
 requestAnimationFrame(tick);

@@ -46,11 +46,13 @@ class Log {
   }
 
   add(time, text, kind, tags) {
-    const line = document.createElement('div');
+    const line = document.createElement('button');
+    line.type = 'button';
+    line.title = 'Go to this time';
     line.className = `line ${kind}`;
     const at = document.createElement('time');
     at.textContent = time.toFixed(2);
-    const what = document.createElement('p');
+    const what = document.createElement('span');
     what.textContent = text;
     if (tags) {
       what.append(' ');
@@ -60,7 +62,9 @@ class Log {
     }
     line.append(at, what);
     line.classList.toggle('later', time > this.time + 1e-6);
-    this.lines.push({ time, line });
+    line.tabIndex = -1;
+    line.addEventListener('click', () => goTo(time));
+    this.lines.push({ time, line, text, kind });
     this.list.append(line);
     if (this.lines.length > MOST_LINES) this.lines.shift().line.remove();
     if (this.follow && this.time === Infinity) this.list.scrollTop = this.list.scrollHeight;

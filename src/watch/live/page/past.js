@@ -1,10 +1,25 @@
-// The past: fetched in pieces of a few seconds, some of which are kept.
+// The past, in pieces: they are got when they are needed, and some of them are kept.
 
-const PIECE = 2;
 const MOST_PIECES = 40;
 
+// The pieces that the server has: a few seconds each.
+const SERVED = {
+  PIECE: 2,
+  numberAt(time) { return Math.floor(time / this.PIECE); },
+  begin(number) { return number * this.PIECE; },
+  end(number) { return (number + 1) * this.PIECE; },
+  async frames(number) {
+    const answer = await fetch(`past?from=${this.begin(number)}&to=${this.end(number)}`);
+    if (!answer.ok) throw new Error(answer.statusText);
+    return answer.json();
+  },
+};
+
 class Past {
-  constructor() { this.clear(); }
+  constructor() {
+    this.store = SERVED;
+    this.clear();
+  }
 
   clear() {
     this.pieces = new Map();
@@ -14,10 +29,24 @@ class Past {
   // The state at a time if it is here; otherwise null. It is fetched then, and `come` is called
   // with whether that succeeded.
   at(time, come) {
-    const number = Math.floor(time / PIECE);
+    const number = this.store.numberAt(time);
     const piece = this.pieces.get(number);
     if (piece && piece.states && (piece.isWhole || time <= piece.until)) return this.pick(piece, time);
     if (!piece || (piece.states && !piece.isLoading)) this.fetch(number, come);
+    return null;
+  }
+
+  // The state at a time, as soon as it is here; null if it cannot be had.
+  async get(time) {
+    for (let i = 0; i < 50; i++) {
+      let wake;
+      const come = new Promise((done) => { wake = done; });
+      const state = this.at(time, wake);
+      if (state) return state;
+      // Another caller may have asked for it.
+      const isHere = await Promise.race([come, new Promise((done) => setTimeout(done, 100, true))]);
+      if (!isHere) return null;
+    }
     return null;
   }
 
@@ -25,9 +54,9 @@ class Past {
   lastKnown(time) {
     let last = null;
     for (const [number, { states, isWhole, until }] of this.pieces) {
-      const begin = number * PIECE;
+      const begin = this.store.begin(number);
       if (!states || begin > time) continue;
-      last = Math.max(last ?? begin, Math.min(time, isWhole ? begin + PIECE - 1e-6 : until));
+      last = Math.max(last ?? begin, Math.min(time, isWhole ? this.store.end(number) - 1e-6 : until));
     }
     return last;
   }
@@ -44,15 +73,13 @@ class Past {
   }
 
   async fetch(number, come) {
-    const until = Math.min((number + 1) * PIECE, this.span[1]);
-    const isWhole = this.span[1] > (number + 1) * PIECE + 0.1;
+    const until = Math.min(this.store.end(number), this.span[1]);
+    const isWhole = this.span[1] > this.store.end(number) + 0.1;
     const { pieces } = this;
     const before = pieces.get(number);
     pieces.set(number, { ...before, isLoading: true });
     try {
-      const answer = await fetch(`past?from=${number * PIECE}&to=${(number + 1) * PIECE}`);
-      if (!answer.ok) throw new Error(answer.statusText);
-      const frames = await answer.json();
+      const frames = await this.store.frames(number);
       const states = [];
       for (const frame of frames) states.push(follow(states.at(-1) || EMPTY, frame));
       pieces.delete(number);

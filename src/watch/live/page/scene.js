@@ -4,7 +4,7 @@
 const METRE = 1e-4;
 const UNIT = 1e-5;
 
-const EMPTY = { t: 0, places: new Map(), held: [], touch: [], hits: [], axes: [], paths: [] };
+const EMPTY = { t: 0, places: new Map(), held: [], touch: [], hits: [], axes: [], paths: [], joints: [] };
 
 function placeOf(n, i) {
   return [n[i] * METRE, n[i + 1] * METRE, n[i + 2] * METRE, n[i + 3] * UNIT, n[i + 4] * UNIT, n[i + 5] * UNIT, n[i + 6] * UNIT];
@@ -20,7 +20,12 @@ function follow(before, frame) {
     for (let i = 0; i + 3 <= path.points.length; i += 3) points.push(path.points.slice(i, i + 3).map((v) => v * METRE));
     return { what: path.what, frame: path.frame, points };
   });
-  return { t: frame.t, places, held: frame.held, touch: frame.touch, hits: frame.hits, axes: frame.axes, paths };
+  let { joints } = before;
+  if (frame.whole || frame.j?.length) {
+    joints = frame.whole ? [] : joints.slice();
+    for (let i = 0; i + 2 <= (frame.j?.length ?? 0); i += 2) joints[frame.j[i]] = frame.j[i + 1] * METRE;
+  }
+  return { t: frame.t, joints, places, held: frame.held, touch: frame.touch, hits: frame.hits, axes: frame.axes, paths };
 }
 
 class Scene {

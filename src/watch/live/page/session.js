@@ -76,17 +76,24 @@ const HEARD = {
     past.clear();
     tasks.clear();
     log.clear();
+    jointPanel.clear();
+    page.hidden.clear();
+    page.labelled.clear();
+    select(null);
     page.halt = null;
     page.isRecording = hello.recording;
     page.views = hello.views;
     if (stage) stage.camera = hello.views.camera;
     if (hello.recording) page.time ??= 0;
-    linked('live', hello.recording ? 'recording' : 'live');
+    linked('live', hello.saved ? 'saved run' : hello.recording ? 'recording' : 'live');
     notice('link', '');
     notice('past', '');
     makeViews();
     if (page.hasView) showViews();
-    else look(hello.views.fixed[0]?.name ?? 'follow', true);
+    else {
+      look(hello.views.fixed[0]?.name ?? 'follow', true);
+      followAddress();
+    }
     page.hasView = true;
     showTransport();
     showHalt();

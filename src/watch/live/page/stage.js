@@ -17,6 +17,8 @@ const LOOKS = {
 
 const PATH_COLORS = { base: [0.09, 0.45, 0.80, 0.9], left: [0.10, 0.62, 0.42, 0.9], right: [0.62, 0.32, 0.76, 0.9] };
 
+const DEFAULT_LAYERS = { paths: true, camera: true, contacts: true, shadows: true, frames: false };
+
 class Stage {
   constructor(canvas, scene) {
     this.canvas = canvas;
@@ -29,7 +31,7 @@ class Stage {
     this.pick = program(gl, PICK_VERTEX, PICK_FRAGMENT);
     this.floor = program(gl, FLOOR_VERTEX, FLOOR_FRAGMENT);
     this.line = program(gl, LINE_VERTEX, LINE_FRAGMENT);
-    this.layers = { paths: true, camera: true, contacts: true, shadows: true };
+    this.layers = { ...DEFAULT_LAYERS };
     // On slow machines moving pictures are drawn coarser, in steps; still ones are not.
     this.coarse = 0;
     this.light = product(orthographic(6.2, 0.5, 26), lookingFrom(add([-0.6, 0.6, 0], times(SUN, 13)), [-0.6, 0.6, 0], [0, 0, 1]));
@@ -119,7 +121,7 @@ class Stage {
     const seen = [];
     for (const node of this.scene.nodes.values()) {
       const place = this.scene.place(node, state);
-      if (node.mesh && place) seen.push([node, place]);
+      if (node.mesh && place && !page.hidden.has(node.id)) seen.push([node, place]);
     }
     return seen;
   }
@@ -144,10 +146,17 @@ class Stage {
   draw(state, { eye, view, selected, isFine, isThroughCamera }) {
     const { gl } = this;
     const hasShadows = this.layers.shadows && (isFine || !this.coarse);
-    const look = matchMedia('(prefers-color-scheme: dark)').matches ? LOOKS.dark : LOOKS.light;
     const bodies = this.seen(state).map(([node, place]) => [node, matrixOf(place)]);
     if (hasShadows) this.drawShadows(bodies);
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
+    this.drawInto(state, { eye, view, selected, hasShadows, bodies });
+    this.drawLines(this.linesOf(state, selected, isThroughCamera), view);
+  }
+
+  // Draws bodies and floor into the viewport; shadows have been drawn before.
+  drawInto(state, { eye, view, selected, hasShadows, bodies = this.seen(state).map(([node, place]) => [node, matrixOf(place)]) }) {
+    const { gl } = this;
+    const look = matchMedia('(prefers-color-scheme: dark)').matches ? LOOKS.dark : LOOKS.light;
     gl.clearColor(...look.clear, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     const lit = ({ made, places }) => {
@@ -178,7 +187,6 @@ class Stage {
     gl.uniform3fv(this.floor.places.far, look.clear);
     gl.bindVertexArray(this.floorArray);
     gl.drawArrays(gl.TRIANGLES, 0, 6);
-    this.drawLines(this.linesOf(state, selected, isThroughCamera), view);
   }
 
   drawShadows(bodies) {
@@ -205,6 +213,7 @@ class Stage {
       for (const id of state.touch.flat()) tints.set(id, [0.95, 0.60, 0.10, 0.30]);
       for (const id of state.hits.flatMap((hit) => hit.nodes)) tints.set(id, [0.90, 0.08, 0.05, 0.65]);
     }
+    for (const id of page.marked?.ids ?? []) tints.set(id, [0.98, 0.62, 0.05, 0.50]);
     if (selected !== null) tints.set(selected, [0.12, 0.45, 0.95, 0.30]);
     return tints;
   }
@@ -219,6 +228,20 @@ class Stage {
       });
     };
     if (state.axes.length) axes(placeOf(state.axes, 0), state.axes[7] * METRE);
+    if (page.measured?.length === 2) lines.push([...page.measured, [0.98, 0.45, 0.05, 1]]);
+    for (const at of page.measured ?? []) {
+      for (const axis of [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) lines.push([add(at, times(axis, -0.02)), add(at, times(axis, 0.02)), [0.98, 0.45, 0.05, 1]]);
+    }
+    if (this.layers.frames) {
+      for (const one of this.scene.nodes.values()) {
+        const place = one.kind !== 'furniture' && this.scene.place(one, state);
+        if (!place) continue;
+        axes(place, 0.07);
+        const parent = this.scene.nodes.get(one.parent);
+        const carrier = parent && this.scene.place(parent, state);
+        if (carrier) lines.push([carrier.slice(0, 3), place.slice(0, 3), [0.9, 0.75, 0.1, 0.7]]);
+      }
+    }
     const node = selected === null ? null : this.scene.nodes.get(selected);
     const where = node && this.scene.place(node, state);
     if (where) axes(where, 0.18);

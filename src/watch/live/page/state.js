@@ -30,6 +30,25 @@ const page = {
   // A view that follows the robot.
   bound: null,
   selected: null,
+  // The selected task, and the nodes that it used.
+  task: null,
+  marked: null,
+  // The nodes that are not drawn.
+  hidden: new Set(),
+  // The nodes whose names are in the picture.
+  labelled: new Set(),
+  // Whether the next picture is to be saved.
+  wantsPicture: false,
+  // What was clicked, what is measured, and what has been dragged elsewhere.
+  clicked: null,
+  isMeasuring: false,
+  measured: null,
+  isDragging: false,
+  moved: null,
+  // Which panel is at the side.
+  tab: 'plan',
+  // A time that is shown in passing.
+  peek: null,
   views: null,
   shown: EMPTY,
   // Whether `shown` is how the world was at the time that the page shows.
@@ -39,7 +58,7 @@ const page = {
 
 // Counts for tests.
 const counts = { updates: 0, drawn: 0, errors: 0 };
-window.planwright = { counts, page, orbit, scene, past, screenOf };
+window.planwright = { counts, page, orbit, scene, past, tasks, log, screenOf };
 window.addEventListener('error', () => { counts.errors += 1; });
 
 // Shows a notice about something, or with an empty text none any more.

@@ -72,12 +72,14 @@ $('slider').addEventListener('input', () => {
 });
 
 window.addEventListener('keydown', (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target.id === 'slider') return;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.id === 'slider' || event.target.tagName === 'INPUT') return;
   const step = event.shiftKey ? 1 : 0.1;
   const now = page.time ?? past.span[1];
   const keys = {
-    ' ': play, End: goLive, Home: () => goTo(past.span[0]), Escape: () => select(null),
+    ' ': play, End: goLive, Home: () => goTo(past.span[0]), Escape: unselect,
+    f: () => stepFailure(1), F: () => stepFailure(-1), l: () => stepLine(1), L: () => stepLine(-1),
     ArrowLeft: () => goTo(now - step), ArrowRight: () => goTo(now + step),
+    ',': () => goTo(now - 1 / 30), '.': () => goTo(now + 1 / 30),
   };
   if (!keys[event.key] || (event.key === ' ' && event.target.tagName === 'BUTTON')) return;
   event.preventDefault();

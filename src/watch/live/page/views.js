@@ -64,20 +64,50 @@ function bodyView(state) {
   return { eye: orbit.eye(), matrix: orbit.matrix(), fov: orbit.fov };
 }
 
-for (const name of ['paths', 'camera', 'contacts', 'shadows']) {
-  const button = document.createElement('button');
-  button.type = 'button';
-  button.textContent = name;
-  button.title = {
-    paths: 'Planned paths of base and hands', camera: 'What the robot’s camera can see',
-    contacts: 'What the hands touch, and what stopped a motion', shadows: 'Shadows',
-  }[name];
-  button.setAttribute('aria-pressed', 'true');
-  button.addEventListener('click', () => {
+const LAYER_TITLES = {
+  paths: 'Planned paths of base and hands', camera: 'What the robot’s camera can see',
+  contacts: 'What the hands touch, and what stopped a motion', shadows: 'Shadows',
+  frames: 'All frames of the robot and of objects, with what carries them',
+};
+
+for (const [name, title] of Object.entries(LAYER_TITLES)) {
+  const button = pushButton(name, title, () => {
     if (!stage) return;
     stage.layers[name] = !stage.layers[name];
-    button.setAttribute('aria-pressed', String(stage.layers[name]));
-    page.isDirty = true;
+    showLayers();
   });
+  button.dataset.layer = name;
   $('layers').append(button);
+}
+
+function showLayers() {
+  for (const button of $('layers').children) {
+    button.setAttribute('aria-pressed', String(!!stage?.layers[button.dataset.layer]));
+  }
+  page.isDirty = true;
+}
+showLayers();
+
+// Where there is little room, layers and tools are shown on demand.
+$('more').addEventListener('click', () => {
+  $('more').setAttribute('aria-expanded', String(document.body.classList.toggle('more')));
+});
+
+// What the pointer does besides turning the view: measuring, or moving things.
+for (const [name, title, set] of [
+  ['measure', 'Measure between two clicks', (on) => { page.isMeasuring = on; measure(null); }],
+  ['move', 'Drag objects and the robot while the view is paused, and copy the form that moves them', (on) => {
+    page.isDragging = on;
+    page.moved = null;
+    page.isDirty = true;
+  }],
+]) {
+  const button = pushButton(name, title, () => {
+    const on = button.getAttribute('aria-pressed') !== 'true';
+    for (const other of $('tools').children) if (other !== button && other.getAttribute('aria-pressed') === 'true') other.click();
+    button.setAttribute('aria-pressed', String(on));
+    set(on);
+  });
+  button.setAttribute('aria-pressed', 'false');
+  $('tools').append(button);
 }

@@ -23,7 +23,7 @@ pub(crate) fn base64(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use crate::watch::recording::base64::base64;
+    use crate::watch::base64::base64;
 
     #[test]
     fn the_examples_of_the_standard_hold() {

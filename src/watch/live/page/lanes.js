@@ -1,0 +1,246 @@
+// The plan over the slider: a lane for each branch, a bar for each task and motion, failures
+// marked, and a tick for each line of the log.
+
+const LANE = 13;
+const TICKS = 9;
+// Bars narrower than this (pixels) are drawn and hit as if they were as wide.
+const LEAST = 3;
+
+class Lanes {
+  constructor(canvas, tip, tasks, log) {
+    Object.assign(this, { canvas, tip, tasks, log, bars: [], rows: 0, version: -1, hover: null });
+    this.context = canvas.getContext('2d');
+    canvas.addEventListener('pointermove', (event) => this.point(event));
+    canvas.addEventListener('pointerleave', () => this.leave());
+    canvas.addEventListener('click', (event) => this.click(event));
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { this.colors = null; });
+  }
+
+  // Places the bars: branches that run at the same time are below each other.
+  place(end) {
+    const last = (task) => task.end ?? end;
+    this.bars = [];
+    const block = (task) => {
+      const { parts, height } = pack(task.children);
+      return { task, parts, height: height + 1, begin: task.since, end: Math.max(last(task), task.since) };
+    };
+    const pack = (tasks) => {
+      const placed = [];
+      let open = [], height = 0;
+      for (const task of tasks) {
+        const one = block(task);
+        open = open.filter((other) => other.end > one.begin);
+        one.row = 0;
+        // The first gap that is high enough.
+        for (const other of open.sort((a, b) => a.row - b.row)) {
+          if (one.row + one.height <= other.row) break;
+          one.row = Math.max(one.row, other.row + other.height);
+        }
+        open.push(one);
+        placed.push(one);
+        height = Math.max(height, one.row + one.height);
+      }
+      return { parts: placed, height };
+    };
+    const add = (parts, above) => {
+      for (const { task, parts: inner, row } of parts) {
+        this.bars.push({ task, row: above + row });
+        add(inner, above + row + 1);
+      }
+    };
+    const { parts, height } = pack(this.tasks.roots);
+    add(parts, 0);
+    this.rows = height;
+  }
+
+  render(time, [start, end], selected) {
+    const { canvas, context } = this;
+    const width = canvas.clientWidth;
+    // What still runs gets longer.
+    const isNew = this.version !== this.tasks.version || (this.end !== end && this.tasks.isRunning);
+    const key = [width, devicePixelRatio, start, end, time, selected?.id, this.hover?.x, this.log.lines.length].join();
+    if (!isNew && key === this.key && this.colors) return;
+    if (isNew) this.place(end);
+    Object.assign(this, { key, version: this.tasks.version, end, start });
+    const height = this.rows * LANE + TICKS;
+    canvas.style.height = `${height}px`;
+    $('lanes').hidden = !this.bars.length && !this.log.lines.length;
+    const ratio = devicePixelRatio || 1;
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    this.colors ??= this.look();
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, width, height);
+    context.font = '10px system-ui, sans-serif';
+    context.textBaseline = 'middle';
+    for (const bar of this.bars) this.drawBar(bar, time, end, selected);
+    for (const { time: at, kind } of this.log.lines) {
+      context.fillStyle = { error: this.colors.bad, halted: this.colors.bad, warn: this.colors.warn }[kind] ?? this.colors.faint;
+      context.fillRect(this.x(at) - 0.5, height - TICKS + 2, kind === 'error' || kind === 'halted' ? 2 : 1, TICKS - 2);
+    }
+    const line = (at, color) => {
+      context.fillStyle = color;
+      context.fillRect(this.x(at) - 0.75, 0, 1.5, height);
+    };
+    if (this.hover) line(this.hover.time, this.colors.faint);
+    line(Math.min(time, end), this.colors.accent);
+  }
+
+  drawBar({ task, row }, time, end, selected) {
+    const { context, colors } = this;
+    const [from, to] = this.extent(task, end);
+    const top = row * LANE + 1;
+    const state = Tasks.stateAt(task, Infinity);
+    const isOwn = state === 'failed' && Tasks.isOrigin(task);
+    const color = { succeeded: colors.good, failed: colors.bad, stopped: colors.bad, running: colors.accent, suspended: colors.warn }[state] ?? colors.faint;
+    context.globalAlpha = task.since > time ? 0.45 : 1;
+    context.fillStyle = colors.panel;
+    context.fillRect(from, top, to - from, LANE - 2);
+    context.fillStyle = color;
+    context.globalAlpha *= isOwn ? 0.85 : task.what === 'task' ? 0.22 : task.what === 'motion' ? 0.62 : 0.38;
+    context.fillRect(from, top, to - from, LANE - 2);
+    context.globalAlpha = task.since > time ? 0.45 : 1;
+    context.fillRect(from, top, 1, LANE - 2);
+    if (isOwn) {
+      // Where it failed.
+      context.beginPath();
+      context.moveTo(to - 5, top);
+      context.lineTo(to + 2, top);
+      context.lineTo(to + 2, top + 7);
+      context.fill();
+    }
+    if (to - from > 30) {
+      context.save();
+      context.beginPath();
+      context.rect(from + 3, top, to - from - 5, LANE - 2);
+      context.clip();
+      context.fillStyle = isOwn ? colors.panel : colors.ink;
+      context.fillText(task.name, from + 4, top + LANE / 2 - 0.5);
+      context.restore();
+    }
+    context.globalAlpha = 1;
+    if (task === selected) {
+      context.strokeStyle = colors.accent;
+      context.lineWidth = 1.5;
+      context.strokeRect(from + 0.5, top - 0.25, to - from - 1, LANE - 1.5);
+    }
+  }
+
+  look() {
+    const style = getComputedStyle(document.documentElement);
+    const names = ['good', 'bad', 'warn', 'accent', 'faint', 'ink', 'panel'];
+    return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+  }
+
+  // The slider's thumb is 16 pixels wide: its middle does not get to the ends.
+  x(time) { return 8 + (time - this.start) / Math.max(0.01, this.end - this.start) * (this.canvas.clientWidth - 16); }
+
+  timeAt(x) {
+    const share = (x - 8) / Math.max(1, this.canvas.clientWidth - 16);
+    return this.start + Math.max(0, Math.min(1, share)) * (this.end - this.start);
+  }
+
+  extent(task, end) {
+    const from = this.x(task.since);
+    return [from, Math.max(from + LEAST, this.x(task.end ?? end))];
+  }
+
+  // The task and the line of the log at a point of the canvas.
+  at(x, y) {
+    const row = Math.floor(y / LANE);
+    if (y >= this.rows * LANE) {
+      const near = this.log.lines.filter((line) => Math.abs(this.x(line.time) - x) < 4);
+      const distance = (line) => Math.abs(this.x(line.time) - x);
+      return { line: near.sort((a, b) => distance(a) - distance(b))[0] ?? null, task: null };
+    }
+    const found = this.bars.filter((bar) => bar.row === row).findLast(({ task }) => {
+      const [from, to] = this.extent(task, this.end);
+      return x >= from - 1 && x <= to + 1;
+    });
+    return { task: found?.task ?? null, line: null };
+  }
+
+  point(event) {
+    const box = this.canvas.getBoundingClientRect();
+    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    const { task, line } = this.at(x, y);
+    const time = this.timeAt(x);
+    this.hover = { x, time };
+    const state = task && Tasks.stateAt(task, Infinity);
+    const took = task && task.end !== null ? `, ${(task.end - task.since).toFixed(1)} s` : '';
+    const texts = task ? [task.name, `${state}${took}`, state === 'failed' ? task.failure : ''] : [line ? line.text : '', '', ''];
+    this.tip.replaceChildren(...[`${time.toFixed(2)} s`, ...texts].filter(Boolean).map((text, i) => {
+      const part = document.createElement(i === 1 ? 'b' : 'span');
+      part.textContent = text.length > 160 ? `${text.slice(0, 160)}…` : text;
+      return part;
+    }));
+    this.tip.hidden = false;
+    const left = Math.max(4, Math.min(innerWidth - this.tip.offsetWidth - 4, event.clientX - this.tip.offsetWidth / 2));
+    this.tip.style.left = `${left}px`;
+    this.tip.style.top = `${$('transport').getBoundingClientRect().top - this.tip.offsetHeight - 6}px`;
+    this.canvas.style.cursor = task || line ? 'pointer' : 'default';
+    // The scene shows the moment pointed at, if the pointer stays.
+    clearTimeout(this.wait);
+    if (event.pointerType === 'mouse') this.wait = setTimeout(() => { peek(this.hover?.time ?? null); }, 150);
+    page.isDirty = true;
+  }
+
+  leave() {
+    clearTimeout(this.wait);
+    this.hover = null;
+    this.tip.hidden = true;
+    peek(null);
+  }
+
+  click(event) {
+    const box = this.canvas.getBoundingClientRect();
+    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    const { task, line } = this.at(x, y);
+    this.leave();
+    if (task) selectTask(task);
+    else goTo(line ? line.time : this.timeAt(x));
+  }
+}
+
+// Shows another time than the page's, without going there; with null no more.
+function peek(time) {
+  if (page.peek === time) return;
+  page.peek = time;
+  page.isDirty = true;
+}
+
+const lanes = new Lanes($('lane-canvas'), $('tip'), tasks, log);
+
+// The times at which something failed, in order, with the task if it is known.
+function failures() {
+  const failed = [];
+  for (const task of tasks.all()) {
+    for (const [t, state] of task.changes) {
+      if ((state === 'failed' || state === 'stopped') && Tasks.isOrigin(task)) failed.push({ t, task });
+    }
+  }
+  for (const { time, kind } of log.lines) if (kind === 'halted') failed.push({ t: time, task: null });
+  return failed.sort((a, b) => a.t - b.t);
+}
+
+// Goes to the next (1) or the previous (-1) of some moments.
+function step(moments, way) {
+  const now = page.time ?? past.span[1];
+  const off = (moment) => (moment.t - now) * way;
+  // Several things may happen at the same time: those are gone through one after the other.
+  const here = moments.findIndex((m) => m.task && m.task === page.task && Math.abs(m.t - now) < 1e-3);
+  const same = here >= 0 && moments[here + way] && Math.abs(moments[here + way].t - now) < 1e-3 ? moments[here + way] : null;
+  const found = same ?? (way > 0 ? moments.find((m) => off(m) > 1e-3) : moments.findLast((m) => off(m) > 1e-3));
+  if (!found) return;
+  if (found.task) selectTask(found.task, found.t);
+  else goTo(found.t);
+}
+
+const stepFailure = (way) => step(failures(), way);
+const stepLine = (way) => step(log.lines.map(({ time }) => ({ t: time })), way);
+
+for (const [id, go] of [['failure-back', () => stepFailure(-1)], ['failure-on', () => stepFailure(1)], ['line-back', () => stepLine(-1)], ['line-on', () => stepLine(1)]]) {
+  $(id).addEventListener('click', go);
+}
