@@ -4,13 +4,13 @@
 /// or swapped with their neighbour; case is ignored), or `None` when even the nearest one
 /// differs in more than a third of its letters.
 ///
-/// Of equally near names the first one wins.
+/// Of equally near names, those win that have all the letters in order, and of these the first.
 pub(crate) fn closest_name<'a>(
     wanted: &str,
     names: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
     let wanted: Vec<char> = wanted.to_lowercase().chars().collect();
-    let mut best: Option<(usize, &str)> = None;
+    let mut best: Option<((usize, bool), &str)> = None;
     for name in names {
         let letters: Vec<char> = name.to_lowercase().chars().collect();
         let allowed = (letters.len().max(wanted.len()) / 3).max(1);
@@ -18,11 +18,18 @@ pub(crate) fn closest_name<'a>(
             continue;
         }
         let distance = edit_distance(&wanted, &letters);
-        if distance <= allowed && best.is_none_or(|(d, _)| distance < d) {
-            best = Some((distance, name));
+        let rank = (distance, !has_in_order(&letters, &wanted));
+        if distance <= allowed && best.is_none_or(|(least, _)| rank < least) {
+            best = Some((rank, name));
         }
     }
     best.map(|(_, name)| name)
+}
+
+/// Does a name have these letters, in their order, among others?
+fn has_in_order(name: &[char], letters: &[char]) -> bool {
+    let mut name = name.iter();
+    letters.iter().all(|letter| name.any(|x| x == letter))
 }
 
 /// Number of insertions, deletions, replacements and swaps of neighbours from `a` to `b`.
@@ -61,6 +68,11 @@ mod tests {
     #[test]
     fn ignores_case() {
         assert_eq!(closest_name(":BOTLE", [":cup", ":bottle"]), Some(":bottle"));
+    }
+
+    #[test]
+    fn a_name_that_lacks_a_letter_is_completed() {
+        assert_eq!(closest_name("lst", ["let", "list", "last"]), Some("list"));
     }
 
     #[test]

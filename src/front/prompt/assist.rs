@@ -6,16 +6,20 @@ use std::rc::Rc;
 
 use rustyline::completion::{Candidate, Completer};
 use rustyline::highlight::{CmdKind, Highlighter};
-use rustyline::hint::{Hint, Hinter};
+use rustyline::hint::Hinter;
 use rustyline::validate::{ValidationContext, ValidationResult, Validator};
 use rustyline::{CompletionType, Context, Helper, Result};
 
 use super::highlight::highlighted;
 use super::pasted::Inputs;
+use super::shape::Shape;
 use crate::session::dialogue::Converse;
 
 /// The evaluator, which also knows what could be typed.
 pub(crate) type Shared = Rc<RefCell<dyn Converse>>;
+
+/// Width of a terminal that does not tell its own.
+const USUAL_COLUMNS: usize = 80;
 
 /// Tells whether an input is complete, colours it and completes it.
 pub(crate) struct Assist {
@@ -23,6 +27,8 @@ pub(crate) struct Assist {
     colored: bool,
     /// The input is final: nothing at the cursor is highlighted any more.
     is_settled: Cell<bool>,
+    /// Widths of prompt and terminal, in columns.
+    widths: Cell<(usize, usize)>,
 }
 
 impl Assist {
@@ -31,24 +37,17 @@ impl Assist {
             evaluator,
             colored,
             is_settled: Cell::new(false),
+            widths: Cell::new((0, USUAL_COLUMNS)),
         }
+    }
+
+    /// Sets the widths of prompt and terminal; `None` if it does not tell its own.
+    pub(crate) fn set_widths(&self, prompt: usize, terminal: Option<usize>) {
+        self.widths.set((prompt, terminal.unwrap_or(USUAL_COLUMNS)));
     }
 }
 
 impl Helper for Assist {}
-
-/// The lambda list or keys of the form being typed.
-pub(crate) struct Shape(String);
-
-impl Hint for Shape {
-    fn display(&self) -> &str {
-        &self.0
-    }
-
-    fn completion(&self) -> Option<&str> {
-        None
-    }
-}
 
 /// Longer inputs get no hint: it would be too far from the cursor.
 const LONGEST_HINTED: usize = 4000;
@@ -63,7 +62,12 @@ impl Hinter for Assist {
         }
         let evaluator = self.evaluator.try_borrow().ok()?;
         let hint = evaluator.hint(line, pos)?;
-        Some(Shape(format!("  ; {hint}")))
+        let (prompt_width, columns) = self.widths.get();
+        let column = match line.rsplit_once('\n') {
+            Some((_, last)) => last.chars().count(),
+            None => prompt_width + line.chars().count(),
+        };
+        Some(Shape::new(&hint, column, columns))
     }
 }
 

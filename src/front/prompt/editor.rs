@@ -101,8 +101,15 @@ impl LineEditor {
         draft: Option<&str>,
     ) -> std::result::Result<String, ReadlineError> {
         let prompt = format!("{name}> ");
-        self.prompt_width
-            .store(prompt.chars().count(), Ordering::Relaxed);
+        let width = prompt.chars().count();
+        self.prompt_width.store(width, Ordering::Relaxed);
+        let columns = self
+            .editor
+            .dimensions()
+            .map(|(columns, _)| usize::from(columns));
+        if let Some(assist) = self.editor.helper() {
+            assist.set_widths(width, columns);
+        }
         *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = Instant::now();
         let text = match draft {
             Some(draft) => self.editor.readline_with_initial(&prompt, (draft, ""))?,

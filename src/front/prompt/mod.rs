@@ -15,6 +15,7 @@ mod keys;
 mod pasted;
 mod quick;
 mod resume;
+mod shape;
 
 use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};

@@ -22,9 +22,9 @@ fn path(value: &Value) -> Result<String, Box<Raise>> {
     Ok(string(value)?.text())
 }
 
-/// A file error; it does not quote the system's own words, which differ between platforms.
-fn file_error(doing: &str, path: &str, error: &Error) -> Box<Raise> {
-    let reason = match error.kind() {
+/// Why a file could not be used; not in the system's own words where these differ between platforms.
+pub(super) fn reason(error: &Error) -> String {
+    match error.kind() {
         ErrorKind::NotFound => "there is no such file or directory".to_owned(),
         ErrorKind::PermissionDenied => "permission denied".to_owned(),
         ErrorKind::AlreadyExists => {
@@ -32,10 +32,13 @@ fn file_error(doing: &str, path: &str, error: &Error) -> Box<Raise> {
         }
         ErrorKind::InvalidData => "the file is not UTF-8 text".to_owned(),
         _ => error.to_string(),
-    };
+    }
+}
+
+fn file_error(doing: &str, path: &str, error: &Error) -> Box<Raise> {
     Raise::new(
         known::FILE_ERROR,
-        format!("Error {doing} \"{path}\": {reason}."),
+        format!("Error {doing} \"{path}\": {}.", reason(error)),
     )
     .with(known::K_PATHNAME, Value::string(path))
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use super::files::reason;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::reader::{Outcome, Reader};
 use crate::lisp::value::Value;
@@ -110,7 +111,7 @@ fn read_file(path: &str) -> Result<String> {
     std::fs::read_to_string(path).map_err(|error| {
         Raise::new(
             known::FILE_ERROR,
-            format!("The file {path:?} cannot be read: {error}."),
+            format!("The file {path:?} cannot be read: {}.", reason(&error)),
         )
         .with(known::K_PATHNAME, path.into())
     })

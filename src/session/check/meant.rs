@@ -1,5 +1,8 @@
 //! What somebody may have meant by a name that means nothing.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use crate::closest_name::closest_name;
 use crate::lisp::builtins::help;
 use crate::lisp::image::Image;
@@ -9,6 +12,9 @@ use crate::lisp::value::package::{Access, PackageId, PackageTable};
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::plan::designator::schema;
 use crate::plan::designator::value::Class;
+
+/// How many files of a folder are looked at.
+const MOST_ENTRIES: usize = 10_000;
 
 /// What may be meant by a name.
 pub(super) enum Meant {
@@ -45,12 +51,16 @@ impl Meant {
     }
 }
 
-/// What to say to somebody whose program has met a name without a function or a value; `condition`
-/// tells of that.
+/// What to say to somebody whose program has met a name that means nothing; `condition` tells of that.
 pub(in crate::session) fn hint(image: &Image, condition: &Value) -> Option<String> {
     let Value::Instance(instance) = condition else {
         return None;
     };
+    match instance.class().name {
+        known::SIMPLE_PACKAGE_ERROR => return package_hint(image, &instance.slot(known::PACKAGE)?),
+        known::FILE_ERROR => return file_hint(&instance.slot(known::PATHNAME)?),
+        _ => {}
+    }
     let name = instance.slot(known::NAME)?.as_symbol()?;
     let is_variable = |sym| image.symbol(sym).kind == VariableKind::Special;
     let is_action = || !schema::rows(image, Class::Action, image.name(name)).is_empty();
@@ -74,6 +84,9 @@ pub(in crate::session) fn hint(image: &Image, condition: &Value) -> Option<Strin
         known::UNDEFINED_FUNCTION => Meant::by(image, name, |sym| has_function(image, sym)),
         known::UNBOUND_VARIABLE if has_function(image, name) => return call(),
         known::UNBOUND_VARIABLE => Meant::by(image, name, is_variable),
+        known::CLASS_NOT_FOUND_ERROR => {
+            Meant::by(image, name, |sym| image.classes.contains_key(&sym))
+        }
         _ => None,
     };
     Some(match meant? {
@@ -93,6 +106,42 @@ pub(in crate::session) fn hint(image: &Image, condition: &Value) -> Option<Strin
             }
         }
     })
+}
+
+/// What to say to somebody who has named a package that does not exist.
+fn package_hint(image: &Image, designator: &Value) -> Option<String> {
+    let wanted = match designator {
+        Value::Symbol(sym, ..) => image.name(*sym).to_owned(),
+        Value::Str(text) => text.text(),
+        _ => return None,
+    };
+    let known = image.packages.names().map(|(name, _)| name);
+    let near = closest_name(&wanted, known)?;
+    (!near.eq_ignore_ascii_case(&wanted)).then(|| format!("Did you mean {near}?"))
+}
+
+/// What to say to somebody who has named a file that does not exist: one with a similar name in the
+/// same folder.
+fn file_hint(path: &Value) -> Option<String> {
+    let Value::Str(path) = path else {
+        return None;
+    };
+    let path = PathBuf::from(path.text());
+    if path.exists() {
+        return None;
+    }
+    let folder = path.parent()?;
+    let is_here = folder.as_os_str().is_empty();
+    let entries = fs::read_dir(if is_here { Path::new(".") } else { folder }).ok()?;
+    let names = entries.take(MOST_ENTRIES).flatten();
+    let names = names.filter_map(|entry| entry.file_name().into_string().ok());
+    let mut names: Vec<String> = names.collect();
+    names.sort();
+    let near = closest_name(
+        path.file_name()?.to_str()?,
+        names.iter().map(String::as_str),
+    )?;
+    Some(format!("Did you mean {:?}?", folder.join(near)))
 }
 
 /// Is there a function, macro or operator of that name?

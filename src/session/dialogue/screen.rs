@@ -149,7 +149,22 @@ impl<W: Write> Screen<W> {
         if values.is_empty() {
             return self.line("; No value");
         }
-        values.iter().try_for_each(|value| self.line(value))
+        let mut values = values.iter().enumerate();
+        values.try_for_each(|(number, value)| self.value(number, value))
+    }
+
+    /// Shows a value; on a terminal, no more than the beginning of a very long one.
+    fn value(&mut self, number: usize, value: &str) -> io::Result<()> {
+        let cut = value.char_indices().nth(LONGEST_VALUE);
+        let Some((end, _)) = cut.filter(|_| self.is_terminal) else {
+            return self.line(value);
+        };
+        let (shown, rest) = value.split_at(end);
+        self.line(&format!("{shown} …"))?;
+        let more = rest.chars().count();
+        self.line(&format!(
+            "; … and {more} more characters; (print (nth {number} /)) shows all."
+        ))
     }
 
     fn picture(&mut self, picture: &Image) -> io::Result<()> {
@@ -247,6 +262,9 @@ impl<W: Write> Screen<W> {
     }
 }
 
+/// How much of a value a terminal shows, in characters.
+const LONGEST_VALUE: usize = 8000;
+
 /// The line in place of choices that the level below offers, too.
 fn folded(range: &Range<usize>, width: usize, below: usize) -> String {
     let first = range.start;
@@ -299,6 +317,19 @@ mod tests {
 
     fn values(values: &[&str]) -> Event {
         Event::Values(values.iter().map(|&v| v.to_owned()).collect())
+    }
+
+    #[test]
+    fn a_terminal_shows_the_beginning_of_a_long_value() {
+        let long = "é".repeat(LONGEST_VALUE + 5);
+        let mut screen = Screen::new(Vec::new());
+        screen.set_terminal(true);
+        screen.show(&values(&["1", &long])).unwrap();
+        let text = String::from_utf8(screen.into_inner()).unwrap();
+        assert!(text.starts_with("1\né"), "{text}");
+        let end = "é …\n; … and 5 more characters; (print (nth 1 /)) shows all.\n";
+        assert!(text.ends_with(end), "{text}");
+        assert_eq!(shown(&[values(&[&long])]), format!("{long}\n"));
     }
 
     fn aborted(name: &str) -> Event {
