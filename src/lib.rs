@@ -63,6 +63,7 @@ mod tests {
     mod prompt;
     mod replay;
     mod robot;
+    mod swank;
     mod view;
     pub(crate) mod world;
 

@@ -5,4 +5,5 @@ pub(crate) mod command;
 pub(crate) mod manual;
 pub mod measured;
 pub(crate) mod prompt;
+pub(crate) mod swank;
 pub(crate) mod transcript;

@@ -103,6 +103,19 @@ impl Sources {
         id
     }
 
+    /// Number of texts.
+    pub(crate) fn count(&self) -> usize {
+        self.sources.len()
+    }
+
+    /// Names and texts of programs, those of the language itself left out, from a number on.
+    pub(crate) fn programs_from(&self, first: usize) -> impl Iterator<Item = (&str, &str)> {
+        let sources = self.sources.iter().skip(first);
+        sources
+            .filter(|source| !source.is_library)
+            .map(|source| (&*source.name, &*source.text))
+    }
+
     /// The source text.
     pub(crate) fn get(&self, id: SourceId) -> Option<&Source> {
         self.sources.get(id.0 as usize)

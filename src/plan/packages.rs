@@ -135,6 +135,7 @@ pub(crate) static PACKAGES: &[PackageRow] = &[
          MATCHING-PROCESS-MODULE AVAILABLE-PROCESS-MODULE PROJECTION-RUNNING",
     ),
     row("CRAM-PROJECTION", &["PROJ"], ""),
+    row("SWANK", &[], ""),
     row(
         "CRAM-LOCATION-COSTMAP",
         &["COSTMAP", "LOCATION-COSTMAP"],

@@ -13,6 +13,7 @@ mod halting;
 mod host;
 mod live_host;
 mod log_level;
+mod objects;
 mod options;
 mod person;
 mod plans;
@@ -20,6 +21,7 @@ mod printing;
 mod queries;
 mod record;
 mod recovery;
+mod serving;
 pub(crate) mod simulation;
 pub(crate) mod sweeping;
 pub(crate) mod tape;
@@ -27,6 +29,7 @@ mod taping;
 mod text;
 
 use std::path::Path;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -34,7 +37,7 @@ use crate::defect;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
-use crate::lisp::value::package::PackageTable;
+use crate::lisp::value::package::{PackageId, PackageTable};
 use crate::lisp::value::release::FreesAll;
 use crate::picture::ViewError;
 use crate::picture::animation::Shot;
@@ -63,6 +66,10 @@ pub struct Session {
     checked: check::KnownNames,
     /// Stopped evaluations, and what the user may do with them.
     console: console::Console,
+    /// Where the texts define what.
+    definitions: assist::Definitions,
+    /// What an editor refers to.
+    objects: Rc<objects::Objects>,
     /// The last to be dropped: what has been put off is freed.
     _rest: FreesAll,
 }
@@ -97,6 +104,7 @@ impl Session {
         let mut simulation = Simulation::new(models, options.log_level, options.seed)
             .map_err(|error| SessionError::Models(error.to_string()))?;
         simulation.set_noise(options.noise_levels()?);
+        let objects = image.extend(objects::Objects::default());
         let mut session = Session {
             options: options.clone(),
             image,
@@ -107,6 +115,8 @@ impl Session {
             ),
             checked: check::KnownNames::default(),
             console: console::Console::default(),
+            definitions: assist::Definitions::default(),
+            objects,
             _rest: FreesAll,
         };
         session.image.limits.heap.set_limit(options.heap);
@@ -292,7 +302,11 @@ impl Session {
 
     /// The name of the current package, or a nickname.
     fn package_name(&self) -> String {
-        let package = self.image.current_package();
+        self.prompt_name(self.image.current_package())
+    }
+
+    /// The name of a package, or a nickname, as prompts show it.
+    fn prompt_name(&self, package: PackageId) -> String {
         if package == PackageTable::USER {
             return "CL-USER".to_owned();
         }

@@ -89,6 +89,7 @@ impl Session {
         sink: &mut dyn FnMut(Event),
     ) -> Option<Outcome> {
         let printed = values.iter().map(|v| self.printed(v)).collect();
+        self.objects.keep_values(values);
         self.flush(sink);
         sink(Event::Values(printed));
         self.image.output.begin_line();

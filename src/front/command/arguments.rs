@@ -8,6 +8,7 @@ use clap_complete::Shell;
 
 use super::heap;
 use super::picture::PictureArguments;
+use super::swank::SwankOptions;
 use super::sweep::SweepOptions;
 
 /// Program a simulated kitchen robot in a Common-Lisp-like plan language.
@@ -170,6 +171,8 @@ pub(crate) enum Command {
     Picture(Box<PictureArguments>),
     /// Run a plan in many worlds that differ in a declared way: how often does it work?
     Sweep(Box<SweepOptions>),
+    /// Serve a session to Emacs: SLIME connects to it by M-x slime-connect
+    Swank(SwankOptions),
     /// Find mistakes in plan files without running them
     Check {
         /// Plan files

@@ -21,6 +21,7 @@ mod reference;
 mod replay;
 mod run;
 mod stop_at;
+mod swank;
 mod sweep;
 mod view_recording;
 mod watching;
@@ -103,6 +104,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         }) => replay::replay(options, &files, bless, jobs),
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Sweep(wanted)) => sweep::sweep(arguments.options, &wanted),
+        Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),
         Some(Command::Check { files }) => check::check(options, &files),
         Some(Command::Reference) => reference::print(),
         Some(Command::Man) => man::print(),

@@ -70,12 +70,15 @@ fn topics(image: &Image, sym: Sym) -> Vec<Topic> {
     known.map_or_else(Vec::new, |topics| (topics.0)(image, sym))
 }
 
+/// What a symbol means to the layers above, in lines.
+pub(crate) fn topics_of(image: &Image, sym: Sym) -> String {
+    let topics = topics(image, sym).into_iter();
+    topics.map(|topic| topic.text).collect()
+}
+
 fn describe(image: &mut Image, args: &[Value]) -> Outcome {
     let text = match &args[0] {
-        Value::Symbol(sym, ..) => {
-            let topics = topics(image, *sym).into_iter().map(|topic| topic.text);
-            of_symbol(image, *sym) + &topics.collect::<String>()
-        }
+        Value::Symbol(sym, ..) => of_symbol(image, *sym) + &topics_of(image, *sym),
         other => of_value(image, other),
     };
     let to = args.get(1).cloned().unwrap_or(Value::NIL);

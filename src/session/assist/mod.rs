@@ -3,11 +3,15 @@
 
 mod completion;
 mod context;
+mod definitions;
 mod designators;
 mod files;
 mod hint;
 mod locals;
+mod names;
 mod symbols;
+
+pub(super) use names::Definitions;
 
 use super::Session;
 use crate::plan::designator::schema;

@@ -51,11 +51,15 @@ q          aborts: back to the top          a        aborts this level only
 :r         all restarts                     c        continues, where that is possible
 :retry     evaluates the form again         :edit    lets you change the last form
 :return F  returns the value of form F from the frame
+:eval F    evaluates forms, also those that look like commands
 Anything else is evaluated in the selected frame.
 ";
 
 impl<'a> Command<'a> {
     pub(super) fn of(text: &'a str) -> Command<'a> {
+        if let Some(forms) = text.strip_prefix(":eval ") {
+            return Command::Evaluate(forms);
+        }
         let text = text.trim();
         let (word, rest) = match text.split_once(char::is_whitespace) {
             Some((word, rest)) => (word, rest.trim()),
@@ -112,6 +116,8 @@ mod tests {
         assert_eq!(Command::of(":bt"), Command::Backtrace(None));
         assert_eq!(Command::of("?object"), Command::Evaluate("?object"));
         assert_eq!(Command::of(":return (f)"), Command::Return("(f)"));
+        assert_eq!(Command::of(":eval q"), Command::Evaluate("q"));
+        assert_eq!(Command::of(":eval  2 "), Command::Evaluate(" 2 "));
         assert_eq!(Command::of(":keyword"), Command::Evaluate(":keyword"));
     }
 

@@ -59,7 +59,9 @@ impl Session {
         let Some(value) = self.host.person.inspected.take() else {
             return;
         };
-        if self.console.is_interactive {
+        if self.objects.is_served() {
+            self.objects.inspect_next(value);
+        } else if self.console.is_interactive {
             self.console.inspected = vec![value.clone()];
             self.image.set_special(known::TIMES, value);
             sink(Event::Output(format!("{REMARK}\n")));

@@ -10,6 +10,7 @@ mod choices;
 mod commands;
 mod inspector;
 mod robot_choices;
+mod served;
 mod settle;
 mod shorthand;
 mod stack_frames;
@@ -34,6 +35,8 @@ use commands::Command;
 pub(super) struct Console {
     pub(crate) is_interactive: bool,
     levels: Vec<Level>,
+    /// Number of levels that there have been.
+    opened: u64,
     /// The form at top level whose evaluation was stopped first.
     base: Option<Suspended>,
     asking: Asking,
@@ -67,6 +70,8 @@ pub(super) struct Suspended {
 
 /// A stopped evaluation.
 struct Level {
+    /// A number that no other level has had.
+    number: u64,
     cause: Cause,
     abort: Abort,
     choices: Vec<(Choice, String)>,
@@ -107,10 +112,17 @@ impl Console {
         self.levels.len()
     }
 
+    /// The number for the next level.
+    fn next_number(&mut self) -> u64 {
+        self.opened += 1;
+        self.opened
+    }
+
     /// Forgets everything that was stopped, without a word.
     pub(crate) fn give_up(&mut self) {
         *self = Console {
             is_interactive: self.is_interactive,
+            opened: self.opened,
             ..Console::default()
         };
     }

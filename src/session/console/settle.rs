@@ -55,7 +55,9 @@ impl Session {
             Evaluation::Unhandled(condition) => self.stopped_at(condition, sink),
             Evaluation::Interrupted => {
                 self.console.inspected.clear();
+                let number = self.console.next_number();
                 self.console.levels.push(Level {
+                    number,
                     cause: Cause::Interrupt,
                     abort: super::super::interrupted(),
                     choices: Vec::new(),
@@ -122,7 +124,9 @@ impl Session {
             .take()
             .filter(|_| !self.console.levels.is_empty());
         let abort = self.described_in_place(&condition);
+        let number = self.console.next_number();
         self.console.levels.push(Level {
+            number,
             cause: Cause::Condition(condition),
             abort,
             choices: Vec::new(),

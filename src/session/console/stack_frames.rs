@@ -48,7 +48,7 @@ impl Session {
     }
 
     /// A call on one line.
-    fn call_text(&self, view: &FrameView) -> String {
+    pub(super) fn call_text(&self, view: &FrameView) -> String {
         let image = &self.image;
         let name = match &view.name {
             Value::Str(text) => text.text(),

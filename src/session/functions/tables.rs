@@ -39,6 +39,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("PLAN-SYSTEM", functions::sweeps::TABLE),
     ("PLAN-SYSTEM", functions::sweep_things::TABLE),
     ("PLANWRIGHT", crate::session::record::TABLE),
+    ("SWANK", crate::session::objects::TABLE),
     ("SYSTEM", functions::prompt::SYSTEM_TABLE),
 ];
 

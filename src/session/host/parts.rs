@@ -26,7 +26,7 @@ const LONGEST_LIST: usize = 100_000;
 
 /// A value with its parts.
 pub(in crate::session) struct View {
-    title: String,
+    pub(crate) title: String,
     /// Names and values.
     pub(crate) parts: Vec<(String, Value)>,
 }

@@ -1,0 +1,135 @@
+//! The arguments of the call that is being typed.
+
+use super::hub::Request;
+use super::package_text::package_of;
+use super::sexp::Sexp;
+use crate::session::dialogue::{KnownSymbol, Names, current_parameter, parameters};
+
+/// What marks the place of the cursor in a form.
+const CURSOR: &str = "swank:%cursor-marker%";
+
+/// A call around the cursor.
+pub(super) struct OpenCall<'s> {
+    /// The operator as typed.
+    pub(super) operator: &'s str,
+    /// The number of the argument at the cursor, from zero; none at the operator itself.
+    argument: Option<usize>,
+    /// The argument before it, if that is an atom.
+    last: Option<&'s str>,
+}
+
+/// The calls around the cursor in a form, innermost first.
+pub(super) fn open_calls(form: &Sexp) -> impl Iterator<Item = OpenCall<'_>> {
+    let mut path = Vec::new();
+    find(form, &mut path);
+    path.into_iter().rev()
+}
+
+/// Finds the lists around the cursor; returns whether it is in the form.
+fn find<'s>(form: &'s Sexp, path: &mut Vec<OpenCall<'s>>) -> bool {
+    let items = form.items();
+    let mark = items.iter().position(|item| item.as_name() == Some(CURSOR));
+    let mut inner = Vec::new();
+    let inside = items.iter().position(|item| find(item, &mut inner));
+    // The mark follows the item in which the cursor is.
+    let at = match (mark, inside) {
+        (Some(mark), _) => mark.saturating_sub(1),
+        (None, Some(inside)) => inside,
+        (None, None) => return false,
+    };
+    if let Some(Sexp::Str(operator)) = items.first().filter(|_| !items.is_empty()) {
+        path.push(OpenCall {
+            operator,
+            argument: at.checked_sub(1),
+            last: at
+                .checked_sub(1)
+                .filter(|before| *before > 0)
+                .and_then(|before| items.get(before)?.as_str()),
+        });
+    }
+    path.append(&mut inner);
+    true
+}
+
+/// The shape of a call with the parameter of an argument marked.
+fn marked(symbol: &KnownSymbol, call: &OpenCall<'_>) -> Option<String> {
+    let function = symbol.function.as_ref()?;
+    let words = parameters(&function.lambda_list);
+    let current = call
+        .argument
+        .and_then(|argument| current_parameter(&words, argument, call.last));
+    let mut shape = format!("({}", call.operator);
+    for (at, word) in words.iter().enumerate() {
+        if Some(at) == current {
+            shape.push_str(&format!(" ===> {word} <==="));
+        } else {
+            shape.push_str(&format!(" {word}"));
+        }
+    }
+    shape.push(')');
+    Some(shape)
+}
+
+/// What is told about the call around the cursor, if it is known.
+pub(super) fn shape(names: &Names, request: &Request) -> Option<String> {
+    let package = package_of(names, request.package.as_deref());
+    let mut calls = open_calls(request.argument(0)?);
+    calls.find_map(|call| marked(names.typed(package, call.operator)?, &call))
+}
+
+/// `autodoc`.
+pub(super) fn autodoc(names: &Names, request: &Request) -> Sexp {
+    match shape(names, request) {
+        Some(shape) => Sexp::list([shape.into(), Sexp::t()]),
+        None => Sexp::list([Sexp::symbol(":not-available"), Sexp::t()]),
+    }
+}
+
+/// `operator-arglist`.
+pub(super) fn operator_arglist(names: &Names, request: &Request) -> Option<Sexp> {
+    let package = package_of(names, request.argument(1).and_then(Sexp::as_name));
+    let symbol = names.typed(package, request.text(0)?)?;
+    Some(symbol.call()?.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::session::dialogue::KnownFunction;
+
+    fn told(form: &str) -> Option<String> {
+        let symbol = KnownSymbol {
+            function: Some(KnownFunction {
+                lambda_list: "a b &key size".to_owned(),
+                ..KnownFunction::default()
+            }),
+            ..KnownSymbol::default()
+        };
+        let form = Sexp::read(form).unwrap();
+        let call = open_calls(&form).next()?;
+        marked(&symbol, &call)
+    }
+
+    #[test]
+    fn the_argument_at_the_cursor_is_marked() {
+        let mark = "swank::%cursor-marker%";
+        let told = |form: &str| told(&form.replace('|', mark));
+        let shape = |text: &str| Some(text.to_owned());
+        assert_eq!(told("(\"f\" |)"), shape("(f a b &key size)"));
+        assert_eq!(told("(\"f\" \"\" |)"), shape("(f ===> a <=== b &key size)"));
+        assert_eq!(
+            told("(\"f\" \"x\" \"\" |)"),
+            shape("(f a ===> b <=== &key size)")
+        );
+        assert_eq!(
+            told("(\"f\" \"x\" \"y\" \":size\" \"\" |)"),
+            shape("(f a b &key ===> size <===)")
+        );
+        assert_eq!(
+            told("(\"g\" (\"f\" \"x\" |))"),
+            shape("(f ===> a <=== b &key size)")
+        );
+        assert_eq!(told("(\"f\")"), None);
+        assert_eq!(told("|"), None);
+    }
+}

@@ -1,0 +1,435 @@
+//! The session's thread: takes requests one after another and has the session answer them.
+//!
+//! An evaluation that stops leaves its request pending until a later input ends it. So the stack
+//! of pending requests is that of the session's levels; [`Engine::settle`] compares the two after
+//! every input.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use super::answer::{Answer, Yield};
+use super::hub::{Client, Hub, Job, Next, Request};
+use super::known_names;
+use super::package_text::package_name;
+use super::sexp::Sexp;
+use crate::defect;
+use crate::session::dialogue::screen::{INTERRUPT, input_name};
+use crate::session::dialogue::{Beginning, Event, Names, ObjectNumber, Outcome, Serve};
+
+/// How long the session's thread waits before it brings what is known about names up to date.
+const REST: Duration = Duration::from_millis(150);
+/// How long it waits then.
+const LONG_REST: Duration = Duration::from_secs(3600);
+
+/// What the session's thread works with.
+pub(super) struct Engine<'s> {
+    pub(super) session: &'s mut dyn Serve,
+    pub(super) hub: Arc<Hub>,
+    pub(super) clients: BTreeMap<u64, ClientState>,
+    /// The requests whose evaluations have stopped, innermost last, one for each level.
+    pub(super) pending: Vec<Pending>,
+    /// The choice whose value a client has been asked for.
+    pub(super) asked: Option<super::debugger::Asked>,
+    pub(super) tags: i64,
+    /// What a client begins with.
+    fresh: Beginning,
+    names: Arc<Names>,
+    /// Whether something may have changed since `names` were made.
+    is_changed: bool,
+    inputs: usize,
+    interrupt: Arc<AtomicBool>,
+}
+
+/// What is kept for a client.
+pub(super) struct ClientState {
+    pub(super) client: Arc<Client>,
+    /// What its next input begins with.
+    pub(super) beginning: Beginning,
+    /// The package that it knows of.
+    pub(super) package: String,
+    /// The values that it inspects.
+    pub(super) inspected: super::inspector::Path,
+    /// Whether it wants values that can be pointed at.
+    pub(super) presents: bool,
+}
+
+/// A request whose evaluation has stopped.
+pub(super) struct Pending {
+    /// The number of its level.
+    pub(super) number: u64,
+    pub(super) request: Request,
+    /// Whether the request has still to be answered.
+    pub(super) waits: bool,
+    /// Whether the client is shown the level.
+    pub(super) is_shown: bool,
+    answer: Answer,
+    yielded: Yield,
+}
+
+/// What an input has led to.
+struct Ended {
+    outcome: Outcome,
+    /// The condition with which it ended, as printed, unless it finished.
+    aborted: Option<String>,
+}
+
+impl Ended {
+    fn by_defect(_: defect::Defect) -> Ended {
+        Ended {
+            outcome: Outcome::Aborted,
+            aborted: Some("#<DEFECT>".to_owned()),
+        }
+    }
+}
+
+impl<'s> Engine<'s> {
+    pub(super) fn new(session: &'s mut dyn Serve, hub: Arc<Hub>) -> Engine<'s> {
+        session.set_served(true);
+        session.set_interactive(true);
+        Engine {
+            interrupt: session.interrupt_handle(),
+            fresh: session.beginning(),
+            names: session.names(),
+            session,
+            hub,
+            clients: BTreeMap::new(),
+            pending: Vec::new(),
+            asked: None,
+            tags: 0,
+            is_changed: false,
+            inputs: 0,
+        }
+    }
+
+    /// Works until the server is to end; returns the exit status.
+    pub(super) fn run(&mut self) -> u8 {
+        loop {
+            let rest = if self.is_changed { REST } else { LONG_REST };
+            match self.hub.next(rest) {
+                Next::End(status) => return self.end(status),
+                Next::Idle => self.refresh_names(),
+                Next::Job(job) => {
+                    if let Err(defect) = defect::caught(|| self.take(&job)) {
+                        self.tell_defect(&job, &defect.to_string());
+                    }
+                }
+            }
+            self.leave_for_the_gone();
+        }
+    }
+
+    /// Does what there is for the session's thread now, without waiting. Returns the exit status
+    /// if the server is to end.
+    fn take(&mut self, job: &Job) {
+        match job {
+            Job::Request(request) if known_names::is_quick(&request.operation) => {
+                self.answer_quick(request);
+            }
+            Job::Request(request) => self.dispatch(request),
+            Job::Typed(client, tag, text) => self.typed(client, *tag, text),
+            Job::NotTyped(client) => self.not_typed(client),
+            Job::Gone(client) => {
+                if let Some(gone) = self.clients.remove(&client.number) {
+                    self.session.forget_objects(&gone.inspected.all());
+                }
+            }
+        }
+    }
+
+    fn tell_defect(&mut self, job: &Job, defect: &str) {
+        self.hub.end_work();
+        if let Job::Request(request) = job {
+            request.abort(&format!("planwright failed: {defect}."));
+        }
+    }
+
+    /// Tells the clients that it is over.
+    fn end(&mut self, status: u8) -> u8 {
+        for state in self.clients.values() {
+            state.client.outbox.end();
+        }
+        for state in self.clients.values() {
+            state.client.outbox.wait_for_end(Duration::from_millis(500));
+        }
+        status
+    }
+
+    /// Brings what is known about names up to date.
+    fn refresh_names(&mut self) {
+        if std::mem::take(&mut self.is_changed) {
+            self.names = self.session.names();
+            self.hub.publish(Arc::clone(&self.names));
+        }
+    }
+
+    fn answer_quick(&mut self, request: &Request) {
+        self.refresh_names();
+        if request.operation == "init-presentations" {
+            self.client(request).presents = true;
+        }
+        let version = self.hub.version();
+        let value = known_names::answer(&self.names, &version, request);
+        request.ok(value.unwrap_or(Sexp::NIL));
+    }
+
+    /// What is kept for the client of a request.
+    pub(super) fn client(&mut self, request: &Request) -> &mut ClientState {
+        let fresh = &self.fresh;
+        let client = &request.client;
+        self.clients
+            .entry(client.number)
+            .or_insert_with(|| ClientState {
+                client: Arc::clone(client),
+                beginning: fresh.clone(),
+                package: "COMMON-LISP-USER".to_owned(),
+                inspected: super::inspector::Path::default(),
+                presents: false,
+            })
+    }
+
+    /// Makes the session begin as the client's last input has left it, in the package that the
+    /// request names, if it is to.
+    fn begin(&mut self, request: &Request, is_of_prompt: bool) {
+        let beginning = self.client(request).beginning.clone();
+        self.session.begin_with(&beginning);
+        if let Some(package) = request.package.as_deref().filter(|_| !is_of_prompt) {
+            self.session.enter_package(package_name(package));
+        }
+    }
+
+    /// A name for the next input.
+    pub(super) fn next_input(&mut self) -> String {
+        self.inputs += 1;
+        input_name(self.inputs)
+    }
+
+    /// Does something with the session that may take long and can be interrupted.
+    pub(super) fn working<T>(
+        &mut self,
+        client: u64,
+        work: impl FnOnce(&mut Engine<'s>) -> T,
+    ) -> Result<T, defect::Defect> {
+        for request in self.hub.begin_work(client) {
+            self.answer_quick(&request);
+        }
+        let done = defect::caught(|| work(self));
+        self.hub.end_work();
+        self.is_changed = true;
+        done
+    }
+
+    /// Evaluates a text for a request.
+    pub(super) fn evaluate(&mut self, request: &Request, source: &str, text: &str, answer: Answer) {
+        self.begin(request, answer.is_of_prompt());
+        let text = match self.pending.is_empty() {
+            true => text.to_owned(),
+            false => format!(":eval {text}"),
+        };
+        let pending = Pending {
+            number: 0,
+            request: request.clone(),
+            waits: true,
+            is_shown: false,
+            answer,
+            yielded: Yield::default(),
+        };
+        self.input(pending, source, &text);
+    }
+
+    /// Gives the session an input, the yield of which belongs to a request, and settles what comes
+    /// of it.
+    fn input(&mut self, mut pending: Pending, source: &str, text: &str) {
+        let client = pending.request.client.number;
+        let ended = self.working(client, |engine| {
+            engine.run_input(&mut pending, source, text)
+        });
+        self.settle(Some(pending), &ended.unwrap_or_else(Ended::by_defect));
+    }
+
+    /// Gives the session an input that decides about the evaluation that has stopped last, and
+    /// settles what comes of it; what is yielded belongs to that evaluation.
+    pub(super) fn decide(&mut self, text: &str) {
+        let Some(mut top) = self.pending.pop() else {
+            return;
+        };
+        if let Some(state) = self.clients.get(&top.request.client.number) {
+            let beginning = state.beginning.clone();
+            self.session.begin_with(&beginning);
+        }
+        let client = top.request.client.number;
+        let ended = self.working(client, |engine| {
+            engine.run_input(&mut top, "decision", text)
+        });
+        self.pending.push(top);
+        self.settle(None, &ended.unwrap_or_else(Ended::by_defect));
+    }
+
+    fn run_input(&mut self, pending: &mut Pending, source: &str, text: &str) -> Ended {
+        let Pending {
+            request,
+            answer,
+            yielded,
+            ..
+        } = pending;
+        let outbox = &request.client.outbox;
+        let interrupt = Arc::clone(&self.interrupt);
+        let mut object: ObjectNumber = self.session.next_object();
+        let mut aborted = None;
+        let outcome = self
+            .session
+            .evaluate(source, text, &mut |event| match event {
+                Event::Output(text) if answer.takes_output() => yielded.printed.push_str(&text),
+                Event::Output(text) => outbox.write(&text, &interrupt),
+                Event::Values(values) => {
+                    yielded.object = (!values.is_empty()).then_some(object);
+                    if let Answer::Prompt { presents } = answer {
+                        super::repl::show_values(outbox, &values, presents.then_some(object));
+                    }
+                    object += values.len() as ObjectNumber;
+                    yielded.values = values;
+                }
+                Event::Aborted(abort) => {
+                    let place = abort.main_place();
+                    let place = place.map_or_else(String::new, |place| format!("; at {place}\n"));
+                    let report = abort.report.trim_end();
+                    outbox.write(&format!("{report}\n{place}"), &interrupt);
+                    aborted = Some(abort.condition);
+                }
+                Event::Left(condition) => aborted = Some(condition),
+                Event::Stopped(_) | Event::Picture(_) | Event::Progress(_) => {}
+            });
+        Ended { outcome, aborted }
+    }
+
+    /// Compares the stack of pending requests with the session's levels after an input: answers
+    /// the requests whose evaluations have ended, and tells where the session has stopped.
+    /// `begun` is the request whose evaluation the input has begun, if it has begun one.
+    fn settle(&mut self, mut begun: Option<Pending>, ended: &Ended) {
+        let now = self.session.stops();
+        let known = self.pending.iter().zip(&now);
+        let kept = known.take_while(|(p, number)| p.number == **number).count();
+        let mut left = self.pending.split_off(kept);
+        for (at, pending) in left.iter().enumerate().rev() {
+            if pending.is_shown {
+                super::debugger::tell_left(&pending.request.client, kept + at + 1);
+            }
+        }
+        // The outermost evaluation that was left has gone on, all further in have been abandoned.
+        let mut going = None;
+        if !left.is_empty() {
+            going = Some(left.remove(0));
+            // Whoever comes back to a level is shown it again.
+            if let Some(below) = self.pending.last_mut() {
+                below.is_shown = false;
+            }
+            for pending in left.into_iter().rev().chain(begun.take()) {
+                self.abort(pending, "NIL");
+            }
+        }
+        match (going.or(begun), now.get(kept)) {
+            (Some(mut stopped), Some(number)) => {
+                stopped.number = *number;
+                stopped.is_shown = false;
+                self.pending.push(stopped);
+            }
+            (Some(done), None) => self.finish(done, ended),
+            // A decision has opened a level, such as by a value that cannot be computed.
+            (None, Some(number)) => self.open_unasked(*number),
+            (None, None) => {}
+        }
+        if now.len() > self.pending.len() {
+            // Nobody could be shown those levels.
+            self.session.evaluate("decision", ":q", &mut |_| {});
+            self.pending.clear();
+        }
+        if let Outcome::Quit(status) = ended.outcome {
+            self.hub.end(status);
+        }
+        self.show_stop();
+    }
+
+    /// A level that belongs to the client of the one below, but to no request.
+    fn open_unasked(&mut self, number: u64) {
+        let below = self.pending.last();
+        let request = below.map(|pending| pending.request.clone());
+        self.pending.extend(request.map(|request| Pending {
+            number,
+            request,
+            waits: false,
+            is_shown: false,
+            answer: Answer::Nothing,
+            yielded: Yield::default(),
+        }));
+    }
+
+    /// Answers a request whose evaluation has ended.
+    fn finish(&mut self, pending: Pending, ended: &Ended) {
+        match &ended.aborted {
+            Some(condition) if condition != INTERRUPT => return self.abort(pending, condition),
+            Some(_) => return self.abort(pending, "NIL"),
+            // Back on a level further out: the evaluation was abandoned.
+            None if ended.outcome == Outcome::Stopped => return self.abort(pending, "NIL"),
+            None => {}
+        }
+        self.keep_beginning(&pending);
+        let request = &pending.request;
+        if pending.waits {
+            let value = match pending.answer {
+                Answer::Inspector => self.inspector_of(request, pending.yielded.object),
+                ref answer => answer.value(&pending.yielded),
+            };
+            request.ok(value);
+        }
+        if let Some(object) = self.session.take_inspected() {
+            self.show_inspector(request, object);
+        }
+    }
+
+    fn abort(&mut self, pending: Pending, reason: &str) {
+        self.keep_beginning(&pending);
+        if pending.waits {
+            pending.request.abort(reason);
+        }
+    }
+
+    /// Keeps what an input at a client's prompt has left behind, for its next one.
+    fn keep_beginning(&mut self, pending: &Pending) {
+        if !pending.answer.is_of_prompt() {
+            return;
+        }
+        let (package, prompt) = self.session.package_names();
+        let beginning = self.session.beginning();
+        let Some(state) = self.clients.get_mut(&pending.request.client.number) else {
+            return;
+        };
+        state.beginning = beginning;
+        if state.package != package {
+            state.package.clone_from(&package);
+            let message = [Sexp::symbol(":new-package"), package.into(), prompt.into()];
+            state.client.outbox.send(&Sexp::list(message));
+        }
+    }
+
+    /// Leaves the innermost levels as long as they belong to clients that are gone.
+    fn leave_for_the_gone(&mut self) {
+        loop {
+            let Some(top) = self.pending.last() else {
+                return;
+            };
+            if self.clients.contains_key(&top.request.client.number) {
+                return;
+            }
+            let before = self.pending.len();
+            self.leave_level();
+            if self.pending.len() >= before {
+                // Cleanup code has stopped again; there is nobody to decide.
+                self.decide(":q");
+                if self.pending.len() >= before {
+                    return;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! The requests that the session's thread answers, by name.
+
+use super::answer::Answer;
+use super::engine::Engine;
+use super::hub::Request;
+use super::sexp::Sexp;
+use super::version::Version;
+
+impl Engine<'_> {
+    /// Answers a request, or leaves it pending if what it evaluates stops.
+    pub(super) fn dispatch(&mut self, request: &Request) {
+        match request.operation.as_str() {
+            "create-repl" => self.create_repl(request),
+            "listener-eval" => self.listener_eval(request),
+            "set-package" => self.set_package(request),
+            "interactive-eval" | "interactive-eval-region" | "re-evaluate-defvar" => {
+                self.evaluate_text(request, Answer::Values);
+            }
+            "eval-and-grab-output" => self.evaluate_text(request, Answer::OutputAndValues),
+            "pprint-eval" => self.evaluate_text(request, Answer::Lines),
+            "compile-file-for-emacs" => self.compile_file(request),
+            "compile-string-for-emacs" => self.compile_string(request),
+            "load-file" => self.load_file(request),
+            "swank-macroexpand-1" | "swank-expand-1" | "swank-compiler-macroexpand-1" => {
+                self.expand(request, "cl:macroexpand-1");
+            }
+            "swank-macroexpand" | "swank-expand" | "swank-compiler-macroexpand" => {
+                self.expand(request, "cl:macroexpand");
+            }
+            "set-default-directory" => self.set_directory(request),
+            "default-directory" => self.tell_directory(request),
+            "clear-repl-results" | "clear-repl-variables" | "menu-choices-for-presentation-id" => {
+                request.ok(Sexp::NIL);
+            }
+            "packagep" | "nth-value" => request.ok(Sexp::t()),
+            "invoke-nth-restart-for-emacs" => self.choose(request),
+            "throw-to-toplevel" => self.leave_all(request),
+            "sldb-abort" => self.abort_level(request),
+            "sldb-continue" => self.go_on(request),
+            "restart-frame" => self.return_from_frame(request, None),
+            "sldb-return-from-frame" => self.return_from_frame(request, request.text(1)),
+            "backtrace" => self.backtrace(request),
+            "frame-locals-and-catch-tags" => self.variables(request),
+            "frame-source-location" => self.place_of_frame(request),
+            "frame-package-name" => self.package_of_frame(request),
+            "eval-string-in-frame" => self.evaluate_in_frame(request, Answer::Values),
+            "pprint-eval-string-in-frame" => self.evaluate_in_frame(request, Answer::Lines),
+            "inspect-in-frame" => self.evaluate_in_frame(request, Answer::Inspector),
+            "inspect-frame-var" | "inspect-current-condition" => self.inspect_stop(request),
+            "init-inspector" => self.init_inspector(request),
+            "inspect-presentation" => self.inspect_presentation(request),
+            "inspect-nth-part" => self.inspect_part(request),
+            "inspector-pop" => self.inspect_again(request, -1),
+            "inspector-next" => self.inspect_again(request, 1),
+            "inspector-reinspect" | "inspector-toggle-verbose" => self.inspect_again(request, 0),
+            "inspector-range" => self.inspect_range(request),
+            "inspector-eval" => self.evaluate_on_inspected(request),
+            "describe-inspectee" => self.describe_inspected(request),
+            "quit-inspector" => self.quit_inspector(request),
+            "start-server" => self.set_version(request),
+            "quit-lisp" => {
+                request.ok(Sexp::NIL);
+                self.hub.end(0);
+            }
+            other => request.abort(&format!("planwright has no {other}")),
+        }
+    }
+
+    fn evaluate_text(&mut self, request: &Request, answer: Answer) {
+        match request.text(0).map(str::to_owned) {
+            Some(text) => {
+                let source = self.next_input();
+                self.evaluate(request, &source, &text, answer);
+            }
+            None => request.abort("a text is needed"),
+        }
+    }
+
+    /// Prints the expansion of a form.
+    fn expand(&mut self, request: &Request, function: &str) {
+        let Some(text) = request.text(0) else {
+            return request.abort("a text is needed");
+        };
+        // The form may end in a comment.
+        let form = format!(
+            "(cl:progn (cl:let ((cl:*print-pretty* t) (cl:*print-case* :downcase))\n\
+             (cl:prin1 ({function} '{text}\n)))\n(cl:values))"
+        );
+        let source = self.next_input();
+        self.evaluate(request, &source, &form, Answer::Printed);
+    }
+
+    /// Sets the folder of relative names of files.
+    fn set_directory(&mut self, request: &Request) {
+        let folder = request.text(0).unwrap_or_default();
+        match std::env::set_current_dir(folder) {
+            Ok(()) => self.tell_directory(request),
+            Err(error) => request.abort(&format!("{folder}: {error}")),
+        }
+    }
+
+    fn tell_directory(&mut self, request: &Request) {
+        match std::env::current_dir() {
+            Ok(folder) => request.ok(format!("{}/", folder.display()).into()),
+            Err(error) => request.abort(&error.to_string()),
+        }
+    }
+
+    fn set_version(&mut self, request: &Request) {
+        let mut rest = request.arguments.iter();
+        let key = rest.find(|item| item.as_name() == Some(":slime-version"));
+        if let Some(version) = key.and_then(|_| rest.next()?.as_str()) {
+            self.hub.set_version(Version::named(version));
+        }
+        request.ok(Sexp::NIL);
+    }
+}

@@ -1,0 +1,156 @@
+//! The server: takes connections of this machine.
+
+use std::io;
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use thiserror::Error;
+
+use super::connection;
+use super::engine::Engine;
+use super::hub::Hub;
+use super::version::Version;
+use crate::session::dialogue::Serve;
+
+/// Maximum number of connections at a time.
+const MOST_CONNECTIONS: usize = 32;
+/// Bytes of stack for a connection's thread.
+const STACK_BYTES: usize = 2 << 20;
+
+/// How a server is set up.
+#[derive(Default)]
+pub(crate) struct ServerOptions {
+    /// The port; any that is free if it is zero.
+    pub(crate) port: u16,
+    /// What clients have to say first.
+    pub(crate) secret: Option<String>,
+    /// The version of SLIME that clients have.
+    pub(crate) version: Version,
+}
+
+/// Why there can be no server.
+#[derive(Debug, Error)]
+pub(crate) enum ServerError {
+    /// The port cannot be used.
+    #[error("cannot listen on port {port} of this machine: {error}")]
+    Listen {
+        /// The port.
+        port: u16,
+        /// The reason.
+        error: io::Error,
+    },
+    /// There are no threads for it.
+    #[error("cannot start a thread: {0}")]
+    Thread(io::Error),
+}
+
+/// A server that listens, but does not answer yet.
+pub(crate) struct Server {
+    listener: TcpListener,
+    address: SocketAddr,
+    options: ServerOptions,
+}
+
+/// Ends a server from another thread.
+#[derive(Clone)]
+pub(crate) struct Stopper(Arc<Hub>);
+
+impl Stopper {
+    /// Ends the server; what is evaluated is interrupted.
+    pub(crate) fn stop(&self) {
+        self.0.end(0);
+    }
+}
+
+impl Server {
+    /// Listens on a port that only this machine can reach.
+    pub(crate) fn bind(options: ServerOptions) -> Result<Server, ServerError> {
+        let port = options.port;
+        let failed = |error| ServerError::Listen { port, error };
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(failed)?;
+        let address = listener.local_addr().map_err(failed)?;
+        Ok(Server {
+            listener,
+            address,
+            options,
+        })
+    }
+
+    /// The address on which it listens.
+    pub(crate) fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Serves a session until a client or the program ends that, or the one who is given the
+    /// stopper does; returns the exit status.
+    pub(crate) fn serve(
+        self,
+        session: &mut dyn Serve,
+        begin: impl FnOnce(Stopper),
+    ) -> Result<u8, ServerError> {
+        let Server {
+            listener,
+            address,
+            options,
+        } = self;
+        let names = session.names();
+        let hub = Hub::new(session.interrupt_handle(), options.version, names);
+        let hub = Arc::new(hub);
+        let accepting = Arc::clone(&hub);
+        let secret = options.secret;
+        let thread = thread::Builder::new()
+            .name("swank".to_owned())
+            .spawn(move || accept(&listener, &accepting, secret.as_deref()))
+            .map_err(ServerError::Thread)?;
+        begin(Stopper(Arc::clone(&hub)));
+        let status = Engine::new(session, hub).run();
+        // A connection wakes the thread that waits in `accept`.
+        drop(TcpStream::connect(address));
+        // It does nothing that could panic.
+        drop(thread.join());
+        Ok(status)
+    }
+}
+
+fn accept(listener: &TcpListener, hub: &Arc<Hub>, secret: Option<&str>) {
+    let connections = Arc::new(AtomicUsize::new(0));
+    for stream in listener.incoming() {
+        if hub.is_ending() {
+            return;
+        }
+        let Ok(stream) = stream else {
+            // Most likely out of file descriptors; some will be given back soon.
+            thread::sleep(Duration::from_millis(50));
+            continue;
+        };
+        if connections.fetch_add(1, Ordering::Relaxed) >= MOST_CONNECTIONS {
+            connections.fetch_sub(1, Ordering::Relaxed);
+            continue;
+        }
+        let (own, count) = (Arc::clone(hub), Counted(Arc::clone(&connections)));
+        let secret = secret.map(str::to_owned);
+        let serve = move || {
+            let _count = count;
+            // A client that breaks off, or sends what is no message, is merely gone.
+            let _ = connection::serve(&own, stream, secret.as_deref());
+        };
+        let thread = thread::Builder::new()
+            .name("swank input".to_owned())
+            .stack_size(STACK_BYTES);
+        if thread.spawn(serve).is_err() {
+            thread::sleep(Duration::from_millis(50));
+        }
+    }
+}
+
+/// A connection that counts as long as this lives.
+struct Counted(Arc<AtomicUsize>);
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}

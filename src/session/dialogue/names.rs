@@ -1,0 +1,155 @@
+//! What is known about names, as data that any thread may read while the session works.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// The names of an image at one time.
+#[derive(Default, Debug)]
+pub(crate) struct Names {
+    /// All packages.
+    pub(crate) packages: Vec<KnownPackage>,
+    /// Names and nicknames of packages with their indices.
+    pub(crate) package_names: BTreeMap<String, usize>,
+    /// The index of the package in which forms at top level are read.
+    pub(crate) current: usize,
+    /// All symbols with a home.
+    pub(crate) symbols: Vec<KnownSymbol>,
+    /// The places of definitions by name in upper case, the newest first.
+    pub(crate) definitions: Arc<BTreeMap<String, Vec<Arc<Definition>>>>,
+}
+
+/// A package.
+#[derive(Default, Debug)]
+pub(crate) struct KnownPackage {
+    /// Its name.
+    pub(crate) name: String,
+    /// The name that prompts show.
+    pub(crate) prompt: String,
+    /// The symbols that are present in it, as indices, and whether each is exported, by name.
+    pub(crate) symbols: BTreeMap<String, (usize, bool)>,
+    /// Indices of the packages whose exported symbols are inherited.
+    pub(crate) uses: Vec<usize>,
+}
+
+/// A symbol.
+#[derive(Clone, Default, Debug)]
+pub(crate) struct KnownSymbol {
+    /// Its name.
+    pub(crate) name: String,
+    /// The index of its home package.
+    pub(crate) package: usize,
+    /// Its function, macro or special operator.
+    pub(crate) function: Option<KnownFunction>,
+    /// Whether it is a variable or a constant.
+    pub(crate) is_variable: bool,
+    /// Its documentation as a variable.
+    pub(crate) variable_doc: Option<String>,
+    /// Whether it names a class or type.
+    pub(crate) is_class: bool,
+    /// What it means to the robot, such as the keys of an action.
+    pub(crate) topics: String,
+}
+
+/// A function, macro or special operator.
+#[derive(Clone, Default, Debug)]
+pub(crate) struct KnownFunction {
+    /// What it is.
+    pub(crate) kind: &'static str,
+    /// The lambda list without its parentheses, in lower case.
+    pub(crate) lambda_list: String,
+    /// The documentation.
+    pub(crate) doc: Option<String>,
+    /// Its text, if it belongs to the language and is written in Lisp.
+    pub(crate) library: Option<LibraryText>,
+}
+
+/// A definition of the language that is written in Lisp.
+#[derive(Clone, Debug)]
+pub(crate) struct LibraryText {
+    /// File and line in the sources of this program.
+    pub(crate) place: String,
+    /// The form.
+    pub(crate) text: &'static str,
+}
+
+/// A definition in a text.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Definition {
+    /// What defines and what is defined, such as `(DEFUN F)`.
+    pub(crate) label: String,
+    /// The name of the text.
+    pub(crate) source: String,
+    /// The line, from one.
+    pub(crate) line: usize,
+    /// The column, from one, in characters.
+    pub(crate) column: usize,
+    /// The form.
+    pub(crate) text: String,
+}
+
+impl KnownSymbol {
+    /// Whether it means anything.
+    pub(crate) fn has_meaning(&self) -> bool {
+        self.function.is_some() || self.is_variable || self.is_class || !self.topics.is_empty()
+    }
+
+    /// The shape of a call.
+    pub(crate) fn call(&self) -> Option<String> {
+        let list = &self.function.as_ref()?.lambda_list;
+        let name = self.name.to_lowercase();
+        Some(match list.is_empty() {
+            true => format!("({name})"),
+            false => format!("({name} {list})"),
+        })
+    }
+}
+
+impl Names {
+    /// The index of a package of that name or nickname, in any case.
+    pub(crate) fn package(&self, name: &str) -> Option<usize> {
+        let exact = self.package_names.get(name);
+        exact
+            .or_else(|| self.package_names.get(&name.to_uppercase()))
+            .copied()
+    }
+
+    /// The symbol accessible under a name in a package.
+    pub(crate) fn accessible(&self, package: usize, name: &str) -> Option<&KnownSymbol> {
+        let this = self.packages.get(package)?;
+        let own = this.symbols.get(name).map(|(symbol, _)| *symbol);
+        let inherited = || {
+            let mut used = this.uses.iter().filter_map(|used| self.packages.get(*used));
+            used.find_map(|used| used.symbols.get(name).filter(|(_, external)| *external))
+                .map(|(symbol, _)| *symbol)
+        };
+        self.symbols.get(own.or_else(inherited)?)
+    }
+
+    /// The symbol that is typed so in a package.
+    pub(crate) fn typed(&self, package: usize, text: &str) -> Option<&KnownSymbol> {
+        let upper = text.to_uppercase();
+        match upper.rsplit_once(':') {
+            None => self.accessible(package, &upper),
+            Some((prefix, name)) => {
+                let prefix = prefix.trim_end_matches(':');
+                self.accessible(self.package(prefix)?, name)
+            }
+        }
+    }
+
+    /// All symbols accessible in a package by name; those of used packages after its own.
+    pub(crate) fn all_accessible(
+        &self,
+        package: usize,
+    ) -> impl Iterator<Item = (&str, &KnownSymbol)> {
+        let this = self.packages.get(package);
+        let own = this.into_iter().flat_map(|package| &package.symbols);
+        let used = this.into_iter().flat_map(|package| &package.uses);
+        let inherited = used
+            .filter_map(|used| self.packages.get(*used))
+            .flat_map(|used| &used.symbols)
+            .filter(|(_, (_, is_external))| *is_external);
+        own.chain(inherited)
+            .filter_map(|(name, (symbol, _))| Some((name.as_str(), self.symbols.get(*symbol)?)))
+    }
+}

@@ -1,0 +1,102 @@
+//! The values that an editor refers to, by number.
+
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
+
+use super::dialogue::ObjectNumber;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::raise::Raise;
+
+/// Most values that are kept; beyond that, the oldest are forgotten.
+const MOST_OBJECTS: usize = 10_000;
+
+/// Builtins of package `SWANK`.
+pub(super) static TABLE: &[Builtin] = &[pure(
+    "LOOKUP-PRESENTED-OBJECT-OR-LOSE",
+    "number",
+    "The value that Emacs shows under a number. Emacs writes a call of it where a value is copied into an input.",
+    &[],
+    presented,
+)];
+
+/// The values, kept in the image.
+#[derive(Default)]
+pub(super) struct Objects {
+    is_served: Cell<bool>,
+    next: Cell<ObjectNumber>,
+    kept: RefCell<BTreeMap<ObjectNumber, Value>>,
+    /// What a form has asked to inspect.
+    inspected: RefCell<Option<Value>>,
+}
+
+impl Objects {
+    /// Sets whether an editor is the front.
+    pub(super) fn set_served(&self, is_served: bool) {
+        self.is_served.set(is_served);
+    }
+
+    /// Whether an editor is the front.
+    pub(super) fn is_served(&self) -> bool {
+        self.is_served.get()
+    }
+
+    /// Keeps the values of a form, if an editor is the front.
+    pub(super) fn keep_values(&self, values: &[Value]) {
+        if self.is_served() {
+            for value in values {
+                self.keep(value.clone());
+            }
+        }
+    }
+
+    /// The number that the next value gets.
+    pub(super) fn next(&self) -> ObjectNumber {
+        self.next.get()
+    }
+
+    /// Keeps a value.
+    pub(super) fn keep(&self, value: Value) -> ObjectNumber {
+        let number = self.next.get();
+        self.next.set(number + 1);
+        let mut kept = self.kept.borrow_mut();
+        kept.insert(number, value);
+        let oldest = (kept.len() > MOST_OBJECTS).then(|| kept.pop_first());
+        drop(kept);
+        // Freeing a value may run any code.
+        drop(oldest);
+        number
+    }
+
+    /// The value with a number.
+    pub(super) fn get(&self, number: ObjectNumber) -> Option<Value> {
+        self.kept.borrow().get(&number).cloned()
+    }
+
+    /// Forgets a value.
+    pub(super) fn forget(&self, number: ObjectNumber) {
+        let value = self.kept.borrow_mut().remove(&number);
+        drop(value);
+    }
+
+    /// Gives the editor a value to inspect.
+    pub(super) fn inspect_next(&self, value: Value) {
+        self.inspected.replace(Some(value));
+    }
+
+    /// The value to inspect, once.
+    pub(super) fn take_inspected(&self) -> Option<Value> {
+        self.inspected.take()
+    }
+}
+
+fn presented(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    let number = match &args[0] {
+        Value::Int(number) => ObjectNumber::try_from(*number).ok(),
+        _ => None,
+    };
+    let objects = image.extension::<Objects>();
+    let value = number.and_then(|number| objects?.get(number));
+    value.ok_or_else(|| Raise::simple("That value is no longer known.".to_owned()))
+}

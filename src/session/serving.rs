@@ -1,0 +1,151 @@
+//! The session's side of the dialogue with an editor.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::Session;
+use super::dialogue::{Beginning, Inspection, Names, Need, ObjectNumber, Serve, StackFrame, Stop};
+use super::host::parts::View;
+use super::on_one_line;
+use crate::lisp::image::identity::aside;
+use crate::lisp::print;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
+
+/// The variables that an input finds as the input before it has left them.
+const CARRIED: [Sym; 11] = [
+    known::V_PACKAGE,
+    known::MINUS,
+    known::PLUS,
+    known::V_PLUS2,
+    known::V_PLUS3,
+    known::TIMES,
+    known::V_STAR,
+    known::V_STAR3,
+    known::DIVIDE,
+    known::V_SLASH2,
+    known::V_SLASH3,
+];
+
+impl Serve for Session {
+    fn set_served(&mut self, is_served: bool) {
+        self.objects.set_served(is_served);
+    }
+
+    fn stops(&self) -> Vec<u64> {
+        self.level_numbers()
+    }
+
+    fn last_stop(&self) -> Option<Stop> {
+        self.stop()
+    }
+
+    fn choice_needs(&self, choice: usize) -> Need {
+        self.need_of_choice(choice)
+    }
+
+    fn stack(&self) -> Vec<StackFrame> {
+        self.stack_frames()
+    }
+
+    fn frame_variables(&mut self, frame: usize) -> Vec<(String, String)> {
+        let variables = self.variables_of_frame(frame).into_iter();
+        variables
+            .map(|(name, value)| (name, self.printed(&value)))
+            .collect()
+    }
+
+    fn frame_variable(&mut self, frame: usize, variable: usize) -> Option<ObjectNumber> {
+        let variables = self.variables_of_frame(frame);
+        let (_, value) = variables.into_iter().nth(variable)?;
+        Some(self.objects.keep(value))
+    }
+
+    fn stopped_by(&mut self) -> Option<ObjectNumber> {
+        let condition = self.stopping_condition()?;
+        Some(self.objects.keep(condition))
+    }
+
+    fn beginning(&self) -> Beginning {
+        let values = CARRIED.iter().map(|name| self.image.special(*name).clone());
+        Beginning(values.collect())
+    }
+
+    fn begin_with(&mut self, beginning: &Beginning) {
+        for (name, value) in CARRIED.iter().zip(&beginning.0) {
+            self.image.set_special(*name, value.clone());
+        }
+    }
+
+    fn enter_package(&mut self, name: &str) -> bool {
+        let packages = &self.image.packages;
+        let found = packages.find(name);
+        let found = found.or_else(|| packages.find(&name.to_uppercase()));
+        let Some(package) = found.filter(|id| !packages.is_deleted(*id)) else {
+            return false;
+        };
+        self.image
+            .set_special(known::V_PACKAGE, Value::Package(package));
+        true
+    }
+
+    fn package_names(&self) -> (String, String) {
+        let package = self.image.current_package();
+        let name = self.image.packages.get(package).name.to_string();
+        (name, self.package_name())
+    }
+
+    fn next_object(&self) -> ObjectNumber {
+        self.objects.next()
+    }
+
+    fn last_value(&mut self) -> ObjectNumber {
+        let value = self.image.special(known::TIMES).clone();
+        self.objects.keep(value)
+    }
+
+    fn set_last_value(&mut self, object: ObjectNumber) -> bool {
+        let Some(value) = self.objects.get(object) else {
+            return false;
+        };
+        self.image.set_special(known::TIMES, value);
+        true
+    }
+
+    fn take_inspected(&mut self) -> Option<ObjectNumber> {
+        let value = self.objects.take_inspected()?;
+        Some(self.objects.keep(value))
+    }
+
+    fn forget_objects(&mut self, objects: &[ObjectNumber]) {
+        objects
+            .iter()
+            .for_each(|number| self.objects.forget(*number));
+    }
+
+    fn look_into(&mut self, object: ObjectNumber, parts: Range<usize>) -> Option<Inspection> {
+        let value = self.objects.get(object)?;
+        let view = View::of(&mut self.host, &mut self.image, &value);
+        let (count, title) = (view.parts.len(), view.title);
+        let wanted = view.parts.into_iter().skip(parts.start);
+        let wanted = wanted.take(parts.len());
+        let parts = wanted.map(|(name, part)| {
+            if part.is_unbound() {
+                return (name, "(no value)".to_owned(), None);
+            }
+            let image = &self.image;
+            let text = aside(image, || print::to_string(image, &part, true));
+            (name, on_one_line(&text), Some(self.objects.keep(part)))
+        });
+        Some(Inspection {
+            title,
+            parts: parts.collect(),
+            count,
+        })
+    }
+
+    fn names(&mut self) -> Arc<Names> {
+        self.all_names()
+    }
+}
