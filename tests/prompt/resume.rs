@@ -194,6 +194,10 @@ fn failures_debugger_interrupts_and_undo_are_resumed_from_the_tape() {
     );
     first.session.interrupt_next_at(400);
     first.say("(with-simulated-robot (perform (a motion (type moving-torso) (joint-angle 0.3))))");
+    // Beside the interrupted plan.
+    first.say("(get-robot-transformation)");
+    first.say("(cpl:sleep 1)");
+    first.say("(btr:move-object 'bottle-1 '((-1.3 -0.9 0.86) (0 0 0 1)))");
     first.say("1");
     first.say("(pw:snapshot 'here)");
     first.say("(inspect 'bottle-1)");
