@@ -57,6 +57,7 @@ pub use spatial::Pose;
 #[allow(clippy::print_stdout)]
 mod tests {
     mod fuzz;
+    mod jupyter;
     mod language;
     pub(crate) mod motion;
     mod plans;

@@ -1,7 +1,8 @@
-//! The faces of a session: the command line, the prompt in a terminal, transcripts and the
-//! reference manual.
+//! The faces of a session: the command line, the prompt in a terminal, notebooks, transcripts and
+//! the reference manual.
 
 pub(crate) mod command;
+pub(crate) mod jupyter;
 pub(crate) mod manual;
 pub mod measured;
 pub(crate) mod prompt;

@@ -11,6 +11,7 @@ pub(crate) mod dialogue;
 pub(crate) mod functions;
 mod halting;
 mod host;
+mod illustrate;
 mod live_host;
 mod log_level;
 mod objects;

@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use super::heap;
+use super::jupyter::JupyterCommand;
 use super::picture::PictureArguments;
 use super::swank::SwankOptions;
 use super::sweep::SweepOptions;
@@ -173,6 +174,9 @@ pub(crate) enum Command {
     Sweep(Box<SweepOptions>),
     /// Serve a session to Emacs: SLIME connects to it by M-x slime-connect
     Swank(SwankOptions),
+    /// Use planwright in notebooks of Jupyter
+    #[command(subcommand)]
+    Jupyter(JupyterCommand),
     /// Find mistakes in plan files without running them
     Check {
         /// Plan files

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::front::jupyter::{InstallError, KernelError, NotebookError};
 use crate::front::prompt::{JournalError, ReplError};
 use crate::picture::ViewError;
 use crate::session::WatchError;
@@ -74,6 +75,15 @@ pub(crate) enum CommandError {
     /// An earlier session cannot be resumed.
     #[error("{0}")]
     Resume(#[from] JournalError),
+    /// The kernel for notebooks cannot run.
+    #[error("{0}")]
+    Kernel(#[from] KernelError),
+    /// The kernel cannot be made known to Jupyter.
+    #[error("{0}")]
+    Install(#[from] InstallError),
+    /// A file is no executed notebook.
+    #[error("{} is no notebook: {error}", path.display())]
+    Notebook { path: PathBuf, error: NotebookError },
     /// The prompt does not work.
     #[error("{0}")]
     Prompt(#[from] ReplError),

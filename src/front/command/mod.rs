@@ -11,6 +11,7 @@ mod arguments;
 mod check;
 mod failure;
 mod heap;
+mod jupyter;
 mod man;
 mod open;
 mod paint;
@@ -105,6 +106,7 @@ fn dispatch(arguments: Arguments) -> Result<Status, CommandError> {
         Some(Command::Picture(wanted)) => picture::picture(options, &wanted),
         Some(Command::Sweep(wanted)) => sweep::sweep(arguments.options, &wanted),
         Some(Command::Swank(wanted)) => swank::swank(options, &wanted, &watch),
+        Some(Command::Jupyter(wanted)) => jupyter::jupyter(options, &wanted),
         Some(Command::Check { files }) => check::check(options, &files),
         Some(Command::Reference) => reference::print(),
         Some(Command::Man) => man::print(),

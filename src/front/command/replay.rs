@@ -24,13 +24,7 @@ pub(crate) fn replay(
     let jobs = jobs
         .or_else(|| std::thread::available_parallelism().ok())
         .unwrap_or(NonZeroUsize::MIN);
-    let mut report = Report {
-        to: io::BufWriter::new(io::stdout()),
-        paint: Paint::new(options.color, &io::stdout()),
-        bless,
-        passed: 0,
-        failed: 0,
-    };
+    let mut report = Report::new(options, bless);
     let mut files = files.iter();
     let mut told = Ok(());
     replay_all(
@@ -49,12 +43,35 @@ pub(crate) fn replay(
     report.end()
 }
 
+/// Prints how a transcript differs from outputs that come from elsewhere.
+pub(super) fn report(
+    options: &Options,
+    transcript: &Transcript,
+    verdicts: &[Verdict],
+) -> Result<Status, CommandError> {
+    let mut report = Report::new(options, false);
+    report.file(None, transcript, verdicts)?;
+    report.end()
+}
+
 struct Report<W> {
     to: W,
     paint: Paint,
     bless: bool,
     passed: usize,
     failed: usize,
+}
+
+impl Report<io::BufWriter<io::Stdout>> {
+    fn new(options: &Options, bless: bool) -> Self {
+        Report {
+            to: io::BufWriter::new(io::stdout()),
+            paint: Paint::new(options.color, &io::stdout()),
+            bless,
+            passed: 0,
+            failed: 0,
+        }
+    }
 }
 
 impl<W: Write> Report<W> {

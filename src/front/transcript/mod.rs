@@ -19,6 +19,7 @@ mod replay;
 mod verdict;
 
 pub(crate) use bless::blessed;
+pub(crate) use markdown::session_blocks;
 pub(crate) use parse::Transcript;
 #[cfg(test)]
 pub(crate) use replay::replay;

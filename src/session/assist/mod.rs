@@ -4,6 +4,7 @@
 mod completion;
 mod context;
 mod definitions;
+mod description;
 mod designators;
 mod files;
 mod hint;

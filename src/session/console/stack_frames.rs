@@ -114,9 +114,14 @@ impl Session {
         count: Option<usize>,
         sink: &mut dyn FnMut(Event),
     ) -> Outcome {
+        let text = self.backtrace_text(count.unwrap_or(MOST_FRAMES));
+        self.tell(&text, sink)
+    }
+
+    /// Up to `count` frames, each on a line.
+    pub(in crate::session) fn backtrace_text(&self, count: usize) -> String {
         let frames = self.frames();
         let selected = self.console.levels.last().map_or(0, |level| level.frame);
-        let count = count.unwrap_or(MOST_FRAMES);
         let mut text = String::new();
         for (number, told) in frames.iter().enumerate().take(count) {
             let mark = if number == selected { '*' } else { ' ' };
@@ -130,7 +135,7 @@ impl Session {
         if frames.is_empty() {
             text.push_str("; There are no frames.\n");
         }
-        self.tell(&text, sink)
+        text
     }
 
     pub(super) fn look_at_next_frame(&mut self, by: isize, sink: &mut dyn FnMut(Event)) -> Outcome {

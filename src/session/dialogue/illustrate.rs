@@ -1,0 +1,20 @@
+//! What a notebook shows beyond what the prompt does.
+
+use super::converse::Converse;
+use crate::picture::{Image, View};
+
+/// An evaluator for a face that has room for pictures and longer texts.
+pub(crate) trait Illustrate: Converse {
+    /// All that is known about the name at byte `at` of an input, or about the operator of the form
+    /// there, in lines.
+    fn description(&self, text: &str, at: usize) -> Option<String>;
+
+    /// Up to `most` frames of the stopped evaluation, innermost first, each on a line.
+    fn backtrace(&self, most: usize) -> String;
+
+    /// A picture of the world, of that many pixels; none if the world lacks what the view is of.
+    fn depicted(&self, view: View, width: usize, height: usize) -> Option<Image>;
+
+    /// The simulated time (s).
+    fn now(&self) -> f64;
+}

@@ -1,0 +1,23 @@
+//! The session's side of the dialogue with a notebook.
+
+use super::Session;
+use super::dialogue::Illustrate;
+use crate::picture::{Image, View};
+
+impl Illustrate for Session {
+    fn description(&self, text: &str, at: usize) -> Option<String> {
+        self.description_at(text, at)
+    }
+
+    fn backtrace(&self, most: usize) -> String {
+        self.backtrace_text(most)
+    }
+
+    fn depicted(&self, view: View, width: usize, height: usize) -> Option<Image> {
+        self.simulation().picture(view, width, height).ok()
+    }
+
+    fn now(&self) -> f64 {
+        self.simulation().now()
+    }
+}

@@ -1,0 +1,113 @@
+//! What cells do.
+
+use serde_json::json;
+
+use super::client::{Client, start, start_at};
+
+#[test]
+fn a_cell_has_output_and_a_value() {
+    let kernel = start();
+    let mut client = Client::new(&kernel, "a");
+    let answer = client.run("(format t \"one~%\") (+ 1 2)");
+    let kinds: Vec<&str> = answer.messages.iter().map(|m| m.kind.as_str()).collect();
+    assert_eq!(
+        kinds,
+        [
+            "status",
+            "execute_input",
+            "stream",
+            "execute_result",
+            "status"
+        ]
+    );
+    assert_eq!(
+        (answer.text().as_str(), answer.value()),
+        ("one\n", Some("3"))
+    );
+    assert_eq!(answer.reply["status"], json!("ok"));
+    assert_eq!(answer.reply["execution_count"], json!(1));
+}
+
+#[test]
+fn a_condition_that_nobody_answers_ends_the_cell_as_in_a_transcript() {
+    let kernel = start();
+    let mut client = Client::new(&kernel, "a");
+    let answer = client.run("(list\n (car 1))");
+    let error = answer.of("error")[0];
+    assert_eq!(error["ename"], json!("TYPE-ERROR"));
+    let lines = error["traceback"].as_array().expect("lines");
+    assert_eq!(lines[1], json!("; at line 2, column 2"));
+    let last = lines[2].as_str().expect("a text");
+    assert!(last.starts_with("; Evaluation aborted on #<TYPE-ERROR"));
+    assert_eq!(answer.reply["status"], json!("error"));
+}
+
+#[test]
+fn a_restart_with_a_value_asks_whoever_has_chosen_it() {
+    let kernel = start();
+    let mut other = Client::new(&kernel, "b");
+    let mut client = Client::new(&kernel, "a");
+    let name = client.send(
+        "(list (restart-case (error \"no\") (use-value (v) v)))",
+        true,
+    );
+    let stopped = client.wait(&name);
+    assert_eq!(stopped.reply["status"], json!("error"));
+    let name = client.send("0", true);
+    assert_eq!(client.answer("(* 6 7)"), "value: ");
+    assert_eq!(client.wait(&name).value(), Some("(42)"));
+    assert_eq!(other.run("1").value(), Some("1"));
+}
+
+#[test]
+fn the_form_to_edit_is_offered_as_the_next_cell() {
+    let kernel = start();
+    let mut client = Client::new(&kernel, "a");
+    let name = client.send("(car 1)", true);
+    client.wait(&name);
+    let name = client.send(":edit", true);
+    let answer = client.wait(&name);
+    let wanted = json!([{"source": "set_next_input", "text": "(car 1)", "replace": false}]);
+    assert_eq!(answer.reply["payload"], wanted);
+    let name = client.send("(car '(1))", true);
+    assert_eq!(client.wait(&name).value(), Some("1"));
+}
+
+#[test]
+fn an_interrupt_ends_a_cell_and_leaves_out_those_that_wait() {
+    let kernel = start();
+    let mut client = Client::new(&kernel, "a");
+    let first = client.send("(loop)", false);
+    let second = client.send("(+ 1 2)", false);
+    client.wait_for(&first, "execute_input");
+    assert_eq!(client.control("interrupt_request"), json!({"status": "ok"}));
+    let answer = client.wait(&first);
+    assert_eq!(answer.of("error")[0]["ename"], json!("INTERRUPT"));
+    assert_eq!(client.wait(&second).reply["status"], json!("aborted"));
+    assert_eq!(client.run("(+ 3 4)").value(), Some("7"));
+    // One that comes when nothing runs has no effect.
+    client.control("interrupt_request");
+    assert_eq!(client.run("(loop repeat 100000)").value(), Some("NIL"));
+}
+
+#[test]
+fn a_kernel_ends_when_it_is_told_and_another_begins_at_its_ports() {
+    let mut kernel = start();
+    let mut client = Client::new(&kernel, "a");
+    client.send("(unwind-protect (loop) (print :cleaned))", false);
+    let answer = client.control("shutdown_request");
+    assert_eq!(answer, json!({"status": "ok", "restart": true}));
+    assert_eq!(kernel.end(), 0);
+    let ports: Vec<u16> = kernel.addresses.iter().map(|a| a.port()).collect();
+    let again = start_at(ports.try_into().expect("five ports"));
+    assert_eq!(Client::new(&again, "a").run("(+ 1 2)").value(), Some("3"));
+}
+
+#[test]
+fn a_program_may_exit() {
+    let mut kernel = start();
+    let mut client = Client::new(&kernel, "a");
+    let answer = client.run("(quit 3)");
+    assert_eq!(answer.reply["payload"][0]["source"], json!("ask_exit"));
+    assert_eq!(kernel.end(), 3);
+}
