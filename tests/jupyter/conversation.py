@@ -137,14 +137,6 @@ class Conversation(unittest.TestCase):
             print(f"interrupt of {name}: median {1000 * statistics.median(times):.0f} ms, "
                   f"most {1000 * max(times):.0f} ms", flush=True)
 
-    def test_progress_is_shown_in_place(self):
-        number = self.client.send(PLAN)
-        shown = self.client.wait_for(number, "display_data")
-        updated = self.client.wait_for(number, "update_display_data")
-        self.assertEqual(shown["transient"], updated["transient"])
-        self.manager.interrupt_kernel()
-        self.client.wait(number)
-
     def test_the_world_is_shown_after_it_has_changed(self):
         self.run_cell("%pictures follow 64x48")
         spawned = self.run_cell("(spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))")
@@ -192,8 +184,7 @@ class Interrupts(unittest.TestCase):
             times = []
             for at in range(self.count):
                 number = talk.send(PLAN, stdin=at % 2 == 0)
-                if at % 3:
-                    talk.wait_for(number, "execute_input")
+                talk.wait_for(number, "execute_input")
                 time.sleep(moments.random() ** 2)
                 begin = time.monotonic()
                 manager.interrupt_kernel()
@@ -243,6 +234,19 @@ class Lives(unittest.TestCase):
         process = manager.provisioner.process
         self.assertEqual(talk.run("(quit 3)").reply["payload"][0]["source"], "ask_exit")
         self.assertEqual(process.wait(timeout=5), 3)
+        talk.client.stop_channels()
+        manager.shutdown_kernel(now=True)
+
+    def test_progress_is_shown_in_place(self):
+        manager, talk = client.start(extra_arguments=["--realtime"])
+        talk.run(SETTINGS)
+        number = talk.send(PLAN)
+        shown = talk.wait_for(number, "display_data")
+        updated = talk.wait_for(number, "update_display_data")
+        self.assertEqual(shown["transient"], updated["transient"])
+        self.assertIn("driving", updated["data"]["text/plain"])
+        manager.interrupt_kernel()
+        talk.wait(number)
         talk.client.stop_channels()
         manager.shutdown_kernel(now=True)
 
