@@ -104,6 +104,7 @@ pub(super) fn greeting(kind: &str, identity: &str) -> Vec<u8> {
 pub(super) fn connect(address: SocketAddr, kind: &str, identity: &str) -> TcpStream {
     let mut stream = TcpStream::connect(address).expect("the kernel listens");
     stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
+    stream.set_nodelay(true).expect("no delay");
     stream
         .write_all(&greeting(kind, identity))
         .expect("it is read");
@@ -234,21 +235,20 @@ impl Client {
 
     /// Collects what comes of a request.
     pub(super) fn wait(&mut self, name: &str) -> Answer {
-        let reply = loop {
-            let reply = message(&mut self.shell);
-            if reply.parent == name {
-                break reply.content;
-            }
-        };
         let mut messages = Vec::new();
-        loop {
+        let mut is_idle = false;
+        while !is_idle {
             let message = message(&mut self.iopub);
             if message.parent == name {
-                let is_idle = message.content["execution_state"] == json!("idle");
+                is_idle = message.content["execution_state"] == json!("idle");
                 messages.push(message);
-                if is_idle {
-                    return Answer { reply, messages };
-                }
+            }
+        }
+        loop {
+            let reply = message(&mut self.shell);
+            if reply.parent == name {
+                let reply = reply.content;
+                return Answer { reply, messages };
             }
         }
     }

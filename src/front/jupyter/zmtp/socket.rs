@@ -19,7 +19,7 @@ const MOST_SUBSCRIPTIONS: usize = 64;
 /// Bytes that may wait for a peer before whoever produces them waits.
 const ROOM: usize = 4 << 20;
 /// How long a peer for which much waits may take nothing before it is disconnected.
-const PATIENCE: Duration = Duration::from_millis(if cfg!(test) { 500 } else { 10_000 });
+const PATIENCE: Duration = Duration::from_millis(if cfg!(test) { 500 } else { 30_000 });
 /// How often a wait looks whether it is to be ended.
 const LOOK: Duration = Duration::from_millis(20);
 
