@@ -149,6 +149,18 @@ pub(crate) enum MotionFailure {
         /// What would touch.
         hit: Box<CollisionHit>,
     },
+    /// A finger pressed on something that did not give way.
+    #[error(
+        "a finger of the {side} hand pressed on {body} from one side with all its effort, {effort:.0} N, and it did not give way"
+    )]
+    FingersStalled {
+        /// The hand.
+        side: Side,
+        /// What it pressed on.
+        body: BodyName,
+        /// The effort (N).
+        effort: f64,
+    },
     /// A joint goal is outside the joint's range.
     #[error("{violation}")]
     JointLimit {
@@ -408,9 +420,10 @@ impl MotionFailure {
             Self::HoldsNoHandle { .. } | Self::PartStopped(_) | Self::ArmTooShort(_) => {
                 "ENVIRONMENT-MANIPULATION-GOAL-NOT-REACHED"
             }
-            Self::GripperLimit { .. } | Self::FingersBlocked { .. } | Self::GripEffort { .. } => {
-                "GRIPPER-GOAL-NOT-REACHED"
-            }
+            Self::GripperLimit { .. }
+            | Self::FingersBlocked { .. }
+            | Self::FingersStalled { .. }
+            | Self::GripEffort { .. } => "GRIPPER-GOAL-NOT-REACHED",
             Self::PoseUnreachable(_)
             | Self::NoGrasp(_)
             | Self::NoHandleGrasp(_)

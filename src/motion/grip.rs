@@ -16,6 +16,10 @@ const SLOWEST: f64 = 0.01;
 /// How long (s) the fingers may press on different things before that counts as a failure.
 const UNEQUAL: f64 = 0.25;
 
+/// How long (s) a finger may press with all its effort on something that does not give way before
+/// that counts as a failure.
+const STALLED: f64 = 0.25;
+
 /// Fingers that close around an object: the named one, or any.
 #[derive(Clone, Debug)]
 pub(crate) struct Grip {
@@ -27,6 +31,8 @@ pub(crate) struct Grip {
     speed: f64,
     /// How long (s) they have pressed on different things.
     unequal: f64,
+    /// How long (s) one has pressed with all its effort on something that does not give way.
+    stalled: f64,
 }
 
 impl Grip {
@@ -38,6 +44,7 @@ impl Grip {
             effort,
             speed: 0.0,
             unequal: 0.0,
+            stalled: 0.0,
         }
     }
 
@@ -79,6 +86,20 @@ impl Grip {
                     held: left.body.clone(),
                 }));
             }
+        }
+        // The motor cannot do more: the fingers wait until what they press on has given way.
+        let most = pressing.iter().flatten();
+        let most = most.max_by(|a, b| a.force.total_cmp(&b.force));
+        if let Some(most) = most.filter(|most| most.force > effort) {
+            self.speed = 0.0;
+            self.stalled += STEP_SECONDS;
+            return (self.stalled > STALLED).then(|| {
+                MotionStatus::failed(MotionFailure::FingersStalled {
+                    side,
+                    body: most.body.clone(),
+                    effort,
+                })
+            });
         }
         let gripper = gripper_of(world, side);
         let now = world.robot_configuration();
