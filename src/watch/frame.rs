@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+
 use crate::spatial::Pose;
 
 /// What the world looks like at one time. Everything is in the map frame.
@@ -22,7 +24,8 @@ pub(crate) struct Frame {
     pub(crate) axes: Option<(Placed, f32)>,
     /// Planned paths of the motions under way.
     pub(crate) paths: Arc<[Path]>,
-    /// Positions (rad or m) of the robot's actuated joints, in the order of its tree.
+    /// Positions (rad or m) of the robot's actuated joints, in the order of its tree, then those
+    /// of the kitchen's.
     pub(crate) joints: Arc<[f64]>,
 }
 
@@ -48,6 +51,25 @@ impl Placed {
             at: [t.x as f32, t.y as f32, t.z as f32],
             turn: [q.x as f32, q.y as f32, q.z as f32, q.w as f32],
         }
+    }
+}
+
+impl Placed {
+    /// The same pose as seen from another one.
+    pub(crate) fn seen_from(&self, other: &Placed) -> Placed {
+        Placed::new(self.node, &(other.pose().inverse() * self.pose()))
+    }
+
+    /// The pose in the map, if this is one as seen from another one.
+    pub(crate) fn carried_by(&self, other: &Placed) -> Placed {
+        Placed::new(self.node, &(other.pose() * self.pose()))
+    }
+
+    fn pose(&self) -> Pose {
+        let [x, y, z] = self.at.map(f64::from);
+        let [i, j, k, w] = self.turn.map(f64::from);
+        let turn = UnitQuaternion::new_normalize(Quaternion::new(w, i, j, k));
+        Pose::from_parts(Translation3::new(x, y, z), turn)
     }
 }
 

@@ -41,6 +41,7 @@ pub(crate) struct FrameBuilder {
     /// The maps of locations that have been shown, with their nodes.
     maps: Vec<(Arc<LocationMap>, u32)>,
     joints: Vec<JointId>,
+    kitchen_joints: Vec<JointId>,
     base: u32,
     trajectories: Vec<TrajectoryLines>,
     paths: Arc<[Path]>,
@@ -60,6 +61,7 @@ impl FrameBuilder {
             meshes: IndexMap::new(),
             maps: Vec::new(),
             joints: Vec::new(),
+            kitchen_joints: Vec::new(),
             base: 0,
             trajectories: Vec::new(),
             paths: Vec::new().into(),
@@ -68,6 +70,8 @@ impl FrameBuilder {
         let models = world.models();
         let actuated = models.robot.joints().filter(|(_, j)| j.is_actuated());
         frame_builder.joints = actuated.map(|(id, _)| id).collect();
+        let actuated = models.kitchen.joints().filter(|(_, j)| j.is_actuated());
+        frame_builder.kitchen_joints = actuated.map(|(id, _)| id).collect();
         let camera = models.description.camera().frame;
         let robot = models.robot.links().map(|(link, _)| {
             let scene = Scene::of_link(&models.robot, link, true);
@@ -135,9 +139,13 @@ impl FrameBuilder {
         self.robot.get(&link).copied()
     }
 
-    /// The robot's actuated joints, in the order of [`Frame::joints`].
-    pub(crate) fn joints(&self) -> &[JointId] {
-        &self.joints
+    /// The names of the joints in [`Frame::joints`].
+    pub(crate) fn joint_names(&self, world: &World) -> Vec<String> {
+        let models = world.models();
+        let robot = self.joints.iter().map(|id| &models.robot.joint(*id).name);
+        let kitchen = self.kitchen_joints.iter();
+        let kitchen = kitchen.map(|id| &models.kitchen.joint(*id).name);
+        robot.chain(kitchen).cloned().collect()
     }
 
     /// A frame of the world as it is now. New objects become nodes.
@@ -179,8 +187,16 @@ impl FrameBuilder {
         self.hits
             .retain(|(since, _)| (0.0..HIT_SECONDS).contains(&(observation.time - since)));
         self.follow_trajectories(observation);
-        let robot = world.robot_configuration();
-        let position = |joint: &JointId| world.models().robot.position(&robot.joints, *joint);
+        let robot = self.joints.iter();
+        let configuration = world.robot_configuration();
+        let robot = robot.map(|id| world.models().robot.position(&configuration.joints, *id));
+        let kitchen = self.kitchen_joints.iter();
+        let kitchen = kitchen.map(|id| {
+            world
+                .models()
+                .kitchen
+                .position(world.kitchen_positions(), *id)
+        });
         Frame {
             time: observation.time,
             placed,
@@ -190,7 +206,7 @@ impl FrameBuilder {
             // The axes are not a node.
             axes: (observation.axes).map(|(pose, size)| (Placed::new(0, &pose), size as f32)),
             paths: self.paths.clone(),
-            joints: self.joints.iter().map(position).collect(),
+            joints: robot.chain(kitchen).collect(),
         }
     }
 

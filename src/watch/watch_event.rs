@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::halt::Halt;
 
 /// Identifies a task, an action or a motion of a session.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum TaskId {
     /// A task of a plan, by its number.
     Task(u64),

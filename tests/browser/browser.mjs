@@ -69,7 +69,7 @@ export class Browser {
     await Promise.race([this.send('Browser.close').catch(() => {}), sleep(3)]);
     this.process.kill('SIGKILL');
     await sleep(0.2);
-    rmSync(this.profile, { recursive: true, force: true, maxRetries: 5 });
+    rmSync(this.profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
   }
 }
 

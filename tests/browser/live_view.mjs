@@ -9,6 +9,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { Browser, sleep } from './browser.mjs';
 import { connections } from './connection.mjs';
+import { savedRun } from './saved_run.mjs';
 
 const [program, chromium, pictures = 'target/browser'] = process.argv.slice(2);
 const PLAN = 'plans/tutorial/move-bottle.plan';
@@ -217,6 +218,7 @@ try {
   const made = spawnSync(program, ['run', PLAN, '--record', join(folder, 'run.mcap')]);
   check(made.status === 0, 'a run is recorded');
   await dark(browser, join(folder, 'run.mcap'));
+  await savedRun({ browser, check, program, pictures, folder, plan: PLAN });
   await stranger(browser);
   await connections({ browser, start, check, pictures, program, children, plan: PLAN });
 } catch (error) {

@@ -162,3 +162,31 @@ fn wrong_arguments_end_in_one_clear_condition() {
         assert_eq!(desk.evaluate(form), (report, 0), "{form}");
     }
 }
+
+#[test]
+fn a_narrower_field_of_view_shows_things_larger() {
+    let mut desk = Desk::new("narrow");
+    desk.evaluate("(pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))");
+    let mut red = |angle: &str| {
+        let (said, _) = desk.evaluate(&format!(
+            "(picture \"FOLDER/a.png\" :at 'pp-tut::bottle-1 :width 96 :height 96 {angle})"
+        ));
+        assert_eq!(said, "\"FOLDER/a.png\"");
+        let (_, _, pixels) = desk.pixels("a.png");
+        let is_red = |p: &&[u8]| p[0] > 120 && p[1] < 60 && p[2] < 60;
+        pixels
+            .chunks(pixels.len() / (96 * 96))
+            .filter(is_red)
+            .count()
+    };
+    let (usual, narrow, wide) = (red(""), red(":fov 12"), red(":fov 110.5"));
+    assert!(
+        narrow > 2 * usual && usual > 2 * wide,
+        "{narrow} {usual} {wide}"
+    );
+    for wrong in [":fov 0", ":fov 180", ":fov :wide", ":fov -20"] {
+        let (said, pictures) = desk.evaluate(&format!("(picture {wrong})"));
+        assert!(said.contains("is no field of view of a picture"), "{said}");
+        assert_eq!(pictures, 0);
+    }
+}

@@ -114,9 +114,11 @@ fn the_same_session_writes_the_same_bytes() {
 fn a_file_that_is_cut_off_is_shown_as_far_as_it_goes() {
     let (bytes, _) = recorded("cut");
     let (whole, _) = read(&bytes);
-    let (half, _) = read(&bytes[..bytes.len() * 7 / 10]);
-    let (whole, half) = (whole.unwrap(), half.unwrap());
-    assert!(half.is_cut_off && half.frames > 0 && half.frames < whole.frames);
+    let (part, _) = read(&bytes[..bytes.len() * 9 / 10]);
+    let (whole, part) = (whole.unwrap(), part.unwrap());
+    assert!(part.is_cut_off && part.frames > 0 && part.frames < whole.frames);
+    let told = read(&bytes[..bytes.len() / 3]).0.unwrap_err().to_string();
+    assert_eq!(told, "it is cut off before the end of its first second");
 }
 
 #[test]
@@ -155,7 +157,7 @@ fn a_full_disk_is_called_so() {
     assert_eq!(told, "cannot record into /dev/full: the disk is full");
 }
 
-/// The recording with its chunks compressed, as other tools rewrite it.
+/// The recording with its chunks compressed otherwise, as other tools rewrite it.
 fn compressed(bytes: &[u8], name: &str, compress: impl Fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
     const CHUNK: u8 = 6;
     let number = |at: usize| {
@@ -173,8 +175,13 @@ fn compressed(bytes: &[u8], name: &str, compress: impl Fn(&[u8]) -> Vec<u8>) -> 
         }
         if opcode == CHUNK {
             chunks += 1;
-            // Times, size and checksum, then the empty name and the length of the content.
-            let content = compress(&bytes[begin + 28 + 4 + 8..end]);
+            // Times, size and checksum, then the name, and the length of the content.
+            assert_eq!(&bytes[begin + 28 + 4..begin + 28 + 4 + 3], b"lz4");
+            let mut plain = Vec::new();
+            let packed = &bytes[begin + 28 + 4 + 3 + 8..end];
+            let mut decoder = lz4_flex::frame::FrameDecoder::new(packed);
+            std::io::Read::read_to_end(&mut decoder, &mut plain).unwrap();
+            let content = compress(&plain);
             let length = 28 + 4 + name.len() + 8 + content.len();
             to.push(CHUNK);
             to.extend((length as u64).to_le_bytes());
@@ -207,13 +214,12 @@ fn zstd(content: &[u8]) -> Vec<u8> {
 #[test]
 fn what_other_tools_have_compressed_is_read() {
     let (bytes, _) = recorded("compressed");
-    let (plain, plain_history) = read(&bytes);
+    let (plain, plain_history) = read(&compressed(&bytes, "", <[u8]>::to_vec));
     let plain = plain.unwrap();
     for packed in [
         compressed(&bytes, "lz4", lz4),
         compressed(&bytes, "zstd", zstd),
     ] {
-        assert!(packed.len() < bytes.len() / 2);
         let (found, history) = read(&packed);
         assert_eq!(found.unwrap(), plain);
         let past = |history: &History| format!("{:?}", history.past(0.0, 100.0, 10_000));
@@ -247,7 +253,8 @@ fn a_chunk_that_unpacks_to_more_than_it_says_is_refused() {
 
 #[test]
 fn damage_that_the_reader_of_the_format_does_not_expect_is_an_error() {
-    let (mut bytes, _) = recorded("panic");
+    let (bytes, _) = recorded("panic");
+    let mut bytes = compressed(&bytes, "", <[u8]>::to_vec);
     let mut at = 8;
     while bytes[at] != 6 {
         let length = u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap());
@@ -258,4 +265,131 @@ fn damage_that_the_reader_of_the_format_does_not_expect_is_an_error() {
     bytes[first + 1..first + 9].fill(0xff);
     let told = read(&bytes).0.unwrap_err().to_string();
     assert!(told.starts_with("the file is damaged in a way"), "{told}");
+}
+
+/// A recording as earlier versions wrote it: JSON, everything in the map, all of it in every frame.
+fn of_earlier_version() -> Vec<u8> {
+    let mut to = std::io::Cursor::new(Vec::new());
+    let options = mcap::WriteOptions::new().compression(None);
+    let mut writer = options.create(&mut to).unwrap();
+    let time = serde_json::json!({"sec": 0, "nsec": 0});
+    let transform = |child: &str, x: f64| {
+        serde_json::json!({
+            "timestamp": time, "parent_frame_id": "map", "child_frame_id": child,
+            "translation": {"x": x, "y": 0.0, "z": 1.0},
+            "rotation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0},
+        })
+    };
+    let entity = |id: &str, frame: &str, kind: &str, name: &str| {
+        let pose = serde_json::json!({
+            "position": {"x": 0.0, "y": 0.0, "z": 0.0},
+            "orientation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0},
+        });
+        let point = |x: f64, y: f64| serde_json::json!({"x": x, "y": y, "z": 0.0});
+        let red = serde_json::json!({"r": 1.0, "g": 0.0, "b": 0.0, "a": 1.0});
+        serde_json::json!({
+            "timestamp": time, "frame_id": frame, "id": id, "lifetime": time, "frame_locked": true,
+            "metadata": [{"key": "name", "value": name}, {"key": "kind", "value": kind},
+                         {"key": "type", "value": "cup"}],
+            "arrows": [], "cubes": [], "spheres": [], "cylinders": [], "lines": [], "texts": [],
+            "models": [],
+            "triangles": [{
+                "pose": pose, "points": [point(0.0, 0.0), point(1.0, 0.0), point(0.0, 1.0)],
+                "color": red, "colors": [red, red, red], "indices": [0, 1, 2],
+            }],
+        })
+    };
+    let scene =
+        |entity: serde_json::Value| serde_json::json!({"deletions": [], "entities": [entity]});
+    let messages = [
+        (
+            "/scene/robot_and_kitchen",
+            scene(entity("0", "base_link", "robot", "base_link")),
+        ),
+        (
+            "/scene/objects",
+            scene(entity("1", "object/CUP-1", "object", "CUP-1")),
+        ),
+        (
+            "/shown",
+            serde_json::json!({
+                "timestamp": time, "held": [], "touching": [["base_link", "object/CUP-1"]],
+                "stops": [], "axes": [], "paths": [],
+            }),
+        ),
+        (
+            "/joint_states",
+            serde_json::json!({
+                "timestamp": time, "joints": [{"name": "knee", "position": 0.5}],
+            }),
+        ),
+        (
+            "/tf",
+            serde_json::json!({
+                "transforms": [transform("base_link", 2.0), transform("object/CUP-1", 3.0)],
+            }),
+        ),
+        (
+            "/tasks",
+            serde_json::json!({
+                "timestamp": time, "id": "t1", "parent": "", "name": "plan", "state": "running",
+                "failure": "",
+            }),
+        ),
+    ];
+    for (topic, message) in messages {
+        let schema = writer.add_schema(topic, "jsonschema", b"{}").unwrap();
+        let channel = writer.add_channel(schema, topic, "json", &Default::default());
+        let header = mcap::records::MessageHeader {
+            channel_id: channel.unwrap(),
+            sequence: 0,
+            log_time: 0,
+            publish_time: 0,
+        };
+        let data = serde_json::to_vec(&message).unwrap();
+        writer.write_to_known_channel(&header, &data).unwrap();
+    }
+    writer.finish().unwrap();
+    drop(writer);
+    to.into_inner()
+}
+
+#[test]
+fn recordings_of_earlier_versions_are_shown() {
+    let (found, history) = read(&of_earlier_version());
+    let found = found.unwrap();
+    assert_eq!((found.frames, found.news), (1, 1));
+    let frame = &history.past(0.0, 1.0, 9)[0];
+    let places: Vec<f32> = frame.placed.iter().map(|p| p.at[0]).collect();
+    assert_eq!(places, [2.0, 3.0]);
+    assert_eq!(frame.touching, [[0, 1]]);
+    assert_eq!(&*frame.joints, [0.5]);
+}
+
+#[test]
+fn what_carries_what_is_recorded_with_parameters_and_joints() {
+    let (bytes, _) = recorded("carried");
+    let (_, history) = read(&bytes);
+    let nodes = history.nodes_from(0);
+    let node = |name: &str| nodes.iter().find(|n| n.name == name).unwrap();
+    let carrier = node("r_gripper_palm_link").parent.unwrap();
+    assert_eq!(nodes[carrier as usize].name, "r_wrist_roll_link");
+    assert_eq!(node("BOTTLE-1").parent, None);
+    let past = history.past(0.0, 100.0, 10_000);
+    // The torso, which is lifted, is among the joints.
+    assert!(
+        past.last()
+            .unwrap()
+            .joints
+            .iter()
+            .any(|q| (q - 0.3).abs() < 1e-3)
+    );
+    let news = history.news();
+    let about = news.iter().find_map(|news| match &news.1 {
+        WatchEvent::Task(task) if task.name == "moving-torso" => task.about.clone(),
+        _ => None,
+    });
+    let about = about.unwrap();
+    assert_eq!(about.keys, [("joint-angle".to_owned(), "0.3".to_owned())]);
+    assert_eq!(about.place, "test:8:9");
 }

@@ -117,7 +117,7 @@ pub(crate) fn picture(
     if let Some(path) = &wanted.output {
         let png = session
             .simulation()
-            .picture(view, width, height)?
+            .picture(view, None, width, height)?
             .to_png()?;
         write(path, &png)?;
     }

@@ -21,6 +21,9 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 /// Minimum and maximum number of pixels along a side.
 const SIZES: std::ops::RangeInclusive<i64> = 16..=4096;
 
+/// Least and greatest vertical field of view (degrees).
+const ANGLES: std::ops::RangeInclusive<f64> = 5.0..=140.0;
+
 /// Default distance (m) of the eye from the point it looks at.
 const ASIDE: [f64; 3] = [-1.15, -1.25, 0.95];
 
@@ -95,6 +98,22 @@ impl PictureRequest {
                 key.to_lowercase(),
                 SIZES.start(),
                 SIZES.end()
+            ))),
+        }
+    }
+
+    /// The vertical field of view (rad), if it is given, in degrees.
+    pub(crate) fn field_of_view(&self, image: &Image) -> Result<Option<f64>> {
+        let Some(value) = self.get("FOV") else {
+            return Ok(None);
+        };
+        match number::to_f64(value).filter(|degrees| ANGLES.contains(degrees)) {
+            Some(degrees) => Ok(Some(degrees.to_radians())),
+            None => Err(Raise::simple(format!(
+                "{} is no field of view of a picture: a number of degrees from {} to {} was expected.",
+                print::to_string(image, value, true),
+                ANGLES.start(),
+                ANGLES.end()
             ))),
         }
     }

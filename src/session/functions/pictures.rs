@@ -35,7 +35,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     control(
         "PICTURE",
         "&rest arguments",
-        "Draws the world into a PNG file and returns the file's name: `(picture [\"file.png\"] [view] :from place :at place :width n :height n)`. Views are :kitchen, :top, :map, :robot, :table, :island and :follow; a place is a point (x y z), a pose, or the name of an object or frame. Terminals that can show it show it.",
+        "Draws the world into a PNG file and returns the file's name: `(picture [\"file.png\"] [view] :from place :at place :fov degrees :width n :height n)`. Views are :kitchen, :top, :map, :robot, :table, :island and :follow; a place is a point (x y z), a pose, or the name of an object or frame; :fov is how much is seen from top to bottom. Terminals that can show it show it.",
         &[],
         host!(answered picture),
     ),
@@ -82,13 +82,14 @@ fn publish(
 }
 
 fn picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
-    let keys = ["VIEW", "FROM", "AT", "WIDTH", "HEIGHT"];
+    let keys = ["VIEW", "FROM", "AT", "FOV", "WIDTH", "HEIGHT"];
     let simulation = &host.simulation;
     let request = PictureRequest::of(image, args, &keys)?;
     let view = request.view(simulation, image)?;
     let width = request.size(image, "WIDTH", WIDTH)?;
     let height = request.size(image, "HEIGHT", HEIGHT)?;
-    let picture = simulation.picture(view, width, height);
+    let vertical_fov = request.field_of_view(image)?;
+    let picture = simulation.picture(view, vertical_fov, width, height);
     let picture = picture.map_err(|error| Raise::simple(format!("{error}.")))?;
     publish(
         &mut host.audience,

@@ -16,14 +16,16 @@ impl Simulation {
         scene
     }
 
-    /// The present picture of a view.
+    /// The present picture of a view, with another vertical field of view (rad) if one is given.
     pub(crate) fn picture(
         &self,
         view: View,
+        vertical_fov: Option<f64>,
         width: usize,
         height: usize,
     ) -> Result<picture::Image, picture::ViewError> {
-        let camera = view.camera(&self.world, width, height)?;
+        let mut camera = view.camera(&self.world, width, height)?;
+        camera.vertical_fov = vertical_fov.unwrap_or(camera.vertical_fov);
         Ok(render(&self.scene(), &camera))
     }
 

@@ -43,14 +43,15 @@ fn views(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Value {
     let robot = &world.models().robot;
     let node = |link: LinkId| node_of(&robot.link(link).name);
     // In the order of the positions in a frame.
-    let joints = robot.joints().filter(|(_, joint)| joint.is_actuated());
+    let kitchen = world.models().kitchen.joints();
+    let joints = robot.joints().chain(kitchen);
+    let joints = joints.filter(|(_, joint)| joint.is_actuated());
     let joints = joints.map(|(_, joint)| {
         json!({
             "name": joint.name,
             "unit": if joint.kind == JointKind::Prismatic { "m" } else { "rad" },
             "limits": joint.limits.map(|limits| [limits.lower, limits.upper]),
             "velocity": joint.max_velocity,
-            "child": node(joint.child),
         })
     });
     json!({

@@ -1,8 +1,6 @@
 //! The channels of a recording, in a table of topics and schemas.
 
-use serde_json::Value;
-
-use super::schema;
+use super::schema::{self, MessageType};
 
 /// A channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +15,9 @@ pub(crate) enum Channel {
     Objects,
     /// Planned paths, coordinate axes and what stopped a motion, as lines.
     Overlay,
-    /// Positions of the robot's joints.
+    /// What the robot does, as a text above it, and failures.
+    Markers,
+    /// Positions and velocities of joints.
     Joints,
     /// What the robot's camera sees.
     Picture,
@@ -25,7 +25,7 @@ pub(crate) enum Channel {
     Calibration,
     /// Log messages and printed output.
     Log,
-    /// Tasks and motions.
+    /// Tasks, actions and motions.
     Tasks,
     /// Held objects, and what else is shown.
     Shown,
@@ -33,12 +33,13 @@ pub(crate) enum Channel {
 
 impl Channel {
     /// All channels.
-    pub(crate) const ALL: [Self; 11] = [
+    pub(crate) const ALL: [Self; 12] = [
         Self::Transforms,
         Self::Still,
         Self::Furnishing,
         Self::Objects,
         Self::Overlay,
+        Self::Markers,
         Self::Joints,
         Self::Picture,
         Self::Calibration,
@@ -55,6 +56,7 @@ impl Channel {
             Self::Furnishing => "/scene/robot_and_kitchen",
             Self::Objects => "/scene/objects",
             Self::Overlay => "/scene/plans",
+            Self::Markers => "/scene/tasks",
             Self::Joints => "/joint_states",
             Self::Picture => "/camera/image",
             Self::Calibration => "/camera/calibration",
@@ -64,21 +66,19 @@ impl Channel {
         }
     }
 
-    /// Name and text of the schema of the channel's messages.
-    pub(crate) fn schema(self) -> (&'static str, Value) {
+    /// The type of the channel's messages.
+    pub(crate) fn schema(self) -> &'static MessageType {
         match self {
-            Self::Transforms | Self::Still => {
-                ("foxglove.FrameTransforms", schema::frame_transforms())
+            Self::Transforms | Self::Still => &schema::FRAME_TRANSFORMS,
+            Self::Furnishing | Self::Objects | Self::Overlay | Self::Markers => {
+                &schema::SCENE_UPDATE
             }
-            Self::Furnishing | Self::Objects | Self::Overlay => {
-                ("foxglove.SceneUpdate", schema::scene_update())
-            }
-            Self::Joints => ("foxglove.JointStates", schema::joint_states()),
-            Self::Picture => ("foxglove.CompressedImage", schema::compressed_image()),
-            Self::Calibration => ("foxglove.CameraCalibration", schema::camera_calibration()),
-            Self::Log => ("foxglove.Log", schema::log()),
-            Self::Tasks => ("planwright.Task", schema::task()),
-            Self::Shown => ("planwright.Shown", schema::shown()),
+            Self::Joints => &schema::JOINT_STATES,
+            Self::Picture => &schema::COMPRESSED_IMAGE,
+            Self::Calibration => &schema::CAMERA_CALIBRATION,
+            Self::Log => &schema::LOG,
+            Self::Tasks => &schema::TASK,
+            Self::Shown => &schema::SHOWN,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Unpacks the compressed chunks of an MCAP file, in pure Rust: the reader of MCAP files would
 //! need C libraries for that.
 //!
-//! Our own recordings are not compressed, but other tools rewrite them.
+//! Our own recordings are compressed with lz4; other tools may rewrite them.
 
 use std::borrow::Cow;
 use std::io::{self, ErrorKind, Read};

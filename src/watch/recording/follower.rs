@@ -63,11 +63,7 @@ impl Recorder {
         world: &World,
     ) -> Result<(Self, RecordingResult), RecordingError> {
         let frame_builder = FrameBuilder::new(world);
-        let tree = &world.models().robot;
-        let joints = frame_builder.joints().iter();
-        let names = joints
-            .map(|joint| tree.joint(*joint).name.clone())
-            .collect();
+        let names = frame_builder.joint_names(world);
         let writer = RecordingWriter::new(BufWriter::new(File::create(path)?), names)?;
         let (to, from) = sync_channel(MOST_WAITING);
         let result = RecordingResult::default();

@@ -123,7 +123,8 @@ pub(crate) struct SceneEntity {
     pub(crate) cylinders: [(); 0],
     pub(crate) lines: Vec<LinePrimitive>,
     pub(crate) triangles: Vec<TriangleListPrimitive>,
-    pub(crate) texts: [(); 0],
+    #[serde(default)]
+    pub(crate) texts: Vec<TextPrimitive>,
     pub(crate) models: [(); 0],
 }
 
@@ -183,6 +184,18 @@ pub(crate) struct TriangleListPrimitive {
     pub(crate) indices: Vec<u32>,
 }
 
+/// `foxglove.TextPrimitive`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct TextPrimitive {
+    pub(crate) pose: PoseMessage,
+    pub(crate) billboard: bool,
+    /// m, or pixels if the size does not depend on the distance.
+    pub(crate) font_size: f32,
+    pub(crate) scale_invariant: bool,
+    pub(crate) color: Color,
+    pub(crate) text: String,
+}
+
 /// `foxglove.JointStates`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct JointStates {
@@ -196,6 +209,9 @@ pub(crate) struct JointState {
     pub(crate) name: String,
     /// rad or m.
     pub(crate) position: f64,
+    /// rad/s or m/s; recordings of earlier versions have none.
+    #[serde(default)]
+    pub(crate) velocity: f64,
 }
 
 /// `foxglove.CompressedImage`.
@@ -234,17 +250,26 @@ pub(crate) struct Log {
     pub(crate) line: u32,
 }
 
-/// A task or a motion began, or its state changed.
+/// A task, an action or a motion began, or its state changed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Task {
     pub(crate) timestamp: Time,
-    /// `t` for a task or `m` for a motion, and its number.
+    /// `t` for a task, `a` for an action or `m` for a motion, and its number.
     pub(crate) id: String,
     /// The task that started it; empty if the prompt did.
     pub(crate) parent: String,
     pub(crate) name: String,
     pub(crate) state: String,
     pub(crate) failure: String,
+    #[serde(default)]
+    pub(crate) result: String,
+    /// What it is to do; told when it begins, as are the place and the line of the plan.
+    #[serde(default)]
+    pub(crate) parameters: Vec<KeyValuePair>,
+    #[serde(default)]
+    pub(crate) place: String,
+    #[serde(default)]
+    pub(crate) line: String,
 }
 
 /// What is shown besides bodies and their poses, until the next message.
@@ -252,11 +277,36 @@ pub(crate) struct Task {
 pub(crate) struct Shown {
     pub(crate) timestamp: Time,
     pub(crate) held: Vec<Held>,
-    /// Frames of links and objects that press on each other.
-    pub(crate) touching: Vec<[String; 2]>,
+    pub(crate) touching: Vec<Touching>,
     pub(crate) stops: Vec<Stop>,
     pub(crate) axes: Vec<Axes>,
     pub(crate) paths: Vec<PathMessage>,
+}
+
+/// Frames of a link and an object that press on each other.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(from = "TouchingForm")]
+pub(crate) struct Touching {
+    pub(crate) link: String,
+    pub(crate) object: String,
+}
+
+/// How they are written: recordings of earlier versions have pairs.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum TouchingForm {
+    Named { link: String, object: String },
+    Pair([String; 2]),
+}
+
+impl From<TouchingForm> for Touching {
+    fn from(form: TouchingForm) -> Self {
+        match form {
+            TouchingForm::Named { link, object } | TouchingForm::Pair([link, object]) => {
+                Self { link, object }
+            }
+        }
+    }
 }
 
 /// An object in one of the robot's hands.

@@ -1,17 +1,22 @@
 //! Recordings of sessions as MCAP files, which other robotics tools can open, too.
 //!
-//! Messages are JSON in the schemas published by Foxglove, so that its viewer can show them;
-//! tasks and held objects, for which there are none, have schemas of our own. Times are
-//! simulated: the same session gives the same bytes. [`Recorder`] writes, [`read_recording`]
-//! reads.
+//! Messages are Protobuf in the schemas published by Foxglove, so that its viewer can show them;
+//! tasks and held objects, for which there are none, have schemas of our own. Poses and joints are
+//! written when they change, and all of them every few seconds. Times are simulated: the same
+//! session gives the same bytes. [`Recorder`] writes, [`read_recording`] reads, also the JSON of
+//! earlier versions.
 
 mod channel;
 mod decompress;
 mod follower;
+mod markers;
+mod mcap_file;
 mod message;
+mod protobuf;
 pub(crate) mod read;
 mod schema;
 mod shapes;
+mod wire;
 mod write;
 
 pub(crate) use follower::{Recorder, RecordingResult};
@@ -45,9 +50,18 @@ pub(crate) enum RecordingError {
     /// The library that reads MCAP files has failed.
     #[error("the file is damaged in a way that the reader of MCAP files does not expect: {0}")]
     Reader(String),
+    /// A message is not what its schema says.
+    #[error("a message on {topic} is malformed")]
+    Malformed {
+        /// The topic of its channel.
+        topic: &'static str,
+    },
     /// A message cannot be read or written.
     #[error("a message is malformed: {0}")]
     Message(#[from] serde_json::Error),
+    /// The file ends in its first chunk.
+    #[error("it is cut off before the end of its first second")]
+    CutOff,
     /// The file contains nothing that can be shown.
     #[error("it contains no planwright recording")]
     Foreign,

@@ -4,18 +4,20 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use indexmap::IndexMap;
-use mcap::MessageStream;
 use mcap::read::Options;
+use mcap::{McapError, MessageStream};
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 
 use super::RecordingError;
 use super::channel::Channel;
 use super::decompress::decompressed;
-use super::message::{FrameTransform, FrameTransforms, Log, SceneUpdate, Shown, Task};
-use super::shapes::{frame_of, node, path_name};
+use super::message::{FrameTransform, FrameTransforms, JointStates, Log, SceneUpdate, Shown, Task};
+use super::protobuf::decoded;
+use super::shapes::{MAP, frame_of, node, path_name};
 use crate::watch::live::History;
 use crate::watch::{
-    Frame, Halt, HaltKind, Hit, Hold, Kind, Node, Path, Placed, TaskId, TaskNews, TaskState,
+    About, Frame, Halt, HaltKind, Hit, Hold, Kind, Node, Path, Placed, TaskId, TaskNews, TaskState,
     WatchEvent,
 };
 
@@ -50,6 +52,8 @@ fn read_messages(bytes: &[u8], to: &History) -> Result<Recording, RecordingError
         frame_ids: IndexMap::new(),
         still: IndexMap::new(),
         objects: IndexMap::new(),
+        poses: IndexMap::new(),
+        joints: IndexMap::new(),
         shown: Frame::default(),
         frames: 0,
         news: 0,
@@ -63,6 +67,8 @@ fn read_messages(bytes: &[u8], to: &History) -> Result<Recording, RecordingError
                 is_cut_off = true;
                 break;
             }
+            // Whole chunks have been unpacked before.
+            Err(McapError::UnsupportedCompression(_)) => return Err(RecordingError::CutOff),
             Err(error) => return Err(error.into()),
         }
     }
@@ -76,6 +82,9 @@ fn read_messages(bytes: &[u8], to: &History) -> Result<Recording, RecordingError
     })
 }
 
+/// Greatest number of frames that carry each other.
+const MOST_CARRIERS: usize = 64;
+
 struct Reader<'a> {
     to: &'a History,
     nodes: Vec<Arc<Node>>,
@@ -85,6 +94,10 @@ struct Reader<'a> {
     still: IndexMap<String, Placed>,
     /// Nodes of objects by the writer's numbers.
     objects: IndexMap<String, u32>,
+    /// Poses of the nodes that can move, each as seen from the node that carries it.
+    poses: IndexMap<u32, (Option<u32>, Placed)>,
+    /// Positions of the joints, in the order in which they were named first.
+    joints: IndexMap<String, f64>,
     /// What is currently shown besides bodies.
     shown: Frame,
     frames: usize,
@@ -96,11 +109,16 @@ impl Reader<'_> {
         let Some(channel) = Channel::of_topic(&message.channel.topic) else {
             return Ok(());
         };
-        if message.channel.message_encoding != "json" {
-            return Ok(());
-        }
+        let data: Value = match message.channel.message_encoding.as_str() {
+            "json" => serde_json::from_slice(&message.data)?,
+            "protobuf" => {
+                decoded(channel.schema(), &message.data).ok_or(RecordingError::Malformed {
+                    topic: channel.topic(),
+                })?
+            }
+            _ => return Ok(()),
+        };
         let time = message.log_time as f64 * 1e-9;
-        let data = &message.data;
         match channel {
             Channel::Transforms => self.transforms(time, &parsed(data)?),
             Channel::Still => {
@@ -138,7 +156,13 @@ impl Reader<'_> {
                     self.add_news(time, &WatchEvent::Task(news));
                 }
             }
-            Channel::Joints | Channel::Picture | Channel::Calibration | Channel::Overlay => {}
+            Channel::Joints => {
+                let states: JointStates = parsed(data)?;
+                let states = states.joints.into_iter();
+                self.joints
+                    .extend(states.map(|state| (state.name, state.position)));
+            }
+            Channel::Picture | Channel::Calibration | Channel::Overlay | Channel::Markers => {}
         }
         Ok(())
     }
@@ -149,27 +173,59 @@ impl Reader<'_> {
     }
 
     fn transforms(&mut self, time: f64, message: &FrameTransforms) {
-        let mut placed: Vec<Placed> = Vec::new();
         for transform in &message.transforms {
-            let frame_id = &transform.child_frame_id;
-            let known = self.frame_ids.get(frame_id).copied();
-            let id = match known {
-                Some(id) => id,
-                // A bare frame, such as the camera's.
-                None if !frame_id.starts_with("object/") => self.add_frame(frame_id),
-                None => continue,
+            let Some(id) = self.frame(&transform.child_frame_id) else {
+                continue;
             };
-            placed.extend(self::placed(transform, id));
+            let parent = match transform.parent_frame_id.as_str() {
+                MAP => None,
+                carrier => self.frame(carrier),
+            };
+            let Some(pose) = placed(transform, id) else {
+                continue;
+            };
+            // What carries a node is told with the nodes, which are published with the first frame.
+            if let Some(node) = self.nodes.get_mut(id as usize).and_then(Arc::get_mut) {
+                node.parent = parent;
+            }
+            self.poses.insert(id, (parent, pose));
         }
+        let known: Vec<u32> = self.frame_ids.values().copied().collect();
+        let mut placed: Vec<Placed> = known.iter().filter_map(|id| self.in_map(*id)).collect();
         placed.sort_by_key(|p| p.node);
         placed.dedup_by_key(|p| p.node);
         let frame = Frame {
             time,
             placed,
+            joints: self.joints.values().copied().collect(),
             ..self.shown.clone()
         };
         self.frames += 1;
         self.to.publish(&self.nodes, Arc::new(frame), true);
+    }
+
+    /// The node of a frame; a bare frame, such as the camera's, becomes one.
+    fn frame(&mut self, frame_id: &str) -> Option<u32> {
+        let known = self.frame_ids.get(frame_id).copied();
+        match known {
+            None if !frame_id.starts_with("object/") => Some(self.add_frame(frame_id)),
+            known => known,
+        }
+    }
+
+    /// The pose of a node in the map.
+    fn in_map(&self, id: u32) -> Option<Placed> {
+        let (mut parent, mut placed) = *self.poses.get(&id)?;
+        // Damage may have made a circle.
+        for _ in 0..MOST_CARRIERS {
+            let Some(carrier) = parent else {
+                return Some(placed);
+            };
+            let (next, pose) = self.poses.get(&carrier)?;
+            placed = placed.carried_by(pose);
+            parent = *next;
+        }
+        None
     }
 
     fn scene(&mut self, channel: Channel, update: &SceneUpdate) {
@@ -215,7 +271,7 @@ impl Reader<'_> {
                 })
                 .collect(),
             touching: (shown.touching.iter())
-                .filter_map(|[a, b]| Some([node(a)?, node(b)?]))
+                .filter_map(|pair| Some([node(&pair.link)?, node(&pair.object)?]))
                 .collect(),
             hits: (shown.stops.iter())
                 .map(|stop| Hit {
@@ -279,18 +335,29 @@ fn placed(transform: &FrameTransform, node: u32) -> Option<Placed> {
     is_finite.then_some(Placed { node, at, turn })
 }
 
-fn parsed<T: DeserializeOwned>(data: &[u8]) -> Result<T, RecordingError> {
-    Ok(serde_json::from_slice(data)?)
+fn parsed<T: DeserializeOwned>(data: Value) -> Result<T, RecordingError> {
+    Ok(serde_json::from_value(data)?)
 }
 
 fn news(task: Task) -> Option<TaskNews> {
+    let parameters = task.parameters.into_iter();
+    let keys: Vec<_> = parameters.map(|pair| (pair.key, pair.value)).collect();
+    let is_told = !keys.is_empty() || !task.place.is_empty();
+    let about = is_told.then(|| {
+        About {
+            keys,
+            place: task.place,
+            line: task.line,
+        }
+        .into()
+    });
     Some(TaskNews {
         id: TaskId::of_text(&task.id)?,
         parent: TaskId::of_text(&task.parent),
         name: task.name,
         state: TaskState::named(&task.state)?,
         failure: task.failure,
-        result: String::new(),
-        about: None,
+        result: task.result,
+        about,
     })
 }

@@ -1,5 +1,6 @@
 //! Nodes as entities of a scene message, and back.
 
+use indexmap::IndexMap;
 use nalgebra::Vector3 as Direction;
 
 use super::message::{
@@ -31,17 +32,6 @@ pub(crate) fn entity(node: &Node, time: f64) -> SceneEntity {
         key: key.to_owned(),
         value: value.to_owned(),
     };
-    let mesh = &node.mesh;
-    let triangles = TriangleListPrimitive {
-        points: mesh
-            .vertices
-            .iter()
-            .map(|v| v.at.map(tidy).into())
-            .collect(),
-        colors: mesh.vertices.iter().map(|v| color(v.color)).collect(),
-        indices: mesh.triangles.iter().flatten().copied().collect(),
-        ..TriangleListPrimitive::default()
-    };
     SceneEntity {
         timestamp: Time::new(time),
         frame_id: frame_of(node),
@@ -52,9 +42,34 @@ pub(crate) fn entity(node: &Node, time: f64) -> SceneEntity {
             pair("kind", node.kind.name()),
             pair("type", &node.type_name),
         ],
-        triangles: vec![triangles],
+        triangles: triangle_lists(&node.mesh),
         ..SceneEntity::default()
     }
+}
+
+/// A mesh as lists of triangles, one for each colour, in the order in which the colours occur.
+fn triangle_lists(mesh: &VisualMesh) -> Vec<TriangleListPrimitive> {
+    let mut lists: IndexMap<[u32; 4], (TriangleListPrimitive, IndexMap<u32, u32>)> =
+        IndexMap::new();
+    for triangle in &mesh.triangles {
+        let Some(first) = mesh.vertices.get(triangle[0] as usize) else {
+            continue;
+        };
+        let (list, known) = lists.entry(first.color.map(f32::to_bits)).or_default();
+        list.color = color(first.color);
+        for corner in triangle {
+            let Some(vertex) = mesh.vertices.get(*corner as usize) else {
+                continue;
+            };
+            let next = u32::try_from(known.len()).unwrap_or(u32::MAX);
+            let index = *known.entry(*corner).or_insert_with(|| {
+                list.points.push(vertex.at.map(tidy).into());
+                next
+            });
+            list.indices.push(index);
+        }
+    }
+    lists.into_values().map(|(list, _)| list).collect()
 }
 
 /// Rounds to hundredths of a millimetre, to keep the text short.

@@ -1,19 +1,21 @@
 //! Writes messages to a file.
 
-use std::collections::BTreeMap;
-use std::io::{Seek, Write};
+use std::io::Write;
 use std::sync::Arc;
 
-use mcap::records::MessageHeader;
+use indexmap::IndexMap;
 use serde::Serialize;
 
 use super::RecordingError;
 use super::channel::Channel;
+use super::markers::Markers;
+use super::mcap_file::McapFile;
 use super::message::{
     Axes, CameraCalibration, CompressedImage, FrameTransform, FrameTransforms, Held, JointState,
-    JointStates, Log, PathMessage, PoseMessage, SceneEntityDeletion, SceneUpdate, Shown, Stop,
-    Task, Time,
+    JointStates, KeyValuePair, Log, PathMessage, PoseMessage, SceneEntityDeletion, SceneUpdate,
+    Shown, Stop, Task, Time, Touching,
 };
+use super::protobuf::{descriptors, encoded};
 use super::shapes::{MAP, entity, frame_of, lines, tidy};
 use crate::perception::camera::Camera;
 use crate::picture::{Scene, render};
@@ -25,10 +27,23 @@ use crate::world::World;
 /// The library named in the file's header.
 const LIBRARY: &str = concat!("planwright ", env!("CARGO_PKG_VERSION"));
 
+/// Time (s) after which all poses and joints are written again, not only what has changed: who
+/// begins to read in the middle of the file then knows everything.
+const ALL_AGAIN: f64 = 2.0;
+
 /// Writes a recording.
-pub(crate) struct RecordingWriter<W: Write + Seek> {
-    writer: mcap::Writer<W>,
+pub(crate) struct RecordingWriter<W: Write> {
+    file: McapFile<W>,
     ids: Vec<(Channel, u16)>,
+    markers: Markers,
+    /// Poses that were written last, in the frames of what carries the nodes.
+    poses: IndexMap<u32, Placed>,
+    /// Positions and velocities of joints that were written last.
+    moved: Vec<(f64, f64)>,
+    /// When everything was written last, and the time and positions of the last frame.
+    last_all: f64,
+    last: Option<(f64, Arc<[f64]>)>,
+    last_picture: Vec<u8>,
     nodes: Vec<Arc<Node>>,
     joints: Vec<String>,
     /// Objects and other things that were shown last.
@@ -36,35 +51,38 @@ pub(crate) struct RecordingWriter<W: Write + Seek> {
     shown: Shown,
     /// An incomplete line of output.
     line: String,
-    sequence: u32,
     has_begun: bool,
 }
 
-impl<W: Write + Seek> RecordingWriter<W> {
+impl<W: Write> RecordingWriter<W> {
     /// Starts a recording. `joints` are the names of the joints in every frame.
     pub(crate) fn new(to: W, joints: Vec<String>) -> Result<Self, RecordingError> {
-        let options = mcap::WriteOptions::new().compression(None).library(LIBRARY);
-        let mut writer = options.create(to)?;
+        let mut file = McapFile::begin(to, LIBRARY)?;
         let mut ids = Vec::new();
+        let mut schemas: IndexMap<&str, u16> = IndexMap::new();
         for channel in Channel::ALL {
-            let (name, text) = channel.schema();
-            let mut text = text;
-            if let Some(map) = text.as_object_mut() {
-                map.insert("title".to_owned(), name.into());
-            }
-            let schema = writer.add_schema(name, "jsonschema", text.to_string().as_bytes())?;
-            let id = writer.add_channel(schema, channel.topic(), "json", &BTreeMap::new())?;
-            ids.push((channel, id));
+            let kind = channel.schema();
+            let schema = match schemas.get(kind.name) {
+                Some(known) => *known,
+                None => file.add_schema(kind.name, &descriptors(kind))?,
+            };
+            schemas.insert(kind.name, schema);
+            ids.push((channel, file.add_channel(schema, channel.topic())?));
         }
         Ok(Self {
-            writer,
+            file,
             ids,
+            markers: Markers::default(),
+            poses: IndexMap::new(),
+            moved: Vec::new(),
+            last_all: f64::NEG_INFINITY,
+            last: None,
+            last_picture: Vec::new(),
             nodes: Vec::new(),
             joints,
             objects: Vec::new(),
             shown: Shown::default(),
             line: String::new(),
-            sequence: 0,
             has_begun: false,
         })
     }
@@ -80,8 +98,9 @@ impl<W: Write + Seek> RecordingWriter<W> {
         if !self.has_begun {
             self.has_begun = true;
             let still = self.nodes.iter().filter_map(|n| n.still.as_ref());
-            let still = self.transforms(time, still);
-            self.write(Channel::Still, time, &still)?;
+            let still = still.filter_map(|p| self.transform(time, p, MAP.to_owned()));
+            let transforms = still.collect();
+            self.write(Channel::Still, time, &FrameTransforms { transforms })?;
             let fixed = self.nodes.iter().filter(|n| n.kind != Kind::Object);
             let seen = fixed.filter(|n| !n.mesh.triangles.is_empty());
             let entities = seen.map(|node| entity(node, time)).collect();
@@ -97,37 +116,98 @@ impl<W: Write + Seek> RecordingWriter<W> {
         }
         self.write_objects(frame)?;
         self.write_shown(frame)?;
-        let transforms = self.transforms(time, frame.placed.iter());
-        self.write(Channel::Transforms, time, &transforms)?;
-        let joints = self.joints.iter().zip(frame.joints.iter());
-        let joints = joints.map(|(name, position)| JointState {
-            name: name.clone(),
-            position: (position * 1e6).round() / 1e6,
-        });
-        let states = JointStates {
-            timestamp: Time::new(time),
-            joints: joints.collect(),
-        };
-        self.write(Channel::Joints, time, &states)
+        let has_all = time >= self.last_all + ALL_AGAIN || time < self.last_all;
+        if has_all {
+            self.last_all = time;
+        }
+        self.write_joints(frame, has_all)?;
+        self.write_poses(frame, has_all)
     }
 
-    fn transforms<'a>(
-        &self,
-        time: f64,
-        placed: impl Iterator<Item = &'a Placed>,
-    ) -> FrameTransforms {
-        let transforms = placed.filter_map(|placed| {
-            Some(FrameTransform {
-                timestamp: Time::new(time),
-                parent_frame_id: MAP.to_owned(),
-                child_frame_id: self.frame_id(placed.node)?,
-                translation: placed.at.map(tidy).into(),
-                rotation: placed.turn.map(|v| (v * 1e6).round() / 1e6).into(),
-            })
-        });
-        FrameTransforms {
-            transforms: transforms.collect(),
+    /// Writes the poses that have changed, each in the frame of what carries the node.
+    fn write_poses(&mut self, frame: &Frame, has_all: bool) -> Result<(), RecordingError> {
+        let at = |id: u32| {
+            let place = frame.placed.binary_search_by_key(&id, |p| p.node).ok()?;
+            frame.placed.get(place)
+        };
+        let mut transforms = Vec::new();
+        for placed in &frame.placed {
+            let parent = self.node(placed.node).and_then(|node| node.parent);
+            let carrier = parent.and_then(|id| Some((id, at(id)?)));
+            let own = match carrier {
+                Some((_, carrier)) => placed.seen_from(carrier),
+                None => *placed,
+            };
+            let own = Placed {
+                at: own.at.map(tidy),
+                turn: own.turn.map(tidy),
+                ..own
+            };
+            // That of the robot's root is always written: it makes a frame of a message in which
+            // nothing has moved, and some readers do not expect a message without transforms.
+            let is_root = self
+                .node(placed.node)
+                .is_some_and(|n| n.kind == Kind::Robot)
+                && carrier.is_none();
+            if !has_all && !is_root && self.poses.get(&placed.node) == Some(&own) {
+                continue;
+            }
+            self.poses.insert(placed.node, own);
+            let parent = carrier.and_then(|(id, _)| self.frame_id(id));
+            let parent = parent.unwrap_or_else(|| MAP.to_owned());
+            transforms.extend(self.transform(frame.time, &own, parent));
         }
+        // What is not in the world any more is written when it is again.
+        self.poses.retain(|id, _| at(*id).is_some());
+        self.write(
+            Channel::Transforms,
+            frame.time,
+            &FrameTransforms { transforms },
+        )
+    }
+
+    fn transform(&self, time: f64, placed: &Placed, parent: String) -> Option<FrameTransform> {
+        Some(FrameTransform {
+            timestamp: Time::new(time),
+            parent_frame_id: parent,
+            child_frame_id: self.frame_id(placed.node)?,
+            translation: placed.at.map(tidy).into(),
+            rotation: placed.turn.map(tidy).into(),
+        })
+    }
+
+    /// Writes positions and velocities of the joints of which one has changed.
+    fn write_joints(&mut self, frame: &Frame, has_all: bool) -> Result<(), RecordingError> {
+        let rounded = |value: f64| (value * 1e6).round() / 1e6;
+        let last = self.last.take();
+        let velocity = |i: usize, position: f64| {
+            let (time, joints) = last.as_ref()?;
+            let passed = frame.time - time;
+            let before = joints.get(i).filter(|_| passed > 1e-6)?;
+            Some((position - before) / passed)
+        };
+        let positions = frame.joints.iter().enumerate();
+        let now: Vec<(f64, f64)> = positions
+            .map(|(i, p)| (rounded(*p), rounded(velocity(i, *p).unwrap_or(0.0))))
+            .collect();
+        let joints = self.joints.iter().zip(&now).enumerate();
+        let changed = joints.filter(|(i, (_, state))| has_all || self.moved.get(*i) != Some(state));
+        let states = JointStates {
+            timestamp: Time::new(frame.time),
+            joints: changed
+                .map(|(_, (name, (position, velocity)))| JointState {
+                    name: name.clone(),
+                    position: *position,
+                    velocity: *velocity,
+                })
+                .collect(),
+        };
+        self.moved = now;
+        self.last = Some((frame.time, Arc::clone(&frame.joints)));
+        if states.joints.is_empty() {
+            return Ok(());
+        }
+        self.write(Channel::Joints, frame.time, &states)
     }
 
     fn write_objects(&mut self, frame: &Frame) -> Result<(), RecordingError> {
@@ -163,7 +243,12 @@ impl<W: Write + Seek> RecordingWriter<W> {
                 })
                 .collect(),
             touching: (frame.touching.iter())
-                .filter_map(|[a, b]| Some([frame_id(*a)?, frame_id(*b)?]))
+                .filter_map(|[link, object]| {
+                    Some(Touching {
+                        link: frame_id(*link)?,
+                        object: frame_id(*object)?,
+                    })
+                })
                 .collect(),
             stops: (frame.hits.iter())
                 .map(|hit| Stop {
@@ -212,6 +297,10 @@ impl<W: Write + Seek> RecordingWriter<W> {
         let camera = Camera::new(description, pose);
         let mut png = Vec::new();
         render(&Scene::of(world), &camera).write_png(&mut png)?;
+        if png == self.last_picture {
+            return Ok(());
+        }
+        self.last_picture.clone_from(&png);
         let frame_id = world.models().robot.link(description.frame).name.clone();
         let image = CompressedImage {
             timestamp: Time::new(time),
@@ -297,6 +386,15 @@ impl<W: Write + Seek> RecordingWriter<W> {
     }
 
     fn task(&mut self, time: f64, news: &TaskNews) -> Result<(), RecordingError> {
+        let root = |node: &&Arc<Node>| node.kind == Kind::Robot && node.parent.is_none();
+        let carrier = self.nodes.iter().find(root);
+        let carrier = carrier.map_or_else(|| MAP.to_owned(), |node| frame_of(node));
+        let update = self.markers.hear(time, news, &carrier);
+        if let Some(update) = update {
+            self.write(Channel::Markers, time, &update)?;
+        }
+        let about = news.about.as_deref().cloned().unwrap_or_default();
+        let parameters = about.keys.into_iter();
         let task = Task {
             timestamp: Time::new(time),
             id: news.id.text(),
@@ -304,6 +402,12 @@ impl<W: Write + Seek> RecordingWriter<W> {
             name: news.name.clone(),
             state: news.state.name().to_owned(),
             failure: news.failure.clone(),
+            result: news.result.clone(),
+            parameters: parameters
+                .map(|(key, value)| KeyValuePair { key, value })
+                .collect(),
+            place: about.place,
+            line: about.line,
         };
         self.write(Channel::Tasks, time, &task)
     }
@@ -314,19 +418,11 @@ impl<W: Write + Seek> RecordingWriter<W> {
         time: f64,
         message: &impl Serialize,
     ) -> Result<(), RecordingError> {
-        let data = serde_json::to_vec(message)?;
+        let data = encoded(channel.schema(), &serde_json::to_value(message)?);
         let Some((_, id)) = self.ids.iter().find(|(known, _)| *known == channel) else {
             return Ok(());
         };
-        let nanoseconds = Time::nanoseconds(time);
-        let header = MessageHeader {
-            channel_id: *id,
-            sequence: self.sequence,
-            log_time: nanoseconds,
-            publish_time: nanoseconds,
-        };
-        self.sequence = self.sequence.wrapping_add(1);
-        self.writer.write_to_known_channel(&header, &data)?;
+        self.file.add(*id, Time::nanoseconds(time), &data)?;
         Ok(())
     }
 
@@ -337,8 +433,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
             let time = self.shown.timestamp;
             self.log(f64::from(time.sec), &line)?;
         }
-        self.writer.finish()?;
-        self.writer.into_inner().flush()?;
+        self.file.finish()?;
         Ok(())
     }
 
@@ -351,7 +446,7 @@ impl<W: Write + Seek> RecordingWriter<W> {
     }
 }
 
-fn all_deleted(time: f64) -> SceneEntityDeletion {
+pub(super) fn all_deleted(time: f64) -> SceneEntityDeletion {
     SceneEntityDeletion {
         timestamp: Time::new(time),
         kind: 1,

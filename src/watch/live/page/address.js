@@ -67,8 +67,7 @@ function decode(text) {
 
 // What the address names may come later than the address is read.
 function findSought() {
-  const { sought } = page;
-  if (!sought) return;
+  const sought = page.sought ?? {};
   const node = sought.node && [...scene.nodes.values()].find(({ name }) => name === sought.node);
   const task = sought.task && tasks.byId.get(sought.task);
   if (task) {
@@ -77,7 +76,9 @@ function findSought() {
   } else if (node) {
     page.sought = null;
     select(node.id);
-  } else if (!sought.node && !sought.task) page.sought = null;
+  } else if (!sought.node && !sought.task) {
+    page.sought = null;
+  }
   if (page.wanted !== undefined && past.span[1] > past.span[0] && page.wanted <= past.span[1] + 0.5) {
     goTo(page.wanted);
     page.wanted = undefined;

@@ -65,7 +65,7 @@ function showNode(node, state) {
   const rows = [['type', node.type || { robot: 'link of the robot', furniture: 'furniture' }[node.kind] || node.kind]];
   if (place) {
     rows.push(['position', `${place.slice(0, 3).map((v) => v.toFixed(3)).join('  ')} m`]);
-    rows.push(['turned', `${angles(place).map((v) => v.toFixed(1)).join('  ')}°`]);
+    rows.push(['turned', `${angles(place).map((v) => (Math.round(v * 10) / 10 + 0).toFixed(1)).join('  ')}°`]);
   } else {
     rows.push(['position', 'not in the world']);
   }
@@ -86,13 +86,13 @@ function showTask(task) {
   const rows = [[task.what, state]];
   const end = task.end;
   rows.push(['time', end === null ? `since ${task.since.toFixed(2)} s` : `${task.since.toFixed(2)} – ${end.toFixed(2)} s, ${(end - task.since).toFixed(2)} s`]);
+  if (task.about?.place) rows.push(['plan', `${task.about.place}\n${task.about.line.trim()}`, 'code']);
   for (const [key, value] of task.about?.keys ?? []) rows.push([key, value, 'code']);
   if (task.result) rows.push(['result', task.result, 'code']);
   if (task.failure) rows.push(['failure', task.failure, 'bad']);
   const cause = originOf(task);
   if (cause && cause !== task) rows.push(['cause', cause.name]);
   if (page.marked?.names) rows.push(['used', page.marked.names]);
-  if (task.about?.place) rows.push(['source', task.about.place, 'code'], ['', task.about.line.trim(), 'code']);
   fillCard(task.name, rows, () => {
     const actions = document.createElement('p');
     actions.className = 'actions';

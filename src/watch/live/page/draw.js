@@ -4,7 +4,7 @@ const seconds = (t) => `${t.toFixed(2)} s`;
 
 function showTime() {
   const slider = $('slider');
-  const [start, end] = past.span;
+  const [start, end] = lanes.shown();
   // The clock tells the time of the scene that is shown, also while another one is fetched.
   const shown = page.isKnown ? page.peek ?? page.time ?? page.shown.t : page.shown.t;
   // A plan that has just begun must not make the slider jump.
@@ -13,7 +13,7 @@ function showTime() {
   slider.value = page.time ?? slider.max;
   slider.setAttribute('aria-valuetext', seconds(Number(slider.value)));
   $('now').textContent = seconds(shown);
-  $('end').textContent = page.time === null ? '' : `of ${seconds(end)}`;
+  $('end').textContent = page.time === null ? '' : `of ${seconds(past.span[1])}`;
 }
 
 let lastTick = 0, lastDraw = 0, slow = 0, isRefined = false;

@@ -5,6 +5,9 @@ const number = (v) => String(Number(v.toFixed(3)));
 const listed = (values) => `(${values.map(number).join(' ')})`;
 const poseText = (place) => `(${listed(place.slice(0, 3))} ${listed(place.slice(3))})`;
 
+// A name as the reader takes it for one symbol, whatever it contains.
+const symbolText = (name) => (/^[A-Z][A-Z0-9_-]*$/.test(name) ? name.toLowerCase() : `|${name.replaceAll(/[\\|]/g, '\\$&')}|`);
+
 // A list of forms, each with a button that copies it.
 function formList(forms) {
   const list = document.createElement('ul');
@@ -40,7 +43,7 @@ async function copy(text, button) {
 function formsOf(node) {
   const forms = [];
   const place = scene.place(node, page.shown);
-  const name = node.name.toLowerCase();
+  const name = symbolText(node.name);
   const { moved, clicked } = page;
   if (moved?.id === node.id) {
     const edit = node.kind === 'robot' ? '(move-robot ' : `(move-object '${name} `;
@@ -49,7 +52,7 @@ function formsOf(node) {
   if (node.kind === 'object') {
     forms.push(['its name', `'${name}`], ['a designator', `(an object (name ${name}))`]);
   } else if (node.kind === 'furniture') {
-    const urdf = name.replaceAll('_', '-');
+    const urdf = symbolText(node.name.replaceAll('_', '-').toUpperCase());
     forms.push(['on it', `(a location (on (an object (urdf-name ${urdf}) (part-of kitchen))))`]);
   }
   if (place && !moved) forms.push(['its pose', `(make-pose "map" '${poseText(place)})`]);

@@ -13,6 +13,10 @@ class Lanes {
     canvas.addEventListener('pointermove', (event) => this.point(event));
     canvas.addEventListener('pointerleave', () => this.leave());
     canvas.addEventListener('click', (event) => this.click(event));
+    canvas.addEventListener('dblclick', () => this.show(null));
+    canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
+    // The part of the time that is shown; null for all.
+    this.part = null;
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { this.colors = null; });
   }
 
@@ -53,15 +57,54 @@ class Lanes {
     this.rows = height;
   }
 
-  render(time, [start, end], selected) {
+  // Shows a part of the time, or with null all of it.
+  show(part) {
+    const [start, end] = past.span;
+    if (part) {
+      const length = Math.max(0.2, part[1] - part[0]);
+      const from = Math.max(start, Math.min(end - length, part[0]));
+      this.part = length < (end - start) * 0.98 ? [from, from + length] : null;
+    } else {
+      this.part = null;
+    }
+    page.isDirty = true;
+  }
+
+  // The time that lanes and slider show; it goes with the time that the page shows.
+  shown() {
+    if (!this.part) return past.span;
+    const [from, to] = this.part;
+    const now = page.time ?? past.span[1];
+    if (page.isPlaying && (now < from || now > to)) this.show([now, now + to - from]);
+    return this.part ?? past.span;
+  }
+
+  // The wheel zooms about the time that is pointed at, or moves to the side.
+  wheel(event) {
+    event.preventDefault();
+    const [from, to] = this.shown();
+    const pixels = (delta) => Math.max(-300, Math.min(300, delta * [1, 30, 400][event.deltaMode]));
+    const at = this.timeAt(event.clientX - this.canvas.getBoundingClientRect().left);
+    const scale = Math.exp(pixels(event.shiftKey ? 0 : event.deltaY) * 0.002);
+    const aside = pixels(event.shiftKey ? event.deltaY : event.deltaX) / this.canvas.clientWidth * (to - from);
+    this.show([at + (from - at) * scale + aside, at + (to - at) * scale + aside]);
+  }
+
+  render(time, [, end], selected) {
     const { canvas, context } = this;
+    const [start, stop] = this.shown();
     const width = canvas.clientWidth;
     // What still runs gets longer.
     const isNew = this.version !== this.tasks.version || (this.end !== end && this.tasks.isRunning);
-    const key = [width, devicePixelRatio, start, end, time, selected?.id, this.hover?.x, this.log.lines.length].join();
+    const key = [width, devicePixelRatio, start, stop, end, time, selected?.id, this.hover?.x, this.log.lines.length].join();
     if (!isNew && key === this.key && this.colors) return;
-    if (isNew) this.place(end);
-    Object.assign(this, { key, version: this.tasks.version, end, start });
+    // Of many tasks, the places are found anew only now and then.
+    const isDue = this.bars.length < 300 || performance.now() - this.placed > 250;
+    if (isNew && isDue) {
+      this.place(end);
+      this.placed = performance.now();
+    }
+    Object.assign(this, { key, version: isNew && !isDue ? -1 : this.tasks.version, end, start, stop });
     const height = this.rows * LANE + TICKS;
     canvas.style.height = `${height}px`;
     $('lanes').hidden = !this.bars.length && !this.log.lines.length;
@@ -81,6 +124,7 @@ class Lanes {
       context.fillRect(this.x(at) - 0.5, height - TICKS + 2, kind === 'error' || kind === 'halted' ? 2 : 1, TICKS - 2);
     }
     const line = (at, color) => {
+      if (at < start || at > stop) return;
       context.fillStyle = color;
       context.fillRect(this.x(at) - 0.75, 0, 1.5, height);
     };
@@ -90,7 +134,10 @@ class Lanes {
 
   drawBar({ task, row }, time, end, selected) {
     const { context, colors } = this;
-    const [from, to] = this.extent(task, end);
+    let [from, to] = this.extent(task, end);
+    if (to < 0 || from > this.canvas.clientWidth) return;
+    // What begins before is named where it is seen.
+    [from, to] = [Math.max(-2, from), Math.min(this.canvas.clientWidth + 2, to)];
     const top = row * LANE + 1;
     const state = Tasks.stateAt(task, Infinity);
     const isOwn = state === 'failed' && Tasks.isOrigin(task);
@@ -135,11 +182,11 @@ class Lanes {
   }
 
   // The slider's thumb is 16 pixels wide: its middle does not get to the ends.
-  x(time) { return 8 + (time - this.start) / Math.max(0.01, this.end - this.start) * (this.canvas.clientWidth - 16); }
+  x(time) { return 8 + (time - this.start) / Math.max(0.01, this.stop - this.start) * (this.canvas.clientWidth - 16); }
 
   timeAt(x) {
     const share = (x - 8) / Math.max(1, this.canvas.clientWidth - 16);
-    return this.start + Math.max(0, Math.min(1, share)) * (this.end - this.start);
+    return this.start + Math.max(0, Math.min(1, share)) * (this.stop - this.start);
   }
 
   extent(task, end) {
