@@ -226,6 +226,20 @@ fn what_has_been_seen_is_saved_at_the_prompt() {
 }
 
 #[test]
+fn an_older_file_stays_until_the_new_one_is_written() {
+    let path = file("older");
+    let longer = "x".repeat(5_000_000);
+    std::fs::write(&path, &longer).unwrap();
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    session.keep_run(&path).unwrap();
+    assert!(std::fs::read_to_string(&path).unwrap() == longer);
+    session.write_kept_run().unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.ends_with("</html>\n") && text.len() < longer.len());
+    assert_eq!(run_in(&text).frames.len(), 1);
+}
+
+#[test]
 fn a_file_that_cannot_be_written_is_told() {
     let mut session = Session::new(&SessionOptions::default()).unwrap();
     let path = crate::tests::scratch_folder().join("none/run.html");

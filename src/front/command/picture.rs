@@ -117,7 +117,7 @@ pub(crate) fn picture(
     if let Some(path) = &wanted.output {
         let png = session
             .simulation()
-            .picture(view, None, width, height)?
+            .picture(view, width, height)?
             .to_png()?;
         write(path, &png)?;
     }

@@ -8,7 +8,7 @@ use super::check::described;
 use super::failure::{CommandError, Status, read};
 use super::open::{open, open_session};
 use super::paint::Paint;
-use super::watching;
+use super::watching::{self, Writing};
 use crate::session::dialogue::{
     Abort, Evaluate, Outcome, Screen, Severity, evaluate_keeping_abort,
 };
@@ -22,15 +22,18 @@ pub(crate) fn run(
     watch: &WatchArguments,
 ) -> Result<Status, CommandError> {
     let mut has_browser = false;
+    let mut writing = Writing::default();
     let open = || {
         let mut session = open_session(options)?;
         has_browser = watching::begin(&mut session, watch)?;
+        writing = watching::finish_at_interrupt(&session, watch);
         Ok(session)
     };
     let (status, mut session) = run_in(options, files, forms, open)?;
     let recorded = session.end_recording();
     session.write_kept_run()?;
     recorded?;
+    writing.end();
     watching::linger(&session, has_browser);
     Ok(status)
 }

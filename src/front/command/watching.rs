@@ -1,12 +1,15 @@
 //! Lets a session be watched as the command line asks.
 
 use std::io::{self, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
 use super::arguments::WatchArguments;
 use super::failure::CommandError;
 use crate::session::Session;
+use crate::session::dialogue::Evaluate;
 use crate::watch::live::open_in_browser;
 
 /// How long to wait for a browser to show the page.
@@ -28,6 +31,37 @@ pub(crate) fn begin(session: &mut Session, watch: &WatchArguments) -> Result<boo
         return Ok(open_in_browser(&address));
     }
     Ok(false)
+}
+
+/// While files are being written, lets Ctrl-C end the evaluation only, so that they can be
+/// completed; again, it ends the program. Without files, or if this is not possible, it ends the
+/// program at once.
+pub(crate) fn finish_at_interrupt(session: &Session, watch: &WatchArguments) -> Writing {
+    let writing = Writing(Arc::new(AtomicBool::new(true)));
+    if watch.record.is_none() && watch.html.is_none() {
+        return writing;
+    }
+    let (flag, is_writing) = (session.interrupt_handle(), Arc::clone(&writing.0));
+    let _ = ctrlc::set_handler(move || {
+        if !is_writing.load(Ordering::Relaxed) || flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED);
+        }
+    });
+    writing
+}
+
+/// Exit status after Ctrl-C, as shells tell it.
+const INTERRUPTED: i32 = 130;
+
+/// Whether files are being written.
+#[derive(Default)]
+pub(crate) struct Writing(Arc<AtomicBool>);
+
+impl Writing {
+    /// The files are complete.
+    pub(crate) fn end(&self) {
+        self.0.store(false, Ordering::Relaxed);
+    }
 }
 
 /// Waits while there are viewers, so that they can look at the end; also waits for a browser

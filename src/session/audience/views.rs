@@ -166,7 +166,7 @@ impl Audience {
         path: &Path,
     ) -> Result<(), WatchError> {
         // A file that cannot be written is known before the robot moves.
-        let file = File::create(path).map_err(|error| unsaved(path, error.into()))?;
+        let file = opened(path)?;
         let (seen, follower) = follower_of(simulation);
         let follower = self.add_follower(simulation, image, follower);
         self.kept = Some(KeptRun {
@@ -196,7 +196,7 @@ impl Audience {
         image: &Image,
         path: &Path,
     ) -> Result<(), WatchError> {
-        let file = File::create(path).map_err(|error| unsaved(path, error.into()))?;
+        let file = opened(path)?;
         self.show(simulation, Cause::Rest);
         let kept = self.kept.as_ref().map(|kept| &kept.seen);
         if let Some(seen) = kept.or(self.view.as_ref().map(|view| &view.seen)) {
@@ -235,9 +235,25 @@ fn follower_of(simulation: &Simulation) -> (Seen, Box<LiveFollower>) {
     (Seen { history, views }, Box::new(follower))
 }
 
+/// The file, which keeps what it contains until it is written.
+fn opened(path: &Path) -> Result<File, WatchError> {
+    let options = File::options()
+        .write(true)
+        .create(true)
+        .truncate(false)
+        .open(path);
+    options.map_err(|error| unsaved(path, error.into()))
+}
+
 fn write(mut file: File, path: &Path, seen: &Seen) -> Result<(), WatchError> {
     let text = run_file(&seen.history, &seen.views);
-    file.write_all(text.as_bytes())
+    // What is no file, such as a device, has no length.
+    let emptied = match file.metadata() {
+        Ok(known) if known.is_file() => file.set_len(0),
+        _ => Ok(()),
+    };
+    emptied
+        .and_then(|()| file.write_all(text.as_bytes()))
         .map_err(|error| unsaved(path, error.into()))
 }
 

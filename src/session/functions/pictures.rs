@@ -89,7 +89,7 @@ fn picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resu
     let width = request.size(image, "WIDTH", WIDTH)?;
     let height = request.size(image, "HEIGHT", HEIGHT)?;
     let vertical_fov = request.field_of_view(image)?;
-    let picture = simulation.picture(view, vertical_fov, width, height);
+    let picture = simulation.picture_within(view, vertical_fov, width, height);
     let picture = picture.map_err(|error| Raise::simple(format!("{error}.")))?;
     publish(
         &mut host.audience,

@@ -16,8 +16,18 @@ impl Simulation {
         scene
     }
 
-    /// The present picture of a view, with another vertical field of view (rad) if one is given.
+    /// The present picture of a view.
     pub(crate) fn picture(
+        &self,
+        view: View,
+        width: usize,
+        height: usize,
+    ) -> Result<picture::Image, picture::ViewError> {
+        self.picture_within(view, None, width, height)
+    }
+
+    /// The same with another vertical field of view (rad), if one is given.
+    pub(in crate::session) fn picture_within(
         &self,
         view: View,
         vertical_fov: Option<f64>,

@@ -44,7 +44,9 @@ function combined(from, place) {
 
 // Whether two poses differ by more than a millimetre or a quarter of a degree.
 function isElsewhere(a, b) {
-  const alike = Math.abs(a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6]);
+  const four = (p, q) => p[3] * q[3] + p[4] * q[4] + p[5] * q[5] + p[6] * q[6];
+  // Rounded quaternions are not quite of unit length.
+  const alike = Math.abs(four(a, b)) / Math.sqrt(four(a, a) * four(b, b));
   return length(minus(a, b)) > 1e-3 || alike < 1 - 2.5e-6;
 }
 
