@@ -7,4 +7,5 @@ pub(crate) mod manual;
 pub mod measured;
 pub(crate) mod prompt;
 pub(crate) mod swank;
+pub(crate) mod sweep_report;
 pub(crate) mod transcript;

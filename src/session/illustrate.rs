@@ -1,7 +1,7 @@
 //! The session's side of the dialogue with a notebook.
 
 use super::Session;
-use super::dialogue::Illustrate;
+use super::dialogue::{Illustrate, Swept};
 use crate::picture::{Image, View};
 
 impl Illustrate for Session {
@@ -15,6 +15,10 @@ impl Illustrate for Session {
 
     fn depicted(&self, view: View, width: usize, height: usize) -> Option<Image> {
         self.simulation().picture(view, width, height).ok()
+    }
+
+    fn take_swept(&mut self) -> Option<Swept> {
+        self.host.audience.swept.take()
     }
 
     fn now(&self) -> f64 {

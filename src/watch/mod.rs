@@ -15,6 +15,7 @@ pub(crate) mod recording;
 mod trajectory_lines;
 mod watch_event;
 
+pub(crate) use base64::base64;
 pub(crate) use frame::{Frame, Hit, Hold, Path, Placed};
 pub(crate) use frame_builder::FrameBuilder;
 pub(crate) use halt::{Halt, HaltKind};

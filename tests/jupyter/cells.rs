@@ -107,6 +107,22 @@ fn a_kernel_ends_when_it_is_told_and_another_begins_at_its_ports() {
 }
 
 #[test]
+fn a_sweep_shows_a_table_and_where_it_works() {
+    let kernel = start();
+    let mut client = Client::new(&kernel, "a");
+    let sweep = "(pw:defsweep tried (:worlds 12)
+                   (vary (x (uniform 0.0 1.0)) (y (uniform 0.0 1.0)))
+                   (run (when (> x 0.5) (error \"<too far>\"))))
+                 (pw:sweep 'tried)";
+    let answer = client.run(sweep);
+    let shown = answer.of("display_data");
+    let html = shown[0]["data"]["text/html"].as_str().expect("a table");
+    assert!(html.contains("<td>SIMPLE-ERROR</td>"), "{html}");
+    assert!(shown[1]["data"]["image/png"].is_string());
+    assert!(answer.text().contains("success"), "{}", answer.text());
+}
+
+#[test]
 fn a_program_may_exit() {
     let mut kernel = start();
     let mut client = Client::new(&kernel, "a");

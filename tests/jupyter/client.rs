@@ -278,13 +278,19 @@ impl Client {
         answer.content
     }
 
-    /// The question that the kernel asks, which is answered.
-    pub(super) fn answer(&mut self, text: &str) -> String {
+    /// The question that the kernel asks.
+    pub(super) fn question(&mut self) -> String {
         let question = message(&mut self.stdin);
         assert_eq!(question.kind, "input_request");
-        let (bytes, _) = self.request("input_reply", &json!({"value": text}));
-        self.stdin.write_all(&bytes).expect("it is read");
         let prompt = question.content["prompt"].as_str();
         prompt.unwrap_or_default().to_owned()
+    }
+
+    /// The question that the kernel asks, which is answered.
+    pub(super) fn answer(&mut self, text: &str) -> String {
+        let question = self.question();
+        let (bytes, _) = self.request("input_reply", &json!({"value": text}));
+        self.stdin.write_all(&bytes).expect("it is read");
+        question
     }
 }

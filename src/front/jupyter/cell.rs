@@ -1,5 +1,7 @@
 //! Evaluating a cell: what its events become on the channels of a notebook.
 
+use std::rc::Rc;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
@@ -73,10 +75,10 @@ impl Failure {
 
 /// A cell that is being evaluated.
 pub(crate) struct Cell<'a> {
-    pub(crate) publisher: &'a Publisher,
+    pub(crate) publisher: Arc<Publisher>,
     pub(crate) interrupter: &'a Interrupter,
-    pub(crate) questions: &'a Questions,
-    pub(crate) request: &'a Request,
+    pub(crate) questions: Rc<Questions>,
+    pub(crate) request: Rc<Request>,
     pub(crate) settings: &'a Settings,
     /// The number of the input, for places in it.
     pub(crate) number: usize,
@@ -123,6 +125,11 @@ impl Cell<'_> {
             }
         }
         self.end_progress(session, &mut shown);
+        if let Some(swept) = session.take_swept() {
+            for content in display::of_sweep(&swept) {
+                self.publish("display_data", &content);
+            }
+        }
         if let Some(view) = self.settings.view
             && !shown.has_picture
             && session.world_hash() != hash
@@ -151,7 +158,8 @@ impl Cell<'_> {
         session.set_interactive(stops || session.level() > 0);
         let mut outcome = self.pass(session, input, shown);
         while self.can_ask && asks_for_value(session) {
-            let answer = self.questions.ask(self.request, "value: ");
+            self.publisher.flush();
+            let answer = self.questions.ask(&self.request, "value: ");
             outcome = self.pass(session, answer.as_deref().unwrap_or_default(), shown);
             if answer.is_none() {
                 shown.failure = Some(Failure::of_kernel("INTERRUPT", "Interrupted."));

@@ -2,6 +2,7 @@
 
 use std::io;
 use std::net::SocketAddr;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, SyncSender};
 use std::thread;
@@ -59,7 +60,7 @@ pub(crate) struct Kernel {
     requests: Receiver<Request>,
     author: Arc<Author>,
     publisher: Arc<Publisher>,
-    questions: Questions,
+    questions: Rc<Questions>,
     interrupter: Interrupter,
     settings: Settings,
     history: History,
@@ -120,13 +121,13 @@ impl Kernel {
                 }
             })
         })?;
-        let questions = Questions {
+        let questions = Rc::new(Questions {
             stdin: stdin.clone(),
             shell: shell.clone(),
             author: Arc::clone(&author),
             replies,
             interrupter: interrupter.clone(),
-        };
+        });
         Ok(Kernel {
             sockets: vec![shell.clone(), iopub, stdin, control, heartbeat],
             shell,
@@ -154,7 +155,7 @@ impl Kernel {
         let mut status = None;
         while status.is_none() && !self.interrupter.is_ending() {
             match self.requests.recv_timeout(LOOK) {
-                Ok(request) => status = self.answer(session, &request),
+                Ok(request) => status = self.answer(session, &Rc::new(request)),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => break,
             }
@@ -169,7 +170,7 @@ impl Kernel {
     }
 
     /// Answers a request; returns the exit status if the program has asked to exit.
-    fn answer(&mut self, session: &mut impl Illustrate, request: &Request) -> Option<u8> {
+    fn answer(&mut self, session: &mut impl Illustrate, request: &Rc<Request>) -> Option<u8> {
         self.publisher.tell_state(&request.header, "busy");
         let mut status = None;
         let answer = match request.kind.as_str() {
@@ -204,7 +205,7 @@ impl Kernel {
     fn execute(
         &mut self,
         session: &mut impl Illustrate,
-        request: &Request,
+        request: &Rc<Request>,
         status: &mut Option<u8>,
     ) -> Value {
         if self.is_left_out(request) {
@@ -227,10 +228,10 @@ impl Kernel {
         let ended = match self.settings.take(code) {
             Ok(text) => {
                 let cell = Cell {
-                    publisher: &self.publisher,
+                    publisher: Arc::clone(&self.publisher),
                     interrupter: &self.interrupter,
-                    questions: &self.questions,
-                    request,
+                    questions: Rc::clone(&self.questions),
+                    request: Rc::clone(request),
                     settings: &self.settings,
                     number: self.inputs,
                     can_ask: request.flag("allow_stdin", true),

@@ -95,6 +95,11 @@ impl Publisher {
         }
     }
 
+    /// Publishes the output that has been collected.
+    pub(crate) fn flush(&self) {
+        self.send_collected(&mut self.collected());
+    }
+
     /// A name for something that can be shown again.
     pub(crate) fn display_id(&self) -> String {
         self.author.display_id()

@@ -10,6 +10,7 @@ mod views;
 use std::sync::Arc;
 
 use crate::picture::Image;
+use crate::session::dialogue::Swept;
 use crate::session::simulation::Simulation;
 use crate::watch::live::{PaceControl, Place, Speed};
 use crate::world::World;
@@ -38,6 +39,8 @@ pub(crate) struct Audience {
     kept: Option<KeptRun>,
     /// Pictures that have not been reported as events yet.
     pictures: Vec<Arc<Image>>,
+    /// What came of the latest sweep, for front ends that can show tables.
+    pub(super) swept: Option<Swept>,
 }
 
 impl Audience {

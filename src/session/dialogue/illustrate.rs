@@ -2,6 +2,8 @@
 
 use super::converse::Converse;
 use crate::picture::{Image, View};
+use crate::sweep::Record;
+use crate::sweep::summary::Title;
 
 /// An evaluator for a face that has room for pictures and longer texts.
 pub(crate) trait Illustrate: Converse {
@@ -15,6 +17,18 @@ pub(crate) trait Illustrate: Converse {
     /// A picture of the world, of that many pixels; none if the world lacks what the view is of.
     fn depicted(&self, view: View, width: usize, height: usize) -> Option<Image>;
 
+    /// What came of a sweep that has ended since the last call.
+    fn take_swept(&mut self) -> Option<Swept>;
+
     /// The simulated time (s).
     fn now(&self) -> f64;
+}
+
+/// What came of a sweep.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Swept {
+    /// What it is called and wants.
+    pub(crate) title: Title,
+    /// What came of each world.
+    pub(crate) records: Vec<Record>,
 }

@@ -9,6 +9,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
 use crate::plan::Reply;
+use crate::session::dialogue::Swept;
 use crate::session::host::SimulationHost;
 use crate::session::host::call::{done, host};
 use crate::session::simulation::injection::{Fault, FaultKind};
@@ -133,12 +134,12 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[],
         known,
     ),
-    pure(
+    control(
         "%SWEEP-SUMMARY",
         "name seed goal lines",
         "What the lines of a sweep say together, as text.",
         &[],
-        summary,
+        host!(answered summary),
     ),
 ];
 
@@ -322,7 +323,7 @@ fn known(image: &mut Image, args: &[Value]) -> Result<Value> {
     Ok(Value::NIL)
 }
 
-fn summary(_: &mut Image, args: &[Value]) -> Result<Value> {
+fn summary(host: &mut SimulationHost, _: &mut Image, args: &[Value]) -> Result<Reply> {
     let title = Title {
         name: text(&args[0])?,
         seed: index(&args[1])?,
@@ -332,7 +333,9 @@ fn summary(_: &mut Image, args: &[Value]) -> Result<Value> {
     let records: Vec<Record> = lines
         .filter_map(|line| serde_json::from_str(&line).ok())
         .collect();
-    Ok(Value::string(Summary::new(&title, &records).to_string()))
+    let text = Summary::new(&title, &records).to_string();
+    host.audience.swept = Some(Swept { title, records });
+    done(Value::string(text))
 }
 
 fn record(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {

@@ -9,7 +9,6 @@ mod options;
 mod pool;
 mod progress;
 mod replay;
-mod reports;
 mod shrink;
 mod worker;
 mod worlds;
@@ -20,6 +19,7 @@ use std::path::{Path, PathBuf};
 
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
+use crate::front::sweep_report;
 use crate::session::sweeping::Known;
 use crate::sweep::Record;
 use crate::sweep::influence::Influence;
@@ -315,19 +315,19 @@ fn write_reports(
     records: &[Record],
 ) -> Result<(), CommandError> {
     if let Some(path) = &wanted.csv {
-        write_whole(path, reports::csv(records).as_bytes())?;
+        write_whole(path, sweep_report::csv(records).as_bytes())?;
     }
     if let Some(path) = &wanted.junit {
-        write_whole(path, reports::junit(title, records).as_bytes())?;
+        write_whole(path, sweep_report::junit(title, records).as_bytes())?;
     }
     if let Some(path) = &wanted.html {
-        write_whole(path, reports::html(title, records).as_bytes())?;
+        write_whole(path, sweep_report::html(title, records).as_bytes())?;
     }
     let Some(HeatMap { axes, path }) = &wanted.heat_map else {
         return Ok(());
     };
     let [x, y] = axes;
-    let Some(image) = heat_map::heat_map(records, [x, y]) else {
+    let Some(image) = sweep_report::heat_map(records, [x, y]) else {
         return Err(CommandError::Sweep(format!(
             "{x} and {y} are not two draws whose numbers differ between worlds"
         )));

@@ -8,7 +8,7 @@ use crate::sweep::summary::{Summary, Title};
 const MOST_LISTED: usize = 500;
 
 /// The records as a table: a row for each world, a column for each draw, expectation and measure.
-pub(super) fn csv(records: &[Record]) -> String {
+pub(crate) fn csv(records: &[Record]) -> String {
     let fixed = [
         "world", "outcome", "class", "cause", "bodies", "faults", "time", "steps", "distance",
         "hash",
@@ -90,7 +90,7 @@ fn row(cells: &[String]) -> String {
 
 /// A test report: a case for the plan, for each expectation and for the goal, not for each world. Where
 /// there is a goal, only that can fail: some worlds may.
-pub(super) fn junit(title: &Title, records: &[Record]) -> String {
+pub(crate) fn junit(title: &Title, records: &[Record]) -> String {
     let summary = Summary::new(title, records);
     let tried = || records.iter().filter(|r| r.outcome.counts());
     let replay = |worlds: &[u64]| {
@@ -162,7 +162,7 @@ pub(super) fn junit(title: &Title, records: &[Record]) -> String {
 }
 
 /// A page with the summary and the worlds that failed.
-pub(super) fn html(title: &Title, records: &[Record]) -> String {
+pub(crate) fn html(title: &Title, records: &[Record]) -> String {
     let summary = Summary::new(title, records);
     let name = escaped(&title.name);
     let mut text = format!(
@@ -176,34 +176,55 @@ pub(super) fn html(title: &Title, records: &[Record]) -> String {
         escaped(&summary.to_string()),
         escaped(&Influence::of(records).to_string()),
     );
-    text.push_str("<table><tr><th>world</th><th>outcome</th><th>class</th><th>cause</th><th>draws</th></tr>\n");
-    let failed = records
-        .iter()
-        .filter(|r| r.outcome.counts() && !r.is_success());
-    for record in failed.take(MOST_LISTED) {
-        let draws: Vec<String> = record
-            .draws
-            .iter()
-            .map(|(n, v)| format!("{n} {v}"))
-            .collect();
+    text.push_str(&table(records, MOST_LISTED));
+    text + "</body></html>\n"
+}
+
+/// The rate as a bar, and a table of the worlds that failed, `most` at most, for a page that has more
+/// on it; the summary is told elsewhere.
+pub(crate) fn fragment(title: &Title, records: &[Record], most: usize) -> String {
+    let summary = Summary::new(title, records);
+    let share = 100.0 * summary.rate();
+    let name = escaped(&title.name);
+    let bar = format!(
+        "<p><b>{name}</b>: {share:.1} % of {}</p>\n\
+         <div style=\"width: 30em; background: #b33\">\
+         <div style=\"width: {share:.1}%; height: 1em; background: #383\"></div></div>\n",
+        summary.tried
+    );
+    match failed(records).next() {
+        Some(_) => bar + &table(records, most),
+        None => bar,
+    }
+}
+
+/// The worlds in which the plan did not work.
+fn failed(records: &[Record]) -> impl Iterator<Item = &Record> {
+    let tried = records.iter().filter(|r| r.outcome.counts());
+    tried.filter(|r| !r.is_success())
+}
+
+/// A table of the worlds that failed.
+fn table(records: &[Record], most: usize) -> String {
+    let mut text = "<table><tr><th>world</th><th>outcome</th><th>class</th><th>cause</th>\
+                    <th>draws</th></tr>\n"
+        .to_owned();
+    for record in failed(records).take(most) {
+        let draws = record.draws.iter().map(|(n, v)| format!("{n} {v}"));
+        let draws: Vec<String> = draws.collect();
+        let cause = record.cause.clone().unwrap_or_default();
         let cells = [
             record.world.to_string(),
             record.outcome.to_string(),
             record.class.clone().unwrap_or_default(),
-            [
-                record.cause.clone().unwrap_or_default(),
-                record.bodies.join("/"),
-            ]
-            .join(" "),
+            [cause, record.bodies.join("/")].join(" "),
             draws.join(", "),
         ];
-        let cells: Vec<String> = cells
-            .iter()
-            .map(|c| format!("<td>{}</td>", escaped(c)))
-            .collect();
+        let cells = cells.iter().map(|c| format!("<td>{}</td>", escaped(c)));
+        let cells: Vec<String> = cells.collect();
         text.push_str(&format!("<tr>{}</tr>\n", cells.concat()));
     }
-    text + "</table>\n</body></html>\n"
+    text + "</table>\n"
 }
 
 /// A text as XML and HTML have it.
