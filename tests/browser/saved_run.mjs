@@ -136,6 +136,7 @@ async function screen({ browser, check, pictures, folder, file }) {
   await tab.until('[...document.querySelectorAll("#labels span")].some((label) => label.textContent === "BOTTLE-1")', 10);
   check(true, 'things are hidden and named');
   await tab.press('[data-tab=joints]');
+  await tab.until('document.querySelectorAll(".joint").length > 40', 10);
   await tab.value('[...document.querySelectorAll(".joint")].find((row) => /r_elbow_flex/.test(row.textContent)).click()');
   await tab.until('!document.querySelector("#joint-plot").hidden', 5);
   await tab.until('planwright.page && document.querySelector("#joint-plot").height > 100', 5);
@@ -172,8 +173,10 @@ async function failures({ browser, check, program, pictures, folder }) {
   await tab.press('#failure-on');
   await until(tab, 'page.time > 0 && page.task !== null', 10);
   const [first, name] = await get(tab, '[page.time, page.task.name]');
+  // The card is drawn with the next picture.
+  await tab.until('/failed/.test(document.querySelector("#card").innerText)', 10);
   const card = await text(tab, '#card');
-  check(/failed/.test(card) && /unreachable/.test(card), `the next failure: ${name} at ${first.toFixed(2)} s`);
+  check(/unreachable/.test(card), `the next failure: ${name} at ${first.toFixed(2)} s`);
   await tab.press('#failure-on');
   const second = await get(tab, '[page.time, page.task.id]');
   await tab.press('#failure-back');
