@@ -198,7 +198,10 @@ fn peek_at(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<Option<char
     }
     let stream = &followed(image, stream)?;
     let inputs = match &*stream.kind.borrow() {
-        StreamKind::StandardInput => return Ok(None),
+        StreamKind::StandardInput => {
+            let text = image.input.text(image.output.pending());
+            return Ok(text.chars().next());
+        }
         StreamKind::StringInput { text, position } => {
             return Ok(text.get(*position..).and_then(|rest| rest.chars().next()));
         }
@@ -219,6 +222,25 @@ fn peek_at(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<Option<char
         }
     }
     Ok(None)
+}
+
+/// Is the stream standard input, perhaps by way of a stream for both directions?
+pub(crate) fn is_standard_input(image: &Image, designator: &Value) -> bool {
+    let Ok(mut stream) = input_stream(image, designator) else {
+        return false;
+    };
+    for _ in 0..=MAX_NESTING {
+        let next = match &*stream.kind.borrow() {
+            StreamKind::StandardInput => return true,
+            StreamKind::TwoWay { input, .. } => input.clone(),
+            _ => return false,
+        };
+        stream = match followed(image, &next) {
+            Ok(next) => next,
+            Err(_) => return false,
+        };
+    }
+    false
 }
 
 /// The unread text of an input stream: a text and the byte offset at which the unread part begins.
@@ -244,7 +266,10 @@ fn rest_of(
     }
     let stream = &followed(image, stream)?;
     let inputs = match &*stream.kind.borrow() {
-        StreamKind::StandardInput => return Ok(()),
+        StreamKind::StandardInput => {
+            collected.push_str(&image.input.text(image.output.pending()));
+            return Ok(());
+        }
         StreamKind::StringInput { text, position } => {
             collected.push_str(text.get(*position..).unwrap_or(""));
             return Ok(());
@@ -291,6 +316,7 @@ fn advance_in(
     let stream = &followed(image, stream)?;
     let mut left = bytes;
     let (input, echo_to) = match &mut *stream.kind.borrow_mut() {
+        StreamKind::StandardInput => return Ok(image.input.advance(bytes)),
         StreamKind::StringInput { text, position } => {
             let available = text.len().saturating_sub(*position);
             let step = available.min(bytes);
@@ -380,6 +406,10 @@ pub(crate) fn unread_char(
                 return Ok(());
             }
             StreamKind::TwoWay { input, .. } => input.clone(),
+            StreamKind::StandardInput => {
+                image.input.put_back(c);
+                return Ok(());
+            }
             StreamKind::Closed => return Err(closed(&stream)),
             _ => return Err(not_usable(&stream, "INPUT-STREAM-P", image)),
         };

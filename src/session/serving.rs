@@ -1,6 +1,7 @@
 //! The session's side of the dialogue with an editor.
 
 use std::ops::Range;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Session;
@@ -8,6 +9,7 @@ use super::dialogue::{Beginning, Inspection, Names, Need, ObjectNumber, Serve, S
 use super::host::parts::View;
 use super::on_one_line;
 use crate::lisp::image::identity::aside;
+use crate::lisp::image::input::Source;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -31,6 +33,18 @@ const CARRIED: [Sym; 11] = [
 impl Serve for Session {
     fn set_served(&mut self, is_served: bool) {
         self.objects.set_served(is_served);
+    }
+
+    fn set_source(&mut self, source: Option<Rc<Source>>) {
+        self.image.input.set_source(source);
+    }
+
+    fn let_serve(&mut self) {
+        self.host.person.can_serve = true;
+    }
+
+    fn take_port(&mut self) -> Option<u16> {
+        self.host.person.port.take()
     }
 
     fn stops(&self) -> Vec<u64> {

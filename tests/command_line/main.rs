@@ -4,6 +4,8 @@
 
 #[cfg(unix)]
 mod pseudo_terminal;
+#[cfg(unix)]
+mod swank;
 mod sweep;
 #[cfg(unix)]
 mod terminal;

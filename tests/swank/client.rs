@@ -7,7 +7,7 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use crate::front::command::open_default;
-use crate::front::swank::{Server, ServerOptions, Stopper};
+use crate::front::swank::{Ended, Server, ServerOptions, Stopper};
 
 /// How long a client waits for a message.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -16,7 +16,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 pub(super) struct Served {
     pub(super) address: SocketAddr,
     stopper: Stopper,
-    thread: Option<JoinHandle<u8>>,
+    thread: Option<JoinHandle<Ended>>,
 }
 
 impl Served {
@@ -31,7 +31,7 @@ impl Served {
         let serve = move || {
             let mut session = open_default().unwrap();
             let begin = move |stopper| tell.send(stopper).unwrap();
-            server.serve(&mut session, begin).unwrap()
+            server.serve(&mut session, None, begin).unwrap()
         };
         let thread = thread::Builder::new().stack_size(64 << 20).spawn(serve);
         Served {
@@ -55,8 +55,8 @@ impl Served {
         Client { stream, id: 0 }
     }
 
-    /// The exit status with which the server ends by itself.
-    pub(super) fn wait(mut self) -> u8 {
+    /// How the server ends by itself.
+    pub(super) fn wait(mut self) -> Ended {
         self.thread.take().unwrap().join().unwrap()
     }
 }

@@ -1,7 +1,7 @@
 //! What a client asks from its first message on.
 
-use super::client::{Served, quoted};
-use crate::front::swank::{ServerOptions, Version};
+use super::client::{Client, Served, quoted, shown};
+use crate::front::swank::{Ended, ServerOptions, Version};
 
 #[test]
 fn a_client_connects_and_evaluates() {
@@ -216,5 +216,41 @@ fn a_program_can_quit() {
     let mut client = served.client();
     client.type_in("(quit 7)");
     while client.receive().is_some() {}
-    assert_eq!(served.wait(), 7);
+    assert_eq!(served.wait(), Ended::Quit(7));
+}
+
+#[test]
+fn a_program_reads_what_the_client_types() {
+    let served = Served::start();
+    let mut client = served.client();
+    let asks = |client: &mut Client| {
+        let messages = client.until("(:read-string 1 ");
+        let question = messages.last().unwrap();
+        let tag = question.trim_end_matches(')').rsplit(' ').next().unwrap();
+        (shown(&messages), tag.to_owned())
+    };
+    let text = "(progn (princ \"Name? \") (list (read-line) (read) (read-char) (listen)))";
+    let id = client.type_in(text);
+    let (prompt, tag) = asks(&mut client);
+    assert_eq!(prompt, "Name? ");
+    // Names are known meanwhile.
+    assert_eq!(
+        client.call("(swank:operator-arglist \"car\" nil)"),
+        "(:ok \"(car list)\")"
+    );
+    client.send(&format!("(:emacs-return-string 1 {tag} \"Jo ü\n\")"));
+    let (_, tag) = asks(&mut client);
+    client.send(&format!("(:emacs-return-string 1 {tag} \"(1\n\")"));
+    let (_, tag) = asks(&mut client);
+    client.send(&format!("(:emacs-return-string 1 {tag} \" 2) xy\n\")"));
+    assert_eq!(shown(&client.answer(id)), "(\"Jo ü\" (1 2) #\\x T)\n");
+    // What is left over was typed for that program.
+    let id = client.type_in("(read-line)");
+    client.until("(:read-string 1 ");
+    client.send("(:emacs-interrupt :repl-thread)");
+    client.until("(:read-aborted 1 ");
+    client.until("(:debug-activate 1 1 nil)");
+    client.request("(swank:throw-to-toplevel)");
+    client.answer(id);
+    assert_eq!(client.shown("(+ 1 2)"), "3\n");
 }

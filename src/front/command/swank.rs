@@ -11,7 +11,7 @@ use super::arguments::{Options, WatchArguments};
 use super::failure::{CommandError, Status};
 use super::open::open_session;
 use super::watching;
-use crate::front::swank::{Server, ServerOptions, Stopper, Version};
+use crate::front::swank::{Ended, Server, ServerOptions, Stopper, Version, secret};
 use crate::session::dialogue::Converse;
 
 /// Options of the server.
@@ -46,7 +46,8 @@ pub(crate) fn swank(
     wanted: &SwankOptions,
     watch: &WatchArguments,
 ) -> Result<Status, CommandError> {
-    let secret = secret(wanted.secret.as_deref())?;
+    let secret = secret(wanted.secret.as_deref())
+        .map_err(|(path, error)| CommandError::Read { path, error })?;
     let init = match wanted.stdio_init {
         true => Some(read_init()?),
         false => None,
@@ -70,29 +71,19 @@ pub(crate) fn swank(
         write_port(&init.port_file, address.port())?;
     }
     let is_child = init.is_some();
-    let status = server
-        .serve(&mut session, |stopper| stop_at_the_end(stopper, is_child))
+    let ended = server
+        .serve(&mut session, None, |stopper| {
+            stop_at_the_end(stopper, is_child);
+        })
         .map_err(|error| CommandError::Open(error.to_string()))?;
     if let Err(reason) = session.finish() {
         // If standard error is closed, the message is lost.
         let _ = writeln!(io::stderr(), "; {reason}.");
     }
-    Ok(Status::Left(status))
-}
-
-/// The first line of the file with the secret.
-fn secret(file: Option<&Path>) -> Result<Option<String>, CommandError> {
-    let usual = std::env::home_dir().map(|home| home.join(".slime-secret"));
-    let (path, is_needed) = match (file, usual) {
-        (Some(path), _) => (path.to_owned(), true),
-        (None, Some(path)) => (path, false),
-        (None, None) => return Ok(None),
-    };
-    match fs::read_to_string(&path) {
-        Ok(text) => Ok(Some(text.lines().next().unwrap_or_default().to_owned())),
-        Err(error) if !is_needed && error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(CommandError::Read { path, error }),
-    }
+    Ok(match ended {
+        Ended::Stopped => Status::Good,
+        Ended::Quit(status) => Status::Left(status),
+    })
 }
 
 /// Reads the form `(swank:start-server FILE :slime-version VERSION)` from standard input.

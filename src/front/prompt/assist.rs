@@ -13,10 +13,10 @@ use rustyline::{CompletionType, Context, Helper, Result};
 use super::highlight::highlighted;
 use super::pasted::Inputs;
 use super::shape::Shape;
-use crate::session::dialogue::Converse;
+use crate::session::dialogue::Serve;
 
 /// The evaluator, which also knows what could be typed.
-pub(crate) type Shared = Rc<RefCell<dyn Converse>>;
+pub(crate) type Shared = Rc<RefCell<dyn Serve>>;
 
 /// Width of a terminal that does not tell its own.
 const USUAL_COLUMNS: usize = 80;

@@ -15,6 +15,7 @@ mod keys;
 pub(crate) mod pasted;
 mod quick;
 mod resume;
+mod serving;
 mod shape;
 
 use std::cell::RefCell;
@@ -30,10 +31,11 @@ use thiserror::Error;
 
 use crate::picture::InlinePictures;
 use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Converse, Outcome, Screen, evaluate_on};
+use crate::session::dialogue::{Outcome, Screen, Serve, evaluate_on};
 use assist::Shared;
 use editor::LineEditor;
 use pasted::Inputs;
+use serving::Serving;
 
 pub(crate) use journal::{Beginning, Earlier, JournalError, Opened, Wanted, open};
 pub(crate) use keeper::Keeper;
@@ -83,15 +85,17 @@ pub(crate) struct ReplOptions {
 }
 
 /// Reads and evaluates inputs until the user or the program exits; returns the exit status.
-pub(crate) fn run(
-    evaluator: impl Converse + 'static,
-    options: ReplOptions,
-) -> Result<u8, ReplError> {
+pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Result<u8, ReplError> {
     let interrupt = evaluator.interrupt_handle();
     let handle = Arc::clone(&interrupt);
+    let serving = Serving::default();
+    let served = serving.clone();
     let is_evaluating = Arc::new(AtomicBool::new(false));
     let evaluating = Arc::clone(&is_evaluating);
     ctrlc::set_handler(move || {
+        if served.stop() {
+            return;
+        }
         handle.store(true, Ordering::Relaxed);
         thread::sleep(SOON);
         if handle.load(Ordering::Relaxed) && evaluating.load(Ordering::Relaxed) {
@@ -129,11 +133,13 @@ pub(crate) fn run(
         number: options.inputs_before,
         left_out: None,
         draft: None,
+        serving,
     };
     match earlier {
         Some(mut earlier) => repl.resume(&mut earlier, &mut editor)?,
         None => repl.keeper.begin_fresh_tape(&*repl.evaluator.borrow()),
     }
+    repl.evaluator.borrow_mut().let_serve();
     let status = repl.converse(&mut editor)?;
     if let Err(reason) = repl.evaluator.borrow_mut().finish() {
         // If standard error is closed, the message is lost.
@@ -155,6 +161,8 @@ struct Repl {
     left_out: Option<String>,
     /// What is offered for editing next.
     draft: Option<String>,
+    /// The server for an editor, while there is one.
+    serving: Serving,
 }
 
 impl Repl {
@@ -189,6 +197,9 @@ impl Repl {
                 Err(error) => return Err(error.into()),
             };
             if let Some(code) = self.take(&text)? {
+                return Ok(code);
+            }
+            if let Some(code) = self.serve_if_asked()? {
                 return Ok(code);
             }
         }

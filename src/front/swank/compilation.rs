@@ -67,13 +67,7 @@ impl Engine<'_> {
     /// answered.
     fn checked(&mut self, request: &Request, source: &str, text: &str) -> Option<Compiled> {
         let began = Instant::now();
-        let beginning = self.client(request).beginning.clone();
-        self.session.begin_with(&beginning);
-        let package = request.package.as_deref();
-        if let Some(package) = package {
-            self.session
-                .enter_package(super::package_text::package_name(package));
-        }
+        self.begin(request, false);
         let checked = self.working(request.client.number, |engine| {
             engine.session.check(source, text)
         });

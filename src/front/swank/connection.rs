@@ -31,10 +31,7 @@ pub(super) fn serve(hub: &Hub, stream: TcpStream, secret: Option<&str>) -> io::R
         }
         None => {}
     }
-    let client = Arc::new(Client {
-        number: hub.next_client(),
-        outbox: Outbox::open(stream)?,
-    });
+    let client = hub.connect(Outbox::open(stream)?);
     let served = read_all(hub, &client, first, &mut from);
     hub.leave(&client);
     client.outbox.end();

@@ -6,6 +6,7 @@ use super::answer::Answer;
 use super::definitions::{location, nowhere};
 use super::engine::Engine;
 use super::hub::{Client, Request};
+use super::question::THREAD;
 use super::sexp::Sexp;
 use crate::session::dialogue::screen::INTERRUPT;
 use crate::session::dialogue::{Need, StackFrame, Stop};
@@ -14,9 +15,6 @@ use crate::session::dialogue::{Need, StackFrame, Stop};
 const FIRST_FRAMES: usize = 20;
 /// Number of frames in one answer.
 const MOST_FRAMES: usize = 500;
-/// The number of the session's thread.
-const THREAD: Sexp = Sexp::Int(1);
-
 /// A choice for whose value a client has been asked.
 pub(super) struct Asked {
     /// The request by which it was chosen.
@@ -158,7 +156,7 @@ impl Engine<'_> {
     /// Asks the client for the value of a choice.
     fn ask_for_value(&mut self, request: &Request, choice: usize) {
         self.forget_question();
-        self.tags += 1;
+        let tag = self.questions.next_tag();
         let Some(level) = self.pending.last().map(|top| top.number) else {
             return;
         };
@@ -168,11 +166,11 @@ impl Engine<'_> {
             Sexp::symbol(":write-string"),
             question.into(),
         ]));
-        let read = [Sexp::symbol(":read-string"), THREAD, Sexp::Int(self.tags)];
+        let read = [Sexp::symbol(":read-string"), THREAD, Sexp::Int(tag)];
         outbox.send(&Sexp::list(read));
         self.asked = Some(Asked {
             request: request.clone(),
-            tag: self.tags,
+            tag,
             level,
             choice,
         });
@@ -278,8 +276,7 @@ impl Engine<'_> {
 
     /// Makes later evaluations on this level happen in a frame.
     fn select_frame(&mut self, number: usize) {
-        self.session
-            .evaluate("decision", &format!(":frame {number}"), &mut |_| {});
+        self.give("decision", &format!(":frame {number}"), &mut |_| {});
     }
 
     /// `backtrace`.

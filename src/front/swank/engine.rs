@@ -5,16 +5,20 @@
 //! every input.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use super::answer::{Answer, Yield};
-use super::hub::{Client, Hub, Job, Next, Request};
+use super::hub::{self, Client, Hub, Job, Next, Request};
+use super::keep::Keep;
 use super::known_names;
 use super::package_text::package_name;
+use super::question::Questions;
 use super::sexp::Sexp;
 use crate::defect;
+use crate::lisp::image::input::Source;
 use crate::session::dialogue::screen::{INTERRUPT, input_name};
 use crate::session::dialogue::{Beginning, Event, Names, ObjectNumber, Outcome, Serve};
 
@@ -26,15 +30,21 @@ const LONG_REST: Duration = Duration::from_secs(3600);
 /// What the session's thread works with.
 pub(super) struct Engine<'s> {
     pub(super) session: &'s mut dyn Serve,
+    /// Who keeps the inputs, if anybody does.
+    keeper: Option<&'s mut dyn Keep>,
     pub(super) hub: Arc<Hub>,
     pub(super) clients: BTreeMap<u64, ClientState>,
     /// The requests whose evaluations have stopped, innermost last, one for each level.
     pub(super) pending: Vec<Pending>,
     /// The choice whose value a client has been asked for.
     pub(super) asked: Option<super::debugger::Asked>,
-    pub(super) tags: i64,
+    pub(super) questions: Rc<Questions>,
+    /// Whom programs ask for what they read.
+    source: Option<Rc<Source>>,
     /// What a client begins with.
     fresh: Beginning,
+    /// The package in which it begins.
+    fresh_package: String,
     names: Arc<Names>,
     /// Whether something may have changed since `names` were made.
     is_changed: bool,
@@ -85,30 +95,46 @@ impl Ended {
 }
 
 impl<'s> Engine<'s> {
-    pub(super) fn new(session: &'s mut dyn Serve, hub: Arc<Hub>) -> Engine<'s> {
+    pub(super) fn new(
+        session: &'s mut dyn Serve,
+        keeper: Option<&'s mut dyn Keep>,
+        hub: Arc<Hub>,
+    ) -> Engine<'s> {
         session.set_served(true);
         session.set_interactive(true);
+        let interrupt = session.interrupt_handle();
+        let questions = Questions::new(Arc::clone(&hub), Arc::clone(&interrupt));
+        let questions = Rc::new(questions);
+        let asking = Rc::clone(&questions);
+        let source: Rc<Source> = Rc::new(move |written| asking.ask(written));
         Engine {
-            interrupt: session.interrupt_handle(),
+            interrupt,
+            questions,
+            // What is typed for a program is no input, and is not kept.
+            source: keeper.is_none().then_some(source),
             fresh: session.beginning(),
+            fresh_package: session.package_names().0,
             names: session.names(),
             session,
+            keeper,
             hub,
             clients: BTreeMap::new(),
             pending: Vec::new(),
             asked: None,
-            tags: 0,
             is_changed: false,
             inputs: 0,
         }
     }
 
-    /// Works until the server is to end; returns the exit status.
-    pub(super) fn run(&mut self) -> u8 {
+    /// Works until the server is to end.
+    pub(super) fn run(&mut self) -> hub::Ended {
         loop {
             let rest = if self.is_changed { REST } else { LONG_REST };
             match self.hub.next(rest) {
-                Next::End(status) => return self.end(status),
+                Next::End(ended) => {
+                    self.end();
+                    return ended;
+                }
                 Next::Idle => self.refresh_names(),
                 Next::Job(job) => {
                     if let Err(defect) = defect::caught(|| self.take(&job)) {
@@ -146,14 +172,16 @@ impl<'s> Engine<'s> {
     }
 
     /// Tells the clients that it is over.
-    fn end(&mut self, status: u8) -> u8 {
-        for state in self.clients.values() {
-            state.client.outbox.end();
+    fn end(&mut self) {
+        self.session.set_served(false);
+        self.session.set_source(None);
+        let clients = self.hub.clients();
+        for client in &clients {
+            client.outbox.end();
         }
-        for state in self.clients.values() {
-            state.client.outbox.wait_for_end(Duration::from_millis(500));
+        for client in &clients {
+            client.outbox.wait_for_end(Duration::from_millis(500));
         }
-        status
     }
 
     /// Brings what is known about names up to date.
@@ -176,14 +204,14 @@ impl<'s> Engine<'s> {
 
     /// What is kept for the client of a request.
     pub(super) fn client(&mut self, request: &Request) -> &mut ClientState {
-        let fresh = &self.fresh;
+        let (fresh, package) = (&self.fresh, &self.fresh_package);
         let client = &request.client;
         self.clients
             .entry(client.number)
             .or_insert_with(|| ClientState {
                 client: Arc::clone(client),
                 beginning: fresh.clone(),
-                package: "COMMON-LISP-USER".to_owned(),
+                package: package.clone(),
                 inspected: super::inspector::Path::default(),
                 presents: false,
             })
@@ -191,12 +219,51 @@ impl<'s> Engine<'s> {
 
     /// Makes the session begin as the client's last input has left it, in the package that the
     /// request names, if it is to.
-    fn begin(&mut self, request: &Request, is_of_prompt: bool) {
-        let beginning = self.client(request).beginning.clone();
-        self.session.begin_with(&beginning);
-        if let Some(package) = request.package.as_deref().filter(|_| !is_of_prompt) {
-            self.session.enter_package(package_name(package));
+    pub(super) fn begin(&mut self, request: &Request, is_of_prompt: bool) {
+        let state = self.client(request);
+        let (beginning, package) = (state.beginning.clone(), state.package.clone());
+        let named = request.package.as_deref().filter(|_| !is_of_prompt);
+        if self.keeper.is_some() {
+            return self.change_package(named.map(package_name), &package);
         }
+        self.session.begin_with(&beginning);
+        if let Some(named) = named {
+            self.session.enter_package(package_name(named));
+        }
+    }
+
+    /// Changes the package by an input, so that the kept inputs lead to the same state.
+    fn change_package(&mut self, named: Option<&str>, usual: &str) {
+        let is_known = |name: &&str| self.names.package(name).is_some();
+        let wanted = named.filter(is_known).unwrap_or(usual);
+        let (present, _) = self.session.package_names();
+        let same = self.names.package(wanted) == self.names.package(&present);
+        if same || self.names.package(wanted).is_none() {
+            return;
+        }
+        let form = format!("(cl:in-package {:?})", wanted.to_uppercase());
+        let text = match self.pending.is_empty() {
+            true => form,
+            false => format!(":eval {form}"),
+        };
+        self.give("package", &text, &mut |_| {});
+    }
+
+    /// Gives the session an input.
+    pub(super) fn give(
+        &mut self,
+        source: &str,
+        text: &str,
+        sink: &mut dyn FnMut(Event),
+    ) -> Outcome {
+        if let Some(keeper) = &mut self.keeper {
+            keeper.begins(text, self.session);
+        }
+        let outcome = self.session.evaluate(source, text, sink);
+        if let Some(keeper) = &mut self.keeper {
+            keeper.ends(self.session);
+        }
+        outcome
     }
 
     /// A name for the next input.
@@ -241,6 +308,10 @@ impl<'s> Engine<'s> {
     /// Gives the session an input, the yield of which belongs to a request, and settles what comes
     /// of it.
     fn input(&mut self, mut pending: Pending, source: &str, text: &str) {
+        if self.pending.is_empty() {
+            // What an earlier program has not read was not meant for this one.
+            self.session.set_source(self.source.clone());
+        }
         let client = pending.request.client.number;
         let ended = self.working(client, |engine| {
             engine.run_input(&mut pending, source, text)
@@ -254,7 +325,9 @@ impl<'s> Engine<'s> {
         let Some(mut top) = self.pending.pop() else {
             return;
         };
-        if let Some(state) = self.clients.get(&top.request.client.number) {
+        if let Some(state) = self.clients.get(&top.request.client.number)
+            && self.keeper.is_none()
+        {
             let beginning = state.beginning.clone();
             self.session.begin_with(&beginning);
         }
@@ -275,13 +348,15 @@ impl<'s> Engine<'s> {
         } = pending;
         let outbox = &request.client.outbox;
         let interrupt = Arc::clone(&self.interrupt);
+        let questions = Rc::clone(&self.questions);
+        questions.set_client(Some(Arc::clone(&request.client)));
         let mut object: ObjectNumber = self.session.next_object();
         let mut aborted = None;
         let outcome = self
             .session
             .evaluate(source, text, &mut |event| match event {
                 Event::Output(text) if answer.takes_output() => yielded.printed.push_str(&text),
-                Event::Output(text) => outbox.write(&text, &interrupt),
+                Event::Output(text) => outbox.write(questions.unseen(&text), &interrupt),
                 Event::Values(values) => {
                     yielded.object = (!values.is_empty()).then_some(object);
                     if let Answer::Prompt { presents } = answer {
@@ -300,6 +375,7 @@ impl<'s> Engine<'s> {
                 Event::Left(condition) => aborted = Some(condition),
                 Event::Stopped(_) | Event::Picture(_) | Event::Progress(_) => {}
             });
+        self.questions.set_client(None);
         Ended { outcome, aborted }
     }
 
@@ -341,11 +417,11 @@ impl<'s> Engine<'s> {
         }
         if now.len() > self.pending.len() {
             // Nobody could be shown those levels.
-            self.session.evaluate("decision", ":q", &mut |_| {});
+            self.give("decision", ":q", &mut |_| {});
             self.pending.clear();
         }
         if let Outcome::Quit(status) = ended.outcome {
-            self.hub.end(status);
+            self.hub.end(hub::Ended::Quit(status));
         }
         self.show_stop();
     }

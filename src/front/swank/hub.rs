@@ -3,13 +3,16 @@
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
 use super::outbox::Outbox;
 use super::sexp::Sexp;
 use super::version::Version;
 use crate::session::dialogue::Names;
+
+/// How often somebody who waits for a text looks whether the wait is over.
+const LOOKING: Duration = Duration::from_millis(10);
 
 /// A client: one connection.
 pub(super) struct Client {
@@ -71,14 +74,23 @@ pub(super) enum Job {
     Gone(Arc<Client>),
 }
 
+/// How a server ends.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Ended {
+    /// Whoever has begun it has stopped it.
+    Stopped,
+    /// A client or a program has ended the session, with an exit status.
+    Quit(u8),
+}
+
 /// What there is for the session's thread.
 pub(super) enum Next {
     /// Something to do.
     Job(Job),
     /// Nothing.
     Idle,
-    /// The end, with the exit status.
-    End(u8),
+    /// The end.
+    End(Ended),
 }
 
 /// What the threads share.
@@ -98,8 +110,11 @@ struct State {
     working_for: Option<u64>,
     names: Arc<Names>,
     version: Version,
-    clients: u64,
-    end: Option<u8>,
+    /// Number of clients that there have been.
+    count: u64,
+    /// Those that may still be connected.
+    clients: Vec<Weak<Client>>,
+    end: Option<Ended>,
 }
 
 impl Hub {
@@ -119,11 +134,24 @@ impl Hub {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A number for a client.
-    pub(super) fn next_client(&self) -> u64 {
+    /// Makes a client of a connection.
+    pub(super) fn connect(&self, outbox: Arc<Outbox>) -> Arc<Client> {
         let mut state = self.lock();
-        state.clients += 1;
-        state.clients
+        state.count += 1;
+        if state.end.is_some() {
+            outbox.end();
+        }
+        let number = state.count;
+        let client = Arc::new(Client { number, outbox });
+        state.clients.retain(|known| known.strong_count() > 0);
+        state.clients.push(Arc::downgrade(&client));
+        client
+    }
+
+    /// The clients that are connected.
+    pub(super) fn clients(&self) -> Vec<Arc<Client>> {
+        let state = self.lock();
+        state.clients.iter().filter_map(Weak::upgrade).collect()
     }
 
     /// The version of SLIME that clients are thought to have.
@@ -160,8 +188,8 @@ impl Hub {
         let until = Instant::now() + longest;
         let mut state = self.lock();
         loop {
-            if let Some(status) = state.end {
-                return Next::End(status);
+            if let Some(ended) = state.end {
+                return Next::End(ended);
             }
             if let Some(request) = state.quick.pop_front() {
                 return Next::Job(Job::Request(request));
@@ -235,10 +263,29 @@ impl Hub {
         self.changed.notify_all();
     }
 
-    /// Ends the server with an exit status; what is evaluated is interrupted.
-    pub(super) fn end(&self, status: u8) {
+    /// Waits for the text that a client was asked for, on the session's thread, while that evaluates
+    /// for the client. `None` if the evaluation is interrupted.
+    pub(super) fn wait_for_text(&self, client: u64, tag: i64) -> Option<String> {
         let mut state = self.lock();
-        state.end.get_or_insert(status);
+        loop {
+            let typed = state.jobs.iter().position(
+                |job| matches!(job, Job::Typed(from, of, _) if from.number == client && *of == tag),
+            );
+            if let Some(Job::Typed(_, _, text)) = typed.and_then(|at| state.jobs.remove(at)) {
+                return Some(text);
+            }
+            if self.interrupt.load(Ordering::Relaxed) {
+                return None;
+            }
+            let waited = self.changed.wait_timeout(state, LOOKING);
+            state = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+
+    /// Ends the server; what is evaluated is interrupted.
+    pub(super) fn end(&self, ended: Ended) {
+        let mut state = self.lock();
+        state.end.get_or_insert(ended);
         self.interrupt.store(true, Ordering::Relaxed);
         self.changed.notify_all();
     }

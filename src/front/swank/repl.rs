@@ -42,9 +42,7 @@ pub(super) fn show_values(outbox: &Outbox, values: &[String], first: Option<Obje
 impl Engine<'_> {
     /// `create-repl`.
     pub(super) fn create_repl(&mut self, request: &Request) {
-        let state = self.client(request);
-        let beginning = state.beginning.clone();
-        self.session.begin_with(&beginning);
+        self.begin(request, true);
         let (name, prompt) = self.session.package_names();
         self.client(request).package.clone_from(&name);
         request.ok(Sexp::list([name.into(), prompt.into()]));
@@ -63,10 +61,9 @@ impl Engine<'_> {
     /// `set-package`.
     pub(super) fn set_package(&mut self, request: &Request) {
         let wanted = request.argument(0).and_then(Sexp::as_name);
-        let beginning = self.client(request).beginning.clone();
-        self.session.begin_with(&beginning);
-        let wanted = wanted.unwrap_or_default();
-        if !self.session.enter_package(package_name(wanted)) {
+        let wanted = wanted.unwrap_or_default().to_owned();
+        self.begin(request, true);
+        if !self.session.enter_package(package_name(&wanted)) {
             return request.abort(&format!("there is no package {wanted}"));
         }
         let (name, prompt) = self.session.package_names();

@@ -2,7 +2,7 @@
 
 use super::answer::Answer;
 use super::engine::Engine;
-use super::hub::Request;
+use super::hub::{Ended, Request};
 use super::sexp::Sexp;
 use super::version::Version;
 
@@ -60,7 +60,7 @@ impl Engine<'_> {
             "start-server" => self.set_version(request),
             "quit-lisp" => {
                 request.ok(Sexp::NIL);
-                self.hub.end(0);
+                self.hub.end(Ended::Quit(0));
             }
             other => request.abort(&format!("planwright has no {other}")),
         }

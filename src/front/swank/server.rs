@@ -2,6 +2,7 @@
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
@@ -11,7 +12,8 @@ use thiserror::Error;
 
 use super::connection;
 use super::engine::Engine;
-use super::hub::Hub;
+use super::hub::{Ended, Hub};
+use super::keep::Keep;
 use super::version::Version;
 use crate::session::dialogue::Serve;
 
@@ -42,6 +44,14 @@ pub(crate) enum ServerError {
         /// The reason.
         error: io::Error,
     },
+    /// What clients have to say cannot be read.
+    #[error("cannot read {}: {error}", path.display())]
+    Secret {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        error: io::Error,
+    },
     /// There are no threads for it.
     #[error("cannot start a thread: {0}")]
     Thread(io::Error),
@@ -61,7 +71,7 @@ pub(crate) struct Stopper(Arc<Hub>);
 impl Stopper {
     /// Ends the server; what is evaluated is interrupted.
     pub(crate) fn stop(&self) {
-        self.0.end(0);
+        self.0.end(Ended::Stopped);
     }
 }
 
@@ -85,12 +95,14 @@ impl Server {
     }
 
     /// Serves a session until a client or the program ends that, or the one who is given the
-    /// stopper does; returns the exit status.
-    pub(crate) fn serve(
+    /// stopper does. If somebody keeps the inputs, the clients share the package and the latest values
+    /// with him, since his inputs alone must lead to the same state.
+    pub(crate) fn serve<'s>(
         self,
-        session: &mut dyn Serve,
+        session: &'s mut (dyn Serve + 's),
+        keeper: Option<&'s mut (dyn Keep + 's)>,
         begin: impl FnOnce(Stopper),
-    ) -> Result<u8, ServerError> {
+    ) -> Result<Ended, ServerError> {
         let Server {
             listener,
             address,
@@ -106,12 +118,12 @@ impl Server {
             .spawn(move || accept(&listener, &accepting, secret.as_deref()))
             .map_err(ServerError::Thread)?;
         begin(Stopper(Arc::clone(&hub)));
-        let status = Engine::new(session, hub).run();
+        let ended = Engine::new(session, keeper, hub).run();
         // A connection wakes the thread that waits in `accept`.
         drop(TcpStream::connect(address));
         // It does nothing that could panic.
         drop(thread.join());
-        Ok(status)
+        Ok(ended)
     }
 }
 

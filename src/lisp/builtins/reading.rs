@@ -7,7 +7,7 @@ use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::reader::readtable::Readtable;
-use crate::lisp::reader::{ReadError, Reader};
+use crate::lisp::reader::{Completeness, ReadError, Reader, is_complete};
 use crate::lisp::stream::{self, Stream};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -337,8 +337,22 @@ fn read(
         stream,
         preserve_whitespace: preserve_whitespace || is_recursive,
     });
+    if stream::is_standard_input(machine.image, &designator) {
+        ask_for_form(machine.image);
+    }
     let reading = reading_of_stream(machine.image, then)?;
     compute(machine, "READ", reading)
+}
+
+/// Has a person type until there is a whole form, or they type no more.
+fn ask_for_form(image: &Image) {
+    loop {
+        let unread = image.input.unread();
+        let is_whole = !matches!(is_complete(&unread), Completeness::Incomplete { .. });
+        if is_whole && !unread.trim().is_empty() || !image.input.ask(image.output.pending()) {
+            return;
+        }
+    }
 }
 
 fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {

@@ -212,6 +212,10 @@ fn unread_char(image: &mut Image, args: &[Value]) -> Outcome {
 
 fn listen(image: &mut Image, args: &[Value]) -> Outcome {
     let source = args.first().unwrap_or(&Value::NIL);
+    // Nobody is asked.
+    if stream::is_standard_input(image, source) {
+        return Ok(Value::bool(!image.input.unread().is_empty()));
+    }
     Ok(Value::bool(stream::peek_char(image, source)?.is_some()))
 }
 

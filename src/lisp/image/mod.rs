@@ -2,6 +2,7 @@
 
 pub(crate) mod definition;
 pub(crate) mod identity;
+pub(crate) mod input;
 pub(crate) mod notes;
 pub(crate) mod open_call;
 mod output;
@@ -18,6 +19,7 @@ use indexmap::IndexMap;
 
 use self::definition::Installed;
 use self::identity::Identities;
+use self::input::Input;
 use self::notes::{Note, NoteKind};
 pub(crate) use self::output::Output;
 use self::setf_expander::SetfExpander;
@@ -48,6 +50,8 @@ pub(crate) struct Image {
     pub(crate) sources: Sources,
     /// Text written to standard output that has not been taken yet.
     pub(crate) output: Output,
+    /// Where standard input comes from.
+    pub(crate) input: Input,
     /// Seed and state of `random`.
     pub(crate) random: rand_pcg::Pcg64,
     /// How `setf` treats operators that have an expander instead of a setf function.
@@ -99,6 +103,7 @@ impl Image {
             types: IndexMap::new(),
             sources: Sources::default(),
             output: Output::default(),
+            input: Input::default(),
             random: rand_pcg::Pcg64::new(0, STREAM),
             setf_expanders: IndexMap::new(),
             limits: Rc::default(),

@@ -51,6 +51,11 @@ impl Output {
         self.text.len()
     }
 
+    /// What has been written and has not been taken.
+    pub(crate) fn pending(&self) -> &str {
+        &self.text
+    }
+
     /// What has been written since there were so many bytes, if nothing has been taken since.
     pub(crate) fn written_since(&self, len: usize) -> Option<&str> {
         self.text.get(len..)

@@ -27,7 +27,7 @@ pub(crate) struct Stream {
 pub(crate) enum StreamKind {
     /// The image's standard output.
     StandardOutput,
-    /// The image's standard input, which is always at its end: plans are not interactive.
+    /// The image's standard input, which is at its end unless somebody can be asked.
     StandardInput,
     /// Collects what is written.
     StringOutput {

@@ -5,11 +5,13 @@
 //! only tells, or sets what the next input begins with.
 
 use std::ops::Range;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::converse::Converse;
 use super::evaluate::Stop;
 use super::names::Names;
+use crate::lisp::image::input::Source;
 use crate::lisp::source::Location;
 use crate::lisp::value::Value;
 
@@ -21,6 +23,16 @@ pub(crate) trait Serve: Converse {
     /// Sets whether an editor serves as the front: values are kept so that it can refer to them,
     /// and a value that a form asks to inspect is given to it.
     fn set_served(&mut self, is_served: bool);
+
+    /// Sets who is asked when a program reads from standard input; without anybody, that is at its
+    /// end.
+    fn set_source(&mut self, source: Option<Rc<Source>>);
+
+    /// Lets programs ask that the session be served to an editor.
+    fn let_serve(&mut self);
+
+    /// The port by which a program has asked for that, once.
+    fn take_port(&mut self) -> Option<u16>;
 
     /// The stopped evaluations, each with a number that no other has had, innermost last.
     fn stops(&self) -> Vec<u64>;

@@ -17,6 +17,7 @@ mod robot_macros;
 mod robot_state;
 mod ros;
 mod scene;
+mod serving;
 mod snapshots;
 mod sweep_things;
 mod sweeps;

@@ -40,6 +40,7 @@ static FUNCTIONS: &[(&str, &[Builtin])] = &[
     ("PLAN-SYSTEM", functions::sweep_things::TABLE),
     ("PLANWRIGHT", crate::session::record::TABLE),
     ("SWANK", crate::session::objects::TABLE),
+    ("SWANK", functions::serving::TABLE),
     ("SYSTEM", functions::prompt::SYSTEM_TABLE),
 ];
 

@@ -14,6 +14,10 @@ pub(crate) struct Person {
     pub(crate) tour_step: usize,
     /// A value that is to be inspected.
     pub(crate) inspected: Option<Value>,
+    /// Whether the session can be served to an editor from here.
+    pub(crate) can_serve: bool,
+    /// The port by which it is to be served.
+    pub(crate) port: Option<u16>,
     /// The exit status, once an exit has been requested.
     pub(crate) quit: Option<u8>,
 }
