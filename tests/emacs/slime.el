@@ -279,6 +279,20 @@
   (pw-wait "the value" (lambda () (and (null (sldb-buffers)) (pw-idle))))
   (pw-check "the value was used" (string-match-p "(42)\nPP-TUT> \\'" (pw-repl)) (pw-repl)))
 
+;;; A program that reads
+
+(pw-type "(list (read-line) (read))")
+(dolist (line '("first" "(1 2)"))
+  (pw-wait "a question of a program" (lambda () (with-current-buffer (slime-output-buffer)
+                                                  slime-repl-read-mode)))
+  (switch-to-buffer (slime-output-buffer))
+  (goto-char (point-max))
+  (insert line)
+  (slime-repl-return)
+  (accept-process-output nil 0.2))
+(pw-wait "what was read" #'pw-idle)
+(pw-check "a program reads" (string-match-p "(\"first\" (1 2))\nPP-TUT> \\'" (pw-repl)) (pw-repl))
+
 ;;; Values that are pointed at, and the inspector
 
 (pw-type "(list :a (list 1 2))")

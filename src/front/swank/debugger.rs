@@ -216,7 +216,7 @@ impl Engine<'_> {
         }
         self.begin_decision(request);
         let client = request.client.number;
-        let is_own = |pending: &super::engine::Pending| pending.request.client.number == client;
+        let is_own = |pending: &super::levels::Pending| pending.request.client.number == client;
         if self.pending.iter().all(is_own) {
             return self.decide(":q");
         }

@@ -14,12 +14,13 @@ use super::answer::{Answer, Yield};
 use super::hub::{self, Client, Hub, Job, Next, Request};
 use super::keep::Keep;
 use super::known_names;
+use super::levels::{Ended, Pending};
 use super::package_text::package_name;
 use super::question::Questions;
 use super::sexp::Sexp;
 use crate::defect;
 use crate::lisp::image::input::Source;
-use crate::session::dialogue::screen::{INTERRUPT, input_name};
+use crate::session::dialogue::screen::input_name;
 use crate::session::dialogue::{Beginning, Event, Names, ObjectNumber, Outcome, Serve};
 
 /// How long the session's thread waits before it brings what is known about names up to date.
@@ -63,35 +64,6 @@ pub(super) struct ClientState {
     pub(super) inspected: super::inspector::Path,
     /// Whether it wants values that can be pointed at.
     pub(super) presents: bool,
-}
-
-/// A request whose evaluation has stopped.
-pub(super) struct Pending {
-    /// The number of its level.
-    pub(super) number: u64,
-    pub(super) request: Request,
-    /// Whether the request has still to be answered.
-    pub(super) waits: bool,
-    /// Whether the client is shown the level.
-    pub(super) is_shown: bool,
-    answer: Answer,
-    yielded: Yield,
-}
-
-/// What an input has led to.
-struct Ended {
-    outcome: Outcome,
-    /// The condition with which it ended, as printed, unless it finished.
-    aborted: Option<String>,
-}
-
-impl Ended {
-    fn by_defect(_: defect::Defect) -> Ended {
-        Ended {
-            outcome: Outcome::Aborted,
-            aborted: Some("#<DEFECT>".to_owned()),
-        }
-    }
 }
 
 impl<'s> Engine<'s> {
@@ -234,6 +206,7 @@ impl<'s> Engine<'s> {
 
     /// Changes the package by an input, so that the kept inputs lead to the same state.
     fn change_package(&mut self, named: Option<&str>, usual: &str) {
+        self.refresh_names();
         let is_known = |name: &&str| self.names.package(name).is_some();
         let wanted = named.filter(is_known).unwrap_or(usual);
         let (present, _) = self.session.package_names();
@@ -247,6 +220,19 @@ impl<'s> Engine<'s> {
             false => format!(":eval {form}"),
         };
         self.give("package", &text, &mut |_| {});
+    }
+
+    /// Makes a package the current one; returns false if there is none of that name.
+    pub(super) fn enter(&mut self, name: &str) -> bool {
+        if self.keeper.is_none() {
+            return self.session.enter_package(name);
+        }
+        self.refresh_names();
+        let is_known = self.names.package(name).is_some();
+        if is_known {
+            self.change_package(Some(name), name);
+        }
+        is_known
     }
 
     /// Gives the session an input.
@@ -377,135 +363,5 @@ impl<'s> Engine<'s> {
             });
         self.questions.set_client(None);
         Ended { outcome, aborted }
-    }
-
-    /// Compares the stack of pending requests with the session's levels after an input: answers
-    /// the requests whose evaluations have ended, and tells where the session has stopped.
-    /// `begun` is the request whose evaluation the input has begun, if it has begun one.
-    fn settle(&mut self, mut begun: Option<Pending>, ended: &Ended) {
-        let now = self.session.stops();
-        let known = self.pending.iter().zip(&now);
-        let kept = known.take_while(|(p, number)| p.number == **number).count();
-        let mut left = self.pending.split_off(kept);
-        for (at, pending) in left.iter().enumerate().rev() {
-            if pending.is_shown {
-                super::debugger::tell_left(&pending.request.client, kept + at + 1);
-            }
-        }
-        // The outermost evaluation that was left has gone on, all further in have been abandoned.
-        let mut going = None;
-        if !left.is_empty() {
-            going = Some(left.remove(0));
-            // Whoever comes back to a level is shown it again.
-            if let Some(below) = self.pending.last_mut() {
-                below.is_shown = false;
-            }
-            for pending in left.into_iter().rev().chain(begun.take()) {
-                self.abort(pending, "NIL");
-            }
-        }
-        match (going.or(begun), now.get(kept)) {
-            (Some(mut stopped), Some(number)) => {
-                stopped.number = *number;
-                stopped.is_shown = false;
-                self.pending.push(stopped);
-            }
-            (Some(done), None) => self.finish(done, ended),
-            // A decision has opened a level, such as by a value that cannot be computed.
-            (None, Some(number)) => self.open_unasked(*number),
-            (None, None) => {}
-        }
-        if now.len() > self.pending.len() {
-            // Nobody could be shown those levels.
-            self.give("decision", ":q", &mut |_| {});
-            self.pending.clear();
-        }
-        if let Outcome::Quit(status) = ended.outcome {
-            self.hub.end(hub::Ended::Quit(status));
-        }
-        self.show_stop();
-    }
-
-    /// A level that belongs to the client of the one below, but to no request.
-    fn open_unasked(&mut self, number: u64) {
-        let below = self.pending.last();
-        let request = below.map(|pending| pending.request.clone());
-        self.pending.extend(request.map(|request| Pending {
-            number,
-            request,
-            waits: false,
-            is_shown: false,
-            answer: Answer::Nothing,
-            yielded: Yield::default(),
-        }));
-    }
-
-    /// Answers a request whose evaluation has ended.
-    fn finish(&mut self, pending: Pending, ended: &Ended) {
-        match &ended.aborted {
-            Some(condition) if condition != INTERRUPT => return self.abort(pending, condition),
-            Some(_) => return self.abort(pending, "NIL"),
-            // Back on a level further out: the evaluation was abandoned.
-            None if ended.outcome == Outcome::Stopped => return self.abort(pending, "NIL"),
-            None => {}
-        }
-        self.keep_beginning(&pending);
-        let request = &pending.request;
-        if pending.waits {
-            let value = match pending.answer {
-                Answer::Inspector => self.inspector_of(request, pending.yielded.object),
-                ref answer => answer.value(&pending.yielded),
-            };
-            request.ok(value);
-        }
-        if let Some(object) = self.session.take_inspected() {
-            self.show_inspector(request, object);
-        }
-    }
-
-    fn abort(&mut self, pending: Pending, reason: &str) {
-        self.keep_beginning(&pending);
-        if pending.waits {
-            pending.request.abort(reason);
-        }
-    }
-
-    /// Keeps what an input at a client's prompt has left behind, for its next one.
-    fn keep_beginning(&mut self, pending: &Pending) {
-        if !pending.answer.is_of_prompt() {
-            return;
-        }
-        let (package, prompt) = self.session.package_names();
-        let beginning = self.session.beginning();
-        let Some(state) = self.clients.get_mut(&pending.request.client.number) else {
-            return;
-        };
-        state.beginning = beginning;
-        if state.package != package {
-            state.package.clone_from(&package);
-            let message = [Sexp::symbol(":new-package"), package.into(), prompt.into()];
-            state.client.outbox.send(&Sexp::list(message));
-        }
-    }
-
-    /// Leaves the innermost levels as long as they belong to clients that are gone.
-    fn leave_for_the_gone(&mut self) {
-        loop {
-            let Some(top) = self.pending.last() else {
-                return;
-            };
-            if self.clients.contains_key(&top.request.client.number) {
-                return;
-            }
-            let before = self.pending.len();
-            self.leave_level();
-            if self.pending.len() >= before {
-                // Cleanup code has stopped again; there is nobody to decide.
-                self.decide(":q");
-                if self.pending.len() >= before {
-                    return;
-                }
-            }
-        }
     }
 }

@@ -22,6 +22,7 @@ mod hub;
 mod inspector;
 mod keep;
 mod known_names;
+mod levels;
 mod outbox;
 mod package_text;
 mod question;

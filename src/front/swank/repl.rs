@@ -63,7 +63,7 @@ impl Engine<'_> {
         let wanted = request.argument(0).and_then(Sexp::as_name);
         let wanted = wanted.unwrap_or_default().to_owned();
         self.begin(request, true);
-        if !self.session.enter_package(package_name(&wanted)) {
+        if !self.enter(package_name(&wanted)) {
             return request.abort(&format!("there is no package {wanted}"));
         }
         let (name, prompt) = self.session.package_names();
