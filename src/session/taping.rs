@@ -109,6 +109,7 @@ impl Taping for Session {
         };
         limits.polls.use_flag(Arc::clone(flag));
         std::mem::swap(&mut fresh.host.audience, &mut self.host.audience);
+        fresh.host.person.can_serve = self.host.person.can_serve;
         *self = fresh;
         self.host.audience.show(&self.host.simulation, Cause::Edit);
         true

@@ -135,11 +135,13 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
         draft: None,
         serving,
     };
+    repl.evaluator.borrow_mut().let_serve();
     match earlier {
         Some(mut earlier) => repl.resume(&mut earlier, &mut editor)?,
         None => repl.keeper.begin_fresh_tape(&*repl.evaluator.borrow()),
     }
-    repl.evaluator.borrow_mut().let_serve();
+    // An earlier session that was served is not served again.
+    repl.evaluator.borrow_mut().take_port();
     let status = repl.converse(&mut editor)?;
     if let Err(reason) = repl.evaluator.borrow_mut().finish() {
         // If standard error is closed, the message is lost.
