@@ -338,29 +338,27 @@ impl<'s> Engine<'s> {
         questions.set_client(Some(Arc::clone(&request.client)));
         let mut object: ObjectNumber = self.session.next_object();
         let mut aborted = None;
-        let outcome = self
-            .session
-            .evaluate(source, text, &mut |event| match event {
-                Event::Output(text) if answer.takes_output() => yielded.printed.push_str(&text),
-                Event::Output(text) => outbox.write(questions.unseen(&text), &interrupt),
-                Event::Values(values) => {
-                    yielded.object = (!values.is_empty()).then_some(object);
-                    if let Answer::Prompt { presents } = answer {
-                        super::repl::show_values(outbox, &values, presents.then_some(object));
-                    }
-                    object += values.len() as ObjectNumber;
-                    yielded.values = values;
+        let outcome = self.give(source, text, &mut |event| match event {
+            Event::Output(text) if answer.takes_output() => yielded.printed.push_str(&text),
+            Event::Output(text) => outbox.write(questions.unseen(&text), &interrupt),
+            Event::Values(values) => {
+                yielded.object = (!values.is_empty()).then_some(object);
+                if let Answer::Prompt { presents } = answer {
+                    super::repl::show_values(outbox, &values, presents.then_some(object));
                 }
-                Event::Aborted(abort) => {
-                    let place = abort.main_place();
-                    let place = place.map_or_else(String::new, |place| format!("; at {place}\n"));
-                    let report = abort.report.trim_end();
-                    outbox.write(&format!("{report}\n{place}"), &interrupt);
-                    aborted = Some(abort.condition);
-                }
-                Event::Left(condition) => aborted = Some(condition),
-                Event::Stopped(_) | Event::Picture(_) | Event::Progress(_) => {}
-            });
+                object += values.len() as ObjectNumber;
+                yielded.values = values;
+            }
+            Event::Aborted(abort) => {
+                let place = abort.main_place();
+                let place = place.map_or_else(String::new, |place| format!("; at {place}\n"));
+                let report = abort.report.trim_end();
+                outbox.write(&format!("{report}\n{place}"), &interrupt);
+                aborted = Some(abort.condition);
+            }
+            Event::Left(condition) => aborted = Some(condition),
+            Event::Stopped(_) | Event::Picture(_) | Event::Progress(_) => {}
+        });
         self.questions.set_client(None);
         Ended { outcome, aborted }
     }
