@@ -149,17 +149,19 @@ pub(crate) enum MotionFailure {
         /// What would touch.
         hit: Box<CollisionHit>,
     },
-    /// A finger pressed on something that did not give way.
+    /// A finger pressed an object onto what carries it, instead of closing on it.
     #[error(
-        "a finger of the {side} hand pressed on {body} from one side with all its effort, {effort:.0} N, and it did not give way"
+        "a finger of the {side} hand pressed {object} onto {against} with {force:.0} N, and it did not give way"
     )]
-    FingersStalled {
+    FingerPins {
         /// The hand.
         side: Side,
-        /// What it pressed on.
-        body: BodyName,
-        /// The effort (N).
-        effort: f64,
+        /// Name of the object.
+        object: String,
+        /// What it was pressed onto.
+        against: BodyName,
+        /// The force (N).
+        force: f64,
     },
     /// A joint goal is outside the joint's range.
     #[error("{violation}")]
@@ -422,7 +424,7 @@ impl MotionFailure {
             }
             Self::GripperLimit { .. }
             | Self::FingersBlocked { .. }
-            | Self::FingersStalled { .. }
+            | Self::FingerPins { .. }
             | Self::GripEffort { .. } => "GRIPPER-GOAL-NOT-REACHED",
             Self::PoseUnreachable(_)
             | Self::NoGrasp(_)

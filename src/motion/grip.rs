@@ -9,16 +9,15 @@ use super::joint_follower::with_joints;
 use super::speeds;
 use crate::robot::Side;
 use crate::world::physics::STEP_SECONDS;
-use crate::world::{BodyName, World};
+use crate::world::{BodyName, ContactForce, World};
 
 /// A finger just before the limit of its joint (rad/s).
 const SLOWEST: f64 = 0.01;
 /// How long (s) the fingers may press on different things before that counts as a failure.
 const UNEQUAL: f64 = 0.25;
 
-/// How long (s) a finger may press with all its effort on something that does not give way before
-/// that counts as a failure.
-const STALLED: f64 = 0.25;
+/// How long (s) a finger may press an object against something before that counts as a failure.
+const PINNED: f64 = 0.25;
 
 /// Fingers that close around an object: the named one, or any.
 #[derive(Clone, Debug)]
@@ -31,8 +30,8 @@ pub(crate) struct Grip {
     speed: f64,
     /// How long (s) they have pressed on different things.
     unequal: f64,
-    /// How long (s) one has pressed with all its effort on something that does not give way.
-    stalled: f64,
+    /// How long (s) one has pressed an object against something.
+    pinned: f64,
 }
 
 impl Grip {
@@ -44,7 +43,7 @@ impl Grip {
             effort,
             speed: 0.0,
             unequal: 0.0,
-            stalled: 0.0,
+            pinned: 0.0,
         }
     }
 
@@ -87,19 +86,12 @@ impl Grip {
                 }));
             }
         }
-        // The motor cannot do more: the fingers wait until what they press on has given way.
-        let most = pressing.iter().flatten();
-        let most = most.max_by(|a, b| a.force.total_cmp(&b.force));
-        if let Some(most) = most.filter(|most| most.force > effort) {
+        let mut pressed = pressing.iter().flatten();
+        if let Some(failure) = pressed.find_map(|one| pinned(world, side, one)) {
+            // The fingers wait for the object to give way.
             self.speed = 0.0;
-            self.stalled += STEP_SECONDS;
-            return (self.stalled > STALLED).then(|| {
-                MotionStatus::failed(MotionFailure::FingersStalled {
-                    side,
-                    body: most.body.clone(),
-                    effort,
-                })
-            });
+            self.pinned += STEP_SECONDS;
+            return (self.pinned > PINNED).then(|| MotionStatus::failed(failure));
         }
         let gripper = gripper_of(world, side);
         let now = world.robot_configuration();
@@ -148,4 +140,21 @@ impl Grip {
             Err(failure) => MotionStatus::failed(failure),
         }
     }
+}
+
+/// What is wrong if a finger that presses on an object presses it onto what carries it.
+fn pinned(world: &World, side: Side, finger: &ContactForce) -> Option<MotionFailure> {
+    let object = finger.body.object()?;
+    let force = world.pressed_down(object).ok()?;
+    if force <= guard::GREATEST_FORCE {
+        return None;
+    }
+    let supports = world.supports(object).ok()?.into_iter();
+    let most = supports.max_by(|a, b| a.force.total_cmp(&b.force))?;
+    Some(MotionFailure::FingerPins {
+        side,
+        object: object.to_owned(),
+        against: most.body,
+        force,
+    })
 }

@@ -49,6 +49,18 @@ impl World {
         Ok(sum)
     }
 
+    /// The force (N) with which the robot presses the object down, without friction.
+    pub(crate) fn pressed_down(&self, name: &str) -> Result<f64, WorldError> {
+        let mut sum = 0.0;
+        self.physics
+            .visit_contacts(self.object(name)?.body, |contact| {
+                if matches!(PartKey::from_code(contact.other), PartKey::Robot(_)) {
+                    sum += contact.down.max(0.0);
+                }
+            });
+        Ok(sum)
+    }
+
     /// Whether the object presses on anything but the robot.
     pub(super) fn touches_others(&self, object: &Object) -> bool {
         let mut touches = false;

@@ -128,6 +128,8 @@ pub(crate) struct RawContact {
     pub(crate) other: u64,
     /// Normal force (N), averaged over the last step.
     pub(crate) force: f64,
+    /// How much of it (N) presses the body down; negative if it carries the body.
+    pub(crate) down: f64,
 }
 
 /// The engine with everything in it.
@@ -480,11 +482,12 @@ impl Physics {
         if !pair.has_any_active_contact() {
             return None;
         }
-        let force = normal_impulse(pair) / STEP_SECONDS;
-        let other = if pair.collider1 == own {
-            pair.collider2
+        let (impulse, upwards) = normal_impulse(pair);
+        let force = impulse / STEP_SECONDS;
+        let (other, sign) = if pair.collider1 == own {
+            (pair.collider2, 1.0)
         } else {
-            pair.collider1
+            (pair.collider1, -1.0)
         };
         let key = |c: ColliderHandle| {
             let data = self.sets.colliders.get(c)?.user_data;
@@ -494,6 +497,7 @@ impl Physics {
             own: key(own)?,
             other: key(other)?,
             force,
+            down: sign * upwards / STEP_SECONDS,
         })
     }
 
@@ -551,18 +555,22 @@ impl Physics {
 ///
 /// The engine's own sum includes every point of a manifold, but points that the solver did
 /// not use keep the impulse of an earlier step; a bottle of 2 N would weigh 3 N.
-fn normal_impulse(pair: &ContactPair) -> f64 {
-    let mut sum = 0.0;
+///
+/// Returns the sum (N s), and how much of it goes upwards on the second body.
+fn normal_impulse(pair: &ContactPair) -> (f64, f64) {
+    let (mut sum, mut upwards) = (0.0, 0.0);
     for manifold in pair.solver_manifolds() {
         for contact in &manifold.data.solver_contacts {
             for index in contact.contact_indices() {
                 let place = usize::try_from(index).ok();
                 let point = place.and_then(|i| manifold.points.get(i));
-                sum += point.map_or(0.0, |p| p.data.impulse);
+                let impulse = point.map_or(0.0, |p| p.data.impulse);
+                sum += impulse;
+                upwards += impulse * manifold.data.normal.z;
             }
         }
     }
-    sum
+    (sum, upwards)
 }
 
 /// Furniture never collides with furniture, and the robot only with objects: where a

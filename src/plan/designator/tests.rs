@@ -16,6 +16,7 @@ use crate::lisp::vm::machine::{Event, Machine};
 /// An image in which designators need no package prefix and a plan seems to be running.
 pub(crate) fn image() -> Image {
     let mut image = Image::new();
+    crate::plan::install(&mut image);
     crate::plan::designator::install(&mut image);
     crate::plan::pose::install(&mut image);
     let prelude = "(defpackage :d (:use :common-lisp :desig :exe :prolog :cut))
