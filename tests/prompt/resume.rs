@@ -8,6 +8,7 @@ use std::rc::Rc;
 use proptest::prelude::*;
 
 use crate::front::prompt::{Beginning, Keeper, Wanted, open, resume};
+use crate::session::dialogue::screen::input_name;
 use crate::session::dialogue::{Converse, Evaluate, Event, Repeat};
 use crate::session::{Session, SessionOptions};
 
@@ -95,7 +96,7 @@ impl Sitting {
         self.number += 1;
         self.session.set_interactive(true);
         let mut said = String::new();
-        let name = format!("input {}", self.number);
+        let name = input_name(self.number);
         self.session
             .evaluate(&name, text, &mut |event| match event {
                 Event::Output(text) => said.push_str(&text),

@@ -142,10 +142,12 @@ impl Reader<'_> {
                 let level = ["", "DEBUG", "INFO", "WARN", "ERROR"].get(usize::from(log.level));
                 let event = match (HaltKind::named(&log.name), level) {
                     (Some(kind), _) => WatchEvent::Halted(Halt::new(kind, log.message)),
-                    (None, Some(&level)) if !level.is_empty() => WatchEvent::Output(format!(
-                        "[({}) {level}] {time:.3}: {}\n",
-                        log.name, log.message
-                    )),
+                    (None, Some(&level)) if !log.name.is_empty() && !level.is_empty() => {
+                        WatchEvent::Output(format!(
+                            "[({}) {level}] {time:.3}: {}\n",
+                            log.name, log.message
+                        ))
+                    }
                     _ => WatchEvent::Output(format!("{}\n", log.message)),
                 };
                 self.add_news(time, &event);

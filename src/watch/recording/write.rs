@@ -24,6 +24,8 @@ use crate::watch::base64::base64;
 use crate::watch::{Frame, Kind, Node, Placed, TaskId, TaskNews, WatchEvent};
 use crate::world::World;
 
+/// The level of what a program has printed: INFO, since some viewers take 0 for nothing. It has no name.
+const PRINTED: u8 = 2;
 /// The library named in the file's header.
 const LIBRARY: &str = concat!("planwright ", env!("CARGO_PKG_VERSION"));
 
@@ -363,7 +365,7 @@ impl<W: Write> RecordingWriter<W> {
         match parts {
             Some((tags, level, text)) => self.log_at(time, level, tags, text),
             None if line.trim().is_empty() => Ok(()),
-            None => self.log_at(time, 0, "", line),
+            None => self.log_at(time, PRINTED, "", line),
         }
     }
 
