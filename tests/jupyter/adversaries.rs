@@ -138,6 +138,8 @@ fn the_heartbeat_goes_on_while_a_cell_runs() {
     let kernel = start();
     let mut client = Client::new(&kernel, "a");
     let name = client.send("(loop)", false);
+    // An interrupt may otherwise come before the cell.
+    client.wait_for(&name, "status");
     let mut heart = connect(kernel.addresses[4], "REQ", "");
     for beat in [&b"one"[..], b"", &[7; 1000]] {
         heart

@@ -17,7 +17,7 @@ use crate::session::printing::on_one_line;
 const DEBUGGER_REMARK: &str =
     "; Type a number, or a form to look around; q aborts, :bt shows the frames, :help the rest.";
 const INTERRUPT_REMARK: &str =
-    "; Type a number, or a form to look around; another Ctrl-C aborts, :bt shows the frames.";
+    "; Type a number, or a form to look around (:bt, :locals); Ctrl-C aborts.";
 
 impl Session {
     /// Runs the scheduler.
