@@ -75,3 +75,27 @@ fn memory_stays_flat_over_a_million_circles_of_each_kind() {
         );
     }
 }
+
+#[test]
+fn sessions_that_have_ended_leave_nothing_behind() {
+    let _alone = MEMORY.lock();
+    let transport = "(in-package :pp-tut)
+        (spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
+        (with-simulated-robot
+          (let ((?spot (make-pose \"map\" '((-0.8 2 0.96) (0 0 0 1)))))
+            (perform (an action (type transporting) (object (an object (type bottle)))
+                                (target (a location (pose ?spot)))))))";
+    let run = |count: usize| {
+        for _ in 0..count {
+            let mut session = Session::new(&SessionOptions::default()).unwrap();
+            resident_after(&mut session, transport);
+        }
+        resident()
+    };
+    let before = run(5);
+    let after = run(10);
+    assert!(
+        after < before + 2048,
+        "{before} kB after 5 sessions, {after} kB after 15"
+    );
+}

@@ -76,6 +76,11 @@ impl Stream {
         }
     }
 
+    /// Drops what was prepared for the world as it was.
+    pub(crate) fn forget(&mut self) {
+        self.search = None;
+    }
+
     /// Makes the search fit the world as it is. What was prepared for another state of the world is
     /// dropped.
     fn prepare(&mut self, scene: Scene<'_>) -> Result<(), WorldError> {

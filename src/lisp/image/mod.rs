@@ -84,6 +84,16 @@ pub(crate) struct Image {
 /// The stream of the random generator: any constant will do.
 const STREAM: u128 = 0xa02b_dbf7_bb3c_0a7a;
 
+impl Drop for Image {
+    /// Classes hold themselves, those above them, and those below them.
+    fn drop(&mut self) {
+        for class in self.classes.values() {
+            class.direct_subclasses.borrow_mut().clear();
+            class.precedence.borrow_mut().clear();
+        }
+    }
+}
+
 impl Image {
     /// An image with the known symbols and standard packages, and nothing else.
     pub(super) fn bare() -> Image {

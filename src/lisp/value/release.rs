@@ -13,6 +13,7 @@ use std::rc::Rc;
 
 use super::Value;
 use super::cons::{self, Cons};
+use super::cycles;
 use super::foreign::Foreign;
 
 /// What a container held.
@@ -128,13 +129,20 @@ pub(super) fn release_values(values: Vec<Value>) {
     }
 }
 
-/// Frees everything when it is dropped.
+/// Frees everything when it is dropped, and what holds each other.
 #[derive(Default)]
 pub(crate) struct FreesAll;
 
 impl Drop for FreesAll {
     fn drop(&mut self) {
         all();
+        // What circles have held may have held others.
+        loop {
+            cycles::collect_all();
+            if !all() {
+                return;
+            }
+        }
     }
 }
 

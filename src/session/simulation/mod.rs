@@ -74,6 +74,7 @@ pub(crate) struct Simulation {
     pub(super) tally: Tally,
     /// The faults that may strike motions.
     pub(super) injection: SharedInjection,
+    begun_searches: locations::Searches,
     physical: Physical,
 }
 
@@ -153,6 +154,7 @@ impl Simulation {
             looks: OnceCell::new(),
             tally: Tally::default(),
             injection: SharedInjection::default(),
+            begun_searches: locations::Searches::default(),
         })
     }
 

@@ -7,6 +7,7 @@ mod references;
 mod things;
 
 use std::cell::RefCell;
+use std::rc::{Rc, Weak};
 use std::sync::Arc;
 
 use super::Simulation;
@@ -31,8 +32,28 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 
 /// The poses of a location, as its designator keeps them.
 pub(in crate::session) struct LocationStream {
-    pub(crate) stream: RefCell<Stream>,
+    pub(crate) stream: Rc<RefCell<Stream>>,
     class_symbol: Sym,
+}
+
+/// All searches that have been begun. With these, what they have prepared ends: copies of the world,
+/// which a program's values may hold in circles that nobody can free.
+#[derive(Default)]
+pub(super) struct Searches(Vec<Weak<RefCell<Stream>>>);
+
+impl Searches {
+    fn note(&mut self, stream: &Rc<RefCell<Stream>>) {
+        self.0.retain(|stream| stream.strong_count() > 0);
+        self.0.push(Rc::downgrade(stream));
+    }
+}
+
+impl Drop for Searches {
+    fn drop(&mut self) {
+        for stream in self.0.iter().filter_map(Weak::upgrade) {
+            stream.borrow_mut().forget();
+        }
+    }
 }
 
 impl Foreign for LocationStream {
@@ -87,9 +108,11 @@ impl Simulation {
         self.searches += 1;
         // Any odd number tells apart the searches of sessions with different seeds.
         let seed = self.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ self.searches;
+        let stream = Rc::new(RefCell::new(Stream::new(query, seed)));
+        self.begun_searches.note(&stream);
         let class_symbol = image.keyword("LOCATION-SEARCH");
         let memory = Value::foreign(LocationStream {
-            stream: RefCell::new(Stream::new(query, seed)),
+            stream,
             class_symbol,
         });
         *designator.memory.borrow_mut() = Some(memory.clone());
