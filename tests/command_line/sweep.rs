@@ -80,7 +80,7 @@ const PLANTED: &str = "
       (vary
         (bottle (object bottle :on table-area-main :x (uniform -1.9 -1.2) :y (uniform -1.05 -0.75)))
         (clutter (objects (between 0 3) :of (cup bowl milk) :on table-area-main :apart 0.02))
-        (torso (choice 0.1 0.2)))
+        (torso (choice 0.15 0.3)))
       (run (let ((y (cl-transforms:y (cl-transforms:origin (btr-utils:object-pose bottle)))))
              (when (and (< y -0.9)
                         (some (lambda (thing) (btr-utils:object-exists thing)) clutter)
@@ -130,6 +130,10 @@ fn a_planted_cause_is_found_and_shrunk_to_what_matters() {
             "{shown}"
         );
         let form = &shown[shown.find("(sweep-world").expect("a form")..];
+        // A value that it cannot have, such as a rounded one, is no change.
+        assert!(shown.contains("torso 0.15\n"), "{shown}");
+        let rounded = ["(\"torso\" 0.1d0)", "(\"torso\" 0.2d0)"];
+        assert!(!rounded.iter().any(|set| form.contains(set)), "{form}");
         let again = scratch(
             "again.plan",
             &format!("{PLANTED}\n{form}\n(run-sweep-world)"),

@@ -259,6 +259,26 @@ fn some_tables_end_as_they_are_said_to_end() {
     assert!(flaws.is_empty(), "{}", flaws.join("\n"));
 }
 
+#[test]
+fn a_finger_does_not_press_a_thing_into_the_table() {
+    assert_eq!(
+        judged(21)
+            .as_deref()
+            .map(|end| end.contains("pressed onto table_area_main")),
+        Ok(true)
+    );
+}
+
+#[test]
+fn a_failed_grasp_names_what_it_has_tipped() {
+    assert_eq!(
+        judged(29)
+            .as_deref()
+            .map(|end| end.contains("MANIPULATION-GOAL-IN-COLLISION")),
+        Ok(true)
+    );
+}
+
 /// Half an hour: `cargo test --lib -- --ignored --nocapture cluttered_tables`; `TABLES=FROM..TO` in
 /// the environment chooses others than the first 300.
 #[test]

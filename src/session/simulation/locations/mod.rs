@@ -51,7 +51,10 @@ impl Searches {
 impl Drop for Searches {
     fn drop(&mut self) {
         for stream in self.0.iter().filter_map(Weak::upgrade) {
-            stream.borrow_mut().forget();
+            // One that is at work ends with whoever has it at work.
+            if let Ok(mut stream) = stream.try_borrow_mut() {
+                stream.forget();
+            }
         }
     }
 }
