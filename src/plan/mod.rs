@@ -9,6 +9,7 @@ pub(crate) mod builtins;
 pub(crate) mod designator;
 mod failure_table;
 mod fluent;
+mod handlers;
 pub(crate) mod host;
 mod install;
 pub(crate) mod journal;
@@ -26,6 +27,7 @@ mod state;
 mod task;
 mod tree;
 
+pub(crate) use handlers::Handlers;
 #[cfg(test)]
 pub(crate) use host::NullHost;
 pub(crate) use host::{Advance, Host, Reply, Ticket};

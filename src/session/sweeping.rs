@@ -8,6 +8,7 @@ use super::Session;
 use super::dialogue::{Evaluate, Event, Outcome, Repeat};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::plan::Handlers;
 use crate::sweep::pairs::Pairs;
 use crate::sweep::{Drawn, Draws, Ending, Record};
 
@@ -124,11 +125,12 @@ impl Sweeping {
         state.known.push(sweep);
     }
 
-    /// The record of the world at hand, as far as its draws go.
-    pub(super) fn record(&self, ending: Ending) -> Record {
+    /// The record of the world at hand, as far as its draws and the handlers of the plan go.
+    pub(super) fn record(&self, image: &mut Image, ending: Ending) -> Record {
         let state = self.0.borrow();
         let mut record = Record::new(state.world, ending);
         record.draws = state.drawn.clone();
+        record.handlers = Pairs(Handlers::of(image).counts(image));
         record
     }
 
@@ -198,7 +200,7 @@ impl Session {
             }
         }
         kept.unwrap_or_else(|| {
-            let mut record = state.record(ending);
+            let mut record = state.record(&mut self.image, ending);
             record.class = class;
             let simulation = &mut self.host.simulation;
             simulation.end_tally();

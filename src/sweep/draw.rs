@@ -52,6 +52,15 @@ impl Draws {
         // 53 bits fit into a double exactly.
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
+
+    /// Puts things into a random order: the method of Fisher and Yates.
+    pub(crate) fn shuffle<T>(&mut self, things: &mut [T]) {
+        for last in (1..things.len()).rev() {
+            // The cast rounds down.
+            let other = (self.unit() * (last + 1) as f64) as usize;
+            things.swap(last, other);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -7,8 +7,11 @@
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
 
+use super::division::{Count, Division, Divisions, deviance, rate};
 use super::draw::Draws;
-use super::record::{Drawn, Record};
+use super::feature::{Feature, Level, features};
+use super::record::Record;
+use super::tree::Tree;
 
 /// Most bins of a number.
 const BINS: usize = 10;
@@ -22,21 +25,6 @@ const LEAST_SHARE: f64 = 0.05;
 const FEWEST: usize = 5;
 /// Most draws that are named as having no effect.
 const MOST_NAMED: usize = 6;
-
-/// What a draw is in every world: a number, or one of several values.
-struct Feature {
-    name: String,
-    values: Vec<Level>,
-}
-
-/// The value of a feature in a world.
-#[derive(Clone, Debug, PartialEq)]
-enum Level {
-    Number(f64),
-    Text(String),
-    /// Not drawn in that world.
-    Absent,
-}
 
 /// What a draw has to do with failures.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,17 +42,17 @@ pub(crate) struct Effect {
 pub(crate) struct Part {
     /// What is so in them.
     pub(crate) condition: String,
-    /// Which they are, by their places among those that were tried.
-    members: Vec<bool>,
     /// How many of them fail, and how many there are.
-    pub(crate) failed: [usize; 2],
+    failed: Count,
     /// The same of all others.
-    pub(crate) others: [usize; 2],
+    others: Count,
 }
 
 /// Which draws explain failures, the most likely cause first.
 pub(crate) struct Influence {
     effects: Vec<Effect>,
+    /// Parts that several draws together tell apart.
+    tree: Option<Tree>,
     tried: usize,
     failed: usize,
 }
@@ -75,7 +63,7 @@ impl Influence {
         let tried: Vec<&Record> = records.iter().filter(|r| r.outcome.counts()).collect();
         let fails: Vec<bool> = tried.iter().map(|r| !r.is_success()).collect();
         let failed = fails.iter().filter(|fails| **fails).count();
-        let mut effects = Vec::new();
+        let (mut effects, mut tree) = (Vec::new(), None);
         if failed >= FEWEST && tried.len() - failed >= FEWEST {
             let features = features(&tried);
             let chances = shuffled(&features, &fails);
@@ -86,11 +74,13 @@ impl Influence {
                     worst: worst_part(feature, &fails),
                 });
             }
+            tree = Tree::of(&features, &fails);
             // Equal probabilities: the larger difference first.
             effects.sort_by(|a, b| a.p.total_cmp(&b.p).then(gain(b).total_cmp(&gain(a))));
         }
         Self {
             effects,
+            tree,
             tried: tried.len(),
             failed,
         }
@@ -110,62 +100,9 @@ fn gain(effect: &Effect) -> f64 {
         .map_or(0.0, |part| deviance(&[part.failed, part.others]))
 }
 
-fn features(tried: &[&Record]) -> Vec<Feature> {
-    let mut names: Vec<&str> = Vec::new();
-    let mut groups: Vec<(String, String)> = Vec::new();
-    for (path, value) in tried.iter().flat_map(|record| record.draws.iter()) {
-        match group_of(path) {
-            None if !names.contains(&path) => names.push(path),
-            Some((group, "")) => {
-                if let Drawn::Text(kind) = value {
-                    let member = (group.to_owned(), kind.clone());
-                    if !groups.contains(&member) {
-                        groups.push(member);
-                    }
-                }
-            }
-            _ => {}
-        }
-    }
-    groups.sort();
-    let drawn = names.into_iter().map(|name| Feature {
-        name: name.to_owned(),
-        values: tried.iter().map(|r| level(r.draws.get(name))).collect(),
-    });
-    // Whether a group has a thing of a kind.
-    let has = |record: &Record, group: &str, kind: &str| {
-        record.draws.iter().any(|(path, value)| {
-            group_of(path) == Some((group, "")) && *value == Drawn::Text(kind.to_owned())
-        })
-    };
-    let of_groups = groups.iter().map(|(group, kind)| Feature {
-        name: format!("{group} has {}", kind.to_lowercase()),
-        values: tried
-            .iter()
-            .map(|r| Level::Text(has(r, group, kind).to_string()))
-            .collect(),
-    });
-    drawn.chain(of_groups).collect()
-}
-
-/// The group to whose numbered members a path belongs, and what of the member it is.
-fn group_of(path: &str) -> Option<(&str, &str)> {
-    let (group, member) = path.split_once('.')?;
-    let (number, rest) = member.split_once('.').unwrap_or((member, ""));
-    number.parse::<u32>().ok().map(|_| (group, rest))
-}
-
-fn level(value: Option<&Drawn>) -> Level {
-    match value {
-        None => Level::Absent,
-        Some(value @ (Drawn::Flag(_) | Drawn::Text(_))) => Level::Text(value.to_string()),
-        Some(value) => value.number().map_or(Level::Absent, Level::Number),
-    }
-}
-
 /// The bin of each world.
 fn bins(values: &[Level]) -> Vec<usize> {
-    let mut numbers: Vec<f64> = values.iter().filter_map(number).collect();
+    let mut numbers: Vec<f64> = values.iter().filter_map(Level::number).collect();
     numbers.sort_by(f64::total_cmp);
     let mut different = numbers.clone();
     different.dedup();
@@ -197,31 +134,6 @@ fn bins(values: &[Level]) -> Vec<usize> {
     values.iter().map(bin).collect()
 }
 
-fn number(value: &Level) -> Option<f64> {
-    match value {
-        Level::Number(number) => Some(*number),
-        _ => None,
-    }
-}
-
-/// Twice the gain in log-likelihood of one rate for each bin, [failed, all], over one for all.
-fn deviance(bins: &[[usize; 2]]) -> f64 {
-    let term = |failed: usize, all: usize| {
-        let part = |hits: usize| match hits {
-            0 => 0.0,
-            _ => hits as f64 * libm::log(hits as f64 / all as f64),
-        };
-        part(failed) + part(all - failed)
-    };
-    let sum = |i: usize| bins.iter().map(|bin| bin[i]).sum::<usize>();
-    let each: f64 = bins
-        .iter()
-        .filter(|b| b[1] > 0)
-        .map(|b| term(b[0], b[1]))
-        .sum();
-    2.0 * (each - term(sum(0), sum(1)))
-}
-
 fn counts(bins: &[usize], fails: &[bool]) -> Vec<[usize; 2]> {
     let most = bins.iter().max().map_or(0, |bin| bin + 1);
     let mut counts = vec![[0, 0]; most];
@@ -240,12 +152,7 @@ fn shuffled(features: &[Feature], fails: &[bool]) -> Vec<f64> {
     let mut numbers = Draws::new(0, 0, "influence");
     let mut shuffled = fails.to_vec();
     for _ in 0..SHUFFLES {
-        // Fisher and Yates.
-        for last in (1..shuffled.len()).rev() {
-            // The cast rounds down.
-            let other = (numbers.unit() * (last + 1) as f64) as usize;
-            shuffled.swap(last, other);
-        }
+        numbers.shuffle(&mut shuffled);
         for ((bins, found), as_large) in bins.iter().zip(&found).zip(&mut as_large) {
             *as_large += usize::from(deviance(&counts(bins, &shuffled)) >= found - 1e-9);
         }
@@ -269,102 +176,20 @@ fn holm(chances: &[f64]) -> Vec<f64> {
 
 /// The part, beyond a bound or with one value, that tells failures best from successes.
 fn worst_part(feature: &Feature, fails: &[bool]) -> Option<Part> {
-    let values = &feature.values;
-    let mut numbers: Vec<f64> = values.iter().filter_map(number).collect();
-    numbers.sort_by(f64::total_cmp);
-    numbers.dedup();
-    let mut parts = Vec::new();
-    for pair in numbers.windows(2) {
-        let bound = short_between(pair[0], pair[1]);
-        let below = |value: &Level| number(value).is_some_and(|number| number < bound);
-        let above = |value: &Level| number(value).is_some_and(|number| number >= bound);
-        parts.push(part(
-            format!("{} < {bound}", feature.name),
-            values,
-            fails,
-            below,
-        ));
-        parts.push(part(
-            format!("{} ≥ {bound}", feature.name),
-            values,
-            fails,
-            above,
-        ));
-    }
-    if numbers.len() <= BINS {
-        for wanted in &numbers {
-            let same = |value: &Level| number(value) == Some(*wanted);
-            parts.push(part(
-                format!("{} = {wanted}", feature.name),
-                values,
-                fails,
-                same,
-            ));
-        }
-    }
-    let mut texts: Vec<&String> = Vec::new();
-    for value in values {
-        match value {
-            Level::Text(text) if !texts.contains(&text) => texts.push(text),
-            _ => {}
-        }
-    }
-    texts.sort();
-    for text in texts {
-        let same = |value: &Level| matches!(value, Level::Text(known) if known == text);
-        let condition = match text.as_str() {
-            "true" => feature.name.clone(),
-            "false" => format!("not {}", feature.name),
-            _ => format!("{} = {}", feature.name, text.to_lowercase()),
-        };
-        parts.push(part(condition, values, fails, same));
-    }
+    let all: Vec<usize> = (0..fails.len()).collect();
     let least = (LEAST_SHARE * fails.len() as f64).ceil() as usize;
-    let rate = |[failed, all]: [usize; 2]| failed as f64 / all.max(1) as f64;
-    parts
-        .into_iter()
-        .filter(|p| p.failed[1] >= least && rate(p.failed) > rate(p.others))
-        .max_by(|a, b| {
-            let gain = |p: &Part| deviance(&[p.failed, p.others]);
-            gain(a).total_cmp(&gain(b))
-        })
-}
-
-fn part(
-    condition: String,
-    values: &[Level],
-    fails: &[bool],
-    is_in: impl Fn(&Level) -> bool,
-) -> Part {
-    let members: Vec<bool> = values.iter().map(is_in).collect();
-    let count = |inside: bool| {
-        let all = members
-            .iter()
-            .zip(fails)
-            .filter(|(member, _)| **member == inside);
-        [
-            all.clone().filter(|(_, fails)| **fails).count(),
-            all.count(),
-        ]
-    };
-    Part {
-        condition,
-        failed: count(true),
-        others: count(false),
-        members,
-    }
-}
-
-/// A number between two others, the second included, with as few digits as possible.
-fn short_between(low: f64, high: f64) -> f64 {
-    for digits in 0..12 {
-        let scale = libm::pow(10.0, f64::from(digits));
-        let rounded = (high * scale).floor() / scale;
-        if rounded > low {
-            return rounded;
-        }
-    }
-    high
+    let Division {
+        test,
+        holds,
+        worse,
+        better,
+        ..
+    } = Divisions::new(feature, &all, fails.len()).best(fails, [least, 0])?;
+    Some(Part {
+        condition: test.words(feature, holds),
+        failed: worse,
+        others: better,
+    })
 }
 
 impl Display for Influence {
@@ -378,7 +203,7 @@ impl Display for Influence {
                 sentences.push(format!("{}: p = {:.3}", effect.name, effect.p));
                 continue;
             };
-            let percent = |[failed, all]: [usize; 2]| 100.0 * failed as f64 / all.max(1) as f64;
+            let percent = |count: Count| 100.0 * rate(count);
             sentences.push(format!(
                 "{}: {:.0} % fail of {} (else {:.0} %)",
                 part.condition,
@@ -407,14 +232,15 @@ impl Display for Influence {
             let named: Vec<&str> = without.into_iter().take(MOST_NAMED).collect();
             sentences.push(format!("{}{more}: no effect seen", named.join(", ")));
         }
-        writeln!(f, "what matters: {}", sentences.join(" · "))
+        writeln!(f, "what matters: {}", sentences.join(" · "))?;
+        self.tree.iter().try_for_each(|tree| write!(f, "{tree}"))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::Ending;
+    use crate::sweep::{Drawn, Ending};
 
     /// Worlds with ten numbers, which fail with a probability that the numbers decide.
     fn worlds(seed: u64, rate: impl Fn(&[f64]) -> f64) -> Vec<Record> {

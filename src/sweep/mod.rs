@@ -6,7 +6,9 @@
 //! a draw that is added changes no other.
 
 mod beta;
+mod division;
 pub(crate) mod draw;
+mod feature;
 pub(crate) mod influence;
 mod normal;
 pub(crate) mod paired;
@@ -15,6 +17,7 @@ mod plural;
 pub(crate) mod rate;
 pub(crate) mod record;
 pub(crate) mod summary;
+mod tree;
 
 pub(crate) use draw::Draws;
 pub(crate) use normal::normal_quantile;

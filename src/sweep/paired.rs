@@ -20,6 +20,18 @@ pub(crate) struct Comparison {
     only: [Vec<u64>; 2],
 }
 
+/// Whether looks at two plans have decided which one is better.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Decision {
+    /// No look has.
+    Open,
+    /// The last one has.
+    At {
+        /// The error that this look was allowed.
+        error: f64,
+    },
+}
+
 /// Confidence of the interval of the difference.
 const CONFIDENCE: f64 = 0.95;
 /// Most worlds that are listed.
@@ -65,6 +77,22 @@ impl Comparison {
         let [a, b] = self.discordant();
         let neither = self.count - self.both - a - b;
         newcombe([self.both, b, a, neither], CONFIDENCE)
+    }
+
+    /// What the looks say about which plan is better, in words.
+    pub(crate) fn verdict(&self, decision: Decision) -> String {
+        let [a, b] = &self.names;
+        let [only_a, only_b] = self.discordant();
+        let better = if only_b > only_a { b } else { a };
+        let worlds = plural(self.count, "world");
+        match decision {
+            Decision::At { error } => {
+                format!(
+                    "decided after {worlds}: {better} is better (p < {error:.4}, the error that this look may have)"
+                )
+            }
+            Decision::Open => format!("not decided after {worlds}"),
+        }
     }
 }
 
@@ -120,6 +148,12 @@ pub(crate) fn error_at_look(count: u64, error: f64) -> Option<f64> {
     // The sum of 1/k² is π²/6.
     let share = 6.0 / (std::f64::consts::PI * std::f64::consts::PI * look * look);
     Some(error * share)
+}
+
+/// Whether one of two plans is better, after a look with that error at the worlds in which only the
+/// first, and only the second one worked.
+pub(crate) fn is_decided(only: [usize; 2], error: f64) -> bool {
+    mcnemar(only) < error
 }
 
 /// Whether the interval of a rate is as narrow as wanted after a look with that error.
@@ -231,16 +265,16 @@ mod tests {
         let (mut wrong, count) = (0, 2_000);
         for _ in 0..count {
             let mut only = [0_usize; 2];
-            let mut is_decided = false;
+            let mut decided = false;
             for world in 1..=3200 {
                 if draws.unit() < 0.2 {
                     only[usize::from(draws.unit() < 0.5)] += 1;
                 }
                 if let Some(error) = error_at_look(world, 0.05) {
-                    is_decided |= mcnemar(only) < error;
+                    decided |= is_decided(only, error);
                 }
             }
-            wrong += i32::from(is_decided);
+            wrong += i32::from(decided);
         }
         assert!(
             f64::from(wrong) / f64::from(count) <= 0.05,

@@ -121,6 +121,10 @@ pub(crate) struct Record {
     pub(crate) distance: f64,
     /// How many motions failed, by class; the plan may have handled them.
     pub(crate) failures: Pairs<u64>,
+    /// How often the handlers of the plan have handled each failure that they name, by file, line and
+    /// failure.
+    #[serde(default)]
+    pub(crate) handlers: Pairs<u64>,
     /// What was measured.
     pub(crate) measures: Pairs<Drawn>,
     /// The hash of the world at the end.
@@ -143,6 +147,7 @@ impl Record {
             steps: 0,
             distance: 0.0,
             failures: Pairs::default(),
+            handlers: Pairs::default(),
             measures: Pairs::default(),
             hash: String::new(),
         }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
 
+use super::pairs::Pairs;
 use super::plural::plural;
 use super::rate::{at_least, wilson};
 use super::record::Record;
@@ -13,6 +14,8 @@ pub(crate) const CONFIDENCE: f64 = 0.95;
 const MOST_EXAMPLES: usize = 3;
 /// Most kinds of failures that are listed.
 const MOST_KINDS: usize = 20;
+/// Most failures that are named as never handled.
+const MOST_UNHANDLED: usize = 10;
 /// Share of invalid worlds from which on a variable is warned of.
 const MANY_INVALID: f64 = 0.2;
 
@@ -187,6 +190,43 @@ impl<'r> Summary<'r> {
         self.reach(&tried, f)
     }
 
+    /// Which failures the handlers of the plan name, and have never handled.
+    fn handlers(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let mut totals: Pairs<u64> = Pairs::default();
+        for (name, count) in self
+            .records
+            .iter()
+            .flat_map(|record| record.handlers.iter())
+        {
+            let before = totals.get(name).copied().unwrap_or(0);
+            totals.set(name, before + count);
+        }
+        let all = totals.iter().count();
+        if all == 0 {
+            return Ok(());
+        }
+        let never: Vec<&str> = totals
+            .iter()
+            .filter(|(_, count)| **count == 0)
+            .map(|(name, _)| name)
+            .collect();
+        write!(
+            f,
+            "handlers: {} of {all} failures handled",
+            all - never.len()
+        )?;
+        if !never.is_empty() {
+            let more = if never.len() > MOST_UNHANDLED {
+                " · …"
+            } else {
+                ""
+            };
+            let named: Vec<&str> = never.into_iter().take(MOST_UNHANDLED).collect();
+            write!(f, "; never {}{more}", named.join(" · "))?;
+        }
+        writeln!(f)
+    }
+
     /// What was measured: median and spread.
     fn measures(&self, tried: &[&Record], f: &mut fmt::Formatter) -> fmt::Result {
         for (name, mut values) in columns(tried, |r| r.measures.iter()) {
@@ -282,7 +322,8 @@ impl Display for Summary<'_> {
         self.success(f)?;
         self.failures(f)?;
         self.invalid_worlds(f)?;
-        self.effort(f)
+        self.effort(f)?;
+        self.handlers(f)
     }
 }
 
@@ -305,6 +346,10 @@ mod tests {
         records[9].class = Some("clutter".to_owned());
         records[9].cause = Some("found no place".to_owned());
         for (i, record) in records.iter_mut().enumerate() {
+            record
+                .handlers
+                .set("a.plan:3 GRASP-FAILED", u64::from(i == 3));
+            record.handlers.set("a.plan:9 NOT-FOUND", 0);
             record.draws.set("x", Drawn::Number(i as f64 / 10.0));
         }
         let title = Title {
@@ -321,7 +366,8 @@ mod tests {
              \x20  1  expectation upright                        --replay 7\n\
              1 world invalid: clutter found no place  --replay 9\n\
              simulated time median 0.0 s (5–95 %: 0.0–0.0) · driven 0.0 m · 0.0 failed motions\n\
-             tried: x 0.00 to 1.90\n"
+             tried: x 0.00 to 1.90\n\
+             handlers: 1 of 2 failures handled; never a.plan:9 NOT-FOUND\n"
         );
         assert!(!summary.meets_goal());
     }

@@ -233,6 +233,42 @@ fn shards_in_any_number_and_order_are_merged_to_the_same_bytes() {
     );
 }
 
+/// A plan that works in some of the worlds.
+const OFTEN: &str =
+    "(defsweep often () (vary (x (uniform 0 1))) (run (when (< x 0.2) (error 'end-of-file))))";
+
+#[test]
+fn a_comparison_ends_when_it_is_decided() {
+    let file = scratch("often.plan", OFTEN);
+    let seldom = scratch("seldom.plan", &OFTEN.replace("0.2", "0.5"));
+    let same = scratch("same.plan", &OFTEN.replace("0.2", "0.21"));
+    let file = file.to_str().expect("a name");
+    let compare = |other: &PathBuf, threads| {
+        let other = other.to_str().expect("a name");
+        let arguments = ["sweep", file, "--worlds", "230", "--threads", threads];
+        let output =
+            planwright(&[&arguments[..], &["--compare", other, "--until-decided"]].concat());
+        (output.status.code(), text(&output.stdout))
+    };
+    let (status, shown) = compare(&seldom, "2");
+    let end = shown.lines().last().expect("a line");
+    assert!(
+        end.starts_with("decided after 200 worlds: ")
+            && end.contains("often.plan is better (p < 0.0304"),
+        "{shown}"
+    );
+    assert_eq!(status, Some(0));
+    assert_eq!(compare(&seldom, "3"), (status, shown));
+    let (status, shown) = compare(&same, "2");
+    assert!(
+        shown.ends_with("\nnot decided after 230 worlds\n"),
+        "{shown}"
+    );
+    assert_eq!(status, Some(0));
+    let alone = planwright(&["sweep", file, "--until-decided"]);
+    assert_eq!(alone.status.code(), Some(2));
+}
+
 #[test]
 fn plans_are_compared_in_the_same_worlds_and_reports_are_written() {
     let file = scratch("old.plan", SWEEP);

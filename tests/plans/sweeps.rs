@@ -2,7 +2,7 @@
 
 use crate::session::dialogue::{Evaluate, Event, Outcome};
 use crate::session::{LogLevel, Session, SessionOptions};
-use crate::sweep::{Ending, Record};
+use crate::sweep::{Drawn, Ending, Record};
 
 fn session(text: &str) -> Session {
     let options = SessionOptions {
@@ -308,6 +308,69 @@ fn what_slips_falls_and_the_same_world_at_the_prompt_has_the_same_hash() {
 }
 
 #[test]
+fn the_faults_of_a_record_are_a_schedule_that_strikes_again() {
+    let (_, drawn) = with_faults("(gripper-slip :of bottle :probability 0.4)");
+    assert_eq!(drawn.faults.len(), 1, "{drawn:?}");
+    let (_, again) = with_faults(&format!("(:schedule '({:?}))", drawn.faults[0]));
+    assert_eq!(again.faults, drawn.faults);
+    assert_eq!(again.hash, drawn.hash);
+    let count = drawn.faults[0].rsplit('.').next().expect("a count");
+    let (_, counted) = with_faults(&format!("(gripper-slip :of bottle :at {count})"));
+    assert_eq!(counted.faults, drawn.faults);
+    assert_eq!(counted.hash, drawn.hash);
+    let (_, another) = with_faults("(:schedule '(\"inject.gripper-slip.CUP.1\"))");
+    assert_eq!(another.faults, Vec::<String>::new());
+    assert_eq!(another.outcome, Ending::Success, "{another:?}");
+}
+
+#[test]
+fn handlers_that_no_world_has_led_to_are_known() {
+    let sweep = "
+        (in-package :pp-tut)
+        (defun flaky (x)
+          (cpl:with-failure-handling
+              (((or manipulation-low-level-failure gripper-closed-completely) (e)
+                 (declare (ignore e))
+                 (return))
+               (navigation-goal-not-reached () (return :elsewhere)))
+            (when (< x 0.5) (cpl:fail 'gripper-closed-completely :description \"\"))))
+        (defun never-called ()
+          (handle-failure perception-object-not-found ((detect)) (print e)))
+        (defsweep s () (vary (x (uniform 0 1))) (run (flaky x)))";
+    let counts = |number: u64| {
+        let record = world(sweep, number);
+        assert_eq!(record.outcome, Ending::Success, "{record:?}");
+        let named: Vec<String> = record
+            .handlers
+            .iter()
+            .map(|(name, count)| format!("{name} {count}"))
+            .collect();
+        (
+            record
+                .draws
+                .get("x")
+                .and_then(Drawn::number)
+                .expect("a number")
+                < 0.5,
+            named,
+        )
+    };
+    let expected = |reached: u64| {
+        [
+            format!("sweep.plan:5 MANIPULATION-LOW-LEVEL-FAILURE {reached}"),
+            format!("sweep.plan:5 GRIPPER-CLOSED-COMPLETELY {reached}"),
+            "sweep.plan:8 NAVIGATION-GOAL-NOT-REACHED 0".to_owned(),
+            "sweep.plan:11 PERCEPTION-OBJECT-NOT-FOUND 0".to_owned(),
+        ]
+    };
+    let all: Vec<(bool, Vec<String>)> = (0..6).map(counts).collect();
+    assert!(all.iter().any(|(fails, _)| *fails) && !all.iter().all(|(fails, _)| *fails));
+    for (fails, counts) in all {
+        assert_eq!(counts, expected(u64::from(fails)));
+    }
+}
+
+#[test]
 fn a_blocked_way_is_a_body() {
     let (_, record) = with_faults("(navigation-blocked :for 5)");
     assert!(
@@ -334,6 +397,18 @@ fn mistakes_in_faults_are_told() {
         (
             "(with-injected-failures (gripper-slip) 1)",
             "GRIPPER-SLIP is no fault",
+        ),
+        (
+            "(with-injected-failures ((gripper-slip :at 0)) 1)",
+            "0 does not say when a fault strikes",
+        ),
+        (
+            "(with-injected-failures ((gripper-slip :at 1 :probability 0.5)) 1)",
+            "says twice when it strikes",
+        ),
+        (
+            "(with-injected-failures ((:schedule '(\"inject.gripper-slip\"))) 1)",
+            "is no fault of a schedule",
         ),
         (
             "(with-injected-failures ((perception-noise :position (uniform 0 1))) 1)",

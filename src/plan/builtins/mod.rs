@@ -6,6 +6,7 @@ pub(crate) mod combinators;
 mod common;
 mod failures;
 mod fluents;
+mod handlers;
 mod networks;
 mod policies;
 mod tasks;
@@ -30,6 +31,7 @@ pub(crate) static LANGUAGE: &[&[Builtin]] = &[arithmetic::TABLE];
 pub(crate) static SYSTEM: &[&[Builtin]] = &[
     code_search::SYSTEM_TABLE,
     combinators::SYSTEM_TABLE,
+    handlers::SYSTEM_TABLE,
     policies::SYSTEM_TABLE,
     tasks::SYSTEM_TABLE,
     tree::SYSTEM_TABLE,

@@ -22,6 +22,16 @@ that is for it."
                        `(,(first handler) (funcall ,(second handler) ,inner)))
                      handlers))))))
 
+(defun %handling-function (clause)
+  "The function that a clause stands for. One in a program tells when it begins to handle a failure."
+  (let* ((parameters (or (second clause) (list (gensym "FAILURE"))))
+         (number (and (null (rest parameters)) (plan-system:know-handler clause))))
+    (if number
+        `(lambda ,parameters
+           (plan-system:note-handled ,number ,(first parameters))
+           (locally ,@(cddr clause)))
+        `(lambda ,parameters ,@(cddr clause)))))
+
 (defun %with-handlers (clauses body)
   "The body inside handlers. Those of failures of plans get just these; others also what is
 in an envelope, so that they have names."
@@ -29,9 +39,8 @@ in an envelope, so that they have names."
         (functions '())
         (named '()))
     (dolist (clause clauses)
-      (let* ((type (first clause))
-             (parameters (or (second clause) (list (gensym "FAILURE"))))
-             (function `(lambda ,parameters ,@(cddr clause))))
+      (let ((type (first clause))
+            (function (%handling-function clause)))
         (if (subtypep type 'plan-failure)
             (push (list type function) handlers)
             (let ((name (gensym "HANDLER")))

@@ -8,7 +8,7 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
-use crate::plan::Reply;
+use crate::plan::{Handlers, Reply};
 use crate::session::dialogue::Swept;
 use crate::session::host::SimulationHost;
 use crate::session::host::call::{done, host};
@@ -45,15 +45,29 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
     control(
         "%INJECT",
-        "kind probability after duration of position yaw",
+        "kind probability after duration of at position yaw",
         "A fault may strike motions from now on.",
         &[],
         host!(inject),
     ),
     control(
+        "%INJECT-SCHEDULE",
+        "faults",
+        "Faults that have struck in a world strike again, in the same meetings with the same objects.",
+        &[],
+        host!(inject_schedule),
+    ),
+    control(
+        "%INJECTED-FAULTS",
+        "",
+        "The faults that have struck since the last ones were injected, as strings.",
+        &["(pw::%injected-faults) => NIL"],
+        host!(injected_faults),
+    ),
+    control(
         "%END-FAULTS",
         "",
-        "No fault strikes any more. Returns the faults that have struck, as strings.",
+        "No fault strikes any more.",
         &["(pw::%end-faults) => NIL"],
         host!(end_faults),
     ),
@@ -163,7 +177,8 @@ fn begin(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result
     done(Value::NIL)
 }
 
-fn run_begins(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
+fn run_begins(host: &mut SimulationHost, image: &mut Image, _: &[Value]) -> Result<Reply> {
+    Handlers::of(image).reset();
     host.simulation.begin_tally();
     done(Value::NIL)
 }
@@ -182,10 +197,56 @@ fn begin_faults(host: &mut SimulationHost, image: &mut Image, args: &[Value]) ->
 }
 
 fn end_faults(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
-    let mut injection = host.simulation.injection.borrow_mut();
-    injection.end();
-    let struck = injection.struck().into_iter().map(Value::string);
+    host.simulation.injection.borrow_mut().end();
+    done(Value::NIL)
+}
+
+fn injected_faults(host: &mut SimulationHost, _: &mut Image, _: &[Value]) -> Result<Reply> {
+    let struck = host.simulation.injection.borrow().struck();
+    let struck = struck.into_iter().map(Value::string);
     done(Value::list(struck.collect::<Vec<_>>()))
+}
+
+fn inject_schedule(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
+    let mut faults: Vec<Fault> = Vec::new();
+    for item in args[0].iter_list() {
+        let Some(fault) = item.as_text().and_then(|path| Fault::of_path(&path)) else {
+            return Err(Raise::simple(format!(
+                "{} is no fault of a schedule: a string such as \"inject.gripper-slip.BOTTLE.1\" was \
+                 expected, as (injected-faults) returns them; errors of perception-noise cannot be repeated so.",
+                print::to_string(image, &item, true)
+            )));
+        };
+        // One fault for each kind and object, or each would count meetings.
+        let same = |known: &&mut Fault| known.kind == fault.kind && known.of == fault.of;
+        match faults.iter_mut().find(same) {
+            Some(known) => known.at.extend(fault.at),
+            None => faults.push(fault),
+        }
+    }
+    let mut injection = host.simulation.injection.borrow_mut();
+    faults.into_iter().for_each(|fault| injection.add(fault));
+    done(Value::NIL)
+}
+
+/// A meeting, or a list of meetings, counted from 1.
+fn meetings(image: &Image, value: &Value) -> Result<Vec<u64>> {
+    let all = match value {
+        Value::Int(_) => vec![value.clone()],
+        _ => value.list_to_vec().unwrap_or_else(|| vec![value.clone()]),
+    };
+    let number = |value: &Value| match value {
+        Value::Int(number) => u64::try_from(*number).ok().filter(|number| *number > 0),
+        _ => None,
+    };
+    let numbers: Option<Vec<u64>> = all.iter().map(number).collect();
+    numbers.ok_or_else(|| {
+        Raise::simple(format!(
+            "{} does not say when a fault strikes: 1 for the first time that it could, or a list such as \
+             (1 3), was expected.",
+            print::to_string(image, value, true)
+        ))
+    })
 }
 
 fn inject(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
@@ -222,8 +283,9 @@ fn inject(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resul
         after: number_from(2, "time", 1e9)?,
         duration: number_from(3, "duration", 1e9)?,
         of,
-        position: number_from(5, "standard deviation of positions", 1.0)?.unwrap_or(0.0),
-        yaw: number_from(6, "standard deviation of angles", 4.0)?.unwrap_or(0.0),
+        at: meetings(image, &args[5])?,
+        position: number_from(6, "standard deviation of positions", 1.0)?.unwrap_or(0.0),
+        yaw: number_from(7, "standard deviation of angles", 4.0)?.unwrap_or(0.0),
     };
     host.simulation.injection.borrow_mut().add(fault);
     done(Value::NIL)
@@ -340,7 +402,7 @@ fn summary(host: &mut SimulationHost, _: &mut Image, args: &[Value]) -> Result<R
 
 fn record(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Result<Reply> {
     let state = Sweeping::of(image);
-    let mut record = state.record(Ending::Success);
+    let mut record = state.record(image, Ending::Success);
     let simulation = &host.simulation;
     for pair in args.chunks(2) {
         let [key, value] = pair else {

@@ -1,5 +1,6 @@
 //! Runs sweeps: one plan in many worlds, on all processors or on many machines.
 
+mod compare;
 mod engine;
 mod file;
 mod heat_map;
@@ -23,8 +24,9 @@ use crate::front::sweep_report;
 use crate::session::sweeping::Known;
 use crate::sweep::Record;
 use crate::sweep::influence::Influence;
-use crate::sweep::paired::{Comparison, error_at_look, is_narrow};
+use crate::sweep::paired::{error_at_look, is_narrow};
 use crate::sweep::summary::{CONFIDENCE, Summary, Title};
+use compare::compare;
 use file::SweepFile;
 use heat_map::HeatMap;
 use job::{Job, lines, write_whole};
@@ -92,21 +94,25 @@ fn in_memory(
     }
     interrupt::expect();
     let count = wanted.worlds.map_or(known.worlds, |count| count.get());
-    let records = run(&worlds, &title, count, threads, wanted.until_width);
     if let Some(path) = &wanted.compare {
         let other = SweepFile::read(path)?;
-        let names = [file_name, other.name.clone()];
+        let other_name = other.name.clone();
         let (others, known) = Worlds::open(options, other, wanted.name.as_deref())?;
-        let other_title = self::title(options, &known);
-        let other_records = run(&others, &other_title, count, threads, None);
-        let mut out = io::stdout();
-        for (title, records) in [(&title, &records), (&other_title, &other_records)] {
-            write!(out, "{}", Summary::new(title, records))?;
+        let plans = [
+            (&worlds, file_name, title),
+            (&others, other_name, self::title(options, &known)),
+        ];
+        let compared = compare(plans, count, threads, wanted.until_decided);
+        compared.tell()?;
+        let [first, second] = &compared.sides;
+        if let Some(folder) = &wanted.record_failures {
+            record_failures(&worlds, &first.records, folder, wanted.most)?;
         }
-        write!(out, "{}", Comparison::new(names, &records, &other_records))?;
-        write_reports(wanted, &title, &records)?;
-        return Ok(ending(&Summary::new(&other_title, &other_records), count));
+        write_reports(wanted, &first.title, &first.records)?;
+        let summary = Summary::new(&second.title, &second.records);
+        return Ok(ending(&summary, compared.wanted(count)));
     }
+    let records = run(&worlds, &title, count, threads, wanted.until_width);
     if let Some(folder) = &wanted.record_failures {
         record_failures(&worlds, &records, folder, wanted.most)?;
     }

@@ -43,6 +43,9 @@ pub(crate) struct SweepOptions {
     /// Run the sweep of another file in the same worlds: which plan is better?
     #[arg(long, value_name = "OTHER", requires = "file", conflicts_with_all = ["into", "until_width"])]
     pub(crate) compare: Option<PathBuf>,
+    /// With --compare: stop at 200, 400, 800 … worlds if it is decided which plan is better
+    #[arg(long, requires = "compare")]
+    pub(crate) until_decided: bool,
     /// Record worlds that fail into MCAP files in a folder
     #[arg(long, value_name = "FOLDER", requires = "file")]
     pub(crate) record_failures: Option<PathBuf>,

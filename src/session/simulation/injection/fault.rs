@@ -65,6 +65,9 @@ pub(in crate::session) struct Fault {
     pub(in crate::session) probability: f64,
     /// When (s) after the plan has begun it may strike first; at any time if absent.
     pub(in crate::session) after: Option<f64>,
+    /// The meetings with an object that it strikes, counted from 1, whatever the probability; drawn if
+    /// there are none.
+    pub(in crate::session) at: Vec<u64>,
     /// How long (s): from then on, or else from when it has struck.
     pub(in crate::session) duration: Option<f64>,
     /// The object, or the type of objects, that it concerns; any if absent.
@@ -76,6 +79,28 @@ pub(in crate::session) struct Fault {
 }
 
 impl Fault {
+    /// The fault that records name with that path: `inject.KIND.OBJECT.COUNT`, where it was about an
+    /// object, or `inject.KIND.COUNT`. `None` if it is none, or its errors are not in its path.
+    pub(in crate::session) fn of_path(path: &str) -> Option<Self> {
+        let (kind, rest) = path.strip_prefix("inject.")?.split_once('.')?;
+        let kind = FaultKind::ALL.into_iter().find(|k| k.name() == kind)?;
+        let (of, count) = match rest.rsplit_once('.') {
+            Some((object, count)) => (Some(object.to_owned()), count),
+            None => (None, rest),
+        };
+        let count: u64 = count.parse().ok()?;
+        (count > 0 && kind != FaultKind::PerceptionNoise).then(|| Self {
+            kind,
+            probability: 0.0,
+            after: None,
+            duration: None,
+            of,
+            at: vec![count],
+            position: 0.0,
+            yaw: 0.0,
+        })
+    }
+
     /// Whether it concerns the object with that name.
     pub(super) fn concerns(&self, world: &World, object: &str) -> bool {
         let wanted = self.of.as_deref();

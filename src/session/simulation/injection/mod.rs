@@ -97,6 +97,7 @@ impl Injection {
         let mut numbers = Draws::new(self.seed, self.world, &path);
         let is_drawn = numbers.unit() < fault.probability;
         let strikes = match fault.after {
+            _ if !fault.at.is_empty() => fault.at.contains(count),
             Some(after) => {
                 let end = fault
                     .duration
@@ -110,6 +111,7 @@ impl Injection {
         }
         if let (Some(duration), None) = (fault.duration, fault.after)
             && is_drawn
+            && fault.at.is_empty()
         {
             self.lasting.insert(key, now + duration);
         }
