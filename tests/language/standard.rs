@@ -234,6 +234,7 @@ fn calls_are_traced() {
          (trace f)
          (f 1)
          (ignore-errors (f :wrong))
+         (catch 'out (flet ((thrown () (throw 'out 1))) (defun g () (thrown)) (trace g) (g)))
          (untrace f)
          (f 1)",
         &mut |event| {
@@ -244,7 +245,7 @@ fn calls_are_traced() {
     );
     assert_eq!(
         output,
-        "  0: (F 1)\n    1: (F 0)\n    1: F returned 0\n  0: F returned 1\n  0: (F :WRONG)\n  0: F was left\n"
+        "  0: (F 1)\n    1: (F 0)\n    1: F returned 0\n  0: F returned 1\n  0: (F :WRONG)\n  0: F failed: The value :WRONG is not of type NUMBER\n  0: (G)\n  0: G was left\n"
     );
 }
 

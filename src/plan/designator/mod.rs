@@ -57,6 +57,7 @@ pub(crate) fn install(image: &mut Image) {
     failure::define(image);
     let executive = packages::ensure(image, "CRAM-EXECUTIVE", &["EXE"]);
     image.install(executive, perform::TABLE);
+    image.install(PackageTable::SYSTEM, perform::SYSTEM_TABLE);
     image.install(executive, reference::EXECUTIVE_TABLE);
     image.install(desig, reference::TABLE);
     image.install(PackageTable::SYSTEM, location_registry::SYSTEM_TABLE);

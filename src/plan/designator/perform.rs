@@ -1,5 +1,6 @@
 //! `perform`: an action calls its plan; a motion becomes a request to the host.
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::failure;
@@ -9,9 +10,10 @@ use super::ground::Refusal;
 use super::location;
 use super::reference::{groundings, solutions_of};
 use super::request::MotionRequest;
+use super::schema;
 use super::value;
 use super::value::{Class, Designator};
-use crate::lisp::builtin::{Builtin, control};
+use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::source::Place;
@@ -44,6 +46,27 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
+/// Functions of package `SYSTEM`, for `plan/library/tracing.lisp`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    control(
+        "%PERFORM",
+        "designator",
+        "PERFORM for what is not traced.",
+        &[],
+        |machine, args| {
+            let class = class_to_perform(machine.image, &args[0])?;
+            perform_untraced(machine, class, &args[0])
+        },
+    ),
+    pure(
+        "%TYPES-NAMED",
+        "name",
+        "The types of actions and motions with that name or alias, as strings.",
+        &[],
+        types_named,
+    ),
+];
+
 /// Whether a plan is running, that is, whether this fiber is a task.
 fn is_in_plan(image: &mut Image) -> bool {
     let task = packages::symbol(image, "CRAM-LANGUAGE-IMPLEMENTATION", "*CURRENT-TASK*");
@@ -51,12 +74,45 @@ fn is_in_plan(image: &mut Image) -> bool {
     !value.is_unbound() && value.is_true()
 }
 
-fn perform(machine: &mut Machine<'_>, argument: &Value) -> Result<Step> {
-    let image = &mut *machine.image;
-    let class = match value::as_designator(argument) {
-        Some(d) if matches!(d.class, Class::Action | Class::Motion) => d.class,
-        _ => return Err(not_performable(image, argument)),
+fn types_named(image: &mut Image, args: &[Value]) -> Result<Value> {
+    let Some(name) = args[0].as_symbol() else {
+        return Ok(Value::NIL);
     };
+    let name = image.name(name).to_uppercase();
+    let classes = [Class::Action, Class::Motion].into_iter();
+    let rows = classes.flat_map(|class| schema::rows(image, class, &name));
+    let names: BTreeSet<String> = rows.map(|row| row.name.to_string()).collect();
+    Ok(Value::list(names.into_iter().map(Value::string)))
+}
+
+/// The class of what is to be performed.
+fn class_to_perform(image: &mut Image, argument: &Value) -> Result<Class> {
+    match value::as_designator(argument) {
+        Some(d) if matches!(d.class, Class::Action | Class::Motion) => Ok(d.class),
+        _ => Err(not_performable(image, argument)),
+    }
+}
+
+/// Whether performances of any type are traced.
+fn is_traced(image: &mut Image) -> bool {
+    let types = packages::symbol(image, "SYSTEM", "%*TRACED-TYPES*");
+    matches!(image.special(types), Value::Cons(_))
+}
+
+fn perform(machine: &mut Machine<'_>, argument: &Value) -> Result<Step> {
+    let class = class_to_perform(machine.image, argument)?;
+    if is_traced(machine.image) {
+        let traced = packages::symbol(machine.image, "SYSTEM", "%PERFORM-TRACED");
+        return Ok(Step::TailCall {
+            function: traced.into(),
+            args: vec![argument.clone()],
+        });
+    }
+    perform_untraced(machine, class, argument)
+}
+
+fn perform_untraced(machine: &mut Machine<'_>, class: Class, argument: &Value) -> Result<Step> {
+    let image = &mut *machine.image;
     if !is_in_plan(image) {
         let expected = packages::symbol(image, "CRAM-LANGUAGE-IMPLEMENTATION", "TASK-TREE-NODE");
         let text = "There is no plan for PERFORM to be a part of: \

@@ -28,7 +28,10 @@ static UTILITY_FILES: &[File] = &[
 ];
 
 /// Files that need designators; installed after those.
-static DESIGNATOR_FILES: &[File] = &[library_file!("src/plan/library", "process-modules.lisp")];
+static DESIGNATOR_FILES: &[File] = &[
+    library_file!("src/plan/library", "process-modules.lisp"),
+    library_file!("src/plan/library", "tracing.lisp"),
+];
 
 /// The library of the plan language.
 pub(super) static LANGUAGE: LazyLock<Library> = LazyLock::new(|| Library::of(LANGUAGE_FILES));
