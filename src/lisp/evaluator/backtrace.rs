@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::Body;
+use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::Annotation;
 use crate::lisp::vm::fiber::{Fiber, Frame, FrameKind};
@@ -117,6 +117,36 @@ impl Fiber {
                 },
             },
         }
+    }
+
+    /// The function of a frame, and the arguments that would call it with the present values of its
+    /// parameters; none for frames of builtins.
+    pub(crate) fn call_of(&self, frame: usize) -> Option<(Rc<Function>, Vec<Value>)> {
+        let frame = self.frames.get(frame)?;
+        let FrameKind::Code { function, .. } = &frame.kind else {
+            return None;
+        };
+        let Body::Closure { code, .. } = &function.body else {
+            return None;
+        };
+        let parameters = &code.parameters;
+        let slots = self.stack.iter().skip(frame.base);
+        let mut values = slots.map(|value| seen(value, VariablePlace::Closure).0);
+        let positional = usize::from(parameters.required) + usize::from(parameters.optional);
+        let mut args: Vec<Value> = values.by_ref().take(positional).collect();
+        if parameters.rest {
+            // With keys, these are among the rest.
+            args.extend(values.next()?.iter_list());
+        } else {
+            for (key, value) in parameters.keys.iter().zip(values) {
+                if !value.is_unbound() {
+                    args.extend([(*key).into(), value]);
+                }
+            }
+        }
+        let supplied = args.iter().take_while(|arg| !arg.is_unbound()).count();
+        args.truncate(supplied);
+        Some((Rc::clone(function), args))
     }
 
     /// The variables in scope in a frame; of several with one name, the innermost.

@@ -9,11 +9,9 @@ use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Body;
-use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::vm::fiber::Dynamic;
-use crate::lisp::vm::step::Step;
 use crate::session::dialogue::Event;
 
 /// A way to continue.
@@ -220,46 +218,6 @@ impl Session {
             Choice::AbortLevel => self.leave_level(sink),
             Choice::Abort => self.give_up(sink),
         }
-    }
-
-    fn replace_frame(
-        &mut self,
-        frame: (usize, usize),
-        function: Value,
-        args: Vec<Value>,
-        sink: &mut dyn FnMut(Event),
-    ) -> Outcome {
-        self.console.levels.pop();
-        let evaluation = self.go_on_with(sink, |scheduler, image, host| {
-            scheduler.replace_frame(image, host, frame, (function, args))
-        });
-        self.settle(evaluation, sink)
-    }
-
-    /// Returns the value of a form from the selected frame.
-    pub(super) fn return_from_frame(
-        &mut self,
-        source_name: &str,
-        text: &str,
-        sink: &mut dyn FnMut(Event),
-    ) -> Outcome {
-        let (Some(form), Some(frame)) = (self.form_of(source_name, text), self.selected_frame())
-        else {
-            return self.tell("; One form was expected.", sink);
-        };
-        let outcome = self.evaluate_form_aside(&form, &mut |event| {
-            if !matches!(event, Event::Values(_)) {
-                sink(event);
-            }
-        });
-        if outcome != Outcome::Finished {
-            return outcome;
-        }
-        let value = self.image.special(known::TIMES).clone();
-        let identity = Function::made_control(known::VALUES, (1, Some(1)), |_, args| {
-            Ok(Step::Return(args.into_iter().next().unwrap_or_default()))
-        });
-        self.replace_frame(frame, Value::Function(identity), vec![value], sink)
     }
 }
 

@@ -33,6 +33,8 @@ pub(super) enum Command<'a> {
     Edit,
     /// Return the value of a form from the frame.
     Return(&'a str),
+    /// Call what the frame has called once more.
+    Restart,
     /// What can be typed.
     Help,
     /// Evaluate forms in the frame.
@@ -51,6 +53,7 @@ q          aborts: back to the top          a        aborts this level only
 :r         all restarts                     c        continues, where that is possible
 :retry     evaluates the form again         :edit    lets you change the last form
 :return F  returns the value of form F from the frame
+:restart   calls what the frame has called again, in its newest definition
 :eval F    evaluates forms, also those that look like commands
 Anything else is evaluated in the selected frame.
 ";
@@ -95,6 +98,7 @@ impl<'a> Command<'a> {
             (":retry", true) => Command::Retry,
             (":e" | ":edit", true) => Command::Edit,
             (":return", false) => Command::Return(rest),
+            (":restart", true) => Command::Restart,
             (":return", true) => Command::Wrong("; :return takes a form."),
             ("help" | ":h" | ":help" | "?", true) => Command::Help,
             _ => Command::Evaluate(text),
@@ -116,6 +120,7 @@ mod tests {
         assert_eq!(Command::of(":bt"), Command::Backtrace(None));
         assert_eq!(Command::of("?object"), Command::Evaluate("?object"));
         assert_eq!(Command::of(":return (f)"), Command::Return("(f)"));
+        assert_eq!(Command::of(":restart"), Command::Restart);
         assert_eq!(Command::of(":eval q"), Command::Evaluate("q"));
         assert_eq!(Command::of(":eval  2 "), Command::Evaluate(" 2 "));
         assert_eq!(Command::of(":keyword"), Command::Evaluate(":keyword"));

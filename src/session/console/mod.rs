@@ -9,6 +9,7 @@ mod beside;
 mod choices;
 mod commands;
 mod inspector;
+mod replaced_frames;
 mod robot_choices;
 mod served;
 mod settle;
@@ -210,6 +211,7 @@ impl Session {
             Command::Retry => self.retry_form(sink, false),
             Command::Edit => self.edit_form(sink),
             Command::Return(form) => self.return_from_frame(source_name, form, sink),
+            Command::Restart => self.restart_frame(sink),
             Command::Help => self.tell(commands::HELP, sink),
             Command::Wrong(message) => self.tell(message, sink),
         }
@@ -285,6 +287,10 @@ impl Session {
             ),
             (_, Command::Return(_)) => self.tell(
                 "; After an interrupt, no value can be returned from a frame.",
+                sink,
+            ),
+            (_, Command::Restart) => self.tell(
+                "; After an interrupt, no frame can be restarted; choose 0 to continue.",
                 sink,
             ),
             _ => return None,
