@@ -3,99 +3,11 @@
 ;;; PORT, FOLDER (with pp-tut.lisp and mistakes.lisp) come from the environment.  Every check
 ;;; compares the text of a buffer; the first that differs ends Emacs with status 1.
 
-;; Debian's package.
-(let ((folder (car (file-expand-wildcards "/usr/share/emacs/site-lisp/elpa-src/slime-*"))))
-  (dolist (part '("" "contrib"))
-    (add-to-list 'load-path (expand-file-name part folder))))
-(require 'slime)
-(slime-setup '(slime-fancy))
-
-(defvar pw-questions nil "Questions that Emacs has asked; there should be none.")
-(defun y-or-n-p (prompt &rest _) (push prompt pw-questions) t)
-(defun yes-or-no-p (prompt &rest _) (push prompt pw-questions) t)
-
-(defun pw-wait (what predicate &optional seconds)
-  "Wait until PREDICATE holds; fail if it takes longer than SECONDS."
-  (let ((end (+ (float-time) (or seconds 60))) result)
-    (while (and (not (setq result (funcall predicate))) (< (float-time) end))
-      (accept-process-output nil 0.02))
-    (or result (pw-fail what "it did not happen in time"))))
-
-(defun pw-fail (what why)
-  (message "FAIL %s: %s" what why)
-  (when (ignore-errors (slime-output-buffer))
-    (message "---- the prompt's buffer:\n%s" (pw-repl)))
-  (dolist (buffer (sldb-buffers))
-    (message "---- a debugger:\n%s" (with-current-buffer buffer (buffer-string))))
-  (kill-emacs 1))
-
-(defun pw-check (what is-so &optional why)
-  (if is-so (message "ok   %s" what) (pw-fail what (format "%s" why))))
-
-(defun pw-repl ()
-  (with-current-buffer (slime-output-buffer)
-    (buffer-substring-no-properties 1 (point-max))))
-
-(defun pw-type (text)
-  "Type TEXT at the prompt, and RET."
-  (switch-to-buffer (slime-output-buffer))
-  (goto-char (point-max))
-  (insert text)
-  (slime-repl-return))
-
-(defun pw-idle ()
-  (not (slime-rex-continuations)))
-
-(defun pw-eval (text expected)
-  "Type TEXT; what appears up to the next prompt has to be EXPECTED."
-  (let ((start (with-current-buffer (slime-output-buffer) (point-max))))
-    (pw-type text)
-    (pw-wait text #'pw-idle)
-    (let* ((shown (with-current-buffer (slime-output-buffer)
-                    (buffer-substring-no-properties start (point-max))))
-           (shown (substring shown (length text)))
-           (wanted (concat "\n" expected)))
-      (pw-check text (string-prefix-p wanted shown) (format "%S instead of %S" shown wanted)))))
-
-(defun pw-key (buffer keys)
-  "Press KEYS in BUFFER."
-  (switch-to-buffer buffer)
-  (let ((last-command-event ?x))
-    (call-interactively (key-binding (kbd keys)))))
-
-(defun pw-debugger (what)
-  (pw-wait what (lambda () (let ((buffer (car (sldb-buffers))))
-                             (and buffer
-                                  (with-current-buffer buffer sldb-level)
-                                  buffer)))))
-
-(defun pw-sldb-text ()
-  (with-current-buffer (car (sldb-buffers))
-    (buffer-substring-no-properties 1 (point-max))))
-
-(defun pw-notes ()
-  "Line, column and text of the notes in the current buffer."
-  (let (found)
-    (dolist (overlay (overlays-in (point-min) (point-max)))
-      (when (overlay-get overlay 'slime-note)
-        (save-excursion
-          (goto-char (overlay-start overlay))
-          (push (list (line-number-at-pos) (current-column)
-                      (plist-get (overlay-get overlay 'slime-note) :message))
-                found))))
-    (sort found (lambda (a b) (< (car a) (car b))))))
-
-;; In batch mode nothing keeps what the echo area would show.
-(defvar pw-said nil "What was shown last in the echo area.")
-(advice-add 'message :before
-            (lambda (format &rest arguments)
-              (when format (setq pw-said (apply #'format format arguments)))))
+(load (expand-file-name "driver.el" (file-name-directory load-file-name)))
 
 ;;; Connecting
 
-(slime-connect "127.0.0.1" (string-to-number (getenv "PORT")))
-(pw-wait "connecting" (lambda () (ignore-errors (slime-output-buffer))))
-(pw-wait "the prompt" (lambda () (and (pw-idle) (string-match-p "CL-USER> \\'" (pw-repl)))))
+(pw-connect)
 (pw-check "no question was asked" (null pw-questions) pw-questions)
 
 ;;; The prompt
@@ -142,6 +54,13 @@
             (slime-repl-current-input))
   (slime-fuzzy-done)
   (slime-repl-delete-current-input))
+(with-current-buffer (slime-output-buffer)
+  (goto-char (point-max))
+  (insert "(perform (an action (type going) (")
+  (let ((told (slime-eval (list 'swank:autodoc (list 'quote (slime-parse-form-upto-point 10))))))
+    (pw-check "the keys of an action"
+              (equal (car told) "(an action (type going) (target …))") told))
+  (slime-repl-delete-current-input))
 (slime-describe-symbol "add")
 (pw-wait "C-c C-d d" (lambda ()
                        (let ((buffer (get-buffer (slime-buffer-name :description))))
@@ -182,6 +101,44 @@
 (slime-edit-definition "park-arms")
 (pw-check "M-. shows what is built in" t)
 
+;; Cross references
+(pw-eval "(defvar *sum* 0)" "*SUM*\nPP-TUT> ")
+(pw-eval "(defun count-up () (setf *sum* (add *sum* 1)))" "COUNT-UP\nPP-TUT> ")
+(defun pw-users (kind name)
+  (mapcar #'car (slime-eval (list 'swank:xref (list 'quote kind) name) "PP-TUT")))
+(pw-check "who calls a function"
+          (equal (pw-users :calls "add") '("COUNT-UP" "DOUBLE-ADD")) (pw-users :calls "add"))
+(pw-check "whom a function calls" (equal (pw-users :callees "double-add") '("ADD")))
+(pw-check "who reads and who sets a variable"
+          (and (equal (pw-users :references "*sum*") '("COUNT-UP"))
+               (equal (pw-users :sets "*sum*") '("COUNT-UP"))
+               (null (pw-users :binds "*sum*"))))
+(pw-check "who expands a macro"
+          (member "(DEF-ACTION GOING)" (pw-users :macroexpands "cpl:with-failure-handling"))
+          (pw-users :macroexpands "cpl:with-failure-handling"))
+(switch-to-buffer "pp-tut.lisp")
+(slime-who-calls "add")
+(pw-wait "C-c C-w c" (lambda () (with-current-buffer (slime-buffer-name :xref)
+                                  (string-match-p "DOUBLE-ADD" (buffer-string)))))
+(with-current-buffer (slime-buffer-name :xref)
+  (goto-char (point-min))
+  (search-forward "DOUBLE-ADD")
+  (slime-pop-to-location (slime-xref-location-at-point)))
+(pw-check "C-c C-w c shows the call" (looking-at-p "(add left right)")
+          (buffer-substring (point) (line-end-position)))
+
+;; Traces. Emacs offers the name at the cursor, which RET takes.
+(advice-add 'slime-read-from-minibuffer :override (lambda (_prompt offered &rest _) offered))
+(goto-char (point-min))
+(search-forward "(defun add")
+(pw-key "pp-tut.lisp" "C-c C-t")
+(pw-check "C-c C-t traces" (equal pw-said "ADD is now traced.") pw-said)
+(pw-eval "(double-add 3 4)" "  0: (ADD 3 4)\n  0: ADD returned 8\n16\nPP-TUT> ")
+(pw-key "pp-tut.lisp" "C-c C-t")
+(pw-check "C-c C-t again ends that"
+          (equal pw-said "ADD is no longer traced.") pw-said)
+(pw-eval "(double-add 3 4)" "16\nPP-TUT> ")
+
 ;; Mistakes
 (find-file (expand-file-name "mistakes.lisp" (getenv "FOLDER")))
 (slime-compile-and-load-file)
@@ -198,7 +155,12 @@
   (goto-char (point-min))
   (pw-check "macroexpansion"
             (equal (slime-eval '(swank:swank-macroexpand-1 "(when a b c)"))
-                   "(if a\n    (progn b c))")))
+                   "(if a\n    (progn b c))"))
+  (slime-macroexpand-all)
+  (pw-wait "C-c M-m" (lambda () (get-buffer (slime-buffer-name :macroexpansion))))
+  (pw-check "C-c M-m expands all"
+            (with-current-buffer (slime-buffer-name :macroexpansion)
+              (string-match-p "(if a\n    (progn b c))" (buffer-string)))))
 
 ;;; The debugger
 
@@ -248,6 +210,18 @@
 (pw-key (car (sldb-buffers)) "q")
 (pw-wait "the top" (lambda () (and (null (sldb-buffers)) (pw-idle))))
 (pw-check "levels are left one by one" t)
+
+;; A frame that is called again, in a new definition
+(pw-type "(list :got (fails 1))")
+(pw-debugger "a failure")
+(pw-type "(defun fails (number) (list :mended number))")
+(pw-wait "a definition there" (lambda () (string-match-p "mended number))\nFAILS\n" (pw-repl))))
+(with-current-buffer (car (sldb-buffers))
+  (goto-char (point-min))
+  (re-search-forward "^ *[0-9]+: (FAILS 1)"))
+(pw-key (car (sldb-buffers)) "r")
+(pw-wait "r" (lambda () (and (null (sldb-buffers)) (pw-idle))))
+(pw-check "r restarts a frame" (string-match-p "(:GOT (:MENDED 1))\n.*PP-TUT> \\'" (pw-repl)) (pw-repl))
 
 ;; Interrupts
 (pw-type "(loop)")

@@ -22,7 +22,7 @@ fn a_client_connects_and_evaluates() {
     assert_eq!(client.shown("(values)"), "; No value\n");
     assert_eq!(
         client.shown("(progn (princ \"äöü→ π 𝒳\") 1)"),
-        "äöü→ π 𝒳1\n"
+        "äöü→ π 𝒳\n1\n"
     );
     assert_eq!(client.shown("* **"), "1\n1\n");
     let id = client.type_in("(in-package :pp-tut)");

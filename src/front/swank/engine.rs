@@ -338,12 +338,23 @@ impl<'s> Engine<'s> {
         questions.set_client(Some(Arc::clone(&request.client)));
         let mut object: ObjectNumber = self.session.next_object();
         let mut aborted = None;
+        let mut is_in_line = false;
         let outcome = self.give(source, text, &mut |event| match event {
             Event::Output(text) if answer.takes_output() => yielded.printed.push_str(&text),
-            Event::Output(text) => outbox.write(questions.unseen(&text), &interrupt),
+            Event::Output(text) => {
+                let unseen = questions.unseen(&text);
+                // After a question, the client has ended the line.
+                if let Some(last) = unseen.chars().last() {
+                    is_in_line = last != '\n';
+                }
+                outbox.write(unseen, &interrupt);
+            }
             Event::Values(values) => {
                 yielded.object = (!values.is_empty()).then_some(object);
                 if let Answer::Prompt { presents } = answer {
+                    if std::mem::take(&mut is_in_line) {
+                        outbox.write("\n", &interrupt);
+                    }
                     super::repl::show_values(outbox, &values, presents.then_some(object));
                 }
                 object += values.len() as ObjectNumber;
