@@ -5,7 +5,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Session;
-use super::dialogue::{Beginning, Inspection, Names, Need, ObjectNumber, Serve, StackFrame, Stop};
+use super::dialogue::{
+    Beginning, Inspection, Names, Need, ObjectNumber, Relation, Serve, StackFrame, Stop,
+    Unrecorded, Use,
+};
 use super::host::parts::View;
 use super::on_one_line;
 use crate::lisp::image::identity::aside;
@@ -161,5 +164,9 @@ impl Serve for Session {
 
     fn names(&mut self) -> Arc<Names> {
         self.all_names()
+    }
+
+    fn uses(&mut self, way: Relation, package: &str, name: &str) -> Result<Vec<Use>, Unrecorded> {
+        self.all_uses(way, package, name)
     }
 }

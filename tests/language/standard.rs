@@ -300,3 +300,55 @@ fn subtypes_are_told_where_the_standard_tells_them() {
         .collect();
     check(&pairs);
 }
+
+#[test]
+fn forms_are_expanded_all_the_way() {
+    let cases = [
+        ("(when a (unless b c))", "(IF A (IF B NIL C))"),
+        ("'(when a b)", "'(WHEN A B)"),
+        (
+            "(let ((x (when a b))) (declare (special x)) x)",
+            "(LET ((X (IF A B))) (DECLARE (SPECIAL X)) X)",
+        ),
+        (
+            "#'(lambda (a &optional (b (when a 1))) (when a b))",
+            "#'(LAMBDA (A &OPTIONAL (B (IF A 1))) (IF A B))",
+        ),
+        (
+            "(funcall #'(setf car) 1 (when a b))",
+            "(FUNCALL #'(SETF CAR) 1 (IF A B))",
+        ),
+        (
+            "(macrolet ((f (x) `(when ,x 1))) (f (f 2)))",
+            "(LOCALLY (IF (IF 2 1) 1))",
+        ),
+        (
+            "(flet ((g (x) (when x 1))) (g (when 2 3)))",
+            "(FLET ((G (X) (IF X 1))) (G (IF 2 3)))",
+        ),
+        (
+            "(macrolet ((g (x) `(when ,x 1))) (labels ((g (x) (g x))) (g 2)))",
+            "(LOCALLY (LABELS ((G (X) (G X))) (G 2)))",
+        ),
+        (
+            "(symbol-macrolet ((x (when a b))) (list x (let ((x x)) x)))",
+            "(LOCALLY (LIST (IF A B) (LET ((X (IF A B))) X)))",
+        ),
+        (
+            "(block when (tagbody when (when a (go when))))",
+            "(BLOCK WHEN (TAGBODY WHEN (IF A (GO WHEN))))",
+        ),
+        (
+            "((lambda (x) (when x x)) (when a b))",
+            "((LAMBDA (X) (IF X X)) (IF A B))",
+        ),
+        ("5", "5"),
+    ];
+    let forms = cases.map(|(form, _)| format!("(system::%macroexpand-all '{form})"));
+    let checked: Vec<(&str, &str)> = forms
+        .iter()
+        .zip(cases)
+        .map(|(form, (_, shown))| (form.as_str(), shown))
+        .collect();
+    check(&checked);
+}

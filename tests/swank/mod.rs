@@ -2,6 +2,7 @@
 
 mod client;
 mod conversation;
+mod cross_references;
 mod debugging;
 mod hostile_clients;
 mod interrupts;

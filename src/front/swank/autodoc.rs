@@ -16,13 +16,16 @@ pub(super) struct OpenCall<'s> {
     argument: Option<usize>,
     /// The argument before it, if that is an atom.
     last: Option<&'s str>,
+    /// The form, operator and all.
+    items: &'s [Sexp],
 }
 
 /// The calls around the cursor in a form, innermost first.
-pub(super) fn open_calls(form: &Sexp) -> impl Iterator<Item = OpenCall<'_>> {
+pub(super) fn open_calls(form: &Sexp) -> Vec<OpenCall<'_>> {
     let mut path = Vec::new();
     find(form, &mut path);
-    path.into_iter().rev()
+    path.reverse();
+    path
 }
 
 /// Finds the lists around the cursor; returns whether it is in the form.
@@ -45,6 +48,7 @@ fn find<'s>(form: &'s Sexp, path: &mut Vec<OpenCall<'s>>) -> bool {
                 .checked_sub(1)
                 .filter(|before| *before > 0)
                 .and_then(|before| items.get(before)?.as_str()),
+            items,
         });
     }
     path.append(&mut inner);
@@ -71,10 +75,54 @@ fn marked(symbol: &KnownSymbol, call: &OpenCall<'_>) -> Option<String> {
 }
 
 /// What is told about the call around the cursor, if it is known.
-pub(super) fn shape(names: &Names, request: &Request) -> Option<String> {
+fn shape(names: &Names, request: &Request) -> Option<String> {
     let package = package_of(names, request.package.as_deref());
-    let mut calls = open_calls(request.argument(0)?);
-    calls.find_map(|call| marked(names.typed(package, call.operator)?, &call))
+    let calls = open_calls(request.argument(0)?);
+    designator(names, &calls).or_else(|| {
+        let mut calls = calls.iter();
+        calls.find_map(|call| marked(names.typed(package, call.operator)?, call))
+    })
+}
+
+/// The designator that is being typed, with all its keys, the one at the cursor marked. The cursor is
+/// between its keys or in one of them.
+fn designator(names: &Names, calls: &[OpenCall<'_>]) -> Option<String> {
+    let is_article = |call: &OpenCall<'_>| {
+        ["a", "an", "all"].contains(&bare(call.operator).to_lowercase().as_str())
+    };
+    let at = calls.iter().take(2).position(is_article)?;
+    let call = calls.get(at)?;
+    let class = bare(call.items.get(1)?.as_str()?);
+    let word = |list: &'_ Sexp, index: usize| -> Option<String> {
+        Some(bare(list.items().get(index)?.as_str()?).to_lowercase())
+    };
+    let mut keys = call.items.iter().skip(2);
+    let of_type = keys.find(|key| word(key, 0).as_deref() == Some("type"));
+    let of_type = of_type.and_then(|key| word(key, 1)).unwrap_or_default();
+    let known = names.description(class, &of_type)?;
+    let current = at.checked_sub(1).and_then(|inside| calls.get(inside));
+    let current = current.map(|key| bare(key.operator).to_lowercase());
+    let mut shape = format!("({} {class}", call.operator);
+    if !of_type.is_empty() {
+        shape.push_str(&format!(" (type {of_type})"));
+    }
+    for (key, is_needed) in &known.keys {
+        let text = match is_needed {
+            true => format!("({key} …)"),
+            false => format!("[({key} …)]"),
+        };
+        shape.push_str(&match current.as_ref() == Some(key) {
+            true => format!(" ===> {text} <==="),
+            false => format!(" {text}"),
+        });
+    }
+    shape.push(')');
+    Some(shape)
+}
+
+/// A name without its package.
+fn bare(name: &str) -> &str {
+    name.rsplit(':').next().unwrap_or(name)
 }
 
 /// `autodoc`.
@@ -95,7 +143,7 @@ pub(super) fn operator_arglist(names: &Names, request: &Request) -> Option<Sexp>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::dialogue::KnownFunction;
+    use crate::session::dialogue::{KnownDescription, KnownFunction};
 
     fn told(form: &str) -> Option<String> {
         let symbol = KnownSymbol {
@@ -106,8 +154,42 @@ mod tests {
             ..KnownSymbol::default()
         };
         let form = Sexp::read(form).unwrap();
-        let call = open_calls(&form).next()?;
-        marked(&symbol, &call)
+        marked(&symbol, open_calls(&form).first()?)
+    }
+
+    #[test]
+    fn the_keys_of_a_designator_are_told() {
+        let names = Names {
+            descriptions: vec![KnownDescription {
+                class: "ACTION",
+                types: vec!["going".to_owned(), "navigating".to_owned()],
+                keys: vec![("target".to_owned(), true), ("speed".to_owned(), false)],
+            }],
+            ..Names::default()
+        };
+        let told = |form: &str| {
+            let form = form.replace('|', "swank::%cursor-marker%");
+            designator(&names, &open_calls(&Sexp::read(&form).unwrap()))
+        };
+        let shape = |text: &str| Some(text.to_owned());
+        assert_eq!(
+            told("(\"perform\" (\"an\" \"action\" (\"type\" \"Navigating\") (\"\" |)))"),
+            shape("(an action (type navigating) (target …) [(speed …)])")
+        );
+        assert_eq!(
+            told("(\"desig:an\" \"action\" (\"type\" \"going\") (\"speed\" \"\" |))"),
+            shape("(desig:an action (type going) (target …) ===> [(speed …)] <===)")
+        );
+        let inside_of_a_value =
+            "(\"an\" \"action\" (\"type\" \"going\") (\"target\" (\"f\" \"\" |)))";
+        for other in [
+            inside_of_a_value,
+            "(\"an\" \"action\" |)",
+            "(\"an\" |)",
+            "(\"a\" (\"x\" |))",
+        ] {
+            assert_eq!(told(other), None, "{other}");
+        }
     }
 
     #[test]

@@ -190,8 +190,8 @@ pub(super) fn keyword_completions(
     let typed = request.text(0)?;
     let package = package_of(names, request.package.as_deref());
     let form = request.argument(1)?;
-    let mut calls = super::autodoc::open_calls(form);
-    let found: Vec<Candidate<'_>> = calls.find_map(|call| {
+    let calls = super::autodoc::open_calls(form);
+    let found: Vec<Candidate<'_>> = calls.iter().find_map(|call| {
         let function = names.typed(package, call.operator)?.function.as_ref()?;
         let keys = parameters(&function.lambda_list);
         let keys = keys.into_iter().skip_while(|word| *word != "&key").skip(1);

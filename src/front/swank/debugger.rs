@@ -257,8 +257,8 @@ impl Engine<'_> {
         }
     }
 
-    /// `restart-frame` and `sldb-return-from-frame`.
-    pub(super) fn return_from_frame(&mut self, request: &Request, form: Option<&str>) {
+    /// `restart-frame` and `sldb-return-from-frame`: an input that leaves a frame.
+    pub(super) fn leave_frame(&mut self, request: &Request, input: &str) {
         let number = request.argument(0).and_then(Sexp::as_index);
         let Some(number) = number.filter(|number| *number < self.session.stack().len()) else {
             return request.abort("there is no such frame");
@@ -266,12 +266,9 @@ impl Engine<'_> {
         if !self.may_decide(request) {
             return;
         }
-        let Some(form) = form else {
-            return request.abort("planwright restarts no frames; choose a restart");
-        };
         self.select_frame(number);
         self.begin_decision(request);
-        self.decide(&format!(":return {form}"));
+        self.decide(input);
     }
 
     /// Makes later evaluations on this level happen in a frame.

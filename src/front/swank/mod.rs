@@ -13,6 +13,7 @@ mod autodoc;
 mod compilation;
 mod completion;
 mod connection;
+mod cross_references;
 mod debugger;
 mod definitions;
 mod documentation;

@@ -27,6 +27,14 @@ impl Engine<'_> {
             "swank-macroexpand" | "swank-expand" | "swank-compiler-macroexpand" => {
                 self.expand(request, "cl:macroexpand");
             }
+            "swank-macroexpand-all" => self.expand(request, "system::%macroexpand-all"),
+            "swank-toggle-trace" | "dialog-toggle-trace" => self.toggle_trace(request),
+            "untrace-all" | "dialog-untrace-all" => {
+                let source = self.next_input();
+                self.evaluate(request, &source, "(cl:untrace)", Answer::Nothing);
+            }
+            "xref" => self.xref(request),
+            "xrefs" => self.xrefs(request),
             "set-default-directory" => self.set_directory(request),
             "default-directory" => self.tell_directory(request),
             "clear-repl-results" | "clear-repl-variables" | "menu-choices-for-presentation-id" => {
@@ -37,8 +45,11 @@ impl Engine<'_> {
             "throw-to-toplevel" => self.leave_all(request),
             "sldb-abort" => self.abort_level(request),
             "sldb-continue" => self.go_on(request),
-            "restart-frame" => self.return_from_frame(request, None),
-            "sldb-return-from-frame" => self.return_from_frame(request, request.text(1)),
+            "restart-frame" => self.leave_frame(request, ":restart"),
+            "sldb-return-from-frame" => match request.text(1) {
+                Some(form) => self.leave_frame(request, &format!(":return {form}")),
+                None => request.abort("a form is needed"),
+            },
             "backtrace" => self.backtrace(request),
             "frame-locals-and-catch-tags" => self.variables(request),
             "frame-source-location" => self.place_of_frame(request),
@@ -86,6 +97,17 @@ impl Engine<'_> {
             "(cl:progn (cl:let ((cl:*print-pretty* t) (cl:*print-case* :downcase))\n\
              (cl:prin1 ({function} '{text}\n)))\n(cl:values))"
         );
+        let source = self.next_input();
+        self.evaluate(request, &source, &form, Answer::Printed);
+    }
+
+    /// `swank-toggle-trace`, and that of the trace dialog, where the name is in a form.
+    fn toggle_trace(&mut self, request: &Request) {
+        let in_form = || request.argument(0)?.items().get(1)?.as_str();
+        let Some(name) = request.text(0).or_else(in_form) else {
+            return request.abort("a name is needed");
+        };
+        let form = format!("(cl:princ (system::%toggle-trace '{name}\n))");
         let source = self.next_input();
         self.evaluate(request, &source, &form, Answer::Printed);
     }

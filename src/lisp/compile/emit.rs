@@ -114,6 +114,11 @@ fn inline_operation(name: Sym, count: usize) -> Option<Op> {
     })
 }
 
+/// Whether calls of the function may be operations instead, so that code does not name it.
+pub(crate) fn is_inlined(name: Sym) -> bool {
+    (1..=2).any(|count| inline_operation(name, count).is_some())
+}
+
 /// A literal integer that fits an operation, positive or negated.
 fn small_int(node: &Node) -> Option<i32> {
     match node {

@@ -29,6 +29,7 @@ use super::value::function::Function;
 use super::value::raise::Raise;
 
 pub(crate) use analyze::keep_place;
+pub(crate) use emit::is_inlined;
 pub(crate) use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};
 pub(crate) use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
 

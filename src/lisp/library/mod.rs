@@ -101,6 +101,7 @@ static FILES: &[File] = &[
     library_file!("src/lisp/library", "files.lisp"),
     library_file!("src/lisp/library", "time.lisp"),
     library_file!("src/lisp/library", "tracing.lisp"),
+    library_file!("src/lisp/library", "macroexpand-all.lisp"),
 ];
 
 /// The library of the language without robots.

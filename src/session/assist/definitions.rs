@@ -1,6 +1,7 @@
 //! Where a text defines something.
 
-use crate::lisp::reader::{Lexer, TokenKind};
+use crate::lisp::reader::{Lexer, Token, TokenKind};
+use crate::lisp::source::Location;
 use crate::session::dialogue::Definition;
 
 /// The definitions at top level of a text, with the names that they define in upper case.
@@ -66,6 +67,44 @@ fn defined(atoms: &[&str]) -> Option<(String, String)> {
         label = format!("({operator} (SETF {name}))");
     }
     Some((name, label))
+}
+
+/// The places in a definition of the lists that begin with these names, in upper case.
+pub(super) fn occurrences(definition: &Definition, beginning: &[&str]) -> Vec<Location> {
+    let text = definition.text.as_str();
+    let tokens: Vec<_> = Lexer::new(text).collect();
+    let mut lines = Lines::of(text);
+    let begins = |after: &[Token]| {
+        let mut names = after.iter();
+        beginning.iter().all(|wanted| {
+            let name = names.find(|token| {
+                !matches!(token.kind, TokenKind::LineComment | TokenKind::BlockComment)
+            });
+            name.is_some_and(|token| {
+                let name = text.get(token.start..token.end).unwrap_or_default();
+                token.kind == TokenKind::Atom && bare(name) == *wanted
+            })
+        })
+    };
+    let lists = tokens.iter().enumerate().filter(|(at, token)| {
+        token.kind == TokenKind::Open && begins(tokens.get(at + 1..).unwrap_or_default())
+    });
+    let places = lists.map(|(_, token)| {
+        let (line, column) = lines.at(token.start);
+        let is_first = line == 1;
+        Location {
+            name: definition.source.as_str().into(),
+            line: definition.line + line - 1,
+            column: if is_first {
+                definition.column + column - 1
+            } else {
+                column
+            },
+            line_text: text.lines().nth(line - 1).unwrap_or_default().to_owned(),
+            width: 1,
+        }
+    });
+    places.collect()
 }
 
 /// A name without its package, in upper case.

@@ -2,12 +2,10 @@
 
 use super::context::{Context, Open, bare};
 use super::{first_sentence, lower};
-use std::rc::Rc;
-
 use crate::lisp::image::Image;
 use crate::location::{Direction, Orientation, containers, surfaces};
 use crate::plan::designator::schema;
-use crate::plan::designator::schema::{Key, Kind, TypeRow};
+use crate::plan::designator::schema::{Key, Kind};
 use crate::plan::designator::value::Class;
 use crate::session::Session;
 use crate::session::dialogue::Candidate;
@@ -65,27 +63,10 @@ impl Described<'_, '_> {
             .and_then(|(_, value)| *value)
     }
 
-    /// The rows of its type.
-    fn rows(&self, image: &Image) -> Vec<Rc<TypeRow>> {
-        let name = self.value_of("type").map(|name| bare(name).to_uppercase());
-        name.map_or_else(Vec::new, |name| schema::rows(image, self.class, &name))
-    }
-
     /// The keys that it takes.
     pub(super) fn keys(&self, image: &Image) -> Vec<Key> {
-        match self.class {
-            Class::Object => schema::OBJECT_KEYS.to_vec(),
-            Class::Location => schema::LOCATION_KEYS.to_vec(),
-            _ => {
-                let mut keys: Vec<Key> = Vec::new();
-                for row in self.rows(image) {
-                    let is_new = |key: &&Key| keys.iter().all(|known| known.name != key.name);
-                    let new: Vec<Key> = row.keys.iter().filter(is_new).cloned().collect();
-                    keys.extend(new);
-                }
-                keys
-            }
-        }
+        let name = self.value_of("type").map(|name| bare(name).to_uppercase());
+        keys_of(image, self.class, name.as_deref())
     }
 
     /// The key of that name.
@@ -94,6 +75,24 @@ impl Described<'_, '_> {
         let mut keys = self.keys(image);
         keys.sort_by_key(|key| key.name != name);
         keys.into_iter().find(|key| key.is_named(&name))
+    }
+}
+
+/// The keys that designators of a class and a type take, the latter in upper case.
+pub(super) fn keys_of(image: &Image, class: Class, type_name: Option<&str>) -> Vec<Key> {
+    match class {
+        Class::Object => schema::OBJECT_KEYS.to_vec(),
+        Class::Location => schema::LOCATION_KEYS.to_vec(),
+        _ => {
+            let rows = type_name.map(|name| schema::rows(image, class, name));
+            let mut keys: Vec<Key> = Vec::new();
+            for key in rows.iter().flatten().flat_map(|row| &row.keys) {
+                if keys.iter().all(|known| known.name != key.name) {
+                    keys.push(key.clone());
+                }
+            }
+            keys
+        }
     }
 }
 

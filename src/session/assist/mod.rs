@@ -11,6 +11,7 @@ mod hint;
 mod locals;
 mod names;
 mod symbols;
+mod uses;
 
 pub(super) use names::Definitions;
 

@@ -8,12 +8,14 @@ use crate::lisp::builtins::help;
 use crate::lisp::image::Image;
 use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+use crate::plan::designator::schema;
+use crate::plan::designator::value::Class;
 use crate::session::Session;
 use crate::session::dialogue::{
-    Definition, KnownFunction, KnownPackage, KnownSymbol, LibraryText, Names,
+    Definition, KnownDescription, KnownFunction, KnownPackage, KnownSymbol, LibraryText, Names,
 };
 
-use super::definitions;
+use super::{definitions, designators};
 
 /// The definitions in the texts that have been read so far.
 #[derive(Default)]
@@ -25,7 +27,7 @@ pub(in crate::session) struct Definitions {
 
 impl Definitions {
     /// Searches the texts that are new.
-    fn update(&mut self, image: &Image) -> Arc<BTreeMap<String, Vec<Arc<Definition>>>> {
+    pub(super) fn update(&mut self, image: &Image) -> Arc<BTreeMap<String, Vec<Arc<Definition>>>> {
         let new: Vec<_> = image.sources.programs_from(self.searched).collect();
         self.searched = image.sources.count();
         for (name, text) in new {
@@ -53,6 +55,7 @@ impl Session {
         let image = &self.image;
         let mut names = Names {
             definitions,
+            descriptions: descriptions(image),
             ..Names::default()
         };
         let ids = image.packages.ids();
@@ -91,6 +94,39 @@ impl Session {
         }
         Arc::new(names)
     }
+}
+
+/// The keys of all designators.
+fn descriptions(image: &Image) -> Vec<KnownDescription> {
+    let keys = |class, name: Option<&str>| {
+        let keys = designators::keys_of(image, class, name).into_iter();
+        keys.map(|key| (key.name.to_lowercase(), key.is_required))
+            .collect()
+    };
+    let mut found: Vec<KnownDescription> = Vec::new();
+    for class in [Class::Action, Class::Motion] {
+        for row in schema::all(image, class) {
+            let types: Vec<String> = row.names().map(str::to_lowercase).collect();
+            if !found
+                .iter()
+                .any(|known| known.class == class.name() && known.types == types)
+            {
+                found.push(KnownDescription {
+                    class: class.name(),
+                    types,
+                    keys: keys(class, Some(&row.name)),
+                });
+            }
+        }
+    }
+    found.extend(
+        [Class::Object, Class::Location].map(|class| KnownDescription {
+            class: class.name(),
+            types: Vec::new(),
+            keys: keys(class, None),
+        }),
+    );
+    found
 }
 
 fn known_symbol(image: &Image, sym: Sym, home: Option<usize>) -> KnownSymbol {

@@ -17,6 +17,7 @@ pub(crate) mod repeat;
 pub(crate) mod screen;
 mod serve;
 mod taping;
+mod uses;
 
 pub(crate) use converse::{Candidate, Completions, Converse};
 pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
@@ -24,8 +25,11 @@ pub(crate) use evaluate_on::{evaluate_keeping_abort, evaluate_on};
 pub(crate) use illustrate::{Illustrate, Swept};
 pub(crate) use input::{ends_in_quotes, is_whole};
 pub(crate) use lambda_list::{current_parameter, parameters};
-pub(crate) use names::{Definition, KnownFunction, KnownPackage, KnownSymbol, LibraryText, Names};
+pub(crate) use names::{
+    Definition, KnownDescription, KnownFunction, KnownPackage, KnownSymbol, LibraryText, Names,
+};
 pub(crate) use repeat::Repeat;
 pub(crate) use screen::Screen;
 pub(crate) use serve::{Beginning, Inspection, Need, ObjectNumber, Serve, StackFrame};
 pub(crate) use taping::Taping;
+pub(crate) use uses::{Relation, Unrecorded, Use};

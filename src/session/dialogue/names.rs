@@ -16,6 +16,19 @@ pub(crate) struct Names {
     pub(crate) symbols: Vec<KnownSymbol>,
     /// The places of definitions by name in upper case, the newest first.
     pub(crate) definitions: Arc<BTreeMap<String, Vec<Arc<Definition>>>>,
+    /// What designators are made of.
+    pub(crate) descriptions: Vec<KnownDescription>,
+}
+
+/// The keys of designators of a class, and of a type if that decides.
+#[derive(Default, Debug)]
+pub(crate) struct KnownDescription {
+    /// `ACTION`, `MOTION`, `OBJECT` or `LOCATION`.
+    pub(crate) class: &'static str,
+    /// The type in lower case, with its aliases; empty where the type does not matter.
+    pub(crate) types: Vec<String>,
+    /// The keys in lower case, and whether each is needed.
+    pub(crate) keys: Vec<(String, bool)>,
 }
 
 /// A package.
@@ -111,6 +124,15 @@ impl Names {
         exact
             .or_else(|| self.package_names.get(&name.to_uppercase()))
             .copied()
+    }
+
+    /// The keys of designators of a class and a type, as typed.
+    pub(crate) fn description(&self, class: &str, of_type: &str) -> Option<&KnownDescription> {
+        let (class, of_type) = (class.to_uppercase(), of_type.to_lowercase());
+        let mut all = self.descriptions.iter();
+        all.find(|known| {
+            known.class == class && (known.types.is_empty() || known.types.contains(&of_type))
+        })
     }
 
     /// The symbol accessible under a name in a package.

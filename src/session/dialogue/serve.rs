@@ -11,6 +11,7 @@ use std::sync::Arc;
 use super::converse::Converse;
 use super::evaluate::Stop;
 use super::names::Names;
+use super::uses::{Relation, Unrecorded, Use};
 use crate::lisp::image::input::Source;
 use crate::lisp::source::Location;
 use crate::lisp::value::Value;
@@ -88,6 +89,9 @@ pub(crate) trait Serve: Converse {
 
     /// What is known about all names. Takes some milliseconds.
     fn names(&mut self) -> Arc<Names>;
+
+    /// Where a name, as typed in a package, is used in that way.
+    fn uses(&mut self, way: Relation, package: &str, name: &str) -> Result<Vec<Use>, Unrecorded>;
 }
 
 /// What a choice needs.
