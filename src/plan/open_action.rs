@@ -4,10 +4,11 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::journal::{ActionEnd, BegunAction, Change, EndedAction, Starter};
+use super::scheduler::unwrapped;
 use super::state::Plan;
 use super::task::TaskId;
 use crate::lisp::image::Image;
-use crate::lisp::image::signalled::LastCondition;
+use crate::lisp::image::signalled::Leaving;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 
@@ -18,9 +19,7 @@ pub(crate) struct OpenAction {
     task: TaskId,
     begun: BegunAction,
     value: RefCell<Option<Value>>,
-    conditions: LastCondition,
-    /// Number of conditions signalled before it began.
-    earlier: u64,
+    leaving: Leaving,
 }
 
 impl OpenAction {
@@ -37,22 +36,18 @@ impl OpenAction {
             time: plan.now(),
         };
         plan.journal.note(Change::Begun(begun.clone()));
-        let conditions = image.last_condition();
         Some(Rc::new(OpenAction {
             plan,
             task,
             begun,
             value: RefCell::default(),
-            earlier: conditions.count(),
-            conditions,
+            leaving: image.leaving(),
         }))
     }
 
     /// The action has succeeded with a value.
     pub(crate) fn succeed(&self, value: &Value) {
         self.value.replace(Some(value.clone()));
-        // Whatever has failed in it was dealt with.
-        self.conditions.forget();
     }
 }
 
@@ -61,10 +56,11 @@ impl Drop for OpenAction {
         let journal = &self.plan.journal;
         let end = match self.value.take() {
             Some(value) => ActionEnd::Succeeded(value),
-            // The frame is left for a handler outside of it.
+            // The frame is left by its task as a whole, by a handler, or by another exit.
             None => journal.unwinding().unwrap_or_else(|| {
-                let condition = self.conditions.since(self.earlier);
-                condition.map_or(ActionEnd::Evaporated, ActionEnd::Failed)
+                let failure = |condition| ActionEnd::Failed(unwrapped(&self.plan, condition));
+                let cause = self.leaving.cause();
+                cause.map_or(ActionEnd::Evaporated, failure)
             }),
         };
         journal.close_action(self.task, self.begun.id);

@@ -71,10 +71,13 @@ impl Aside {
     pub(crate) fn call(&self, condition: Value, function: Value, args: Vec<Value>) -> Value {
         let state = self.state.clone();
         let call = move |machine: &mut Machine<'_>, _| {
-            machine.fiber.dynamic.push(Dynamic::HandlerMask(0));
+            let condition = condition.clone();
+            machine.fiber.dynamic.push(Dynamic::HandlerMask {
+                below: 0,
+                condition: condition.clone(),
+            });
             let back = Back(state.clone());
             let (function, args) = (function.clone(), args.clone());
-            let condition = condition.clone();
             run(machine, "DEBUGGER", |calls| async move {
                 let values = calls.call_for_values(&function, args).await;
                 calls.with(|machine| machine.unmask_handlers()).await;

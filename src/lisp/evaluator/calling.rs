@@ -112,7 +112,7 @@ impl Machine<'_> {
             .fiber
             .dynamic
             .iter()
-            .any(|d| matches!(d, Dynamic::HandlerMask(_) | Dynamic::Unwind { .. }));
+            .any(|d| matches!(d, Dynamic::HandlerMask { .. } | Dynamic::Unwind { .. }));
         let limit = MOST_FRAMES + if handling { SPARE_FRAMES } else { 0 };
         if frames < limit {
             return Ok(());

@@ -63,17 +63,17 @@ impl Machine<'_> {
         self.go_on(|machine| machine.call_value(function, args, multi))
     }
 
-    /// Leaves a frame and all above it, running cleanup code, and continues with a call in its
-    /// place.
+    /// Leaves a frame and all above it because of a condition, running cleanup code, and
+    /// continues with a call in its place.
     pub(crate) fn replace_frame(
         &mut self,
         index: usize,
-        function: Value,
-        args: Vec<Value>,
+        (function, args): (Value, Vec<Value>),
+        condition: Option<Value>,
     ) -> Event {
         self.fiber.enter(self.image);
         let call = Value::cons(function, Value::list(args));
-        self.go_on(|machine| machine.unwind(Target::Frame(index), call))
+        self.go_on(|machine| machine.unwind_for(Target::Frame(index), call, condition))
     }
 
     /// Continues after an interrupt.

@@ -82,7 +82,7 @@ impl Machine<'_> {
 
     /// Drops the innermost dynamic entry if it masks handlers.
     pub(super) fn unmask_handlers(&mut self) {
-        if matches!(self.fiber.dynamic.last(), Some(Dynamic::HandlerMask(_))) {
+        if matches!(self.fiber.dynamic.last(), Some(Dynamic::HandlerMask { .. })) {
             self.fiber.dynamic.pop();
         }
     }
@@ -138,7 +138,7 @@ impl Search {
                 };
                 self.position = position;
                 match machine.fiber.dynamic.get(position) {
-                    Some(Dynamic::HandlerMask(below)) => {
+                    Some(Dynamic::HandlerMask { below, .. }) => {
                         self.position = *below;
                         continue;
                     }
@@ -147,8 +147,10 @@ impl Search {
                 }
             };
             if let Some(function) = self.next_match(machine, &handlers)? {
-                let mask = Dynamic::HandlerMask(self.position);
-                machine.fiber.dynamic.push(mask);
+                machine.fiber.dynamic.push(Dynamic::HandlerMask {
+                    below: self.position,
+                    condition: self.condition.clone(),
+                });
                 return Ok(Some(function));
             }
             self.tried = 0;

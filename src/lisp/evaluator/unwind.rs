@@ -51,6 +51,16 @@ impl Machine<'_> {
 
     /// Leaves everything inside the target, running cleanup code on the way.
     pub(super) fn unwind(&mut self, target: Target, value: Value) -> Next {
+        self.unwind_for(target, value, None)
+    }
+
+    /// The same, because of a condition. If there is none, it is the one whose handler is left.
+    pub(super) fn unwind_for(
+        &mut self,
+        target: Target,
+        value: Value,
+        mut cause: Option<Value>,
+    ) -> Next {
         let limit = match target {
             Target::Exit(i) => i + 1,
             Target::Tag(i, _) => i + 1,
@@ -67,7 +77,7 @@ impl Machine<'_> {
                     height,
                     target: cleanup,
                 }) => {
-                    self.cut_to(frame, height);
+                    self.cut_to(frame, height, cause.as_ref());
                     self.fiber.stack.push(Value::Unbound);
                     self.fiber.stack.push(Value::Int(1));
                     self.save_pc(cleanup as usize);
@@ -75,19 +85,23 @@ impl Machine<'_> {
                         target,
                         value,
                         dynamic: self.fiber.dynamic.len(),
+                        cause,
                     });
                     return Next::Run;
+                }
+                Some(Dynamic::HandlerMask { condition, .. }) => {
+                    cause.get_or_insert(condition);
                 }
                 _ => {}
             }
         }
-        self.arrive(target, value)
+        self.arrive(target, value, cause.as_ref())
     }
 
-    fn arrive(&mut self, target: Target, value: Value) -> Next {
+    fn arrive(&mut self, target: Target, value: Value, cause: Option<&Value>) -> Next {
         match target {
             Target::Everything => {
-                self.fiber.cut_frames(0);
+                self.cut(0, cause);
                 self.fiber.stack.clear();
                 self.fiber.pending.clear();
                 return Next::Stop(Event::Unwound);
@@ -98,7 +112,7 @@ impl Machine<'_> {
                 };
                 let (cut, multi, dynamic) = (frame.cut, frame.multi, frame.dynamic);
                 self.fiber.pending.retain(|p| p.dynamic <= dynamic);
-                self.fiber.cut_frames(i);
+                self.cut(i, cause);
                 self.fiber.stack.truncate(cut);
                 let args = value.cdr_or_nil().iter_list().collect();
                 return self.call_value(value.car_or_nil(), args, multi);
@@ -121,7 +135,7 @@ impl Machine<'_> {
                     },
                 ) = self.fiber.dynamic.pop()
                 {
-                    self.cut_to(frame, height);
+                    self.cut_to(frame, height, cause);
                     self.fiber
                         .stack
                         .push(if multi { value } else { value.primary() });
@@ -137,7 +151,7 @@ impl Machine<'_> {
                     ..
                 }) = self.fiber.dynamic.last()
                 {
-                    self.cut_to(frame, height);
+                    self.cut_to(frame, height, cause);
                     if let Some(pc) = self.tag_position(table, tag) {
                         self.save_pc(pc);
                     }
@@ -159,15 +173,23 @@ impl Machine<'_> {
         Some(*position as usize)
     }
 
-    fn cut_to(&mut self, frame: usize, height: usize) {
-        self.fiber.cut_frames(frame + 1);
+    fn cut_to(&mut self, frame: usize, height: usize, cause: Option<&Value>) {
+        self.cut(frame + 1, cause);
         self.fiber.stack.truncate(height);
+    }
+
+    /// Drops the innermost frames, down to so many, because of a condition, if there is one.
+    fn cut(&mut self, count: usize, cause: Option<&Value>) {
+        let leaving = self.image.leaving();
+        leaving.set(cause.cloned());
+        self.fiber.cut_frames(count);
+        leaving.set(None);
     }
 
     /// Continues the exit that the cleanup code, now at its end, interrupted.
     pub(super) fn continue_unwinding(&mut self) -> Next {
         match self.fiber.pending.pop() {
-            Some(pending) => self.unwind(pending.target, pending.value),
+            Some(pending) => self.unwind_for(pending.target, pending.value, pending.cause),
             None => Next::Run,
         }
     }

@@ -19,35 +19,23 @@ const MOST_CALLS: usize = 512;
 pub(super) struct Signalled {
     /// Newest last; conditions that share their calls have one list.
     recent: VecDeque<(Value, Rc<RefCell<Vec<OpenCall>>>)>,
-    last: LastCondition,
+    leaving: Leaving,
 }
 
-/// The condition that was signalled last, and how many have been signalled; for code that notices
-/// the end of a call when it has no image at hand.
+/// The condition because of which stack frames are being left, if there is one; for code that
+/// notices the end of a call when it has no image at hand.
 #[derive(Clone, Default)]
-pub(crate) struct LastCondition(Rc<RefCell<(u64, Option<Value>)>>);
+pub(crate) struct Leaving(Rc<RefCell<Option<Value>>>);
 
-impl LastCondition {
-    /// How many conditions have been signalled.
-    pub(crate) fn count(&self) -> u64 {
-        self.0.borrow().0
+impl Leaving {
+    /// The condition.
+    pub(crate) fn cause(&self) -> Option<Value> {
+        self.0.borrow().clone()
     }
 
-    /// The condition, if it has been signalled since `count` was returned and not been forgotten.
-    pub(crate) fn since(&self, count: u64) -> Option<Value> {
-        let last = self.0.borrow();
-        last.1.clone().filter(|_| last.0 > count)
-    }
-
-    /// Forgets the condition: it has been dealt with.
-    pub(crate) fn forget(&self) {
-        self.0.borrow_mut().1 = None;
-    }
-
-    fn set(&self, condition: &Value) {
-        let mut last = self.0.borrow_mut();
-        last.0 += 1;
-        last.1 = Some(condition.clone());
+    /// Frames are left because of the condition from now on, or none are.
+    pub(crate) fn set(&self, condition: Option<Value>) {
+        self.0.replace(condition);
     }
 }
 
@@ -80,15 +68,14 @@ impl Image {
         calls.map_or_else(Vec::new, |calls| calls.borrow().clone())
     }
 
-    /// The condition that was signalled last.
-    pub(crate) fn last_condition(&self) -> LastCondition {
-        self.signalled.last.clone()
+    /// What tells why stack frames are being left.
+    pub(crate) fn leaving(&self) -> Leaving {
+        self.signalled.leaving.clone()
     }
 
     /// Remembers the calls that were open where a condition was signalled.
     pub(crate) fn set_condition_calls(&mut self, condition: &Value, calls: Vec<OpenCall>) {
         let calls = Rc::new(RefCell::new(calls));
-        self.signalled.last.set(condition);
         self.signalled.remember(condition, calls);
     }
 

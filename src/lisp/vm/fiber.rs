@@ -102,8 +102,13 @@ pub(crate) enum Dynamic {
     },
     /// Handlers.
     Handlers(Rc<[Handler]>),
-    /// While a handler runs: only entries below this index are searched for handlers.
-    HandlerMask(usize),
+    /// While a handler runs.
+    HandlerMask {
+        /// Only entries below this index are searched for handlers.
+        below: usize,
+        /// The condition that it handles.
+        condition: Value,
+    },
     /// Restarts: a list of restart objects.
     Restarts(Value),
 }
@@ -129,6 +134,8 @@ pub(crate) struct Pending {
     pub(crate) value: Value,
     /// Number of dynamic entries while the cleanup code runs.
     pub(crate) dynamic: usize,
+    /// The condition whose handler has begun it, if one has.
+    pub(crate) cause: Option<Value>,
 }
 
 /// A line of execution.

@@ -114,11 +114,12 @@ impl Scheduler {
         image: &mut Image,
         host: &mut dyn Host,
         (link, frame): (usize, usize),
-        (function, args): (Value, Vec<Value>),
+        call: (Value, Vec<Value>),
     ) -> Evaluation {
         let Some(slot) = self.stopped_chain().get(link).copied() else {
             return self.go_on(image, host);
         };
+        let condition = self.stops.last().map(|(_, condition)| condition.clone());
         self.leave_stop();
         if link > 0 {
             self.leave_wait(slot);
@@ -132,7 +133,12 @@ impl Scheduler {
             let mut alive = alive.into_iter();
             self.stops.retain(|_| alive.next().unwrap_or(false));
         }
-        self.make_ready(slot, Answer::Replace(frame, function, args));
+        let answer = Answer::Replace {
+            frame,
+            call,
+            condition,
+        };
+        self.make_ready(slot, answer);
         self.go_on(image, host)
     }
 

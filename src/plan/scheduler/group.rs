@@ -137,7 +137,7 @@ pub(super) fn wrapped(plan: &Plan, image: &mut Image, condition: Value) -> Value
 }
 
 /// A condition as it leaves the plan, without its envelopes.
-pub(super) fn unwrapped(plan: &Plan, mut condition: Value) -> Value {
+pub(in crate::plan) fn unwrapped(plan: &Plan, mut condition: Value) -> Value {
     loop {
         let inner = match &condition {
             Value::Instance(instance) if instance.is_a(plan.names.envelope) => {

@@ -99,8 +99,15 @@ pub(super) enum Answer {
     GoOn,
     /// Continue with a call on top.
     Call(Value, Vec<Value>),
-    /// Unwind the frame with this index and continue with a call in its place.
-    Replace(usize, Value, Vec<Value>),
+    /// Unwind a frame and continue with a call in its place.
+    Replace {
+        /// The frame's index.
+        frame: usize,
+        /// The function and its arguments.
+        call: (Value, Vec<Value>),
+        /// The condition at which its task has stopped.
+        condition: Option<Value>,
+    },
     /// Begin the rest of its children.
     Begin(Box<Beginning>),
     /// Determine the result of its children.

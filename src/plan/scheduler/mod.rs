@@ -25,6 +25,7 @@ mod suspension;
 mod task_start;
 
 pub(crate) use group::composite;
+pub(in crate::plan) use group::unwrapped;
 pub(crate) use overview::TaskInfo;
 pub(crate) use requests::outside_a_plan;
 pub(crate) use root::Evaluation;

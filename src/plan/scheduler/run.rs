@@ -63,9 +63,11 @@ impl Scheduler {
                 Answer::Call(function, args) => {
                     Machine::new(image, &mut fiber).resume_with_call(function, args)
                 }
-                Answer::Replace(frame, function, args) => {
-                    Machine::new(image, &mut fiber).replace_frame(frame, function, args)
-                }
+                Answer::Replace {
+                    frame,
+                    call,
+                    condition,
+                } => Machine::new(image, &mut fiber).replace_frame(frame, call, condition),
                 Answer::Unwind => {
                     if let Some(live) = self.live_mut(slot) {
                         live.is_unwinding = true;
