@@ -121,7 +121,7 @@ impl CameraPicture {
             }
             let title = Line {
                 text: title,
-                scale: 1 + unit / 400,
+                size: unit / 20,
                 color: INK,
             };
             title.draw_on_plate(panel, 0, 0);
@@ -164,11 +164,11 @@ fn depths(picture: &Picture, size: [usize; 2]) -> Image {
     let text = format!("{} to {} m", DEPTHS[0], DEPTHS[1]);
     let legend = Line {
         text: &text,
-        scale: 1,
+        size: size[0] / 20,
         color: INK,
     };
-    let (width, height) = (legend.width() + 4, legend.height() + 10);
-    if size[0] > width && size[1] > 2 * height {
+    let [width, height] = legend.plate();
+    if size[0] > width && size[1] > 2 * height + 6 {
         let (left, top) = (size[0] - width, size[1] - height);
         legend.draw_on_plate(&mut image, left, top);
         for column in left..size[0] {
@@ -260,24 +260,21 @@ fn outline(
     let middle = Point3::from(pose.translation.vector);
     let name = Line {
         text: object.name(),
-        scale: 1 + width / 600,
+        size: width / 40,
         color,
     };
     let at = match camera.pixel_of(&middle) {
         Some([x, y]) if is_within(x, width) && is_within(y, height) => {
             let top = (0..height).find(|row| (0..width).any(|column| covered(column, *row)));
             let top = top.unwrap_or(y as usize);
-            let above = top.saturating_sub(name.height() + 6 * name.scale);
+            let above = top.saturating_sub(name.height() * 5 / 4);
             let left = (x as usize).saturating_sub(name.width() / 2);
             Some([left, above])
         }
         _ => arrow(image, camera, &middle, &name),
     };
     if let (Some(at), Some(names)) = (at, names) {
-        let size = [
-            name.width() + 4 * name.scale,
-            name.height() + 4 * name.scale,
-        ];
+        let size = name.plate();
         let plate = free_place(names, Plate { at, size });
         name.draw_on_plate(image, plate.at[0], plate.at[1]);
         names.push(plate);
@@ -330,7 +327,7 @@ fn arrow(
         return None;
     }
     let (x, y) = (there.x / reach, there.y / reach);
-    let size = 8.0 * name.scale as f64;
+    let size = name.height() as f64 / 2.0;
     let half = [
         camera.width as f64 / 2.0 - size,
         camera.height as f64 / 2.0 - size,
@@ -359,18 +356,16 @@ fn arrow(
         tip[1] - y * size * 2.0 - name.height() as f64 * (0.5 + 0.5 * y),
     ];
     // Casts saturate at zero; both borders are far below the largest number.
-    let place = |axis: usize, end: usize, size: usize| {
-        (text[axis] as usize).min(end.saturating_sub(size + 4 * name.scale))
-    };
-    Some([
-        place(0, camera.width, name.width()),
-        place(1, camera.height, name.height()),
-    ])
+    let plate = name.plate();
+    let ends = [camera.width, camera.height];
+    Some([0, 1].map(|axis| (text[axis] as usize).min(ends[axis].saturating_sub(plate[axis]))))
 }
 
 /// The legend below the panels.
 struct Strip {
-    scale: usize,
+    /// Height of a line and distance between letters (pixels).
+    height: usize,
+    advance: usize,
     /// Lines about the sought objects.
     lines: Vec<(Rgb, String)>,
     /// Objects in the picture.
@@ -379,8 +374,14 @@ struct Strip {
 
 impl Strip {
     fn new(unit: usize) -> Self {
+        let line = Line {
+            text: "",
+            size: unit / 16,
+            color: INK,
+        };
         Self {
-            scale: 1 + unit / 240,
+            height: line.height(),
+            advance: line.advance(),
             lines: Vec::new(),
             seen: Vec::new(),
         }
@@ -410,7 +411,7 @@ impl Strip {
 
     /// The lines, cut into pieces that fit.
     fn pieces(&self, width: usize) -> Vec<(Option<Rgb>, String)> {
-        let fits = (width / (6 * self.scale)).saturating_sub(4).max(8);
+        let fits = (width / self.advance).saturating_sub(4).max(8);
         let mut pieces = Vec::new();
         for (color, text) in &self.lines {
             // Only the first piece of a line has its colour beside it.
@@ -433,7 +434,7 @@ impl Strip {
     }
 
     fn line_height(&self) -> usize {
-        11 * self.scale
+        self.height + self.height / 4
     }
 
     /// Number of rows in the list of objects.
@@ -444,13 +445,13 @@ impl Strip {
     fn height(&self, width: usize) -> usize {
         match self.pieces(width).len() + self.rows() {
             0 => 0,
-            count => count * self.line_height() + 6 * self.scale,
+            count => count * self.line_height() + self.height / 2,
         }
     }
 
     fn draw(&self, image: &mut Image, top: usize) {
         let pieces = self.pieces(image.width());
-        let top = top + 5 * self.scale;
+        let top = top + self.height / 4;
         for (place, (color, text)) in pieces.iter().enumerate() {
             self.entry(image, [0, top + place * self.line_height()], *color, text);
         }
@@ -464,13 +465,14 @@ impl Strip {
 
     fn entry(&self, image: &mut Image, [left, top]: [usize; 2], color: Option<Rgb>, text: &str) {
         if let Some(color) = color {
-            image.fill([left + 4 * self.scale, top], [7 * self.scale; 2], color);
+            let (inset, size) = (self.height / 8, self.height * 3 / 4);
+            image.fill([left + self.advance, top + inset], [size; 2], color);
         }
         let line = Line {
             text,
-            scale: self.scale,
+            size: self.height,
             color: INK,
         };
-        line.draw(image, left + 15 * self.scale, top);
+        line.draw(image, left + 3 * self.advance, top);
     }
 }

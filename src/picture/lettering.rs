@@ -1,168 +1,170 @@
-//! Short texts on pictures, in letters of five by seven dots.
+//! Short texts on pictures, in the typeface Noto Sans Mono.
+
+use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
 use super::image::{Image, Rgb};
 
-/// Width and height of a letter (dots), and the distance from one letter to the next.
-const ACROSS: usize = 5;
-const DOWN: usize = 7;
-const ADVANCE: usize = 6;
-
-/// Rows of dots from the top; the highest of the five bits is on the left.
-#[rustfmt::skip]
-const LETTERS: &[(char, [u8; DOWN])] = &[
-    ('A', [0b01110, 0b10001, 0b10001, 0b11111, 0b10001, 0b10001, 0b10001]),
-    ('B', [0b11110, 0b10001, 0b10001, 0b11110, 0b10001, 0b10001, 0b11110]),
-    ('C', [0b01110, 0b10001, 0b10000, 0b10000, 0b10000, 0b10001, 0b01110]),
-    ('D', [0b11110, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b11110]),
-    ('E', [0b11111, 0b10000, 0b10000, 0b11110, 0b10000, 0b10000, 0b11111]),
-    ('F', [0b11111, 0b10000, 0b10000, 0b11110, 0b10000, 0b10000, 0b10000]),
-    ('G', [0b01110, 0b10001, 0b10000, 0b10111, 0b10001, 0b10001, 0b01111]),
-    ('H', [0b10001, 0b10001, 0b10001, 0b11111, 0b10001, 0b10001, 0b10001]),
-    ('I', [0b01110, 0b00100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110]),
-    ('J', [0b00111, 0b00010, 0b00010, 0b00010, 0b00010, 0b10010, 0b01100]),
-    ('K', [0b10001, 0b10010, 0b10100, 0b11000, 0b10100, 0b10010, 0b10001]),
-    ('L', [0b10000, 0b10000, 0b10000, 0b10000, 0b10000, 0b10000, 0b11111]),
-    ('M', [0b10001, 0b11011, 0b10101, 0b10101, 0b10001, 0b10001, 0b10001]),
-    ('N', [0b10001, 0b11001, 0b11001, 0b10101, 0b10011, 0b10011, 0b10001]),
-    ('O', [0b01110, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b01110]),
-    ('P', [0b11110, 0b10001, 0b10001, 0b11110, 0b10000, 0b10000, 0b10000]),
-    ('Q', [0b01110, 0b10001, 0b10001, 0b10001, 0b10101, 0b10010, 0b01101]),
-    ('R', [0b11110, 0b10001, 0b10001, 0b11110, 0b10100, 0b10010, 0b10001]),
-    ('S', [0b01111, 0b10000, 0b10000, 0b01110, 0b00001, 0b00001, 0b11110]),
-    ('T', [0b11111, 0b00100, 0b00100, 0b00100, 0b00100, 0b00100, 0b00100]),
-    ('U', [0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b01110]),
-    ('V', [0b10001, 0b10001, 0b10001, 0b10001, 0b01010, 0b01010, 0b00100]),
-    ('W', [0b10001, 0b10001, 0b10001, 0b10101, 0b10101, 0b11011, 0b10001]),
-    ('X', [0b10001, 0b01010, 0b00100, 0b00100, 0b00100, 0b01010, 0b10001]),
-    ('Y', [0b10001, 0b10001, 0b01010, 0b00100, 0b00100, 0b00100, 0b00100]),
-    ('Z', [0b11111, 0b00001, 0b00010, 0b00100, 0b01000, 0b10000, 0b11111]),
-    ('0', [0b01110, 0b10001, 0b10011, 0b10101, 0b11001, 0b10001, 0b01110]),
-    ('1', [0b00100, 0b01100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110]),
-    ('2', [0b01110, 0b10001, 0b00001, 0b00110, 0b01000, 0b10000, 0b11111]),
-    ('3', [0b11110, 0b00001, 0b00001, 0b01110, 0b00001, 0b00001, 0b11110]),
-    ('4', [0b00010, 0b00110, 0b01010, 0b10010, 0b11111, 0b00010, 0b00010]),
-    ('5', [0b11111, 0b10000, 0b11110, 0b00001, 0b00001, 0b10001, 0b01110]),
-    ('6', [0b00110, 0b01000, 0b10000, 0b11110, 0b10001, 0b10001, 0b01110]),
-    ('7', [0b11111, 0b00001, 0b00010, 0b00100, 0b01000, 0b01000, 0b01000]),
-    ('8', [0b01110, 0b10001, 0b10001, 0b01110, 0b10001, 0b10001, 0b01110]),
-    ('9', [0b01110, 0b10001, 0b10001, 0b01111, 0b00001, 0b00010, 0b01100]),
-    ('.', [0b00000, 0b00000, 0b00000, 0b00000, 0b00000, 0b01100, 0b01100]),
-    (',', [0b00000, 0b00000, 0b00000, 0b00000, 0b01100, 0b00100, 0b01000]),
-    (':', [0b00000, 0b01100, 0b01100, 0b00000, 0b01100, 0b01100, 0b00000]),
-    ('-', [0b00000, 0b00000, 0b00000, 0b01110, 0b00000, 0b00000, 0b00000]),
-    ('+', [0b00000, 0b00100, 0b00100, 0b11111, 0b00100, 0b00100, 0b00000]),
-    ('=', [0b00000, 0b00000, 0b11111, 0b00000, 0b11111, 0b00000, 0b00000]),
-    ('%', [0b11001, 0b11001, 0b00010, 0b00100, 0b01000, 0b10011, 0b10011]),
-    ('/', [0b00001, 0b00001, 0b00010, 0b00100, 0b01000, 0b10000, 0b10000]),
-    ('(', [0b00010, 0b00100, 0b01000, 0b01000, 0b01000, 0b00100, 0b00010]),
-    (')', [0b01000, 0b00100, 0b00010, 0b00010, 0b00010, 0b00100, 0b01000]),
-    ('_', [0b00000, 0b00000, 0b00000, 0b00000, 0b00000, 0b00000, 0b11111]),
-    ('?', [0b01110, 0b10001, 0b00001, 0b00110, 0b00100, 0b00000, 0b00100]),
-    ('!', [0b00100, 0b00100, 0b00100, 0b00100, 0b00100, 0b00000, 0b00100]),
-    ('\'', [0b00100, 0b00100, 0b01000, 0b00000, 0b00000, 0b00000, 0b00000]),
-    ('"', [0b01010, 0b01010, 0b01010, 0b00000, 0b00000, 0b00000, 0b00000]),
-    ('#', [0b01010, 0b01010, 0b11111, 0b01010, 0b11111, 0b01010, 0b01010]),
-    ('*', [0b00000, 0b10101, 0b01110, 0b11111, 0b01110, 0b10101, 0b00000]),
-    ('<', [0b00010, 0b00100, 0b01000, 0b10000, 0b01000, 0b00100, 0b00010]),
-    ('>', [0b01000, 0b00100, 0b00010, 0b00001, 0b00010, 0b00100, 0b01000]),
-    (';', [0b00000, 0b01100, 0b01100, 0b00000, 0b01100, 0b00100, 0b01000]),
+/// The heights of lines for which there are letters; larger ones are multiples of these.
+const SIZES: [RasterHeight; 4] = [
+    RasterHeight::Size32,
+    RasterHeight::Size24,
+    RasterHeight::Size20,
+    RasterHeight::Size16,
 ];
 
-/// Drawn for characters that are not in the table.
-const UNKNOWN: [u8; DOWN] = [
-    0b11111, 0b10001, 0b10001, 0b10001, 0b10001, 0b10001, 0b11111,
-];
+/// Shown in place of characters that the typeface lacks.
+const UNKNOWN: char = '\u{FFFD}';
+
+/// The plate behind a line.
+const PLATE: Rgb = [24, 26, 30];
 
 /// A line of text.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line<'a> {
-    /// The text; lower-case letters are drawn as capitals.
+    /// The text.
     pub(crate) text: &'a str,
-    /// Pixels per dot.
-    pub(crate) scale: usize,
+    /// The greatest height (pixels) that the line may have; the least possible is 16.
+    pub(crate) size: usize,
     pub(crate) color: Rgb,
 }
 
 impl Line<'_> {
-    /// Width (pixels) from the left edge of the first letter to the right edge of the last.
-    pub(crate) fn width(&self) -> usize {
-        let dots = self.text.chars().count() * ADVANCE;
-        dots.saturating_sub(ADVANCE - ACROSS) * self.scale
+    /// The letters to use, and how many pixels along a side stand for one of theirs.
+    fn letters(&self) -> (RasterHeight, usize) {
+        let fitting = SIZES.map(|size| (size, (self.size / size.val()).max(1)));
+        let height = |(size, factor): &(RasterHeight, usize)| size.val() * factor;
+        let fits = |letters: &&(RasterHeight, usize)| height(letters) <= self.size;
+        // Of equal heights the last one counts: the largest letters come last.
+        let found = fitting.iter().rev().filter(fits).max_by_key(|l| height(l));
+        found.copied().unwrap_or((RasterHeight::Size16, 1))
     }
 
-    /// Height (pixels) of the letters.
+    /// Distance (pixels) from one letter to the next.
+    pub(crate) fn advance(&self) -> usize {
+        let (size, factor) = self.letters();
+        get_raster_width(FontWeight::Regular, size) * factor
+    }
+
+    /// Width (pixels).
+    pub(crate) fn width(&self) -> usize {
+        self.text.chars().count() * self.advance()
+    }
+
+    /// Height (pixels).
     pub(crate) fn height(&self) -> usize {
-        DOWN * self.scale
+        let (size, factor) = self.letters();
+        size.val() * factor
     }
 
     /// Draws the line with its upper left corner at the pixel, clipped to the picture.
     pub(crate) fn draw(&self, image: &mut Image, column: usize, row: usize) {
+        let (size, factor) = self.letters();
         for (place, letter) in self.text.chars().enumerate() {
-            let left = column + place * ADVANCE * self.scale;
-            for (down, dots) in dots_of(letter).into_iter().enumerate() {
-                let top = row + down * self.scale;
-                for across in 0..ACROSS {
-                    if dots >> (ACROSS - 1 - across) & 1 == 1 {
-                        let at = [left + across * self.scale, top];
-                        image.fill(at, [self.scale; 2], self.color);
-                    }
+            let raster = |c| get_raster(c, FontWeight::Regular, size);
+            let Some(raster) = raster(letter).or_else(|| raster(UNKNOWN)) else {
+                continue;
+            };
+            let left = column + place * self.advance();
+            for (down, covers) in raster.rows().enumerate() {
+                let dots = covers.iter().enumerate().filter(|(_, cover)| **cover > 0);
+                for (across, cover) in dots {
+                    let at = [left + across * factor, row + down * factor];
+                    self.dot(image, at, factor, *cover);
                 }
             }
         }
     }
 
-    /// Draws the line on a dark plate that is two dots larger, with the plate's upper left
-    /// corner at the pixel, or moved to be inside the picture.
+    /// Mixes the colour into a square of pixels.
+    fn dot(&self, image: &mut Image, [left, top]: [usize; 2], size: usize, cover: u8) {
+        for row in top..top + size {
+            for column in left..left + size {
+                let Some(below) = image.pixel(column, row) else {
+                    continue;
+                };
+                let mixed = [0, 1, 2].map(|i| {
+                    let (cover, rest) = (u16::from(cover), u16::from(255 - cover));
+                    // A mean of two bytes is a byte.
+                    ((u16::from(self.color[i]) * cover + u16::from(below[i]) * rest) / 255) as u8
+                });
+                image.set(column, row, mixed);
+            }
+        }
+    }
+
+    /// Width of the plate's border (pixels).
+    fn border(&self) -> usize {
+        self.height() / 8
+    }
+
+    /// Width and height (pixels) of the plate of [`draw_on_plate`](Self::draw_on_plate).
+    pub(crate) fn plate(&self) -> [usize; 2] {
+        [self.width(), self.height()].map(|size| size + 2 * self.border())
+    }
+
+    /// Draws the line on a dark plate with the plate's upper left corner at the pixel, or moved
+    /// to be inside the picture.
     pub(crate) fn draw_on_plate(&self, image: &mut Image, column: usize, row: usize) {
-        let border = 2 * self.scale;
-        let size = [self.width() + 2 * border, self.height() + 2 * border];
+        let size = self.plate();
         let column = column.min(image.width().saturating_sub(size[0]));
         let row = row.min(image.height().saturating_sub(size[1]));
-        image.fill([column, row], size, [24, 26, 30]);
-        self.draw(image, column + border, row + border);
+        image.fill([column, row], size, PLATE);
+        self.draw(image, column + self.border(), row + self.border());
     }
-}
-
-fn dots_of(letter: char) -> [u8; DOWN] {
-    let letter = letter.to_ascii_uppercase();
-    if letter.is_whitespace() {
-        return [0; DOWN];
-    }
-    let known = LETTERS.iter().find(|(known, _)| *known == letter);
-    known.map_or(UNKNOWN, |(_, dots)| *dots)
 }
 
 #[cfg(test)]
 mod tests {
     use crate::picture::lettering::*;
 
-    #[test]
-    fn a_letter_is_drawn_where_it_is_asked_for() {
-        let mut image = Image::filled(20, 10, [0; 3]);
-        let line = Line {
-            text: "tl",
-            scale: 1,
-            color: [255; 3],
-        };
-        line.draw(&mut image, 1, 1);
-        let lit = |column, row| image.pixel(column, row) == Some([255; 3]);
-        assert!((1..6).all(|column| lit(column, 1)) && (1..8).all(|row| lit(3, row)));
-        assert!((1..8).all(|row| lit(7, row)) && (7..12).all(|column| lit(column, 7)));
-        let count = image.bytes().iter().filter(|b| **b == 255).count() / 3;
-        assert_eq!(count, 11 + 11);
-        assert_eq!((line.width(), line.height()), (11, 7));
+    fn line(text: &str, size: usize) -> Line<'_> {
+        let color = [255; 3];
+        Line { text, size, color }
+    }
+
+    /// Columns and rows that are at least half lit.
+    fn lit(text: &str, size: usize) -> Vec<[usize; 2]> {
+        let mut image = Image::filled(120, 80, [0; 3]);
+        line(text, size).draw(&mut image, 1, 2);
+        let places = (0..80).flat_map(|row| (0..120).map(move |column| [column, row]));
+        places
+            .filter(|[column, row]| image.pixel(*column, *row).unwrap()[0] > 127)
+            .collect()
     }
 
     #[test]
-    fn what_does_not_fit_is_cut_off() {
+    fn letters_stand_side_by_side_within_their_line() {
+        let (one, two) = (lit("L", 20), lit("LL", 20));
+        let advance = line("L", 20).advance();
+        let second = one.iter().map(|[column, row]| [column + advance, *row]);
+        let mut both: Vec<_> = one.iter().copied().chain(second).collect();
+        both.sort_by_key(|[column, row]| [*row, *column]);
+        assert_eq!(two, both);
+        assert!(
+            one.iter()
+                .all(|[column, row]| *column <= advance && (2..22).contains(row))
+        );
+        assert_ne!(
+            lit("l", 20),
+            lit("L", 20),
+            "capitals differ from small letters"
+        );
+    }
+
+    #[test]
+    fn heights_are_the_greatest_that_fit() {
+        let heights = [1, 16, 23, 31, 40, 48, 70, 100].map(|size| line("a", size).height());
+        assert_eq!(heights, [16, 16, 20, 24, 40, 48, 64, 100]);
+        assert_eq!(line("abc", 16).width(), 3 * line("a", 16).width());
+        assert_eq!(lit("I", 64).len(), 4 * lit("I", 32).len());
+    }
+
+    #[test]
+    fn what_is_unknown_is_marked_and_what_does_not_fit_is_cut_off() {
+        assert_eq!(lit("\u{4E16}", 16), lit("\u{FFFD}", 16));
         let mut image = Image::filled(8, 4, [0; 3]);
-        let line = Line {
-            text: "LONG Ä TEXT",
-            scale: 3,
-            color: [255; 3],
-        };
-        line.draw(&mut image, 6, 2);
-        line.draw_on_plate(&mut image, 100, 100);
-        assert_eq!(image.width(), 8);
+        line("long Ä text", 40).draw(&mut image, 6, 2);
+        line("long Ä text", 40).draw_on_plate(&mut image, 100, 100);
+        assert_eq!([image.width(), image.height()], [8, 4]);
     }
 }

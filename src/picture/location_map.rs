@@ -3,11 +3,11 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
 use super::scene::{Body, Finish, Kind, Owner, Scene};
-use super::surface::{Corner, Surface};
+use super::surface::Surface;
 use crate::spatial::Pose;
 
 /// Height (m) of the cells and of the arrows above what they are on.
@@ -53,7 +53,7 @@ impl Scene {
                     let half = map.resolution / 2.0;
                     let at = |dx: f64, dy: f64| [x + dx * half, y + dy * half];
                     let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
-                    add_flat(&mut surface, &corners, map.height + CELL_HEIGHT);
+                    surface.add_flat(&corners, map.height + CELL_HEIGHT);
                 }
             }
             self.add_sign("location map", surface, *color);
@@ -69,7 +69,7 @@ impl Scene {
             });
             // Seen from above, the corners are to be passed counter-clockwise.
             let [a, b, c, d] = corners;
-            add_flat(surface, &[b, c, d, a], map.height + ARROW_HEIGHT);
+            surface.add_flat(&[b, c, d, a], map.height + ARROW_HEIGHT);
         }
         self.add_sign("offered poses", before, OFFERED);
         self.add_sign("chosen pose", last, CHOSEN);
@@ -94,20 +94,6 @@ fn rank(value: f64, most: f64) -> usize {
     let share = if most > 0.0 { value / most } else { 0.0 };
     // The cast saturates.
     ((share * COLORS.len() as f64) as usize).min(COLORS.len() - 1)
-}
-
-/// Adds a fan of triangles around the first corner, at a height (m).
-fn add_flat(surface: &mut Surface, corners: &[[f64; 2]], height: f64) {
-    // A surface of four billion corners does not fit into memory.
-    let first = u32::try_from(surface.corners.len()).unwrap_or(u32::MAX);
-    surface.corners.extend(corners.iter().map(|[x, y]| Corner {
-        point: Point3::new(*x, *y, height),
-        normal: Vector3::z(),
-    }));
-    let count = u32::try_from(corners.len()).unwrap_or(0);
-    for i in 2..count {
-        surface.triangles.push([first, first + i - 1, first + i]);
-    }
 }
 
 #[cfg(test)]

@@ -8,13 +8,11 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use nalgebra::{Point3, Vector3};
-
 use super::image::Image;
 use super::lettering::Line;
 use super::looks::Looks;
 use super::scene::{Body, Finish, Kind, Owner, Scene};
-use super::surface::{Corner, Surface};
+use super::surface::Surface;
 use crate::spatial::{Pose, pose};
 use crate::world::{AllowedPairs, BodyName, World};
 
@@ -51,8 +49,9 @@ impl FloorMap {
     /// Checks the floor between two corners (m, map frame).
     pub(crate) fn of(world: &World, from: [f64; 2], to: [f64; 2]) -> Self {
         let square = |value: f64| (value / SQUARE).floor() as i32;
-        let first = from.map(square);
-        let size = [0, 1].map(|i| (square(to[i]) - first[i]).clamp(0, 400) as usize);
+        // One square more on each side: the areas end in the middles of the outermost squares.
+        let first = from.map(|value| square(value) - 1);
+        let size = [0, 1].map(|i| (square(to[i]) + 2 - first[i]).clamp(1, 400) as usize);
         let mut checker = BaseChecker::new(world);
         let middle =
             |axis: usize, place: usize| (f64::from(first[axis]) + place as f64 + 0.5) * SQUARE;
@@ -84,36 +83,96 @@ impl FloorMap {
         self.free.get(row * self.columns + column).copied()
     }
 
-    /// The squares of one kind as a surface; neighbours in a row form one rectangle.
+    /// The area of one kind as a surface. Its border runs where the squares around, weighted by
+    /// their nearness, are half free and half blocked; so it is smooth, and at most half a
+    /// square away from those of the squares.
     fn surface(&self, free: bool) -> Surface {
         let mut surface = Surface::default();
-        for row in 0..self.rows {
-            // The rows are ranges of the squares.
-            let squares = &self.free[row * self.columns..(row + 1) * self.columns];
-            let mut start = 0;
-            for run in squares.chunk_by(|a, b| a == b) {
-                let end = start + run.len();
-                if run.first() == Some(&free) {
-                    self.add(&mut surface, row, [start, end]);
+        let shares = self.shares();
+        let is_inside = |share: f64| (share >= HALF) == free;
+        let place = |column: usize, row: usize| {
+            let at = |place: usize, first: i32| (f64::from(first) + place as f64 + 0.5) * SQUARE;
+            [at(column, self.first[0]), at(row, self.first[1])]
+        };
+        // Between the middles of four squares, the share is linear in each of two triangles.
+        for row in 1..self.rows {
+            let corner = |column: usize, row: usize| {
+                // Rows and columns are those of the map.
+                (place(column, row), shares[row * self.columns + column])
+            };
+            let quads = (1..self.columns).map(|column| {
+                [
+                    corner(column - 1, row - 1),
+                    corner(column, row - 1),
+                    corner(column, row),
+                    corner(column - 1, row),
+                ]
+            });
+            let quads: Vec<_> = quads.collect();
+            let is_whole = |quad: &[Share; 4]| quad.iter().all(|(_, share)| is_inside(*share));
+            // Neighbours that are wholly inside form one rectangle.
+            for run in quads.chunk_by(|a, b| is_whole(a) && is_whole(b)) {
+                if let ([first, ..], [.., last]) = (run, run)
+                    && is_whole(first)
+                {
+                    let [a, _, _, d] = first.map(|(at, _)| at);
+                    let [_, b, c, _] = last.map(|(at, _)| at);
+                    surface.add_flat(&[a, b, c, d], HEIGHT);
+                    continue;
                 }
-                start = end;
+                for [a, b, c, d] in run {
+                    for triangle in [[*a, *b, *c], [*a, *c, *d]] {
+                        let part = part_of(triangle, is_inside);
+                        surface.add_flat(&part, HEIGHT);
+                    }
+                }
             }
         }
         surface
     }
 
-    fn add(&self, surface: &mut Surface, row: usize, [start, end]: [usize; 2]) {
-        let first = surface.corners.len() as u32;
-        for (column, row) in [(start, row), (end, row), (end, row + 1), (start, row + 1)] {
-            let at = |place: usize, first: i32| (f64::from(first) + place as f64) * SQUARE;
-            surface.corners.push(Corner {
-                point: Point3::new(at(column, self.first[0]), at(row, self.first[1]), HEIGHT),
-                normal: Vector3::z(),
-            });
-        }
-        surface.triangles.push([first, first + 1, first + 2]);
-        surface.triangles.push([first, first + 2, first + 3]);
+    /// For each square, how much (0..1) of it and of the eight around it is free; the nearer
+    /// ones count more.
+    fn shares(&self) -> Vec<f64> {
+        let is_free = &|column: usize, row: usize| {
+            let (column, row) = (column.min(self.columns - 1), row.min(self.rows - 1));
+            // Clipped to the map.
+            f64::from(u8::from(self.free[row * self.columns + column]))
+        };
+        let around = |place: usize| [place.saturating_sub(1), place, place, place + 1];
+        let squares = (0..self.rows).flat_map(|row| (0..self.columns).map(move |c| (c, row)));
+        squares
+            .map(|(column, row)| {
+                let rows = around(row).into_iter();
+                let sum: f64 = rows
+                    .flat_map(|row| around(column).map(move |column| is_free(column, row)))
+                    .sum();
+                sum / 16.0
+            })
+            .collect()
     }
+}
+
+/// A place (m) and how much of what is around it is free.
+type Share = ([f64; 2], f64);
+
+/// The share at the border of an area.
+const HALF: f64 = 0.5;
+
+/// The part of a triangle that is inside an area, a polygon with the same orientation.
+fn part_of(triangle: [Share; 3], is_inside: impl Fn(f64) -> bool) -> Vec<[f64; 2]> {
+    let mut part = Vec::with_capacity(4);
+    for (i, (from, here)) in triangle.iter().enumerate() {
+        let (to, there) = triangle[(i + 1) % 3];
+        if is_inside(*here) {
+            part.push(*from);
+        }
+        if is_inside(*here) != is_inside(there) {
+            let way = (HALF - here) / (there - here);
+            part.push([0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * way));
+        }
+    }
+    part
 }
 
 /// The world with the floor coloured, as seen from above.
@@ -133,26 +192,26 @@ pub(crate) fn map_scene(world: &World, looks: &Looks, map: &FloorMap) -> Scene {
 
 /// Writes the meaning of the colours below the picture.
 pub(crate) fn add_legend(image: &mut Image) {
-    let scale = 1 + image.width() / 800;
+    let size = image.width() / 36;
     let entries = [
         ([96, 150, 82], "The base may stand"),
         ([186, 90, 74], "Something is in the way"),
     ];
     let mut left = 0;
     for (color, text) in entries {
-        let line = Line { text, scale, color };
-        let size = line.height() + 4 * scale;
-        if left + size + line.width() > image.width() || size > image.height() / 4 {
+        let line = Line {
+            text,
+            size,
+            color: [226, 228, 232],
+        };
+        let [width, height] = line.plate();
+        if left + height + width > image.width() || height > image.height() / 4 {
             return;
         }
-        let top = image.height() - size;
-        image.fill([left, top], [size; 2], color);
-        let white = Line {
-            color: [226, 228, 232],
-            ..line
-        };
-        white.draw_on_plate(image, left + size, top);
-        left += size + line.width() + 12 * scale;
+        let top = image.height() - height;
+        image.fill([left, top], [height; 2], color);
+        line.draw_on_plate(image, left + height, top);
+        left += height + width + height / 2;
     }
 }
 

@@ -12,11 +12,13 @@ pub(crate) const SAMPLES: usize = 2;
 /// A triangle, or the part of it in front of the camera, in the grid of samples.
 pub(crate) struct Seen {
     pub(crate) patch: Patch,
-    corners: [Corner; 3],
-    /// One over twice the triangle's area.
-    per_area: f64,
-    points: [Vector3<f64>; 3],
-    normals: [Vector3<f64>; 3],
+    /// What gives the weight of each corner at a column and row of the grid: factors of these,
+    /// and what is added.
+    weights: [[f64; 3]; 3],
+    points: [Vector3<f32>; 3],
+    normals: [Vector3<f32>; 3],
+    /// Whether the normal is the same everywhere.
+    pub(crate) is_flat: bool,
     /// Unit vector away from the solid.
     outward: Vector3<f32>,
     pub(crate) body: usize,
@@ -32,23 +34,18 @@ impl Seen {
     }
 
     /// Position (m, map frame) and normal of what is seen at the column and row of the grid.
-    pub(crate) fn at(&self, x: f64, y: f64) -> (Vector3<f64>, Vector3<f64>) {
-        let [a, b, c] = self.corners;
-        let here = [x, y, 0.0];
-        let per_area = self.per_area;
-        let weight =
-            |one, two, corner: Corner| (twice_area(one, two, here) * per_area).max(0.0) * corner[2];
-        let weights = [weight(b, c, a), weight(c, a, b), weight(a, b, c)];
+    pub(crate) fn at(&self, x: f64, y: f64) -> (Vector3<f32>, Vector3<f32>) {
+        let weights = self.weights.map(|[a, b, c]| (a * x + b * y + c).max(0.0));
         let sum = weights[0] + weights[1] + weights[2];
         let weights = if sum > 0.0 {
             let per_sum = 1.0 / sum;
-            weights.map(|w| w * per_sum)
+            weights.map(|w| (w * per_sum) as f32)
         } else {
             [1.0 / 3.0; 3]
         };
-        let mix = |v: &[Vector3<f64>; 3]| v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2];
+        let mix = |v: &[Vector3<f32>; 3]| v[0] * weights[0] + v[1] * weights[1] + v[2] * weights[2];
         let normal = mix(&self.normals);
-        let normal = normal.try_normalize(1e-12).unwrap_or(self.normals[0]);
+        let normal = normal.try_normalize(1e-6).unwrap_or(self.normals[0]);
         (mix(&self.points), normal)
     }
 }
@@ -148,14 +145,25 @@ impl Projector {
                 1.0 / v.camera.z,
             ]
         });
+        let patch = Patch::new(corners, self.width, self.height)?;
         let [a, b, c] = corners;
+        // A patch has a positive area.
+        let per_area = 1.0 / twice_area(a, b, c);
+        // The share of the triangle's area that is opposite to a corner, by the corner's
+        // nearness: the nearer one counts more than its share of the picture.
+        let weight = |one: Corner, two: Corner, corner: Corner| {
+            let (across, down) = (two[0] - one[0], two[1] - one[1]);
+            [-down, across, down * one[0] - across * one[1]].map(|v| v * per_area * corner[2])
+        };
         Some(Seen {
-            patch: Patch::new(corners, self.width, self.height)?,
-            corners,
-            // A patch has a positive area.
-            per_area: 1.0 / twice_area(a, b, c),
-            points: vertices.map(|v| v.point),
-            normals: vertices.map(|v| v.normal),
+            patch,
+            weights: [weight(b, c, a), weight(c, a, b), weight(a, b, c)],
+            points: vertices.map(|v| v.point.cast()),
+            normals: vertices.map(|v| v.normal.cast()),
+            is_flat: facet
+                .normals
+                .iter()
+                .all(|normal| *normal == facet.normals[0]),
             outward: facet.outward.cast(),
             body: facet.body,
         })

@@ -8,15 +8,20 @@ use std::ops::Range;
 use std::sync::Mutex;
 use std::thread;
 
+use nalgebra::Vector3;
+
 use super::facet::Facets;
 use super::image::Image;
 use super::projector::{Projector, SAMPLES, Seen};
-use super::scene::Scene;
+use super::scene::{Finish, Scene};
 use super::shade::{Color, Lights, Reach, background, unit};
 use crate::perception::camera::Camera;
 
 /// Rows of pixels in a band; a multiple of [`BLOCK`].
 const BAND: usize = 16;
+
+/// Distance (samples) between those whose points tell which shadows are seen.
+const SPARSE: usize = 8;
 
 /// Edge length (pixels) of a square in which a surface gets the same light from the sky.
 const BLOCK: usize = 2;
@@ -39,13 +44,20 @@ pub(crate) fn render(scene: &Scene, camera: &Camera) -> Image {
 fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
     let mut image = Image::black(camera.width, camera.height);
     let facets = Facets::of(scene);
-    let plan = Lights::plan();
-    let lamps = in_parallel(threads, plan, |wanted| Lights::lamp(wanted, &facets));
+    let projector = Projector::new(camera);
+    let seen = projector.project(&facets.all);
+    let rows = (0..projector.height).step_by(BAND * SAMPLES);
+    let bands = rows.map(|row| row..(row + BAND * SAMPLES).min(projector.height));
+    let bands = in_parallel(threads, bands.collect(), |rows| {
+        samples(scene, &seen, projector.width, rows)
+    });
+    let points = some_points(&bands, &seen, projector.width);
+    let lamps = in_parallel(threads, Lights::plans(), |plan| {
+        Lights::lamp(plan, &facets, &points)
+    });
     let Some(lights) = Lights::new(lamps) else {
         return image;
     };
-    let projector = Projector::new(camera);
-    let seen = projector.project(&facets.all);
     let painter = Painter {
         scene,
         lights: &lights,
@@ -54,11 +66,28 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
         tones: tones(),
     };
     let band_bytes = (camera.width * 3 * BAND).max(1);
-    let bands = image.bytes_mut().chunks_mut(band_bytes).enumerate();
-    in_parallel(threads, bands.collect(), |(i, bytes)| {
-        painter.paint(i * BAND, bytes);
+    let bytes = image.bytes_mut().chunks_mut(band_bytes);
+    let bands = bytes.zip(&bands).enumerate();
+    in_parallel(threads, bands.collect(), |(i, (bytes, samples))| {
+        painter.paint(i * BAND, samples, bytes);
     });
     image
+}
+
+/// Points (m, map frame) of all that is seen: those of some samples.
+fn some_points(bands: &[Vec<u32>], seen: &[Seen], width: usize) -> Vec<Vector3<f32>> {
+    let rows = bands.iter().flat_map(|band| band.chunks(width.max(1)));
+    let rows = rows.enumerate().step_by(SPARSE);
+    let samples = rows.flat_map(|(row, samples)| {
+        let samples = samples.iter().enumerate().step_by(SPARSE);
+        samples.map(move |(column, id)| (column, row, *id))
+    });
+    samples
+        .filter_map(|(column, row, id)| {
+            let seen = seen.get(id as usize)?;
+            Some(seen.at(column as f64 + 0.5, row as f64 + 0.5).0)
+        })
+        .collect()
 }
 
 /// The body that each pixel shows, as an index into the scene, row by row from the top; `None`
@@ -108,6 +137,15 @@ fn in_parallel<I: Send, R: Send>(
 /// No triangle.
 const NOTHING: u32 = u32::MAX;
 
+/// What is known of the light on a triangle within a block.
+struct Known {
+    /// The triangle.
+    id: u32,
+    reach: Reach,
+    /// The light that it sends to the eye, if that is the same in the whole block.
+    color: Option<Color>,
+}
+
 /// What is needed to draw a band.
 struct Painter<'a> {
     scene: &'a Scene,
@@ -118,14 +156,13 @@ struct Painter<'a> {
 }
 
 impl Painter<'_> {
-    /// Draws rows of pixels, from `first` on, as many as fit into `bytes`.
-    fn paint(&self, first: usize, bytes: &mut [u8]) {
+    /// Draws rows of pixels, from `first` on, as many as fit into `bytes`, with the triangles
+    /// seen at their samples.
+    fn paint(&self, first: usize, samples: &[u32], bytes: &mut [u8]) {
         let width = self.projector.width;
         let pixels = width / SAMPLES;
         let rows = bytes.len() / (pixels * 3);
-        let rows_of_samples = first * SAMPLES..(first + rows) * SAMPLES;
-        let samples = samples(self.scene, self.seen, width, rows_of_samples);
-        let mut known: Vec<(u32, Reach)> = Vec::new();
+        let mut known = Vec::new();
         for block_row in (0..rows).step_by(BLOCK) {
             for block_column in (0..pixels).step_by(BLOCK) {
                 known.clear();
@@ -144,13 +181,7 @@ impl Painter<'_> {
     }
 
     /// The colour of a pixel whose samples show the triangles.
-    fn pixel(
-        &self,
-        column: usize,
-        row: usize,
-        samples: [u32; 4],
-        known: &mut Vec<(u32, Reach)>,
-    ) -> Color {
+    fn pixel(&self, column: usize, row: usize, samples: [u32; 4], known: &mut Vec<Known>) -> Color {
         if samples == [samples[0]; 4] {
             let x = (column * SAMPLES) as f64 + 1.0;
             let y = (row * SAMPLES) as f64 + 1.0;
@@ -180,7 +211,7 @@ impl Painter<'_> {
     }
 
     /// The light at a place in the grid of samples that shows the triangle, or the background.
-    fn light(&self, id: u32, x: f64, y: f64, known: &mut Vec<(u32, Reach)>) -> Color {
+    fn light(&self, id: u32, x: f64, y: f64, known: &mut Vec<Known>) -> Color {
         match self.seen.get(id as usize) {
             None => background(&self.projector.ray(x, y)),
             Some(seen) => self.surface(id, seen, x, y, known),
@@ -205,32 +236,36 @@ impl Painter<'_> {
     }
 
     /// The light of a triangle at a column and row of the grid of samples.
-    fn surface(
-        &self,
-        id: u32,
-        seen: &Seen,
-        x: f64,
-        y: f64,
-        known: &mut Vec<(u32, Reach)>,
-    ) -> Color {
+    fn surface(&self, id: u32, seen: &Seen, x: f64, y: f64, known: &mut Vec<Known>) -> Color {
+        let own = known.iter().find(|known| known.id == id);
+        if let Some(color) = own.and_then(|own| own.color) {
+            return color;
+        }
         let (point, normal) = seen.at(x, y);
-        let eye = &self.projector.eye;
-        let grain = (point - eye).norm() * SAMPLES as f64 / self.projector.focal;
-        let is_known = |(k, _): &&(u32, Reach)| {
-            let other = self.seen.get(*k as usize);
-            *k == id || other.is_some_and(|other| other.continues(seen))
+        let eye = self.projector.eye.cast();
+        let grain = (point - eye).norm() * SAMPLES as f32 / self.projector.focal as f32;
+        let continues = |known: &&Known| {
+            let other = self.seen.get(known.id as usize);
+            known.id == id || other.is_some_and(|other| other.continues(seen))
         };
-        let reach = match known.iter().find(is_known) {
-            Some((_, reach)) => *reach,
-            None => {
-                let reach = self.lights.reach(&point, &normal, grain);
-                known.push((id, reach));
-                reach
-            }
+        let reach = match known.iter().find(continues) {
+            Some(known) => known.reach,
+            None => self.lights.reach(&point, &normal, grain),
         };
         // Every triangle belongs to a body of the scene.
         let body = &self.scene.bodies[seen.body];
-        self.lights.shade(body, &point, &normal, eye, reach, grain)
+        let color = self
+            .lights
+            .shade(body, [&point, &normal], &eye, reach, grain);
+        let is_even = seen.is_flat && reach.is_even() && body.finish != Finish::Boards;
+        if own.is_none() {
+            known.push(Known {
+                id,
+                reach,
+                color: is_even.then_some(color),
+            });
+        }
+        color
     }
 
     fn byte(&self, light: f32) -> u8 {
@@ -320,7 +355,7 @@ mod tests {
     use std::sync::Arc;
 
     use crate::picture::render::*;
-    use crate::picture::scene::{Body, Finish, Kind, Owner};
+    use crate::picture::scene::{Body, Kind, Owner};
     use crate::picture::surface::Surface;
     use crate::spatial::Pose;
 

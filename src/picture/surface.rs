@@ -58,6 +58,21 @@ impl Surface {
         }
     }
 
+    /// Adds a horizontal convex polygon that faces up, at a height (m); its corners (m) are in
+    /// counter-clockwise order seen from above.
+    pub(crate) fn add_flat(&mut self, corners: &[[f64; 2]], height: f64) {
+        // A surface of four billion corners does not fit into memory.
+        let first = u32::try_from(self.corners.len()).unwrap_or(u32::MAX);
+        self.corners.extend(corners.iter().map(|[x, y]| Corner {
+            point: Point3::new(*x, *y, height),
+            normal: Vector3::z(),
+        }));
+        let count = u32::try_from(corners.len()).unwrap_or(0);
+        for i in 2..count {
+            self.triangles.push([first, first + i - 1, first + i]);
+        }
+    }
+
     fn cuboid(half: [f64; 3], bevel: f64) -> Self {
         let mut surface = Self::default();
         // Corner 0..8 has bit i set if its coordinate i is positive; it is split into one

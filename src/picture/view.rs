@@ -5,6 +5,7 @@ use std::fmt;
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 use thiserror::Error;
 
+use super::obstruction::Obstruction;
 use crate::perception::camera::Camera;
 use crate::spatial::{Pose, trig};
 use crate::world::World;
@@ -67,9 +68,9 @@ pub(crate) enum ViewError {
 }
 
 /// Position of the eye of [`View::Follow`], and of the point it looks at (m, relative to the
-/// robot's base but along the axes of the map): it never turns, and no wall is in between.
-const FOLLOW_FROM: [f64; 3] = [-2.05, -1.7, 2.0];
-const FOLLOW_AT: [f64; 3] = [0.0, 0.05, 0.82];
+/// robot's base but along the axes of the map): it never turns.
+pub(crate) const FOLLOW_FROM: [f64; 3] = [-2.05, -1.7, 2.0];
+pub(crate) const FOLLOW_AT: [f64; 3] = [0.0, 0.05, 0.82];
 
 /// Height (m) of the eye of [`View::Map`]: from so far away, nothing looks nearer than the
 /// floor.
@@ -161,9 +162,7 @@ impl View {
                 look([at.x - 2.0, at.y - 1.7, 2.0], at.into(), FIELD_OF_VIEW)
             }
             Self::Follow => {
-                let base = world.robot_configuration().base.translation.vector;
-                let from = Point3::from(base) + Vector3::from(FOLLOW_FROM);
-                let at = Point3::from(base) + Vector3::from(FOLLOW_AT);
+                let [from, at] = Self::followed(world);
                 looking(from, at, Vector3::z()).map(|pose| camera(pose, FIELD_OF_VIEW))
             }
             Self::Free {
@@ -180,6 +179,27 @@ impl View {
                 looking(from, at, Vector3::z()).map(|pose| camera(pose, vertical_fov))
             }
         }
+    }
+
+    /// The point (map frame) that the view is meant to show, if that depends on the user or on
+    /// the robot.
+    fn target(self, world: &World) -> Option<Point3<f64>> {
+        match self {
+            Self::Free { at, .. } => Some(at),
+            Self::Follow => Some(Self::followed(world)[1]),
+            _ => None,
+        }
+    }
+
+    /// What keeps the camera, which is this view's, from showing what it is meant to show.
+    pub(crate) fn obstruction(self, world: &World, camera: &Camera) -> Option<Obstruction> {
+        Obstruction::of(world, camera, &self.target(world)?)
+    }
+
+    /// The eye of [`View::Follow`] and the point that it looks at (m, map frame).
+    fn followed(world: &World) -> [Point3<f64>; 2] {
+        let base = world.robot_configuration().base.translation.vector;
+        [FOLLOW_FROM, FOLLOW_AT].map(|from| Point3::from(base) + Vector3::from(from))
     }
 
     /// A point on a link of the kitchen, in the map frame.

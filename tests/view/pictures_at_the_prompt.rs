@@ -190,3 +190,33 @@ fn a_narrower_field_of_view_shows_things_larger() {
         assert_eq!(pictures, 0);
     }
 }
+
+#[test]
+fn a_picture_that_cannot_show_what_it_is_meant_to_says_why() {
+    let mut desk = Desk::new("hidden");
+    let mut warning = |from: &str, at: &str| {
+        let form =
+            format!("(picture \"FOLDER/a.png\" :from '{from} :at '{at} :width 64 :height 48)");
+        let (said, pictures) = desk.evaluate(&form);
+        assert_eq!(pictures, 1, "{said}");
+        said.strip_suffix("\"FOLDER/a.png\"")
+            .unwrap()
+            .trim_end()
+            .to_owned()
+    };
+    let table = "(-1.5 -0.9 0.8)";
+    assert_eq!(warning("(-1.5 -2.2 1.5)", table), "");
+    assert_eq!(
+        warning("(-1.4 -1 0.6)", table),
+        "Warning: the eye is inside kitchen_wall_5; choose another :from."
+    );
+    assert_eq!(
+        warning("(0 0 -1)", table),
+        "Warning: the eye is under the floor; choose another :from."
+    );
+    let drawers = warning("(-0.6 1.5 0.5)", table);
+    assert!(
+        drawers.contains("% of the view is behind kitchen_island_left_upper_drawer_main, 0.33 m"),
+        "{drawers}"
+    );
+}

@@ -1,6 +1,7 @@
 //! Draws the world as plan files leave it.
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -10,6 +11,7 @@ use nalgebra::Point3;
 use super::arguments::Options;
 use super::failure::{CommandError, Status};
 use super::open::open_session;
+use super::paint::Paint;
 use super::run::run_in;
 use crate::picture::View;
 use crate::picture::animation::{Shot, write_gif};
@@ -115,11 +117,14 @@ pub(crate) fn picture(
         write(path, &gif)?;
     }
     if let Some(path) = &wanted.output {
-        let png = session
-            .simulation()
-            .picture(view, width, height)?
-            .to_png()?;
-        write(path, &png)?;
+        let simulation = session.simulation();
+        let (picture, obstruction) = simulation.judged_picture(view, None, width, height)?;
+        write(path, &picture.to_png()?)?;
+        if let Some(obstruction) = obstruction {
+            let paint = Paint::new(options.color, &io::stderr());
+            let label = paint.bad("warning:");
+            writeln!(io::stderr(), "{label} {obstruction}; choose another --from")?;
+        }
     }
     Ok(status)
 }

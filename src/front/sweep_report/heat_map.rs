@@ -77,7 +77,7 @@ pub(crate) fn heat_map(records: &[Record], [x, y]: [&str; 2]) -> Option<Image> {
     let mut write = |text: &str, column: usize, row: usize| {
         let line = Line {
             text,
-            scale: 1,
+            size: 16,
             color: INK,
         };
         line.draw(&mut image, column, row);

@@ -58,14 +58,48 @@ impl Look {
         }
     }
 
-    /// The body shown by a thing at the pose (map frame); `color` is the thing's own.
+    /// The body shown by a thing at the pose (map frame); `color` is the thing's own, which is
+    /// shown as a [`pigment`].
     pub(crate) fn body(&self, owner: &Owner, pose: &Pose, color: Color) -> Body {
         Body {
             owner: owner.clone(),
             surface: self.surface.clone(),
             pose: pose * self.at,
-            color: self.color.unwrap_or(color),
+            color: self.color.unwrap_or_else(|| pigment(color)),
             finish: self.finish,
         }
+    }
+}
+
+/// Greatest and least share of the light that a pure colour reflects.
+const PURE: [f32; 2] = [0.62, 0.012];
+
+/// A colour as paint can have it: nothing is both as pure and as bright as `(1 0 0)`, on which
+/// light and shade could not be told apart.
+fn pigment([red, green, blue, alpha]: Color) -> Color {
+    let color = [red, green, blue].map(|c| c.clamp(0.0, 1.0));
+    let most = color.iter().copied().fold(0.0, f32::max);
+    let least = color.iter().copied().fold(1.0, f32::min);
+    if most <= 0.0 {
+        return [PURE[1], PURE[1], PURE[1], alpha];
+    }
+    let purity = 1.0 - least / most;
+    let limit = 1.0 + (PURE[0] - 1.0) * purity;
+    let [red, green, blue] = color.map(|c| (c * limit.min(most) / most).max(PURE[1]));
+    [red, green, blue, alpha]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pure_colours_leave_room_for_light_and_shade() {
+        assert_eq!(pigment([1.0, 0.0, 0.0, 0.5]), [0.62, 0.012, 0.012, 0.5]);
+        let grey = [0.5, 0.5, 0.5, 1.0];
+        assert_eq!(pigment(grey), grey);
+        let dull = [0.3, 0.2, 0.1, 1.0];
+        assert_eq!(pigment(dull), dull);
+        assert_eq!(pigment([0.0, 0.0, f32::NAN, 1.0])[3], 1.0);
     }
 }

@@ -89,8 +89,14 @@ fn picture(host: &mut SimulationHost, image: &mut Image, args: &[Value]) -> Resu
     let width = request.size(image, "WIDTH", WIDTH)?;
     let height = request.size(image, "HEIGHT", HEIGHT)?;
     let vertical_fov = request.field_of_view(image)?;
-    let picture = simulation.picture_within(view, vertical_fov, width, height);
-    let picture = picture.map_err(|error| Raise::simple(format!("{error}.")))?;
+    let (picture, obstruction) = simulation
+        .judged_picture(view, vertical_fov, width, height)
+        .map_err(|error| Raise::simple(format!("{error}.")))?;
+    if let Some(obstruction) = obstruction {
+        image.output.fresh_line();
+        let warning = format!("Warning: {obstruction}; choose another :from.\n");
+        image.output.write(&warning);
+    }
     publish(
         &mut host.audience,
         picture,

@@ -1,7 +1,7 @@
 //! The scene, and the objects that the robot looked for.
 
 use super::Simulation;
-use crate::picture::{self, View, render};
+use crate::picture::{self, Obstruction, View, render};
 
 impl Simulation {
     /// The present scene.
@@ -23,20 +23,23 @@ impl Simulation {
         width: usize,
         height: usize,
     ) -> Result<picture::Image, picture::ViewError> {
-        self.picture_within(view, None, width, height)
+        let judged = self.judged_picture(view, None, width, height);
+        judged.map(|(picture, _)| picture)
     }
 
-    /// The same with another vertical field of view (rad), if one is given.
-    pub(in crate::session) fn picture_within(
+    /// The same with another vertical field of view (rad), if one is given, and what keeps the
+    /// picture from showing what it is meant to show.
+    pub(crate) fn judged_picture(
         &self,
         view: View,
         vertical_fov: Option<f64>,
         width: usize,
         height: usize,
-    ) -> Result<picture::Image, picture::ViewError> {
+    ) -> Result<(picture::Image, Option<Obstruction>), picture::ViewError> {
         let mut camera = view.camera(&self.world, width, height)?;
         camera.vertical_fov = vertical_fov.unwrap_or(camera.vertical_fov);
-        Ok(render(&self.scene(), &camera))
+        let obstruction = view.obstruction(&self.world, &camera);
+        Ok((render(&self.scene(), &camera), obstruction))
     }
 
     /// The objects that the robot looked for last, or all objects if it has not looked for any.
