@@ -16,8 +16,8 @@ pub(crate) struct Frame {
     pub(crate) placed: Vec<Placed>,
     /// Objects in the robot's hands.
     pub(crate) holds: Vec<Hold>,
-    /// Pairs of a link of the robot and an object that press on each other.
-    pub(crate) touching: Vec<[u32; 2]>,
+    /// What presses on objects, in order of the objects.
+    pub(crate) presses: Vec<Press>,
     /// What stopped motions lately.
     pub(crate) hits: Vec<Hit>,
     /// Coordinate axes that the user wants to see, and their length (m).
@@ -80,6 +80,21 @@ pub(crate) struct Hold {
     pub(crate) object: u32,
     /// Name of the link that holds it.
     pub(crate) link: Arc<str>,
+    /// The force (N) that the grip transmits.
+    pub(crate) force: f32,
+}
+
+/// A place at which a body presses on an object.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Press {
+    /// Node of the body; `None` for the floor.
+    pub(crate) body: Option<u32>,
+    /// Node of the object.
+    pub(crate) object: u32,
+    /// Where (m).
+    pub(crate) at: [f32; 3],
+    /// The normal force on the object (N).
+    pub(crate) force: [f32; 3],
 }
 
 /// What stopped a motion.
@@ -115,5 +130,6 @@ impl Frame {
             + self.joints.len() * size_of::<f64>()
             + self.holds.len() * size_of::<Hold>()
             + self.hits.len() * size_of::<Hit>()
+            + self.presses.len() * size_of::<Press>()
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use indexmap::IndexMap;
 
 use super::Observation;
-use super::frame::{Frame, Hit, Hold, Path, Placed};
+use super::frame::{Frame, Hit, Hold, Path, Placed, Press};
 use super::node::{Kind, Node, VisualMesh};
 use super::trajectory_lines::TrajectoryLines;
 use crate::picture::LocationMap;
@@ -157,7 +157,7 @@ impl FrameBuilder {
         let links = self.moving_furniture.iter();
         placed.extend(links.map(|(link, node)| Placed::new(*node, &world.furniture_pose(*link))));
         let mut holds = Vec::new();
-        let mut touching = Vec::new();
+        let mut presses = Vec::new();
         for object in world.objects() {
             let node = self.object_node(object);
             // The name comes from the world, so the object exists.
@@ -166,19 +166,21 @@ impl FrameBuilder {
             };
             placed.push(Placed::new(node, &pose));
             if let Some(hold) = object.attachment() {
+                let error = world.weld_error(object.name()).ok().flatten();
                 holds.push(Hold {
                     object: node,
                     link: world.models().robot.link(hold.link).name.as_str().into(),
+                    force: error.map_or(0.0, |error| rounded(error.force)),
                 });
             }
-            for contact in world.object_contacts(object.name()).unwrap_or_default() {
-                let link = contact.body.robot_link();
-                if let Some(link) = link.and_then(|l| self.node_of(l.index()))
-                    && contact.force >= LEAST_FORCE
-                {
-                    touching.push([link, node]);
-                }
-            }
+            let strong = world.presses(object).into_iter();
+            let strong = strong.filter(|press| press.force.norm() >= LEAST_FORCE);
+            presses.extend(strong.map(|press| Press {
+                body: self.body_node(&press.body),
+                object: node,
+                at: <[f64; 3]>::from(press.at).map(|v| rounded(v * 1e3) / 1e3),
+                force: <[f64; 3]>::from(press.force).map(rounded),
+            }));
         }
         if let Some(node) = observation.location.and_then(|map| self.map_node(map)) {
             placed.push(Placed::new(node, &Pose::identity()));
@@ -201,7 +203,7 @@ impl FrameBuilder {
             time: observation.time,
             placed,
             holds,
-            touching,
+            presses,
             hits: self.hits.iter().map(|(_, hit)| hit.clone()).collect(),
             // The axes are not a node.
             axes: (observation.axes).map(|(pose, size)| (Placed::new(0, &pose), size as f32)),
@@ -353,6 +355,12 @@ impl FrameBuilder {
         self.nodes.push(Arc::new(node));
         id
     }
+}
+
+/// Rounded to tenths (of a newton, or of a millimetre), so that what rests looks the same in all
+/// frames.
+fn rounded(value: f64) -> f32 {
+    ((value * 10.0).round() / 10.0) as f32
 }
 
 /// How a link hangs together with others.

@@ -16,7 +16,7 @@ mod trajectory_lines;
 mod watch_event;
 
 pub(crate) use base64::base64;
-pub(crate) use frame::{Frame, Hit, Hold, Path, Placed};
+pub(crate) use frame::{Frame, Hit, Hold, Path, Placed, Press};
 pub(crate) use frame_builder::FrameBuilder;
 pub(crate) use halt::{Halt, HaltKind};
 pub(crate) use node::{Kind, Node, Vertex, VisualMesh};
@@ -28,6 +28,9 @@ use crate::motion::PlannedTrajectory;
 use crate::picture::LocationMap;
 use crate::spatial::Pose;
 use crate::world::{CollisionHit, World};
+
+/// Length (m) of the arrow for a force of 1 N.
+pub(crate) const FORCE_SCALE: f32 = 0.02;
 
 /// The world as it is now, and what is shown with it.
 #[derive(Clone, Copy)]

@@ -79,6 +79,8 @@ pub(crate) struct About {
     pub(crate) place: String,
     /// The text of that line.
     pub(crate) line: String,
+    /// The process module that carries it out, if it is a motion; empty otherwise.
+    pub(crate) module: String,
 }
 
 /// The state of a task.

@@ -1,5 +1,7 @@
 //! Contact forces between bodies, as of the last physics step.
 
+use nalgebra::Vector3;
+
 use super::body_name::BodyName;
 use super::error::WorldError;
 use super::object::Object;
@@ -18,6 +20,17 @@ pub(crate) struct ContactForce {
     pub(crate) force: f64,
 }
 
+/// A place at which a body presses on an object.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Press {
+    /// The body.
+    pub(crate) body: BodyName,
+    /// Where (m, map frame).
+    pub(crate) at: Vector3<f64>,
+    /// The normal force on the object (N, map frame), averaged over the last step.
+    pub(crate) force: Vector3<f64>,
+}
+
 /// How far a held object lags behind the link that carries it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct WeldError {
@@ -30,6 +43,21 @@ pub(crate) struct WeldError {
 }
 
 impl World {
+    /// Where and how the bodies that touch an object press on it, in a fixed order.
+    pub(crate) fn presses(&self, object: &Object) -> Vec<Press> {
+        let mut presses = Vec::new();
+        self.physics.visit_contacts(object.body, |contact| {
+            if let Some(body) = self.body_name(PartKey::from_code(contact.other)) {
+                presses.push(Press {
+                    body,
+                    at: contact.at,
+                    force: contact.push,
+                });
+            }
+        });
+        presses
+    }
+
     /// What presses on the object, in a fixed order.
     pub(crate) fn object_contacts(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
         let body = self.object(name)?.body;
@@ -55,7 +83,7 @@ impl World {
         self.physics
             .visit_contacts(self.object(name)?.body, |contact| {
                 if matches!(PartKey::from_code(contact.other), PartKey::Robot(_)) {
-                    sum += contact.down.max(0.0);
+                    sum += (-contact.push.z).max(0.0);
                 }
             });
         Ok(sum)

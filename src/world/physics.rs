@@ -25,7 +25,7 @@ use rapier3d_f64::geometry::{
     BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, ContactPair, Group,
     InteractionGroups, InteractionTestMode, NarrowPhase, SharedShape,
 };
-use rapier3d_f64::math::Vector;
+use rapier3d_f64::math::{Pose as EnginePose, Vector};
 use rapier3d_f64::pipeline::PhysicsPipeline;
 use serde::{Deserialize, Serialize};
 
@@ -128,8 +128,10 @@ pub(crate) struct RawContact {
     pub(crate) other: u64,
     /// Normal force (N), averaged over the last step.
     pub(crate) force: f64,
-    /// How much of it (N) presses the body down; negative if it carries the body.
-    pub(crate) down: f64,
+    /// The force on the body (N), as a vector.
+    pub(crate) push: Vector3<f64>,
+    /// Where it acts (m, map frame): the mean of the points that carry load.
+    pub(crate) at: Vector3<f64>,
 }
 
 /// The engine with everything in it.
@@ -482,12 +484,13 @@ impl Physics {
         if !pair.has_any_active_contact() {
             return None;
         }
-        let (impulse, upwards) = normal_impulse(pair);
-        let force = impulse / STEP_SECONDS;
+        let place = self.sets.colliders.get(pair.collider1)?.position();
+        let NormalImpulse { sum, vector, point } = normal_impulse(pair, place);
+        let force = sum / STEP_SECONDS;
         let (other, sign) = if pair.collider1 == own {
-            (pair.collider2, 1.0)
+            (pair.collider2, -1.0)
         } else {
-            (pair.collider1, -1.0)
+            (pair.collider1, 1.0)
         };
         let key = |c: ColliderHandle| {
             let data = self.sets.colliders.get(c)?.user_data;
@@ -497,7 +500,8 @@ impl Physics {
             own: key(own)?,
             other: key(other)?,
             force,
-            down: sign * upwards / STEP_SECONDS,
+            push: from_parry_vector(vector) * (sign / STEP_SECONDS),
+            at: from_parry_vector(point),
         })
     }
 
@@ -551,26 +555,38 @@ impl Physics {
     }
 }
 
-/// Sum of the normal impulses (N s) of the last step.
+/// The normal impulses of a pair in the last step.
+struct NormalImpulse {
+    /// Their sum (N s).
+    sum: f64,
+    /// The same as a vector, on the second body.
+    vector: Vector,
+    /// The mean of the points (m, map frame) at which they act, weighted by them.
+    point: Vector,
+}
+
+/// The normal impulses of the last step; `place` is the pose of the first collider.
 ///
 /// The engine's own sum includes every point of a manifold, but points that the solver did
 /// not use keep the impulse of an earlier step; a bottle of 2 N would weigh 3 N.
-///
-/// Returns the sum (N s), and how much of it goes upwards on the second body.
-fn normal_impulse(pair: &ContactPair) -> (f64, f64) {
-    let (mut sum, mut upwards) = (0.0, 0.0);
+fn normal_impulse(pair: &ContactPair, place: &EnginePose) -> NormalImpulse {
+    let (mut sum, mut vector, mut point) = (0.0, Vector::ZERO, Vector::ZERO);
     for manifold in pair.solver_manifolds() {
         for contact in &manifold.data.solver_contacts {
             for index in contact.contact_indices() {
-                let place = usize::try_from(index).ok();
-                let point = place.and_then(|i| manifold.points.get(i));
-                let impulse = point.map_or(0.0, |p| p.data.impulse);
+                let index = usize::try_from(index).ok();
+                let Some(contact) = index.and_then(|i| manifold.points.get(i)) else {
+                    continue;
+                };
+                let impulse = contact.data.impulse;
                 sum += impulse;
-                upwards += impulse * manifold.data.normal.z;
+                vector += manifold.data.normal * impulse;
+                point += (place * contact.local_p1) * impulse;
             }
         }
     }
-    (sum, upwards)
+    let point = if sum > 0.0 { point / sum } else { point };
+    NormalImpulse { sum, vector, point }
 }
 
 /// Furniture never collides with furniture, and the robot only with objects: where a

@@ -21,6 +21,7 @@ SCHEMAS = {
     "/scene/robot_and_kitchen": "foxglove.SceneUpdate",
     "/scene/objects": "foxglove.SceneUpdate",
     "/scene/plans": "foxglove.SceneUpdate",
+    "/scene/contacts": "foxglove.SceneUpdate",
     "/scene/tasks": "foxglove.SceneUpdate",
     "/joint_states": "foxglove.JointStates",
     "/camera/image": "foxglove.CompressedImage",
@@ -51,7 +52,7 @@ def main(path):
     assert size <= LARGEST, f"{size} bytes"
     counts, sizes, last_time = Counter(), Counter(), 0
     frames, joints, states, levels, base, entities, texts = {}, {}, {}, Counter(), [], {}, set()
-    parameters = {}
+    parameters, forces = {}, set()
     with open(path, "rb") as file:
         reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
         for schema, channel, message, value in reader.iter_decoded_messages(log_time_order=False):
@@ -75,6 +76,10 @@ def main(path):
                     assert abs(q.x**2 + q.y**2 + q.z**2 + q.w**2 - 1) < 1e-3, one
                 if topic == "/tf":
                     base.append(frames["base_footprint"].translation)
+            elif topic == "/scene/contacts":
+                for entity in value.entities:
+                    assert len(entity.arrows) == len(entity.texts)
+                    forces.update(float(text.text.removesuffix(" N")) for text in entity.texts)
             elif topic.startswith("/scene/") and topic != "/scene/plans":
                 for entity in value.entities:
                     texts.update(text.text for text in entity.texts)
@@ -119,6 +124,7 @@ def main(path):
     assert parameters["picking-up"]["grasp"] == "LEFT-SIDE", parameters
     assert any(text.startswith("picking-up › ") for text in texts), texts
     assert levels[2] >= 8, levels
+    assert any(abs(force - 2) < 0.1 for force in forces), f"nothing carries the bottle: {sorted(forces)}"
     seconds = last_time * 1e-9
     print(f"{path}: {size} bytes, {sum(counts.values())} messages in {seconds:.1f} simulated seconds, {len(entities)} bodies")
     for topic, count in sorted(counts.items()):

@@ -56,7 +56,8 @@ async function screen({ browser, check, pictures, folder, file }) {
   await until(tab, 'page.marked !== null', 30);
   const card = await text(tab, '#card');
   check(/picking-up/.test(card) && /grasp\s+LEFT-SIDE/.test(card) && /move-bottle\.plan:\d+/.test(card) && /BOTTLE-1/.test(card), `a click goes to a task and tells about it: ${card.replaceAll(/\s+/g, ' ').slice(0, 90)} …`);
-  check(await get(tab, 'page.marked.ids.size') > 4, 'what the task used is marked');
+  const used = await get(tab, '[...page.marked.ids].map((id) => scene.nodes.get(id).name)');
+  check(used.includes('BOTTLE-1') && used.includes('r_gripper_palm_link') && !used.some((name) => /^l_/.test(name) || name === 'base_link'), `what the task used is marked, and nothing else: ${used.length} things`);
   await tab.picture(join(pictures, 'task.png'));
 
   // A part of the time.
@@ -100,9 +101,19 @@ async function screen({ browser, check, pictures, folder, file }) {
   await tab.send('Input.dispatchKeyEvent', { type: 'keyDown', key: 'ArrowLeft', code: 'ArrowLeft', windowsVirtualKeyCode: 37 });
   check(Math.abs(await get(tab, 'orbit.azimuth') - turned) > 0.05, 'arrow keys turn the view');
 
-  // A thing, its forms, distances, and where it is dragged.
+  // Forces.
   await tab.press('#card .close');
   await tab.press('#views [data-view=table]');
+  await tab.press('[data-layer=forces]');
+  await tab.value('(() => { const slider = document.querySelector("#slider"); slider.value = 7; slider.dispatchEvent(new Event("input")); })()');
+  await tab.until('[...document.querySelectorAll("#labels span")].some((label) => /^[12]\\.\\d N$/.test(label.textContent))', 20);
+  check(/10 N = 20 cm/.test(await text(tab, '#scale')), 'forces have their numbers and a scale');
+  await sleep(1);
+  await tab.picture(join(pictures, 'forces.png'));
+  await tab.press('[data-layer=forces]');
+  check(await tab.value('document.querySelector("#scale").hidden && !document.querySelectorAll("#labels span").length'), 'forces can be hidden');
+
+  // A thing, its forms, distances, and where it is dragged.
   await tab.value('(() => { const slider = document.querySelector("#slider"); slider.value = 0; slider.dispatchEvent(new Event("input")); })()');
   await until(tab, 'page.shown.t < 0.1 && !orbit.way', 20);
   await sleep(1);

@@ -8,7 +8,7 @@ use crate::session::{Session, SessionOptions};
 use crate::watch::live::{History, Origin};
 use crate::watch::recording::read::Recording;
 use crate::watch::recording::{RecordingError, read_recording};
-use crate::watch::{Kind, TaskState, WatchEvent};
+use crate::watch::{Kind, Press, TaskState, WatchEvent};
 
 const EXERCISE: &str = "(in-package :pp-tut)
     (init-projection)
@@ -362,7 +362,13 @@ fn recordings_of_earlier_versions_are_shown() {
     let frame = &history.past(0.0, 1.0, 9)[0];
     let places: Vec<f32> = frame.placed.iter().map(|p| p.at[0]).collect();
     assert_eq!(places, [2.0, 3.0]);
-    assert_eq!(frame.touching, [[0, 1]]);
+    let press = Press {
+        body: Some(0),
+        object: 1,
+        at: [0.0; 3],
+        force: [0.0; 3],
+    };
+    assert_eq!(frame.presses, [press]);
     assert_eq!(&*frame.joints, [0.5]);
 }
 

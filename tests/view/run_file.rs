@@ -255,3 +255,66 @@ fn a_file_that_cannot_be_written_is_told() {
         assert_eq!(told, "cannot write /dev/full: the disk is full");
     }
 }
+
+#[test]
+fn actions_that_fail_at_the_same_time_have_their_own_failures() {
+    let path = file("both");
+    let mut session = Session::new(&SessionOptions::default()).unwrap();
+    session.keep_run(&path).unwrap();
+    evaluate(
+        &mut session,
+        "(in-package :pp-tut)
+         (init-projection)
+         (def-action going-first () \"Fails after a while.\"
+           (cpl:sleep 0.3)
+           (cpl:fail 'cpl:simple-plan-failure :format-control \"the first\"))
+         (def-action going-second () \"Fails at the same time.\"
+           (cpl:sleep 0.3)
+           (cpl:fail 'cpl:simple-plan-failure :format-control \"the second\"))
+         (defmacro without-failing (&body body)
+           `(cpl:with-failure-handling ((cpl:simple-plan-failure (f)
+                                          (declare (ignore f))
+                                          (return)))
+              ,@body))
+         (with-simulated-robot
+           (cpl:par
+             (without-failing (perform (an action (type going-first))))
+             (without-failing (perform (an action (type going-second))))))",
+    );
+    session.write_kept_run().unwrap();
+    let run = run_in(&std::fs::read_to_string(&path).unwrap());
+    let news = run.head["news"].as_array().unwrap();
+    for (name, why) in [("going-first", "the first"), ("going-second", "the second")] {
+        let end = news.iter().rfind(|n| n["name"] == name).unwrap();
+        assert_eq!(end["state"], "failed", "{name}");
+        assert!(end["failure"].as_str().unwrap().contains(why), "{end}");
+    }
+}
+
+#[test]
+fn what_carries_an_object_presses_on_it_with_its_weight() {
+    let (text, _) = saved("pressing");
+    let run = run_in(&text);
+    let pressed = run
+        .frames
+        .iter()
+        .filter_map(|frame| frame["touch"].as_array());
+    let pressed: Vec<_> = pressed.filter(|touch| !touch.is_empty()).collect();
+    // It stands still, so the forces are told once.
+    let [touch] = pressed.as_slice() else {
+        panic!("{pressed:?}")
+    };
+    let number = |press: &Value, i: usize| press[i].as_f64().unwrap();
+    let nodes = run.head["nodes"].as_array().unwrap();
+    let name = |press: &Value, i: usize| nodes[number(press, i) as usize]["name"].clone();
+    let mut weight = 0.0;
+    for press in *touch {
+        assert_eq!(name(press, 0), "table_area_main");
+        assert_eq!(name(press, 1), "BOTTLE-1");
+        // Its bottom is on the table; lengths are in tenths of a millimetre, forces in tenths of
+        // a newton.
+        assert!((number(press, 4) * 1e-4 - 0.72).abs() < 0.03, "{press}");
+        weight += number(press, 7) * 0.1;
+    }
+    assert!((weight - 0.2 * 9.81).abs() < 0.15, "{weight} N");
+}

@@ -6,7 +6,9 @@ use crate::motion::PlannedTrajectory;
 use crate::plan::Plan;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::jobs::Job;
-use crate::watch::{Cause, Follower, Halt, Observation, TaskId, TaskNews, TaskState, WatchEvent};
+use crate::watch::{
+    About, Cause, Follower, Halt, Observation, TaskId, TaskNews, TaskState, WatchEvent,
+};
 use crate::world::CollisionHit;
 
 /// The followers of a session.
@@ -130,6 +132,14 @@ impl Audience {
         if self.followers.all.is_empty() {
             return;
         }
+        let about = job.told.about.as_deref().map(|about| {
+            let module = job.module.to_string();
+            let about = About {
+                module,
+                ..about.clone()
+            };
+            about.into()
+        });
         self.tell(
             now,
             &WatchEvent::Task(TaskNews {
@@ -139,7 +149,7 @@ impl Audience {
                 state,
                 failure: failure.to_owned(),
                 result: String::new(),
-                about: (job.told.about.clone()).filter(|_| state == TaskState::Running),
+                about: about.filter(|_| state == TaskState::Running),
             }),
         );
     }

@@ -111,6 +111,7 @@ pub(in crate::session) fn about(image: &Image, designator: &Value, place: Place)
             .map(ToString::to_string)
             .unwrap_or_default(),
         line: location.map(|l| l.line_text).unwrap_or_default(),
+        module: String::new(),
     }
 }
 

@@ -15,7 +15,7 @@ use crate::world::World;
 /// A motion that a task waits for.
 pub(crate) struct Job {
     pub(crate) ticket: Ticket,
-    module: ProcessModule,
+    pub(crate) module: ProcessModule,
     motion: Box<dyn Motion>,
     /// The designator named in failures.
     pub(crate) subject: Value,

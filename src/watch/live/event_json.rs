@@ -26,6 +26,9 @@ pub(crate) fn news((time, event): &(f64, WatchEvent)) -> Value {
             if let Some(about) = &news.about {
                 value["about"] =
                     json!({"keys": about.keys, "place": about.place, "line": about.line});
+                if !about.module.is_empty() {
+                    value["about"]["module"] = json!(about.module);
+                }
             }
             value
         }

@@ -6,7 +6,7 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
-use crate::watch::{Frame, Path, Placed};
+use crate::watch::{Frame, Path, Placed, Press};
 
 /// Units per metre, and units per one in quaternions.
 const METRE: f32 = 1e4;
@@ -56,11 +56,12 @@ pub(crate) fn frame_json(frame: &Frame, before: Option<&Frame>) -> String {
         let _ = write!(text, "{i},{position}");
     });
     list(&mut text, "held", &frame.holds, |text, hold| {
-        let _ = write!(text, "[{},{}]", hold.object, quoted(&hold.link));
+        let (object, link) = (hold.object, quoted(&hold.link));
+        let _ = write!(text, "[{object},{link},{}]", hold.force);
     });
-    list(&mut text, "touch", &frame.touching, |text, [a, b]| {
-        let _ = write!(text, "[{a},{b}]");
-    });
+    if before.is_none_or(|b| b.presses != frame.presses) {
+        list(&mut text, "touch", &frame.presses, press);
+    }
     list(&mut text, "hits", &frame.hits, |text, hit| {
         let _ = write!(
             text,
@@ -90,6 +91,20 @@ pub(crate) fn frames_json(frames: &[Arc<Frame>]) -> String {
         .map(|frame| frame_json(frame, before.replace(frame.as_ref())))
         .collect();
     format!("[{}]", frames.join(","))
+}
+
+/// The nodes of the body, -1 for the floor, and of the object, then the place and the force, in
+/// tenths of a newton.
+fn press(text: &mut String, press: &Press) {
+    let body = press.body.map_or(-1, i64::from);
+    let _ = write!(text, "[{body},{}", press.object);
+    for number in units(press.at, METRE)
+        .into_iter()
+        .chain(units(press.force, 10.0))
+    {
+        let _ = write!(text, ",{number}");
+    }
+    text.push(']');
 }
 
 fn path(text: &mut String, path: &Path) {
@@ -160,6 +175,13 @@ mod tests {
             holds: vec![Hold {
                 object: 4,
                 link: "a\"b".into(),
+                force: 1.5,
+            }],
+            presses: vec![Press {
+                body: None,
+                object: 4,
+                at: [0.5, 0.0, 0.1],
+                force: [0.0, -0.2, 2.0],
             }],
             ..Frame::default()
         }
@@ -177,7 +199,9 @@ mod tests {
             1, 0, 0, 0, 0, 0, 0, 100_000, 4, 10_000, 0, -5_000, 0, 0, 0, 100_000,
         ];
         assert_eq!(frame["p"], serde_json::json!(places));
-        assert_eq!(frame["held"], serde_json::json!([[4, "a\"b"]]));
+        assert_eq!(frame["held"], serde_json::json!([[4, "a\"b", 1.5]]));
+        let press = [-1, 4, 5_000, 0, 1_000, 0, -2, 20];
+        assert_eq!(frame["touch"], serde_json::json!([press]));
     }
 
     #[test]
@@ -188,6 +212,7 @@ mod tests {
             serde_json::json!([])
         );
         let moved = parsed(&frame(1.001), Some(&before));
+        assert_eq!(moved["touch"], serde_json::Value::Null, "as before");
         assert_eq!(moved["p"][0], 4);
         let mut empty = frame(1.0);
         empty.placed.pop();

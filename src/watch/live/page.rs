@@ -1,11 +1,19 @@
 //! The page, assembled from its parts.
 
+use serde_json::json;
+
+use crate::picture::floor;
+use crate::picture::shade::LAMP;
+use crate::watch::FORCE_SCALE;
+
 /// Parts of the page's script, in the order of definition.
-const SCRIPTS: [&str; 25] = [
+const SCRIPTS: [&str; 27] = [
     include_str!("page/algebra.js"),
     include_str!("page/program.js"),
+    include_str!("page/floor.js"),
     include_str!("page/orbit.js"),
     include_str!("page/scene.js"),
+    include_str!("page/forces.js"),
     include_str!("page/stage.js"),
     include_str!("page/tasks.js"),
     include_str!("page/log.js"),
@@ -53,12 +61,27 @@ pub(crate) fn page_of_run(run: &str) -> String {
 /// The nonce in a file. Whoever could insert a script there could insert the nonce, too.
 const WORD: &str = "planwright";
 
+/// What the page has in common with pictures and recordings.
+fn constants() -> String {
+    let floor = json!({
+        "board": floor::BOARD,
+        "width": floor::BOARD_WIDTH,
+        "length": floor::BOARD_LENGTH,
+        "gap": floor::BOARD_GAP,
+        "variety": floor::VARIETY,
+        "shade": floor::GAP_SHADE,
+        "fade": floor::FADE,
+    });
+    let lamp = json!(LAMP);
+    format!("const FLOOR = {floor}, LAMP = {lamp}, FORCE_SCALE = {FORCE_SCALE};\n")
+}
+
 fn filled(word: &str, policy: &str, run: &str) -> String {
     // What comes last is longest; nothing in it is mistaken for a placeholder.
     FRAME
         .replace("{word}", word)
         .replace("<!--policy-->", policy)
         .replace("{style}", STYLE)
-        .replace("{script}", &SCRIPTS.concat())
+        .replace("{script}", &(constants() + &SCRIPTS.concat()))
         .replace("<!--run-->", run)
 }

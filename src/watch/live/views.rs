@@ -2,8 +2,10 @@
 
 use serde_json::{Value, json};
 
+use crate::motion::ProcessModule;
 use crate::picture::View;
-use crate::robot::{JointKind, LinkId};
+use crate::picture::view::{FIELD_OF_VIEW, FOLLOW_AT, FOLLOW_FROM};
+use crate::robot::{JointId, JointKind, LinkId};
 use crate::world::World;
 
 /// Length (m) of the drawn frustum of the robot's camera.
@@ -22,6 +24,38 @@ impl Views {
     pub(crate) fn new(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Self {
         Self(views(world, node_of))
     }
+}
+
+/// The nodes of the robot's parts, each with the process module that moves it and its side, if it
+/// has one.
+fn parts(world: &World, node: impl Fn(LinkId) -> Option<u32>) -> Vec<Value> {
+    let models = world.models();
+    let description = &models.description;
+    let part = |link: LinkId| {
+        let is_moved_by =
+            |joints: &[JointId]| models.robot.ancestors(link).any(|j| joints.contains(&j));
+        for arm in &description.arms {
+            let side = arm.side.name();
+            if arm.gripper.links().any(|part| part == link) {
+                return (ProcessModule::Grippers, Some(side));
+            }
+            if is_moved_by(arm.joints()) {
+                return (ProcessModule::Arms, Some(side));
+            }
+        }
+        let neck = &description.neck;
+        match () {
+            () if is_moved_by(&[neck.pan_joint, neck.tilt_joint]) => (ProcessModule::Neck, None),
+            () if is_moved_by(&[description.torso.joint]) => (ProcessModule::Torso, None),
+            () => (ProcessModule::Navigation, None),
+        }
+    };
+    let links = models.robot.links();
+    let parts = links.filter_map(|(link, _)| {
+        let (module, side) = part(link);
+        Some(json!([node(link)?, module.to_string(), side]))
+    });
+    parts.collect()
 }
 
 fn views(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Value {
@@ -57,6 +91,9 @@ fn views(world: &World, node_of: impl Fn(&str) -> Option<u32>) -> Value {
     json!({
         "fixed": fixed.collect::<Vec<_>>(),
         "base": node(robot.root()),
+        "parts": parts(world, node),
+        // Relative to the base, along the axes of the map.
+        "follow": {"from": FOLLOW_FROM, "at": FOLLOW_AT, "fov": FIELD_OF_VIEW},
         "joints": joints.collect::<Vec<_>>(),
         "camera": {
             "node": node(camera.frame),

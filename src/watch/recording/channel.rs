@@ -15,6 +15,8 @@ pub(crate) enum Channel {
     Objects,
     /// Planned paths, coordinate axes and what stopped a motion, as lines.
     Overlay,
+    /// What presses on objects, as arrows.
+    Contacts,
     /// What the robot does, as a text above it, and failures.
     Markers,
     /// Positions and velocities of joints.
@@ -33,12 +35,13 @@ pub(crate) enum Channel {
 
 impl Channel {
     /// All channels.
-    pub(crate) const ALL: [Self; 12] = [
+    pub(crate) const ALL: [Self; 13] = [
         Self::Transforms,
         Self::Still,
         Self::Furnishing,
         Self::Objects,
         Self::Overlay,
+        Self::Contacts,
         Self::Markers,
         Self::Joints,
         Self::Picture,
@@ -56,6 +59,7 @@ impl Channel {
             Self::Furnishing => "/scene/robot_and_kitchen",
             Self::Objects => "/scene/objects",
             Self::Overlay => "/scene/plans",
+            Self::Contacts => "/scene/contacts",
             Self::Markers => "/scene/tasks",
             Self::Joints => "/joint_states",
             Self::Picture => "/camera/image",
@@ -70,7 +74,7 @@ impl Channel {
     pub(crate) fn schema(self) -> &'static MessageType {
         match self {
             Self::Transforms | Self::Still => &schema::FRAME_TRANSFORMS,
-            Self::Furnishing | Self::Objects | Self::Overlay | Self::Markers => {
+            Self::Furnishing | Self::Objects | Self::Overlay | Self::Contacts | Self::Markers => {
                 &schema::SCENE_UPDATE
             }
             Self::Joints => &schema::JOINT_STATES,

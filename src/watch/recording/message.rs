@@ -117,7 +117,8 @@ pub(crate) struct SceneEntity {
     pub(crate) lifetime: Time,
     pub(crate) frame_locked: bool,
     pub(crate) metadata: Vec<KeyValuePair>,
-    pub(crate) arrows: [(); 0],
+    #[serde(default)]
+    pub(crate) arrows: Vec<ArrowPrimitive>,
     pub(crate) cubes: [(); 0],
     pub(crate) spheres: [(); 0],
     pub(crate) cylinders: [(); 0],
@@ -157,6 +158,17 @@ pub(crate) struct Color {
     pub(crate) g: f32,
     pub(crate) b: f32,
     pub(crate) a: f32,
+}
+
+/// `foxglove.ArrowPrimitive`: from the pose's origin along its x axis; lengths in m.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ArrowPrimitive {
+    pub(crate) pose: PoseMessage,
+    pub(crate) shaft_length: f32,
+    pub(crate) shaft_diameter: f32,
+    pub(crate) head_length: f32,
+    pub(crate) head_diameter: f32,
+    pub(crate) color: Color,
 }
 
 /// `foxglove.LinePrimitive`.
@@ -263,13 +275,16 @@ pub(crate) struct Task {
     pub(crate) failure: String,
     #[serde(default)]
     pub(crate) result: String,
-    /// What it is to do; told when it begins, as are the place and the line of the plan.
+    /// What it is to do; told when it begins, as are the place and the line of the plan, and
+    /// the process module of a motion.
     #[serde(default)]
     pub(crate) parameters: Vec<KeyValuePair>,
     #[serde(default)]
     pub(crate) place: String,
     #[serde(default)]
     pub(crate) line: String,
+    #[serde(default)]
+    pub(crate) module: String,
 }
 
 /// What is shown besides bodies and their poses, until the next message.
@@ -283,28 +298,55 @@ pub(crate) struct Shown {
     pub(crate) paths: Vec<PathMessage>,
 }
 
-/// Frames of a link and an object that press on each other.
+/// A body that presses on an object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(from = "TouchingForm")]
 pub(crate) struct Touching {
+    /// Frame of the body; empty for the floor.
     pub(crate) link: String,
+    /// Frame of the object.
     pub(crate) object: String,
+    /// Where (m), and the normal force on the object (N); recordings of earlier versions have
+    /// neither.
+    pub(crate) position: Vector3,
+    pub(crate) force: Vector3,
 }
 
 /// How they are written: recordings of earlier versions have pairs.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum TouchingForm {
-    Named { link: String, object: String },
+    Named {
+        link: String,
+        object: String,
+        #[serde(default)]
+        position: Vector3,
+        #[serde(default)]
+        force: Vector3,
+    },
     Pair([String; 2]),
 }
 
 impl From<TouchingForm> for Touching {
     fn from(form: TouchingForm) -> Self {
         match form {
-            TouchingForm::Named { link, object } | TouchingForm::Pair([link, object]) => {
-                Self { link, object }
-            }
+            TouchingForm::Named {
+                link,
+                object,
+                position,
+                force,
+            } => Self {
+                link,
+                object,
+                position,
+                force,
+            },
+            TouchingForm::Pair([link, object]) => Self {
+                link,
+                object,
+                position: Vector3::default(),
+                force: Vector3::default(),
+            },
         }
     }
 }
@@ -316,6 +358,9 @@ pub(crate) struct Held {
     pub(crate) object: String,
     /// Name of the link.
     pub(crate) link: String,
+    /// The force (N) that the grip transmits; recordings of earlier versions have none.
+    #[serde(default)]
+    pub(crate) force: f32,
 }
 
 /// What stopped a motion.

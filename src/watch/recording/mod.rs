@@ -7,6 +7,7 @@
 //! earlier versions.
 
 mod channel;
+mod contacts;
 mod decompress;
 mod follower;
 mod markers;

@@ -17,8 +17,8 @@ use super::protobuf::decoded;
 use super::shapes::{MAP, frame_of, node, path_name};
 use crate::watch::live::History;
 use crate::watch::{
-    About, Frame, Halt, HaltKind, Hit, Hold, Kind, Node, Path, Placed, TaskId, TaskNews, TaskState,
-    WatchEvent,
+    About, Frame, Halt, HaltKind, Hit, Hold, Kind, Node, Path, Placed, Press, TaskId, TaskNews,
+    TaskState, WatchEvent,
 };
 
 /// What was read from a recording.
@@ -164,7 +164,11 @@ impl Reader<'_> {
                 self.joints
                     .extend(states.map(|state| (state.name, state.position)));
             }
-            Channel::Picture | Channel::Calibration | Channel::Overlay | Channel::Markers => {}
+            Channel::Picture
+            | Channel::Calibration
+            | Channel::Overlay
+            | Channel::Contacts
+            | Channel::Markers => {}
         }
         Ok(())
     }
@@ -269,11 +273,19 @@ impl Reader<'_> {
                     Some(Hold {
                         object: node(&held.object)?,
                         link: held.link.as_str().into(),
+                        force: held.force,
                     })
                 })
                 .collect(),
-            touching: (shown.touching.iter())
-                .filter_map(|pair| Some([node(&pair.link)?, node(&pair.object)?]))
+            presses: (shown.touching.iter())
+                .filter_map(|touching| {
+                    Some(Press {
+                        body: node(&touching.link),
+                        object: node(&touching.object)?,
+                        at: touching.position.into(),
+                        force: touching.force.into(),
+                    })
+                })
                 .collect(),
             hits: (shown.stops.iter())
                 .map(|stop| Hit {
@@ -350,6 +362,7 @@ fn news(task: Task) -> Option<TaskNews> {
             keys,
             place: task.place,
             line: task.line,
+            module: task.module,
         }
         .into()
     });

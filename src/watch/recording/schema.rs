@@ -411,17 +411,27 @@ pub(crate) static TASK: MessageType = message(
         many(8, "parameters", Kind::Message(&KEY_VALUE_PAIR)),
         one(9, "place", Kind::Text),
         one(10, "line", Kind::Text),
+        one(11, "module", Kind::Text),
     ],
 );
 
 static HELD: MessageType = message(
     "planwright.Held",
-    &[one(1, "object", Kind::Text), one(2, "link", Kind::Text)],
+    &[
+        one(1, "object", Kind::Text),
+        one(2, "link", Kind::Text),
+        one(3, "force", Kind::Double),
+    ],
 );
 
 static TOUCHING: MessageType = message(
     "planwright.Touching",
-    &[one(1, "link", Kind::Text), one(2, "object", Kind::Text)],
+    &[
+        one(1, "link", Kind::Text),
+        one(2, "object", Kind::Text),
+        one(3, "position", Kind::Message(&VECTOR3)),
+        one(4, "force", Kind::Message(&VECTOR3)),
+    ],
 );
 
 static STOP: MessageType = message(

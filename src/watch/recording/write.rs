@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::RecordingError;
 use super::channel::Channel;
+use super::contacts::contacts;
 use super::markers::Markers;
 use super::mcap_file::McapFile;
 use super::message::{
@@ -241,14 +242,17 @@ impl<W: Write> RecordingWriter<W> {
                     Some(Held {
                         object: frame_id(hold.object)?,
                         link: hold.link.to_string(),
+                        force: hold.force,
                     })
                 })
                 .collect(),
-            touching: (frame.touching.iter())
-                .filter_map(|[link, object]| {
+            touching: (frame.presses.iter())
+                .filter_map(|press| {
                     Some(Touching {
-                        link: frame_id(*link)?,
-                        object: frame_id(*object)?,
+                        link: press.body.and_then(frame_id).unwrap_or_default(),
+                        object: frame_id(press.object)?,
+                        position: press.at.into(),
+                        force: press.force.into(),
                     })
                 })
                 .collect(),
@@ -281,14 +285,22 @@ impl<W: Write> RecordingWriter<W> {
         if shown == self.shown {
             return Ok(());
         }
-        let update = SceneUpdate {
+        let update = |entities| SceneUpdate {
             deletions: vec![all_deleted(frame.time)],
-            entities: lines(frame, frame_id),
+            entities,
         };
-        self.shown = shown;
+        let before = std::mem::replace(&mut self.shown, shown);
         self.shown.timestamp = Time::new(frame.time);
         let shown = self.shown.clone();
-        self.write(Channel::Overlay, frame.time, &update)?;
+        if before.touching != shown.touching {
+            let arrows = update(vec![contacts(frame)]);
+            self.write(Channel::Contacts, frame.time, &arrows)?;
+        }
+        let drawn = |shown: &Shown| (shown.stops.clone(), shown.axes.clone(), shown.paths.clone());
+        if drawn(&before) != drawn(&shown) {
+            let lines = update(lines(frame, |id| self.frame_id(id)));
+            self.write(Channel::Overlay, frame.time, &lines)?;
+        }
         self.write(Channel::Shown, frame.time, &shown)
     }
 
@@ -410,6 +422,7 @@ impl<W: Write> RecordingWriter<W> {
                 .collect(),
             place: about.place,
             line: about.line,
+            module: about.module,
         };
         self.write(Channel::Tasks, time, &task)
     }

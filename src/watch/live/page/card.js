@@ -111,8 +111,31 @@ function originOf(task) {
   return inner ? originOf(inner) ?? inner : task;
 }
 
-// Finds out which parts of the robot moved relative to what carries them during a task, and which
-// things moved, were held or touched, or are named in its description.
+// The motions inside a task.
+const motionsOf = (task) => (task.what === 'motion' ? [task] : task.children.flatMap(motionsOf));
+
+// The nodes of the robot's parts that motions used, by their process modules and by the arms that
+// their parameters name; null if that is not known.
+function partsOf(motions) {
+  const known = motions.filter(({ about }) => about?.module);
+  if (!known.length && motions.length) return null;
+  const ids = new Set();
+  for (const { about } of known) {
+    // A key such as `left-target` names an arm, as do the values of `arm` and `gripper`.
+    const said = about.keys.filter(([, value]) => value !== 'NIL').map(([key, value]) => (/^(arm|gripper)s?$/.test(key) ? value : key));
+    const sides = ['left', 'right'].filter((side) => said.some((text) => text.toLowerCase().includes(side)));
+    for (const [id, module, side] of page.views.parts) {
+      const isUsed = { perception: 'neck' }[about.module] ?? about.module;
+      const isHand = about.module === 'arms' && module === 'grippers';
+      if (module !== isUsed && !isHand) continue;
+      if (!side || !sides.length || sides.includes(side)) ids.add(id);
+    }
+  }
+  return ids;
+}
+
+// Finds out which parts of the robot a task used, and which things: those that its description names,
+// and those that these parts held, touched or moved.
 async function markUsed(task) {
   const end = task.end ?? past.span[1];
   const times = [0, 0.25, 0.5, 0.75, 1].map((share) => task.since + (end - task.since) * share);
@@ -130,6 +153,10 @@ async function markUsed(task) {
     return !!first && later.some((place) => place && isElsewhere(first, place));
   };
   const words = new Set((task.about?.keys ?? []).flatMap(([, value]) => value.toLowerCase().match(/[a-z][\w-]*/g) ?? []));
+  const used = partsOf(motionsOf(task));
+  const usedNames = new Set([...used ?? []].map((id) => scene.nodes.get(id)?.name));
+  const handles = (state, id) => state.held.some(([object, link]) => object === id && usedNames.has(link))
+    || state.touch.some(({ body, object }) => object === id && used.has(body));
   const ids = new Set(), things = new Set(), parts = new Set();
   for (const node of scene.nodes.values()) {
     if (node.still) {
@@ -139,8 +166,12 @@ async function markUsed(task) {
     // What moves in so short a time moves for other reasons.
     const mayMove = end - task.since > 0.04;
     const isNamed = node.kind !== 'robot' && words.has(node.name.toLowerCase());
-    const isHeld = node.kind === 'object' && states.some((state) => state.held.some(([id]) => id === node.id));
-    if (!isNamed && !(isHeld && task.what !== 'task') && !(mayMove && isMoved(node))) continue;
+    // What other branches of the plan do at the same time is not this task's.
+    const isUsed = !used ? mayMove && isMoved(node)
+      : node.kind === 'robot' ? used.has(node.id)
+      : node.kind === 'object' ? states.some((state) => handles(state, node.id))
+      : mayMove && usedNames.size > 0 && isMoved(node);
+    if (!isNamed && !isUsed) continue;
     ids.add(node.id);
     (node.kind === 'robot' ? parts : things).add(node.name);
   }

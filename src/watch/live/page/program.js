@@ -89,35 +89,6 @@ void main() {
   depth = bytes(floor(gl_FragCoord.z * 16777215.0));
 }`;
 
-const FLOOR_VERTEX = HEAD + `
-layout(location = 0) in vec2 corner;
-uniform mat4 view, light;
-out vec3 at;
-out vec4 inLight;
-void main() {
-  at = vec3(corner * 40.0, 0.0);
-  inLight = light * vec4(at, 1.0);
-  gl_Position = view * vec4(at, 1.0);
-}`;
-
-const FLOOR_FRAGMENT = HEAD + LIGHT + `
-in vec3 at;
-in vec4 inLight;
-uniform vec3 eye, paint, line, far;
-out vec4 result;
-float lines(float every, float width) {
-  vec2 p = at.xy / every, grain = fwidth(p);
-  vec2 d = abs(fract(p - 0.5) - 0.5);
-  vec2 on = 1.0 - smoothstep(vec2(width / every), vec2(width / every) + grain * 1.2, d);
-  return max(on.x, on.y) * clamp(1.4 - max(grain.x, grain.y) * 3.0, 0.0, 1.0);
-}
-void main() {
-  float grid = max(lines(1.0, 0.006), lines(0.25, 0.0) * 0.25);
-  vec3 color = mix(paint, line, grid) * (skyColor + sunColor * sun.z * lit(inLight, 0.2));
-  float away = length(at.xy - vec2(-0.5, 0.6));
-  result = vec4(mix(shown(color), far, smoothstep(4.0, 15.0, away)), 1.0);
-}`;
-
 // Thick lines: each segment is a rectangle that faces the eye.
 const LINE_VERTEX = HEAD + `
 layout(location = 0) in vec3 from;

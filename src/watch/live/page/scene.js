@@ -25,7 +25,9 @@ function follow(before, frame) {
     joints = frame.whole ? [] : joints.slice();
     for (let i = 0; i + 2 <= (frame.j?.length ?? 0); i += 2) joints[frame.j[i]] = frame.j[i + 1] * METRE;
   }
-  return { t: frame.t, joints, places, held: frame.held, touch: frame.touch, hits: frame.hits, axes: frame.axes, paths };
+  // What presses on objects: the body (-1 is the floor), the object, where, and with which force (N).
+  const touch = frame.touch ? frame.touch.map(([body, object, ...n]) => ({ body, object, at: times(n.slice(0, 3), METRE), force: times(n.slice(3), 0.1) })) : before.touch;
+  return { t: frame.t, joints, places, held: frame.held, touch, hits: frame.hits, axes: frame.axes, paths };
 }
 
 class Scene {
@@ -47,12 +49,18 @@ class Scene {
 
   holder(state, id) {
     const hold = state.held.find(([object]) => object === id);
-    return hold ? hold[1] : null;
+    return hold ? hold[1] + (hold[2] ? `, ${hold[2].toFixed(1)} N` : '') : null;
   }
 
+  // What touches a thing, and how hard: names and forces (N).
   touched(state, id) {
-    const others = state.touch.filter((pair) => pair.includes(id)).map(([a, b]) => this.nodes.get(a === id ? b : a));
-    return [...new Set(others.filter(Boolean).map((node) => node.name))];
+    const forces = new Map();
+    for (const { body, object, force } of state.touch) {
+      if (body !== id && object !== id) continue;
+      const name = this.nodes.get(body === id ? object : body)?.name ?? 'floor';
+      forces.set(name, (forces.get(name) ?? 0) + length(force));
+    }
+    return [...forces].map(([name, force]) => (force ? `${name} ${force.toFixed(1)} N` : name));
   }
 }
 

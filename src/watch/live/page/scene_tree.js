@@ -75,26 +75,29 @@ const sceneTree = new SceneTree($('scene-list'), $('scene-filter'));
 // The names in the picture: of what is selected, and of what is to be named.
 const labels = new Map();
 function showLabels() {
-  const wanted = new Set(page.labelled);
-  if (page.selected !== null) wanted.add(page.selected);
-  for (const [id, label] of labels) {
-    if (wanted.has(id)) continue;
+  const named = new Set(page.labelled);
+  if (page.selected !== null) named.add(page.selected);
+  const names = [...named].map((id) => ({ key: id, text: scene.nodes.get(id)?.name, at: page.hidden.has(id) ? null : screenOf(id) }));
+  const wanted = [...names, ...forceLabels(page.shown)];
+  const keys = new Set(wanted.map(({ key }) => key));
+  for (const [key, label] of labels) {
+    if (keys.has(key)) continue;
     label.remove();
-    labels.delete(id);
+    labels.delete(key);
   }
   const box = canvas.getBoundingClientRect();
-  for (const id of wanted) {
-    const at = page.hidden.has(id) ? null : screenOf(id);
-    let label = labels.get(id);
+  for (const { key, text, at } of wanted) {
+    let label = labels.get(key);
     if (!at) {
       if (label) label.hidden = true;
       continue;
     }
     if (!label) {
-      label = element('span', scene.nodes.get(id).name);
-      labels.set(id, label);
+      label = element('span', text);
+      labels.set(key, label);
       $('labels').append(label);
     }
+    if (label.textContent !== text) label.textContent = text;
     label.hidden = false;
     label.style.left = `${at[0] - box.left}px`;
     label.style.top = `${at[1] - box.top}px`;

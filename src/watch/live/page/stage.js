@@ -1,23 +1,23 @@
 // Draws a state of a scene onto the canvas.
 
 const SHADOW_SIZE = 2048;
-const SUN = unit([-0.45, -0.62, 0.9]);
+const SUN = unit(LAMP);
 const LINE_FLOATS = 12;
 
 const LOOKS = {
   light: {
-    clear: [0.915, 0.925, 0.935], floor: [0.74, 0.74, 0.73], line: [0.60, 0.61, 0.62],
+    clear: [0.915, 0.925, 0.935],
     sun: [0.66, 0.64, 0.60], sky: [0.40, 0.42, 0.45], ground: [0.20, 0.19, 0.18],
   },
   dark: {
-    clear: [0.075, 0.086, 0.10], floor: [0.062, 0.068, 0.076], line: [0.10, 0.11, 0.125],
+    clear: [0.075, 0.086, 0.10],
     sun: [0.54, 0.52, 0.50], sky: [0.26, 0.28, 0.32], ground: [0.11, 0.105, 0.10],
   },
 };
 
 const PATH_COLORS = { base: [0.09, 0.45, 0.80, 0.9], left: [0.10, 0.62, 0.42, 0.9], right: [0.62, 0.32, 0.76, 0.9] };
 
-const DEFAULT_LAYERS = { paths: true, camera: true, contacts: true, shadows: true, frames: false };
+const DEFAULT_LAYERS = { paths: true, camera: true, contacts: true, forces: false, maps: true, shadows: true, frames: false };
 
 class Stage {
   constructor(canvas, scene) {
@@ -121,7 +121,8 @@ class Stage {
     const seen = [];
     for (const node of this.scene.nodes.values()) {
       const place = this.scene.place(node, state);
-      if (node.mesh && place && !page.hidden.has(node.id)) seen.push([node, place]);
+      if (!node.mesh || !place || page.hidden.has(node.id)) continue;
+      if (this.layers.maps || node.type !== MAP_TYPE) seen.push([node, place]);
     }
     return seen;
   }
@@ -182,8 +183,6 @@ class Stage {
       gl.drawElements(gl.TRIANGLES, node.mesh.count, gl.UNSIGNED_INT, 0);
     }
     lit(this.floor);
-    gl.uniform3fv(this.floor.places.paint, look.floor);
-    gl.uniform3fv(this.floor.places.line, look.line);
     gl.uniform3fv(this.floor.places.far, look.clear);
     gl.bindVertexArray(this.floorArray);
     gl.drawArrays(gl.TRIANGLES, 0, 6);
@@ -210,7 +209,7 @@ class Stage {
   tints(state, selected) {
     const tints = new Map();
     if (this.layers.contacts) {
-      for (const id of state.touch.flat()) tints.set(id, [0.95, 0.60, 0.10, 0.30]);
+      for (const { body, object } of this.handled(state)) for (const id of [body, object]) tints.set(id, [0.95, 0.60, 0.10, 0.30]);
       for (const id of state.hits.flatMap((hit) => hit.nodes)) tints.set(id, [0.90, 0.08, 0.05, 0.65]);
     }
     for (const id of page.marked?.ids ?? []) tints.set(id, [0.98, 0.62, 0.05, 0.50]);
@@ -229,9 +228,7 @@ class Stage {
     };
     if (state.axes.length) axes(placeOf(state.axes, 0), state.axes[7] * METRE);
     if (page.measured?.length === 2) lines.push([...page.measured, [0.98, 0.45, 0.05, 1]]);
-    for (const at of page.measured ?? []) {
-      for (const axis of [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) lines.push([add(at, times(axis, -0.02)), add(at, times(axis, 0.02)), [0.98, 0.45, 0.05, 1]]);
-    }
+    for (const at of page.measured ?? []) lines.push(...marked(at, 0.02, [0.98, 0.45, 0.05, 1]));
     if (this.layers.frames) {
       for (const one of this.scene.nodes.values()) {
         const place = one.kind !== 'furniture' && this.scene.place(one, state);
@@ -254,15 +251,15 @@ class Stage {
     }
     if (this.layers.camera && this.camera && !isThroughCamera) lines.push(...this.frustum(state));
     if (this.layers.contacts) {
-      for (const hit of state.hits) {
-        const at = hit.at.map((v) => v * METRE);
-        for (const axis of [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) {
-          lines.push([add(at, times(axis, -0.06)), add(at, times(axis, 0.06)), [0.9, 0.08, 0.05, 1]]);
-        }
-      }
+      for (const hit of state.hits) lines.push(...marked(times(hit.at, METRE), 0.06, [0.9, 0.08, 0.05, 1]));
+      for (const { at } of state.touch) lines.push(...marked(at, 0.012, [0.95, 0.60, 0.10, 1]));
     }
+    if (this.layers.forces) for (const force of forcesOf(state)) lines.push(...arrowOf(force));
     return lines;
   }
+
+  // The contacts between the robot and objects.
+  handled(state) { return state.touch.filter(({ body }) => this.scene.nodes.get(body)?.kind === 'robot'); }
 
   frustum(state) {
     const { node, fov, aspect, near, far } = this.camera;

@@ -20,7 +20,8 @@ function look(name, isAtOnce = false) {
   if (fixed) orbit.go(Orbit.of(fixed.from, fixed.at, fixed.fov), isAtOnce ? -1e9 : performance.now());
   if (name === 'follow') {
     const base = page.shown.places.get(page.views.base);
-    if (base) orbit.go(Orbit.of(placed(base, [-1.9, 1.7, 2.2]), placed(base, [0.45, 0, 0.72]), FOV), performance.now());
+    const { from, at, fov } = page.views.follow;
+    if (base) orbit.go(Orbit.of(add(base, from), add(base, at), fov), performance.now());
     page.base = base;
   }
   showViews();
@@ -66,7 +67,8 @@ function bodyView(state) {
 
 const LAYER_TITLES = {
   paths: 'Planned paths of base and hands', camera: 'What the robot’s camera can see',
-  contacts: 'What the hands touch, and what stopped a motion', shadows: 'Shadows',
+  contacts: 'Where things touch, what the hands touch, and what stopped a motion',
+  forces: 'Normal forces on objects, as arrows that end where they press', maps: 'Maps of locations', shadows: 'Shadows',
   frames: 'All frames of the robot and of objects, with what carries them',
 };
 
@@ -84,6 +86,7 @@ function showLayers() {
   for (const button of $('layers').children) {
     button.setAttribute('aria-pressed', String(!!stage?.layers[button.dataset.layer]));
   }
+  showScale();
   page.isDirty = true;
 }
 showLayers();
