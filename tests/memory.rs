@@ -98,4 +98,16 @@ fn sessions_that_have_ended_leave_nothing_behind() {
         after < before + 2048,
         "{before} kB after 5 sessions, {after} kB after 15"
     );
+    let idle = |count: usize| {
+        for _ in 0..count {
+            Session::new(&SessionOptions::default()).unwrap();
+        }
+        resident()
+    };
+    let before = idle(10);
+    let after = idle(60);
+    assert!(
+        after < before + 1024,
+        "{before} kB after 10 sessions that do nothing, {after} kB after 70"
+    );
 }

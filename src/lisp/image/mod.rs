@@ -85,12 +85,8 @@ pub(crate) struct Image {
 const STREAM: u128 = 0xa02b_dbf7_bb3c_0a7a;
 
 impl Drop for Image {
-    /// Classes hold themselves, those above them, and those below them.
     fn drop(&mut self) {
-        for class in self.classes.values() {
-            class.direct_subclasses.borrow_mut().clear();
-            class.precedence.borrow_mut().clear();
-        }
+        self.classes.values().for_each(|class| class.let_go());
     }
 }
 

@@ -143,6 +143,21 @@ impl Class {
         }
     }
 
+    /// Lets go of all that may hold the class itself: those above and below it, the methods that are
+    /// specialized on it, and functions.
+    pub(crate) fn let_go(&self) {
+        let _above = self.direct_superclasses.take();
+        let _below = self.direct_subclasses.take();
+        let _order = self.precedence.take();
+        let _slots = (self.direct_slots.take(), self.slots.take());
+        let _values = (
+            self.direct_default_initargs.take(),
+            self.default_initargs.take(),
+        );
+        let _accessors = self.accessors.take();
+        let _report = self.report.take();
+    }
+
     /// Is this class the named one, or a subclass of it?
     pub(crate) fn is_subclass_of(&self, name: Sym) -> bool {
         self.name == name || self.precedence.borrow().iter().any(|c| c.name == name)
