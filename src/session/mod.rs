@@ -68,7 +68,7 @@ pub struct Session {
     /// Stopped evaluations, and what the user may do with them.
     console: console::Console,
     /// Where the texts define what.
-    definitions: assist::Definitions,
+    told_names: assist::ToldNames,
     /// What an editor refers to.
     objects: Rc<objects::Objects>,
     /// The last to be dropped: what has been put off is freed.
@@ -116,7 +116,7 @@ impl Session {
             ),
             checked: check::KnownNames::default(),
             console: console::Console::default(),
-            definitions: assist::Definitions::default(),
+            told_names: assist::ToldNames::default(),
             objects,
             _rest: FreesAll,
         };
@@ -303,19 +303,7 @@ impl Session {
 
     /// The name of the current package, or a nickname.
     fn package_name(&self) -> String {
-        self.prompt_name(self.image.current_package())
-    }
-
-    /// The name of a package, or a nickname, as prompts show it.
-    fn prompt_name(&self, package: PackageId) -> String {
-        if package == PackageTable::USER {
-            return "CL-USER".to_owned();
-        }
-        let package = self.image.packages.get(package);
-        std::iter::once(&package.name)
-            .chain(&package.nicknames)
-            .min_by_key(|name| name.chars().count())
-            .map_or_else(String::new, |name| name.to_string())
+        prompt_name(&self.image, self.image.current_package())
     }
 
     /// `+`, `++` and `+++`: the forms evaluated last.
@@ -395,4 +383,16 @@ impl Evaluate for Session {
     fn interrupt_handle(&self) -> Arc<AtomicBool> {
         Arc::clone(self.image.interrupt())
     }
+}
+
+/// The name of a package, or a nickname, as prompts show it.
+fn prompt_name(image: &Image, package: PackageId) -> String {
+    if package == PackageTable::USER {
+        return "CL-USER".to_owned();
+    }
+    let package = image.packages.get(package);
+    std::iter::once(&package.name)
+        .chain(&package.nicknames)
+        .min_by_key(|name| name.chars().count())
+        .map_or_else(String::new, |name| name.to_string())
 }

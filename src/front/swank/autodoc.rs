@@ -142,6 +142,8 @@ pub(super) fn operator_arglist(names: &Names, request: &Request) -> Option<Sexp>
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::session::dialogue::{KnownDescription, KnownFunction};
 
@@ -160,11 +162,11 @@ mod tests {
     #[test]
     fn the_keys_of_a_designator_are_told() {
         let names = Names {
-            descriptions: vec![KnownDescription {
+            descriptions: Arc::new(vec![KnownDescription {
                 class: "ACTION",
                 types: vec!["going".to_owned(), "navigating".to_owned()],
                 keys: vec![("target".to_owned(), true), ("speed".to_owned(), false)],
-            }],
+            }]),
             ..Names::default()
         };
         let told = |form: &str| {

@@ -63,7 +63,10 @@ fn symbols<'n>(
     let present = package.into_iter().flat_map(|package| &package.symbols);
     present
         .filter(|(_, (_, is_external))| all || *is_external)
-        .filter_map(|(name, (symbol, _))| Some((name.as_str(), names.symbols.get(*symbol)?)))
+        .filter_map(|(name, (symbol, _))| {
+            let symbol: &KnownSymbol = names.symbols.get(*symbol)?;
+            Some((name.as_str(), symbol))
+        })
         .collect()
 }
 

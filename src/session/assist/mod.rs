@@ -13,7 +13,7 @@ mod names;
 mod symbols;
 mod uses;
 
-pub(super) use names::Definitions;
+pub(super) use names::ToldNames;
 
 use super::Session;
 use crate::plan::designator::schema;

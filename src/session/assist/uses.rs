@@ -81,7 +81,7 @@ impl Session {
 
     /// Where lists in definitions begin with these names.
     fn uses_in_texts(&mut self, beginning: &[&str]) -> Vec<Use> {
-        let definitions = self.definitions.update(&self.image);
+        let definitions = self.told_names.definitions(&self.image);
         let all = definitions.values().flatten();
         let uses = all.flat_map(|definition| {
             occurrences(definition, beginning)

@@ -4,20 +4,20 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The names of an image at one time.
-#[derive(Default, Debug)]
+#[derive(Clone, Default, Debug)]
 pub(crate) struct Names {
     /// All packages.
-    pub(crate) packages: Vec<KnownPackage>,
+    pub(crate) packages: Vec<Arc<KnownPackage>>,
     /// Names and nicknames of packages with their indices.
     pub(crate) package_names: BTreeMap<String, usize>,
     /// The index of the package in which forms at top level are read.
     pub(crate) current: usize,
     /// All symbols with a home.
-    pub(crate) symbols: Vec<KnownSymbol>,
+    pub(crate) symbols: Vec<Arc<KnownSymbol>>,
     /// The places of definitions by name in upper case, the newest first.
     pub(crate) definitions: Arc<BTreeMap<String, Vec<Arc<Definition>>>>,
     /// What designators are made of.
-    pub(crate) descriptions: Vec<KnownDescription>,
+    pub(crate) descriptions: Arc<Vec<KnownDescription>>,
 }
 
 /// The keys of designators of a class, and of a type if that decides.
@@ -144,7 +144,8 @@ impl Names {
             used.find_map(|used| used.symbols.get(name).filter(|(_, external)| *external))
                 .map(|(symbol, _)| *symbol)
         };
-        self.symbols.get(own.or_else(inherited)?)
+        let symbol = self.symbols.get(own.or_else(inherited)?)?;
+        Some(symbol)
     }
 
     /// The symbol that is typed so in a package.
@@ -171,7 +172,9 @@ impl Names {
             .filter_map(|used| self.packages.get(*used))
             .flat_map(|used| &used.symbols)
             .filter(|(_, (_, is_external))| *is_external);
-        own.chain(inherited)
-            .filter_map(|(name, (symbol, _))| Some((name.as_str(), self.symbols.get(*symbol)?)))
+        own.chain(inherited).filter_map(|(name, (symbol, _))| {
+            let symbol: &KnownSymbol = self.symbols.get(*symbol)?;
+            Some((name.as_str(), symbol))
+        })
     }
 }
