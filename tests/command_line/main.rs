@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout)]
 
 #[cfg(unix)]
+mod interrupts;
 mod pseudo_terminal;
 #[cfg(unix)]
 mod swank;
