@@ -1,7 +1,10 @@
 //! The session's side of the dialogue with the prompt.
 
+use std::rc::Rc;
+
 use super::Session;
 use super::dialogue::{Completions, Converse, Repeat};
+use crate::lisp::image::input::Source;
 
 impl Repeat for Session {
     fn set_interactive(&mut self, is_interactive: bool) {
@@ -45,6 +48,10 @@ impl Converse for Session {
 
     fn is_designator_type(&self, name: &str) -> bool {
         self.is_type_name(name)
+    }
+
+    fn set_source(&mut self, source: Option<Rc<Source>>) {
+        self.image.input.set_source(source);
     }
 
     fn world_hash(&self) -> u64 {

@@ -1,7 +1,6 @@
 //! The session's side of the dialogue with an editor.
 
 use std::ops::Range;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use super::Session;
@@ -12,7 +11,6 @@ use super::dialogue::{
 use super::host::parts::View;
 use super::on_one_line;
 use crate::lisp::image::identity::aside;
-use crate::lisp::image::input::Source;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
@@ -36,10 +34,6 @@ const CARRIED: [Sym; 11] = [
 impl Serve for Session {
     fn set_served(&mut self, is_served: bool) {
         self.objects.set_served(is_served);
-    }
-
-    fn set_source(&mut self, source: Option<Rc<Source>>) {
-        self.image.input.set_source(source);
     }
 
     fn let_serve(&mut self) {

@@ -72,6 +72,28 @@ class Conversation(unittest.TestCase):
         chosen = self.run_cell("0", answers=["(+ 40 2)"])
         self.assertEqual((len(chosen.questions), chosen.value), (1, "(42)"))
 
+    def test_a_program_reads_what_is_typed(self):
+        reading = """(progn (format t "One~%Name? ")
+          (let ((name (read-line)))
+            (format t "Hello, ~a!~%" name)
+            (list name (read) (y-or-n-p "Sure?"))))"""
+        read = self.run_cell(reading, answers=["Jo ü", "(1 2)", "y"])
+        self.assertEqual(read.value, '("Jo ü" (1 2) T)')
+        # What was printed long before it reads is output, and no question.
+        shown = read.text + "".join(read.questions)
+        for part in ["One\n", "Name? ", "Hello, Jo ü!\n", "Sure? (y or n) "]:
+            self.assertEqual(shown.count(part), 1, shown)
+        # What is left over was typed for that program.
+        self.assertEqual(self.run_cell("(read-line)", answers=["a b"]).value, '"a b"\nNIL')
+        # Nobody is there.
+        self.assertEqual(self.run_cell("(read-line *standard-input* nil :end)", stdin=False).value, ":END\nT")
+
+    def test_an_interrupt_ends_what_a_program_waits_for(self):
+        number = self.client.send("(read-line)")
+        self.client.client.stdin_channel.get_msg(timeout=client.PATIENCE)
+        self.manager.interrupt_kernel()
+        self.assertEqual(self.client.wait(number).status, "error")
+
     def test_an_interrupt_ends_a_question(self):
         self.run_cell('(list (restart-case (error "no") (use-value (v) v)))')
         number = self.client.send("0")

@@ -13,9 +13,10 @@ use super::publisher::Publisher;
 use super::question::Questions;
 use super::settings::Settings;
 use crate::front::prompt::pasted::Inputs;
+use crate::lisp::image::input::Source;
 use crate::session::dialogue::prompt_line::prompt_line;
 use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Abort, Event, Illustrate, Outcome, Screen, Stop};
+use crate::session::dialogue::{Abort, Event, Illustrate, Outcome, Screen, ShownAhead, Stop};
 
 /// Least time between two lines of progress.
 const BETWEEN_PROGRESS: Duration = Duration::from_millis(250);
@@ -84,6 +85,8 @@ pub(crate) struct Cell<'a> {
     pub(crate) number: usize,
     /// Whether somebody is there who can be asked.
     pub(crate) can_ask: bool,
+    /// Output that was shown with questions of the program.
+    pub(crate) ahead: Rc<ShownAhead>,
 }
 
 /// What has come of an input so far.
@@ -117,6 +120,7 @@ impl Cell<'_> {
             );
             self.write(&mut shown, &text);
         }
+        session.set_source(self.can_ask.then(|| self.source()));
         let mut outcome = Outcome::Finished;
         for input in &inputs {
             outcome = self.evaluate_input(session, input.trim_end(), &mut shown);
@@ -124,6 +128,7 @@ impl Cell<'_> {
                 break;
             }
         }
+        session.set_source(None);
         self.end_progress(session, &mut shown);
         if let Some(swept) = session.take_swept() {
             for content in display::of_sweep(&swept) {
@@ -145,6 +150,19 @@ impl Cell<'_> {
             (_, Some(failure)) => Ended::Failed(failure),
             (_, None) => Ended::Finished(shown.values),
         }
+    }
+
+    /// Asks for what the program reads. What it has just written on its last line is the question.
+    fn source(&self) -> Rc<Source> {
+        let (publisher, questions) = (Arc::clone(&self.publisher), Rc::clone(&self.questions));
+        let (request, ahead) = (Rc::clone(&self.request), Rc::clone(&self.ahead));
+        Rc::new(move |written| {
+            publisher.write("stdout", &request.header, ahead.show(written));
+            let question = publisher.take_unfinished_line(&request.header);
+            publisher.flush();
+            let typed = questions.ask(&request, &question)?;
+            Some(typed + "\n")
+        })
     }
 
     /// Evaluates an input, and what is answered to questions that it leads to.
@@ -211,7 +229,7 @@ impl Cell<'_> {
 
     fn take(&self, event: Event, shown: &mut Shown) {
         match event {
-            Event::Output(text) => self.write(shown, &text),
+            Event::Output(text) => self.write(shown, self.ahead.unseen(&text)),
             Event::Values(values) => {
                 shown.values = (!values.is_empty()).then(|| values.join("\n"));
             }

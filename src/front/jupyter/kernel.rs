@@ -235,6 +235,7 @@ impl Kernel {
                     settings: &self.settings,
                     number: self.inputs,
                     can_ask: request.flag("allow_stdin", true),
+                    ahead: Rc::default(),
                 };
                 cell.evaluate(session, &text)
             }

@@ -95,6 +95,16 @@ impl Publisher {
         }
     }
 
+    /// Takes back the line of a request's output that is not ended yet, if it has not been published.
+    pub(crate) fn take_unfinished_line(&self, parent: &[u8]) -> String {
+        let mut collected = self.collected();
+        if collected.parent != parent {
+            return String::new();
+        }
+        let line = collected.text.rfind('\n').map_or(0, |at| at + 1);
+        collected.text.split_off(line)
+    }
+
     /// Publishes the output that has been collected.
     pub(crate) fn flush(&self) {
         self.send_collected(&mut self.collected());

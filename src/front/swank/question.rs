@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use super::hub::{Client, Hub};
 use super::sexp::Sexp;
+use crate::session::dialogue::ShownAhead;
 
 /// The number of the session's thread.
 pub(super) const THREAD: Sexp = Sexp::Int(1);
@@ -15,8 +16,7 @@ pub(super) struct Questions {
     hub: Arc<Hub>,
     interrupt: Arc<AtomicBool>,
     client: RefCell<Option<Arc<Client>>>,
-    /// Bytes of output that the client has seen with a question, but that have not been reported.
-    shown: Cell<usize>,
+    ahead: ShownAhead,
     tags: Cell<i64>,
 }
 
@@ -26,7 +26,7 @@ impl Questions {
             hub,
             interrupt,
             client: RefCell::new(None),
-            shown: Cell::new(0),
+            ahead: ShownAhead::default(),
             tags: Cell::new(0),
         }
     }
@@ -34,7 +34,7 @@ impl Questions {
     /// Sets the client that is asked.
     pub(super) fn set_client(&self, client: Option<Arc<Client>>) {
         self.client.replace(client);
-        self.shown.set(0);
+        self.ahead.reset();
     }
 
     /// A number for a question.
@@ -47,9 +47,9 @@ impl Questions {
     /// ask, or if that is interrupted.
     pub(super) fn ask(&self, written: &str) -> Option<String> {
         let client = self.client.borrow().clone()?;
-        let unseen = written.get(self.shown.get()..).unwrap_or_default();
-        client.outbox.write(unseen, &self.interrupt);
-        self.shown.set(written.len());
+        client
+            .outbox
+            .write(self.ahead.show(written), &self.interrupt);
         let tag = self.next_tag();
         let message = |kind: &str| Sexp::list([Sexp::symbol(kind), THREAD, Sexp::Int(tag)]);
         client.outbox.send(&message(":read-string"));
@@ -62,9 +62,6 @@ impl Questions {
 
     /// The part of an output that the client has not seen with a question.
     pub(super) fn unseen<'t>(&self, output: &'t str) -> &'t str {
-        let seen = self.shown.take();
-        let now = seen.min(output.len());
-        self.shown.set(seen - now);
-        output.get(now..).unwrap_or(output)
+        self.ahead.unseen(output)
     }
 }

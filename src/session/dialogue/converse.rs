@@ -1,8 +1,11 @@
 //! What the prompt needs from an evaluator beyond evaluation: how to continue after a stop, and
 //! what could be typed next.
 
+use std::rc::Rc;
+
 use super::repeat::Repeat;
 use super::taping::Taping;
+use crate::lisp::image::input::Source;
 
 /// An evaluator for interactive use.
 pub(crate) trait Converse: Repeat + Taping {
@@ -25,6 +28,10 @@ pub(crate) trait Converse: Repeat + Taping {
 
     /// Whether the name is that of a designator type.
     fn is_designator_type(&self, name: &str) -> bool;
+
+    /// Sets who is asked when a program reads from standard input; without anybody, that is at its
+    /// end.
+    fn set_source(&mut self, source: Option<Rc<Source>>);
 
     /// A hash of the world's state.
     fn world_hash(&self) -> u64;

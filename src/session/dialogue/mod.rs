@@ -16,6 +16,7 @@ pub(crate) mod prompt_line;
 pub(crate) mod repeat;
 pub(crate) mod screen;
 mod serve;
+mod shown_ahead;
 mod taping;
 mod uses;
 
@@ -31,5 +32,6 @@ pub(crate) use names::{
 pub(crate) use repeat::Repeat;
 pub(crate) use screen::Screen;
 pub(crate) use serve::{Beginning, Inspection, Need, ObjectNumber, Serve, StackFrame};
+pub(crate) use shown_ahead::ShownAhead;
 pub(crate) use taping::Taping;
 pub(crate) use uses::{Relation, Unrecorded, Use};

@@ -5,14 +5,12 @@
 //! only tells, or sets what the next input begins with.
 
 use std::ops::Range;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use super::converse::Converse;
 use super::evaluate::Stop;
 use super::names::Names;
 use super::uses::{Relation, Unrecorded, Use};
-use crate::lisp::image::input::Source;
 use crate::lisp::source::Location;
 use crate::lisp::value::Value;
 
@@ -24,10 +22,6 @@ pub(crate) trait Serve: Converse {
     /// Sets whether an editor serves as the front: values are kept so that it can refer to them,
     /// and a value that a form asks to inspect is given to it.
     fn set_served(&mut self, is_served: bool);
-
-    /// Sets who is asked when a program reads from standard input; without anybody, that is at its
-    /// end.
-    fn set_source(&mut self, source: Option<Rc<Source>>);
 
     /// Lets programs ask that the session be served to an editor.
     fn let_serve(&mut self);
