@@ -276,7 +276,9 @@ class Lives(unittest.TestCase):
         manager, talk = client.start()
         process = manager.provisioner.process
         os.kill(process.pid, signal.SIGINT)
-        self.assertEqual(talk.run("(+ 1 2)").value, "3")
+        # On a busy machine the signal comes late, and interrupts the first cell.
+        values = [talk.run("(+ 1 2)").value for _ in range(2)]
+        self.assertEqual(values[-1], "3")
         number = talk.send("(loop)")
         talk.wait_for(number, "execute_input")
         os.kill(process.pid, signal.SIGINT)
