@@ -94,6 +94,7 @@ function showLabels() {
     }
     if (!label) {
       label = element('span', text);
+      label.className = typeof key === 'string' ? 'force' : '';
       labels.set(key, label);
       $('labels').append(label);
     }

@@ -152,6 +152,11 @@ class Stage {
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     this.drawInto(state, { eye, view, selected, hasShadows, bodies });
     this.drawLines(this.linesOf(state, selected, isThroughCamera), view);
+    // What presses from below a table would be hidden in it.
+    if (!this.layers.forces) return;
+    gl.disable(gl.DEPTH_TEST);
+    this.drawLines(forcesOf(state).flatMap(arrowOf), view);
+    gl.enable(gl.DEPTH_TEST);
   }
 
   // Draws bodies and floor into the viewport; shadows have been drawn before.
@@ -254,7 +259,6 @@ class Stage {
       for (const hit of state.hits) lines.push(...marked(times(hit.at, METRE), 0.06, [0.9, 0.08, 0.05, 1]));
       for (const { at } of state.touch) lines.push(...marked(at, 0.012, [0.95, 0.60, 0.10, 1]));
     }
-    if (this.layers.forces) for (const force of forcesOf(state)) lines.push(...arrowOf(force));
     return lines;
   }
 
