@@ -74,13 +74,10 @@ impl Divisions {
             Level::Absent => absent,
         };
         let bins: Vec<usize> = values().map(bin).collect();
-        let has_others = bins.iter().any(|bin| *bin >= first_text);
         let mut tests = Vec::new();
         for (at, bound) in bounds.iter().enumerate() {
             tests.push((Test::Below(*bound), [0, at + 1]));
-            if has_others {
-                tests.push((Test::AtLeast(*bound), [at + 1, first_text]));
-            }
+            tests.push((Test::AtLeast(*bound), [at + 1, first_text]));
         }
         if different.len() <= FEW && bounds.len() + 1 == different.len() {
             for (at, number) in different.iter().enumerate() {
@@ -99,8 +96,13 @@ impl Divisions {
     }
 
     /// The division that tells failures best from successes, of those with so many worlds in the worse
-    /// part, and in the better one.
-    pub(super) fn best(&self, fails: &[bool], least: [usize; 2]) -> Option<Division> {
+    /// part, and in the better one. If `must_hold`, its test holds in the worse part.
+    pub(super) fn best(
+        &self,
+        fails: &[bool],
+        least: [usize; 2],
+        must_hold: bool,
+    ) -> Option<Division> {
         // How many fail, and how many there are, in all bins before each.
         let mut before = vec![[0, 0]; self.count + 1];
         for (bin, fails) in self.bins.iter().zip(fails) {
@@ -119,7 +121,8 @@ impl Divisions {
             let rest = [0, 1].map(|i| all[i] - part[i]);
             let holds = rate(part) > rate(rest);
             let [worse, better] = if holds { [part, rest] } else { [rest, part] };
-            if worse[1] < least[0] || better[1] < least[1] || rate(worse) <= rate(better) {
+            let is_small = worse[1] < least[0] || better[1] < least[1];
+            if is_small || rate(worse) <= rate(better) || (must_hold && !holds) {
                 continue;
             }
             let gain = deviance(&[worse, better]);
@@ -172,13 +175,13 @@ impl Test {
     /// That it holds, or does not hold, for a draw.
     pub(super) fn words(&self, feature: &Feature, holds: bool) -> String {
         let name = &feature.name;
-        let is_number = |value: &Level| value.number().is_some();
-        let always = feature.values.iter().all(is_number);
+        let always = feature.is_number();
         match (self, holds) {
             (Self::Below(bound), true) => format!("{name} < {bound}"),
             (Self::Below(bound), false) if always => format!("{name} ≥ {bound}"),
             (Self::Below(bound), false) => format!("not {name} < {bound}"),
             (Self::AtLeast(bound), true) => format!("{name} ≥ {bound}"),
+            (Self::AtLeast(bound), false) if always => format!("{name} < {bound}"),
             (Self::AtLeast(bound), false) => format!("not {name} ≥ {bound}"),
             (Self::Is(Level::Number(number)), true) => format!("{name} = {number}"),
             (Self::Is(Level::Number(number)), false) => format!("{name} ≠ {number}"),
@@ -222,4 +225,34 @@ fn short_between(low: f64, high: f64) -> f64 {
         }
     }
     high
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bound_is_not_stated_of_worlds_without_the_number() {
+        // Worlds without the number fail most.
+        let values = [Some(0.1), Some(0.4), Some(0.6), None, None, None];
+        let feature = Feature {
+            name: "x".to_owned(),
+            values: values
+                .iter()
+                .map(|value| value.map_or(Level::Absent, Level::Number))
+                .collect(),
+        };
+        let fails = [false, false, true, true, true, true];
+        let divisions = Divisions::new(&feature, &[0, 1, 2, 3, 4, 5], 10);
+        let words = |must_hold| {
+            let division = divisions.best(&fails, [1, 1], must_hold).unwrap();
+            (
+                division.test.words(&feature, division.holds),
+                division.worse,
+                division.better,
+            )
+        };
+        assert_eq!(words(false), ("not x < 0.6".to_owned(), [4, 4], [0, 2]));
+        assert_eq!(words(true), ("x = 0.6".to_owned(), [1, 1], [3, 5]));
+    }
 }

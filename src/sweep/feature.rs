@@ -72,6 +72,13 @@ fn level(value: Option<&Drawn>) -> Level {
     }
 }
 
+impl Feature {
+    /// Whether it is a number in every world.
+    pub(super) fn is_number(&self) -> bool {
+        self.values.iter().all(|value| value.number().is_some())
+    }
+}
+
 impl Level {
     /// It as a number, if it is one.
     pub(super) fn number(&self) -> Option<f64> {

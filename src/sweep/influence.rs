@@ -184,7 +184,7 @@ fn worst_part(feature: &Feature, fails: &[bool]) -> Option<Part> {
         worse,
         better,
         ..
-    } = Divisions::new(feature, &all, fails.len()).best(fails, [least, 0])?;
+    } = Divisions::new(feature, &all, fails.len()).best(fails, [least, 0], true)?;
     Some(Part {
         condition: test.words(feature, holds),
         failed: worse,

@@ -55,7 +55,7 @@ impl Tree {
         }
         leaves.sort_by(|(_, a), (_, b)| rate(*b).total_cmp(&rate(*a)));
         let words = |conditions: Vec<Condition>| {
-            let conditions = simplified(&conditions).into_iter();
+            let conditions = simplified(features, &conditions).into_iter();
             let words = conditions.map(|(at, test, holds)| test.words(&features[*at], *holds));
             words.collect::<Vec<String>>().join(" and ")
         };
@@ -117,7 +117,7 @@ impl Growing<'_> {
 fn best(divisions: &[Divisions], fails: &[bool], least: usize) -> Option<(usize, Division)> {
     let mut best: Option<(usize, Division)> = None;
     for (at, divisions) in divisions.iter().enumerate() {
-        let Some(division) = divisions.best(fails, [least, least]) else {
+        let Some(division) = divisions.best(fails, [least, least], false) else {
             continue;
         };
         if best.as_ref().is_none_or(|(_, b)| division.gain > b.gain) {
@@ -127,20 +127,20 @@ fn best(divisions: &[Divisions], fails: &[bool], least: usize) -> Option<(usize,
     best
 }
 
-/// The conditions without those that a later one about the same draw makes needless.
-fn simplified(conditions: &[Condition]) -> Vec<&Condition> {
-    let is_below = |(_, test, holds): &Condition| matches!(test, Test::Below(_)) && *holds;
-    let is_above = |(_, test, holds): &Condition| match test {
-        Test::Below(_) => !holds,
-        Test::AtLeast(_) => *holds,
-        Test::Is(_) => false,
+/// The conditions without those that a later one about the same number makes needless.
+fn simplified<'c>(features: &[Feature], conditions: &'c [Condition]) -> Vec<&'c Condition> {
+    // Whether it bounds a number from above; nothing if it does not bound a number.
+    let is_below = |(at, test, holds): &Condition| match test {
+        Test::Below(_) if features[*at].is_number() => Some(*holds),
+        Test::AtLeast(_) if features[*at].is_number() => Some(!holds),
+        _ => None,
     };
     let mut kept = Vec::new();
     for (place, condition) in conditions.iter().enumerate() {
         let narrows = |later: &Condition| {
             later.0 == condition.0
-                && ((is_below(condition) && is_below(later))
-                    || (is_above(condition) && is_above(later)))
+                && is_below(later).is_some()
+                && is_below(later) == is_below(condition)
         };
         if !conditions[place + 1..].iter().any(narrows) {
             kept.push(condition);
