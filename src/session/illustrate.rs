@@ -1,7 +1,9 @@
 //! The session's side of the dialogue with a notebook.
 
 use super::Session;
-use super::dialogue::{Illustrate, Swept};
+use super::dialogue::{Illustrate, Swept, Table};
+use super::tabulated::table_of;
+use crate::lisp::value::known;
 use crate::picture::{Image, View};
 
 impl Illustrate for Session {
@@ -15,6 +17,12 @@ impl Illustrate for Session {
 
     fn depicted(&self, view: View, width: usize, height: usize) -> Option<Image> {
         self.simulation().picture(view, width, height).ok()
+    }
+
+    fn table(&self) -> Option<Table> {
+        let mut values = self.image.special(known::DIVIDE).iter_list();
+        let value = values.next().filter(|_| values.next().is_none())?;
+        table_of(&self.image, &value)
     }
 
     fn take_swept(&mut self) -> Option<Swept> {

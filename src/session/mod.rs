@@ -25,6 +25,7 @@ mod recovery;
 mod serving;
 pub(crate) mod simulation;
 pub(crate) mod sweeping;
+mod tabulated;
 pub(crate) mod tape;
 mod taping;
 mod text;

@@ -16,7 +16,9 @@ use crate::front::prompt::pasted::Inputs;
 use crate::lisp::image::input::Source;
 use crate::session::dialogue::prompt_line::prompt_line;
 use crate::session::dialogue::screen::input_name;
-use crate::session::dialogue::{Abort, Event, Illustrate, Outcome, Screen, ShownAhead, Stop};
+use crate::session::dialogue::{
+    Abort, Event, Illustrate, Outcome, Screen, ShownAhead, Stop, Table,
+};
 
 /// Least time between two lines of progress.
 const BETWEEN_PROGRESS: Duration = Duration::from_millis(250);
@@ -27,12 +29,19 @@ const REMARK: &str = "; The plan stands still: the next cell answers. A number g
 
 /// How a cell ended.
 pub(crate) enum Ended {
-    /// All of it was evaluated; the values of the last form as text, if it has any.
-    Finished(Option<String>),
+    /// All of it was evaluated; the values of the last form, if it has any.
+    Finished(Option<Yielded>),
     /// A condition was not handled, or the cell was interrupted.
     Failed(Failure),
     /// The program has asked to exit with that status.
     Quit(u8),
+}
+
+/// The values of a form.
+pub(crate) struct Yielded {
+    pub(crate) text: String,
+    /// The same as a table, if it can be one.
+    pub(crate) table: Option<Table>,
 }
 
 /// An error as notebooks show it.
@@ -148,7 +157,10 @@ impl Cell<'_> {
         match (outcome, shown.failure) {
             (Outcome::Quit(status), _) => Ended::Quit(status),
             (_, Some(failure)) => Ended::Failed(failure),
-            (_, None) => Ended::Finished(shown.values),
+            (_, None) => Ended::Finished(shown.values.map(|text| Yielded {
+                text,
+                table: session.table(),
+            })),
         }
     }
 

@@ -4,9 +4,10 @@ use std::io;
 
 use serde_json::{Value, json};
 
-use crate::front::sweep_report::{axes, fragment, heat_map};
+use super::cell::Yielded;
+use crate::front::sweep_report::{axes, escaped, fragment, heat_map};
 use crate::picture::Image;
-use crate::session::dialogue::Swept;
+use crate::session::dialogue::{Swept, Table};
 use crate::watch::base64;
 
 /// Most failing worlds in the table of a sweep.
@@ -20,6 +21,21 @@ pub(crate) fn of_picture(picture: &Image) -> io::Result<Value> {
         "metadata": {},
         "transient": {},
     }))
+}
+
+/// What shows values: their text, and a table if they can be one.
+pub(crate) fn of_values(values: &Yielded) -> Value {
+    let mut data = json!({"text/plain": values.text});
+    if let Some(Table { head, rows }) = &values.table {
+        let line = |kind: &str, cells: &[String]| {
+            let cells = cells.iter();
+            let cells = cells.map(|text| format!("<{kind}>{}</{kind}>", escaped(text)));
+            format!("<tr>{}</tr>", cells.collect::<String>())
+        };
+        let rows: String = rows.iter().map(|row| line("td", row)).collect();
+        data["text/html"] = json!(format!("<table>{}{rows}</table>", line("th", head)));
+    }
+    data
 }
 
 /// What shows a sweep: a table, and where there are two numbers, a picture of where the plan works.
@@ -44,4 +60,28 @@ pub(crate) fn of_progress(line: &str, display_id: &str) -> Value {
         "metadata": {},
         "transient": {"display_id": display_id},
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_are_shown_beside_their_text() {
+        let mut values = Yielded {
+            text: "(1 2)".to_owned(),
+            table: None,
+        };
+        assert_eq!(of_values(&values), json!({"text/plain": "(1 2)"}));
+        values.table = Some(Table {
+            head: vec!["a".to_owned(), "b".to_owned()],
+            rows: vec![vec!["<b>".to_owned(), String::new()]],
+        });
+        assert_eq!(
+            of_values(&values)["text/html"],
+            json!(
+                "<table><tr><th>a</th><th>b</th></tr><tr><td>&lt;b&gt;</td><td></td></tr></table>"
+            )
+        );
+    }
 }

@@ -14,6 +14,7 @@ use thiserror::Error;
 use super::answers;
 use super::cell::{Cell, Ended, Failure};
 use super::connection::{Connection, ConnectionError};
+use super::display;
 use super::history::History;
 use super::interrupter::Interrupter;
 use super::kernel_info::kernel_info;
@@ -249,15 +250,15 @@ impl Kernel {
         let mut values = None;
         match ended {
             Ended::Finished(found) => {
-                if let Some(text) = found.as_ref().filter(|_| !is_silent) {
+                if let Some(found) = found.as_ref().filter(|_| !is_silent) {
                     let content = json!({
                         "execution_count": self.count,
-                        "data": {"text/plain": text},
+                        "data": display::of_values(found),
                         "metadata": {},
                     });
                     publish("execute_result", &content);
                 }
-                values = found;
+                values = found.map(|found| found.text);
             }
             Ended::Failed(failure) => {
                 answer = failure.content();

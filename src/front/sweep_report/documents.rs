@@ -228,7 +228,7 @@ fn table(records: &[Record], most: usize) -> String {
 }
 
 /// A text as XML and HTML have it.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {
         match c {

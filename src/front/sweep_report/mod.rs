@@ -3,5 +3,5 @@
 mod documents;
 mod heat_map;
 
-pub(crate) use documents::{csv, fragment, html, junit};
+pub(crate) use documents::{csv, escaped, fragment, html, junit};
 pub(crate) use heat_map::{axes, heat_map};

@@ -17,11 +17,23 @@ pub(crate) trait Illustrate: Converse {
     /// A picture of the world, of that many pixels; none if the world lacks what the view is of.
     fn depicted(&self, view: View, width: usize, height: usize) -> Option<Image>;
 
+    /// The only value of the last form as a table, if it is a list of designators.
+    fn table(&self) -> Option<Table>;
+
     /// What came of a sweep that has ended since the last call.
     fn take_swept(&mut self) -> Option<Swept>;
 
     /// The simulated time (s).
     fn now(&self) -> f64;
+}
+
+/// Things with the same kinds of properties.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Table {
+    /// What is in the columns.
+    pub(crate) head: Vec<String>,
+    /// The things, each with a text for each column; an empty one where it has no such property.
+    pub(crate) rows: Vec<Vec<String>>,
 }
 
 /// What came of a sweep.

@@ -23,7 +23,7 @@ mod uses;
 pub(crate) use converse::{Candidate, Completions, Converse};
 pub use evaluate::{Abort, ActionStep, Evaluate, Event, Finding, Outcome, Severity, Stop};
 pub(crate) use evaluate_on::{evaluate_keeping_abort, evaluate_on};
-pub(crate) use illustrate::{Illustrate, Swept};
+pub(crate) use illustrate::{Illustrate, Swept, Table};
 pub(crate) use input::{ends_in_quotes, is_whole};
 pub(crate) use lambda_list::{current_parameter, parameters};
 pub(crate) use names::{
