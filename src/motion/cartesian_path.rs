@@ -44,6 +44,18 @@ pub(super) struct CartesianPath {
     pub(super) steps: u32,
 }
 
+impl CartesianPath {
+    /// Makes each metre of the last stretch (m) count for several, so that the tool goes slowly
+    /// there.
+    pub(super) fn slow_down(&mut self, stretch: f64, times: f64) {
+        let end = self.lengths.last().copied().unwrap_or(0.0);
+        let from = (end - stretch).max(0.0);
+        for length in &mut self.lengths {
+            *length += (*length - from).max(0.0) * (times - 1.0);
+        }
+    }
+}
+
 /// How a line ended.
 #[derive(Debug)]
 pub(super) enum CartesianEnd {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::base_path::BasePlace;
-use super::guard::StuckObject;
+use super::guard::{PinnedObject, StuckObject};
 use super::no_grasp::NoGrasp;
 use super::no_handle_grasp::NoHandleGrasp;
 use super::payload::Overload;
@@ -151,17 +151,14 @@ pub(crate) enum MotionFailure {
     },
     /// A finger pressed an object onto what carries it, instead of closing on it.
     #[error(
-        "a finger of the {side} hand pressed {object} onto {against} with {force:.0} N, and it did not give way"
+        "a finger of the {side} hand pressed {} onto {} with {:.0} N, and it did not give way",
+        .pinned.object, .pinned.against, .pinned.force
     )]
     FingerPins {
         /// The hand.
         side: Side,
-        /// Name of the object.
-        object: String,
-        /// What it was pressed onto.
-        against: BodyName,
-        /// The force (N).
-        force: f64,
+        /// What was pressed.
+        pinned: PinnedObject,
     },
     /// A joint goal is outside the joint's range.
     #[error("{violation}")]
@@ -243,6 +240,9 @@ pub(crate) enum MotionFailure {
         .0.object, list(" against ", &.0.against), .0.lag * 1e3, .0.force
     )]
     HeldObjectStuck(Box<StuckObject>),
+    /// The robot has pressed an object that it does not hold onto what carries it.
+    #[error("the robot pressed {} onto {} with {:.0} N", .0.object, .0.against, .0.force)]
+    ObjectPinned(Box<PinnedObject>),
     /// A held object has slipped out of the hand.
     #[error(
         "{} has slipped out of the {} hand: the two were torn apart with {:.1} N, and the fingers \
@@ -438,6 +438,7 @@ impl MotionFailure {
             | Self::ArmBlocked { .. }
             | Self::HandGoalMissed { .. }
             | Self::HeldObjectStuck(_)
+            | Self::ObjectPinned(_)
             | Self::TooHeavy(_)
             | Self::NothingBelow { .. }
             | Self::WouldNotStand { .. }

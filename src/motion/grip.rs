@@ -9,7 +9,7 @@ use super::joint_follower::with_joints;
 use super::speeds;
 use crate::robot::Side;
 use crate::world::physics::STEP_SECONDS;
-use crate::world::{BodyName, ContactForce, World};
+use crate::world::{BodyName, World};
 
 /// A finger just before the limit of its joint (rad/s).
 const SLOWEST: f64 = 0.01;
@@ -87,11 +87,12 @@ impl Grip {
             }
         }
         let mut pressed = pressing.iter().flatten();
-        if let Some(failure) = pressed.find_map(|one| pinned(world, side, one)) {
+        if let Some(pinned) = pressed.find_map(|one| guard::pinned(world, one.body.object()?)) {
             // The fingers wait for the object to give way.
             self.speed = 0.0;
             self.pinned += STEP_SECONDS;
-            return (self.pinned > PINNED).then(|| MotionStatus::failed(failure));
+            let failure = || MotionFailure::FingerPins { side, pinned };
+            return (self.pinned > PINNED).then(|| MotionStatus::failed(failure()));
         }
         let gripper = gripper_of(world, side);
         let now = world.robot_configuration();
@@ -140,21 +141,4 @@ impl Grip {
             Err(failure) => MotionStatus::failed(failure),
         }
     }
-}
-
-/// What is wrong if a finger that presses on an object presses it onto what carries it.
-fn pinned(world: &World, side: Side, finger: &ContactForce) -> Option<MotionFailure> {
-    let object = finger.body.object()?;
-    let force = world.pressed_down(object).ok()?;
-    if force <= guard::GREATEST_FORCE {
-        return None;
-    }
-    let supports = world.supports(object).ok()?.into_iter();
-    let most = supports.max_by(|a, b| a.force.total_cmp(&b.force))?;
-    Some(MotionFailure::FingerPins {
-        side,
-        object: object.to_owned(),
-        against: most.body,
-        force,
-    })
 }

@@ -13,7 +13,10 @@ use super::failure::MotionFailure;
 use super::payload::overload;
 use super::pull::StoppedPart;
 use crate::robot::{LinkId, Side};
-use crate::world::{AllowedPairs, CollisionHit, MovingParts, Pairs, RobotConfiguration, World};
+use crate::world::physics::GRAVITY;
+use crate::world::{
+    AllowedPairs, BodyName, CollisionHit, MovingParts, Pairs, RobotConfiguration, World,
+};
 
 /// Overlap (m) that a step may cause: much less than the 2 mm that are never exceeded, to
 /// leave room for sliding away.
@@ -82,6 +85,34 @@ pub(super) fn trouble_with_held(
     Some(MotionFailure::HeldObjectStuck(Box::new(stuck)))
 }
 
+/// An object that the robot presses onto what carries it, harder than [`GREATEST_FORCE`] and than
+/// its own weight does.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PinnedObject {
+    /// Name of the object.
+    pub(crate) object: String,
+    /// What it is pressed onto.
+    pub(crate) against: BodyName,
+    /// The force (N), without the object's weight.
+    pub(crate) force: f64,
+}
+
+/// The object, if the robot presses it onto something.
+pub(super) fn pinned(world: &World, object: &str) -> Option<PinnedObject> {
+    let force = world.pressed_down(object).ok()?;
+    let weight = world.object(object).ok()?.mass() * GRAVITY;
+    if force <= GREATEST_FORCE.max(weight) {
+        return None;
+    }
+    let supports = world.supports(object).ok()?.into_iter();
+    let most = supports.max_by(|a, b| a.force.total_cmp(&b.force))?;
+    Some(PinnedObject {
+        object: object.to_owned(),
+        against: most.body,
+        force,
+    })
+}
+
 /// The first drawer or door that something keeps from following one of the hands.
 fn stopped_part(world: &World, is_hand: impl Fn(Side) -> bool) -> Option<StoppedPart> {
     let mut sides = Side::BOTH.into_iter().filter(|side| is_hand(*side));
@@ -108,7 +139,7 @@ pub(crate) struct StuckObject {
     /// Force (N) with which it is pressed against something other than the robot.
     pub(crate) force: f64,
     /// What it is pressed against most, if known.
-    pub(crate) against: Option<crate::world::BodyName>,
+    pub(crate) against: Option<BodyName>,
 }
 
 /// The first object held by one of the links that lags or is pressed too much.

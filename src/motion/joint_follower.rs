@@ -1,13 +1,17 @@
 //! Moving a set of joints along a trajectory, one guarded step at a time.
 
 use super::failure::MotionFailure;
-use super::guard;
+use super::guard::{self, PinnedObject};
 use super::job::{PlannedTrajectory, TrajectoryAxes};
 use super::standstill::StandstillTimer;
 use super::trajectory::Trajectory;
 use super::trajectory_follower::TrajectoryFollower;
 use crate::robot::{JointId, LinkId};
-use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
+use crate::world::physics::STEP_SECONDS;
+use crate::world::{AllowedPairs, BodyName, CollisionHit, RobotConfiguration, World};
+
+/// How long (s) the robot may press what it is to touch onto something.
+const PINNED: f64 = 0.05;
 
 /// The outcome of a step.
 #[derive(Debug)]
@@ -23,7 +27,8 @@ pub(super) enum FollowStep {
         /// How long (s) the whole robot has not moved.
         still: f64,
     },
-    /// A held object does not follow the hand, is too heavy, or has slipped away.
+    /// A held object does not follow the hand, is too heavy, or has slipped away; or another one is
+    /// pressed onto something.
     Trouble(Box<MotionFailure>),
 }
 
@@ -37,6 +42,8 @@ pub(crate) struct JointFollower {
     standstill: StandstillTimer,
     /// The world's step when the joints began to move.
     began: Option<u64>,
+    /// How long (s) an object has been pressed onto something.
+    pinned: f64,
 }
 
 impl JointFollower {
@@ -48,6 +55,7 @@ impl JointFollower {
             allowed,
             standstill: StandstillTimer::default(),
             began: None,
+            pinned: 0.0,
         }
     }
 
@@ -78,6 +86,10 @@ impl JointFollower {
         if let Some(failure) = guard::trouble_with_held(world, began, is_hand) {
             return FollowStep::Trouble(Box::new(failure));
         }
+        if let Some(pinned) = self.pinned(world) {
+            let failure = MotionFailure::ObjectPinned(Box::new(pinned));
+            return FollowStep::Trouble(Box::new(failure));
+        }
         if self.follower.is_at_end() {
             return FollowStep::Arrived;
         }
@@ -101,6 +113,20 @@ impl JointFollower {
                 }
             }
         }
+    }
+
+    /// An object that has been pressed onto something, for too long if it is to be touched.
+    fn pinned(&mut self, world: &World) -> Option<PinnedObject> {
+        let loose = world.objects().filter(|o| o.attachment().is_none());
+        let pinned = loose.filter_map(|o| guard::pinned(world, o.name())).next();
+        let Some(pinned) = pinned else {
+            self.pinned = 0.0;
+            return None;
+        };
+        self.pinned += STEP_SECONDS;
+        let is_target = |other: &BodyName| other.object() == Some(&pinned.object);
+        let may_be_touched = self.allowed.iter().any(|(_, other)| is_target(other));
+        (!may_be_touched || self.pinned > PINNED).then_some(pinned)
     }
 
     pub(super) fn is_moving(&self) -> bool {

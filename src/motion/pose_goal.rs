@@ -50,6 +50,9 @@ const LINE_ENDS: usize = 6;
 /// Number of heights at which the search for a path may fail before giving up.
 const MOST_HEIGHTS: usize = 4;
 
+/// How far (m) before its goal a hand that is to touch something slows down.
+const TOUCH_STRETCH: f64 = 0.03;
+
 /// Goals of the hands: tool poses in the frame of the base.
 pub(super) struct PoseGoalTask<'a> {
     pub(super) world: &'a World,
@@ -296,6 +299,12 @@ impl PoseGoalTask<'_> {
         }
     }
 
+    /// Whether empty hands are to touch something.
+    fn is_to_touch(&self) -> bool {
+        let is_empty = |(side, _): &(Side, Pose)| held_objects(self.world, *side).is_empty();
+        self.contacts.allowed.iter().next().is_some() && self.goals.iter().all(is_empty)
+    }
+
     /// A path that moves the tools straight to the goals, if there is one.
     pub(super) fn plan_line(&self) -> Option<JointFollower> {
         for height in self.heights(REASON_STEP) {
@@ -313,8 +322,12 @@ impl PoseGoalTask<'_> {
                 .take(LINE_ENDS)
                 .map(|p| Some(p.positions.as_slice()));
             for end in std::iter::once(None).chain(ends) {
-                let (path, met) = task.follow(&start, end, Some(&mut checker));
+                let (mut path, met) = task.follow(&start, end, Some(&mut checker));
                 if matches!(met, CartesianEnd::Complete) {
+                    if self.is_to_touch() {
+                        let times = speeds::HAND.velocity / speeds::TOUCH_VELOCITY;
+                        path.slow_down(TOUCH_STRETCH, times);
+                    }
                     let trajectory =
                         self.cartesian_trajectory(&path, &group, speeds::HAND, &mut checker);
                     return Some(JointFollower::new(

@@ -87,8 +87,12 @@ impl JointGoal for PutGoal {
         let goal = in_base(self.pose, &world.robot_configuration().base);
         check_finite(Self::MODULE, &numbers_of(&goal))?;
         let goals = vec![(side, goal)];
-        let contacts =
-            ExpectedContacts::of(world, [side].into_iter(), CollisionMode::AllowAll, None);
+        let contacts = ExpectedContacts::of(
+            world,
+            [side].into_iter(),
+            CollisionMode::AllowAll,
+            Some(&self.object),
+        );
         let task = PoseGoalTask {
             world,
             goals,

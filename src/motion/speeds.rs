@@ -11,6 +11,8 @@ pub(crate) const PUT: Speed = Speed {
     velocity: 0.12,
     acceleration: 0.6,
 };
+/// A hand that is to touch something (m/s): a third of a millimetre per step.
+pub(crate) const TOUCH_VELOCITY: f64 = 0.08;
 /// A hand along a straight line (m).
 pub(crate) const HAND: Speed = Speed {
     velocity: 0.25,

@@ -63,12 +63,13 @@ impl Host for LiveHost<'_> {
         let begin = Instant::now();
         let mut told = begin;
         let sink = &mut *self.sink;
+        let what = image.output.instead().map(str::to_owned);
         self.host.advance_watched(image, now, until, &mut |host| {
             // Real time determines what is shown, never what happens.
             let is_long = begin.elapsed() > FIRST_PROGRESS;
             if is_long && told.elapsed() > BETWEEN_PROGRESS {
                 told = Instant::now();
-                sink(Event::Progress(host.progress()));
+                sink(Event::Progress(host.progress(what.as_deref())));
             }
         })
     }

@@ -22,7 +22,7 @@ impl Session {
         self.console.give_up();
         self.image.nesting = 0;
         self.image.output.set_shown(true);
-        self.image.output.set_muted(false);
+        self.image.output.mute(None);
         let simulation = &mut self.host.simulation;
         self.host
             .person

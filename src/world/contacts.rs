@@ -6,7 +6,7 @@ use super::body_name::BodyName;
 use super::error::WorldError;
 use super::object::Object;
 use super::part_key::PartKey;
-use super::physics::{BodyHandle, RawContact};
+use super::physics::{BodyHandle, GRAVITY, RawContact};
 use super::scene::World;
 use crate::robot::Side;
 use crate::spatial::pose::{angle_between, distance_between};
@@ -77,16 +77,20 @@ impl World {
         Ok(sum)
     }
 
-    /// The force (N) with which the robot presses the object down, without friction.
+    /// The force (N) with which the robot presses the object down, by friction, too: what carries
+    /// it bears that besides the object's weight. Zero if the robot does not touch it.
     pub(crate) fn pressed_down(&self, name: &str) -> Result<f64, WorldError> {
-        let mut sum = 0.0;
-        self.physics
-            .visit_contacts(self.object(name)?.body, |contact| {
-                if matches!(PartKey::from_code(contact.other), PartKey::Robot(_)) {
-                    sum += (-contact.push.z).max(0.0);
-                }
-            });
-        Ok(sum)
+        let object = self.object(name)?;
+        let mut is_touched = false;
+        let mut load = -object.mass * GRAVITY;
+        self.physics.visit_contacts(object.body, |contact| {
+            if matches!(PartKey::from_code(contact.other), PartKey::Robot(_)) {
+                is_touched = true;
+            } else {
+                load += contact.push.z;
+            }
+        });
+        Ok(if is_touched { load.max(0.0) } else { 0.0 })
     }
 
     /// Whether the object presses on anything but the robot.

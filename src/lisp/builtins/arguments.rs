@@ -104,7 +104,14 @@ fn check_keys(image: &mut Image, args: &[Value]) -> Result<Value> {
             || args[1].iter_list().any(|key| key.is_eq(&pair[0]));
         if !is_known {
             let shown = print::to_string(image, &pair[0], true);
-            return Err(Raise::program(format!("Unknown &KEY argument: {shown}")));
+            let keys: Vec<_> = args[1]
+                .iter_list()
+                .filter_map(|key| key.as_symbol())
+                .collect();
+            return Err(Raise::unknown_key(
+                &shown,
+                keys.iter().map(|key| image.name(*key)),
+            ));
         }
     }
     Ok(Value::NIL)

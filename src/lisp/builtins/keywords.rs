@@ -40,10 +40,13 @@ pub(crate) fn parse<const N: usize>(
         }
     }
     match unknown {
-        Some(name) if others_allowed != Some(true) => Err(Raise::program(format!(
-            "Unknown &KEY argument: {}",
-            super::shown::shown(image, name)
-        ))),
+        Some(name) if others_allowed != Some(true) => {
+            let shown = super::shown::shown(image, name);
+            Err(Raise::unknown_key(
+                &shown,
+                names.map(|known| image.name(known)),
+            ))
+        }
         _ => Ok(values),
     }
 }

@@ -234,7 +234,9 @@ fn check_keywords(image: &Image, code: &Code, more: &[Value]) -> Result<(), Box<
             .is_some_and(|s| s == known::K_ALLOW_OTHER_KEYS || code.parameters.keys.contains(&s));
         if !is_known {
             let shown = print::to_string(image, &pair[0], true);
-            return Err(Raise::program(format!("Unknown &KEY argument: {shown}")));
+            let keys = code.parameters.keys.iter().map(|key| image.name(*key));
+            let raise = Raise::unknown_key(&shown, keys);
+            return Err(raise.with(known::K_NAME, code.name.clone()));
         }
     }
     Ok(())

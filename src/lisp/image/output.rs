@@ -9,14 +9,14 @@ pub(crate) struct Output {
     is_shown: bool,
     /// Is there a whole line, or what the program wants to be seen?
     is_due: bool,
-    /// Is what is written dropped?
-    is_muted: bool,
+    /// What is going on, in place of which what is written is dropped.
+    instead: Option<String>,
 }
 
 impl Output {
     /// Writes a text.
     pub(crate) fn write(&mut self, text: &str) {
-        if self.is_muted {
+        if self.instead.is_some() {
             return;
         }
         match text.rfind('\n') {
@@ -61,9 +61,15 @@ impl Output {
         self.text.get(len..)
     }
 
-    /// Sets whether what is written from now on is dropped; returns whether it was.
-    pub(crate) fn set_muted(&mut self, is_muted: bool) -> bool {
-        std::mem::replace(&mut self.is_muted, is_muted)
+    /// If something is given, what is written from now on is dropped, and that is what is going on
+    /// instead; returns what was given before.
+    pub(crate) fn mute(&mut self, instead: Option<String>) -> Option<String> {
+        std::mem::replace(&mut self.instead, instead)
+    }
+
+    /// What is going on while what is written is dropped.
+    pub(crate) fn instead(&self) -> Option<&str> {
+        self.instead.as_deref()
     }
 
     /// Sets whether somebody shows what is written as soon as it is due.
@@ -97,9 +103,10 @@ mod tests {
     fn what_is_muted_is_dropped() {
         let mut output = Output::default();
         output.write("a");
-        assert!(!output.set_muted(true));
+        assert_eq!(output.mute(Some("counting".to_owned())), None);
         output.write("b\n");
-        assert!(output.set_muted(false));
+        assert_eq!(output.instead(), Some("counting"));
+        assert_eq!(output.mute(None).as_deref(), Some("counting"));
         output.write("c");
         assert_eq!(output.column(), 2);
         assert_eq!(output.take(), "ac");

@@ -174,10 +174,11 @@ fn check_keys(image: &Image, keys: &[crate::lisp::Sym], args: &[Value]) -> Resul
             Some(known::K_ALLOW_OTHER_KEYS) => {}
             Some(key) if keys.contains(&key) => {}
             _ => {
-                return Err(Raise::program(format!(
-                    "Unknown &KEY argument: {}",
-                    super::text(image, &pair[0])
-                )));
+                let shown = super::text(image, &pair[0]);
+                return Err(Raise::unknown_key(
+                    &shown,
+                    keys.iter().map(|key| image.name(*key)),
+                ));
             }
         }
     }

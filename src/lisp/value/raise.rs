@@ -3,6 +3,7 @@
 
 use super::Value;
 use super::symbol::{Sym, known};
+use crate::closest_name::closest_name;
 use crate::lisp::guard::{MOST_ELEMENTS, Stopped, TooDeep};
 use crate::lisp::source::Place;
 
@@ -78,6 +79,19 @@ impl Raise {
     /// A `SIMPLE-PROGRAM-ERROR` with a text: a wrong form or a wrong call.
     pub(crate) fn program(report: impl Into<String>) -> Box<Raise> {
         Raise::new(known::SIMPLE_PROGRAM_ERROR, report)
+    }
+
+    /// A call with a keyword argument that the function does not have; `shown` is its name as it is
+    /// printed, `known` are the names of those that there are.
+    pub(crate) fn unknown_key<'a>(
+        shown: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Box<Raise> {
+        let mut report = format!("Unknown &KEY argument: {shown}");
+        if let Some(near) = closest_name(shown.trim_start_matches(':'), known) {
+            report.push_str(&format!("; did you mean :{near}?"));
+        }
+        Raise::program(report)
     }
 
     /// A `TYPE-ERROR`: `datum` is not of type `expected` (a type specifier).

@@ -85,11 +85,15 @@ impl Abort {
             .and(self.place.as_ref())
             .into_iter();
         let inner = inner.map(|place| format!("signalled at {place}"));
-        let actions = self.actions.iter().map(|action| match &action.place {
+        inner.chain(self.performing()).collect()
+    }
+
+    /// A line for each of the enclosing actions.
+    pub(crate) fn performing(&self) -> impl Iterator<Item = String> {
+        self.actions.iter().map(|action| match &action.place {
             Some(place) => format!("in {} at {place}", action.call),
             None => format!("in {}", action.call),
-        });
-        inner.chain(actions).collect()
+        })
     }
 }
 

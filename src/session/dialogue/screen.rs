@@ -231,8 +231,10 @@ impl<W: Write> Screen<W> {
             self.line(&place)?;
         }
         if self.is_detailed {
-            for line in abort.context().iter().flat_map(|text| text.lines()) {
-                self.line(&format!("; {line}"))?;
+            for action in abort.performing() {
+                for line in action.lines() {
+                    self.line(&format!("; {line}"))?;
+                }
             }
         }
         Ok(())

@@ -94,8 +94,9 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
     pure(
         "%MUTE-OUTPUT",
-        "muted",
-        "Whether what is written from now on is dropped. Returns whether it was.",
+        "instead",
+        "Drops what is written from now on, unless INSTEAD is NIL; it says what is going on instead. \
+         Returns what was given before.",
         &["(pw::%mute-output nil) => NIL"],
         mute_output,
     ),
@@ -307,7 +308,8 @@ fn text(value: &Value) -> Result<String> {
 }
 
 fn mute_output(image: &mut Image, args: &[Value]) -> Result<Value> {
-    Ok(image.output.set_muted(args[0].is_true()).into())
+    let before = image.output.mute(args[0].as_text());
+    Ok(before.map_or(Value::NIL, |text| Value::string(&text)))
 }
 
 fn unit(image: &mut Image, args: &[Value]) -> Result<Value> {

@@ -162,9 +162,11 @@ impl SimulationHost {
         }
     }
 
-    /// What the robot is doing, its progress, and the simulated time, on one line.
-    pub(in crate::session) fn progress(&self) -> String {
-        let mut parts: Vec<String> = self.simulation.jobs.progress().collect();
+    /// What is going on, if that is known, what the robot is doing, its progress, and the simulated
+    /// time, on one line.
+    pub(in crate::session) fn progress(&self, what: Option<&str>) -> String {
+        let what = what.map(str::to_owned).into_iter();
+        let mut parts: Vec<String> = what.chain(self.simulation.jobs.progress()).collect();
         parts.push(format!("{:.1} s", self.simulation.now));
         format!("… {}", parts.join(" · "))
     }
