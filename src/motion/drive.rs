@@ -17,6 +17,7 @@ use super::job::{
     Activity, Job, MotionOutcome, MotionStatus, PlannedTrajectory, ProcessModule, Progress,
     TrajectoryAxes, check_finite,
 };
+use super::pushing::Pushing;
 use super::replanning::{Attempt, Replanning};
 use super::trajectory::Trajectory;
 use super::trajectory_follower::TrajectoryFollower;
@@ -63,6 +64,7 @@ pub(crate) struct BaseMotion {
     ahead: Option<CollisionHit>,
     /// Why the drive ends as soon as the base has stopped.
     trouble: Option<MotionFailure>,
+    pushing: Pushing,
     /// How many times the base has slowed down because of a changing posture.
     yields: u32,
     /// Whether the posture was steady when that was found.
@@ -87,6 +89,7 @@ impl Drive {
             ticks: 0,
             ahead: None,
             trouble: None,
+            pushing: Pushing::default(),
             yields: 0,
             ahead_is_sure: false,
             plans: 0,
@@ -208,7 +211,11 @@ impl BaseMotion {
         let follower = self.follower.as_mut()?;
         let began = *self.began.get_or_insert(world.steps());
         if self.trouble.is_none() {
-            self.trouble = guard::trouble_with_held(world, began, |_| true);
+            self.trouble = guard::trouble_with_held(world, began, |_| true).or_else(|| {
+                let pushed = self.pushing.pushed(world, &AllowedPairs::none())?;
+                let goal = self.goal;
+                Some(MotionFailure::DrivePushes { goal, pushed })
+            });
         }
         if !follower.is_moving()
             && let Some(failure) = self.trouble.take()

@@ -15,6 +15,7 @@ use super::no_handle_grasp::NoHandleGrasp;
 use super::payload::Overload;
 use super::process_module::ProcessModule;
 use super::pull::{ShortArm, StoppedPart};
+use super::pushing::PushedObject;
 use super::unreachable::{UnreachablePose, UnreachableReason};
 use crate::perception::Visibility;
 use crate::robot::{LimitViolation, Side};
@@ -68,6 +69,14 @@ pub(crate) enum MotionFailure {
         goal: BasePlace,
         /// What would touch.
         hit: Box<CollisionHit>,
+    },
+    /// The robot has pushed an object along while it drove.
+    #[error("on the way to {} {} pushed {} by {:.0} mm", place(.goal), .pushed.by, .pushed.object, 1e3 * .pushed.distance)]
+    DrivePushes {
+        /// Goal of the base, in the map frame.
+        goal: BasePlace,
+        /// What was pushed.
+        pushed: PushedObject,
     },
     /// The torso has reached its limit, short of the goal.
     #[error("Torso goal {goal} was out of joint limits\nthe torso goes from {lower} to {upper} m")]
@@ -243,6 +252,9 @@ pub(crate) enum MotionFailure {
     /// The robot has pressed an object that it does not hold onto what carries it.
     #[error("the robot pressed {} onto {} with {:.0} N", .0.object, .0.against, .0.force)]
     ObjectPinned(Box<PinnedObject>),
+    /// A part of the robot has pushed an object along that it was not to touch.
+    #[error("{} pushed {} by {:.0} mm", .0.by, .0.object, 1e3 * .0.distance)]
+    ObjectPushed(Box<PushedObject>),
     /// A held object has slipped out of the hand.
     #[error(
         "{} has slipped out of the {} hand: the two were torn apart with {:.1} N, and the fingers \
@@ -407,9 +419,9 @@ impl MotionFailure {
             Self::GoalOccupied { .. } | Self::GoalOffMap { .. } | Self::Enclosed { .. } => {
                 "NAVIGATION-POSE-UNREACHABLE"
             }
-            Self::DriveStartOccupied { .. } | Self::DriveBlocked { .. } => {
-                "NAVIGATION-GOAL-NOT-REACHED"
-            }
+            Self::DriveStartOccupied { .. }
+            | Self::DriveBlocked { .. }
+            | Self::DrivePushes { .. } => "NAVIGATION-GOAL-NOT-REACHED",
             Self::TorsoGoalOutOfLimits { .. } => "TORSO-GOAL-NOT-REACHED",
             Self::TorsoBlocked { .. } => "TORSO-GOAL-UNREACHABLE",
             Self::NeckLimit { .. } | Self::NeckBlocked { .. } => "PTU-GOAL-NOT-REACHED",
@@ -439,6 +451,7 @@ impl MotionFailure {
             | Self::HandGoalMissed { .. }
             | Self::HeldObjectStuck(_)
             | Self::ObjectPinned(_)
+            | Self::ObjectPushed(_)
             | Self::TooHeavy(_)
             | Self::NothingBelow { .. }
             | Self::WouldNotStand { .. }

@@ -1,17 +1,14 @@
 //! Moving a set of joints along a trajectory, one guarded step at a time.
 
 use super::failure::MotionFailure;
-use super::guard::{self, PinnedObject};
+use super::guard;
 use super::job::{PlannedTrajectory, TrajectoryAxes};
+use super::pushing::Pushing;
 use super::standstill::StandstillTimer;
 use super::trajectory::Trajectory;
 use super::trajectory_follower::TrajectoryFollower;
 use crate::robot::{JointId, LinkId};
-use crate::world::physics::STEP_SECONDS;
-use crate::world::{AllowedPairs, BodyName, CollisionHit, RobotConfiguration, World};
-
-/// How long (s) the robot may press what it is to touch onto something.
-const PINNED: f64 = 0.05;
+use crate::world::{AllowedPairs, CollisionHit, RobotConfiguration, World};
 
 /// The outcome of a step.
 #[derive(Debug)]
@@ -28,7 +25,7 @@ pub(super) enum FollowStep {
         still: f64,
     },
     /// A held object does not follow the hand, is too heavy, or has slipped away; or another one is
-    /// pressed onto something.
+    /// pressed onto something or pushed along.
     Trouble(Box<MotionFailure>),
 }
 
@@ -42,8 +39,7 @@ pub(crate) struct JointFollower {
     standstill: StandstillTimer,
     /// The world's step when the joints began to move.
     began: Option<u64>,
-    /// How long (s) an object has been pressed onto something.
-    pinned: f64,
+    pushing: Pushing,
 }
 
 impl JointFollower {
@@ -55,7 +51,7 @@ impl JointFollower {
             allowed,
             standstill: StandstillTimer::default(),
             began: None,
-            pinned: 0.0,
+            pushing: Pushing::default(),
         }
     }
 
@@ -86,8 +82,12 @@ impl JointFollower {
         if let Some(failure) = guard::trouble_with_held(world, began, is_hand) {
             return FollowStep::Trouble(Box::new(failure));
         }
-        if let Some(pinned) = self.pinned(world) {
+        if let Some(pinned) = self.pushing.pinned(world, &self.allowed) {
             let failure = MotionFailure::ObjectPinned(Box::new(pinned));
+            return FollowStep::Trouble(Box::new(failure));
+        }
+        if let Some(pushed) = self.pushing.pushed(world, &self.allowed) {
+            let failure = MotionFailure::ObjectPushed(Box::new(pushed));
             return FollowStep::Trouble(Box::new(failure));
         }
         if self.follower.is_at_end() {
@@ -113,20 +113,6 @@ impl JointFollower {
                 }
             }
         }
-    }
-
-    /// An object that has been pressed onto something, for too long if it is to be touched.
-    fn pinned(&mut self, world: &World) -> Option<PinnedObject> {
-        let loose = world.objects().filter(|o| o.attachment().is_none());
-        let pinned = loose.filter_map(|o| guard::pinned(world, o.name())).next();
-        let Some(pinned) = pinned else {
-            self.pinned = 0.0;
-            return None;
-        };
-        self.pinned += STEP_SECONDS;
-        let is_target = |other: &BodyName| other.object() == Some(&pinned.object);
-        let may_be_touched = self.allowed.iter().any(|(_, other)| is_target(other));
-        (!may_be_touched || self.pinned > PINNED).then_some(pinned)
     }
 
     pub(super) fn is_moving(&self) -> bool {

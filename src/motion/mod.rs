@@ -42,6 +42,7 @@ mod planning_group;
 mod pose_goal;
 mod process_module;
 pub(crate) mod pull;
+pub(crate) mod pushing;
 pub(crate) mod put;
 mod put_plan;
 mod put_reach;

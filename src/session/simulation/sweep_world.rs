@@ -4,6 +4,7 @@ use serde_json::Value as Json;
 
 use super::Simulation;
 use super::tally::Tally;
+use crate::motion::pushing::PushedObject;
 use crate::motion::{MotionFailure, UnreachableReason};
 use crate::sweep::Record;
 
@@ -74,9 +75,17 @@ impl Simulation {
             (Some(hit), _) => vec![hit.moving.to_string(), hit.other.to_string()],
             (None, MotionFailure::HeldObjectSlipped(slip)) => vec![slip.object.clone()],
             (None, MotionFailure::HeldObjectStuck(stuck)) => vec![stuck.object.clone()],
+            (None, MotionFailure::ObjectPinned(pinned)) => vec![pinned.object.clone()],
+            (None, MotionFailure::ObjectPushed(pushed)) => touching(pushed),
+            (None, MotionFailure::DrivePushes { pushed, .. }) => touching(pushed),
             _ => Vec::new(),
         }
     }
+}
+
+/// The two that touch while the robot pushes an object.
+fn touching(pushed: &PushedObject) -> Vec<String> {
+    vec![pushed.by.to_string(), pushed.object.clone()]
 }
 
 /// The name of a variant and its data, as serde writes them.

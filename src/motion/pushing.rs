@@ -1,0 +1,121 @@
+//! Objects that the robot presses onto something, or pushes along.
+//!
+//! [`guard`] refuses steps into what does not give way. What gives way never gets deep into the
+//! robot, so it is watched here.
+
+use serde::{Deserialize, Serialize};
+
+use super::guard::{self, PinnedObject};
+use crate::spatial::Pose;
+use crate::spatial::pose::distance_between;
+use crate::world::physics::STEP_SECONDS;
+use crate::world::{AllowedPairs, BodyName, Object, World};
+
+/// How long (s) the robot may press what it is to touch onto something.
+const PINNED: f64 = 0.05;
+/// How far (m) the robot may push what it is not to touch.
+const PUSHED: f64 = 0.005;
+
+/// An object that the robot has pushed along.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct PushedObject {
+    /// Name of the object.
+    pub(crate) object: String,
+    /// The part of the robot that touches it.
+    pub(crate) by: BodyName,
+    /// How far (m) it has been pushed.
+    pub(crate) distance: f64,
+}
+
+/// What a motion does to objects that the robot does not hold.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pushing {
+    /// How long (s) an object has been pressed onto something.
+    pinned: f64,
+    /// Where objects were when the robot began to touch them.
+    touched: Vec<(String, Pose)>,
+}
+
+impl Pushing {
+    /// An object that is pressed onto something, for too long if it may be touched; call in every
+    /// step.
+    pub(super) fn pinned(&mut self, world: &World, allowed: &AllowedPairs) -> Option<PinnedObject> {
+        let pinned = loose(world).find_map(|object| guard::pinned(world, object.name()));
+        let Some(pinned) = pinned else {
+            self.pinned = 0.0;
+            return None;
+        };
+        self.pinned += STEP_SECONDS;
+        let is_target = |other: &BodyName| other.object() == Some(&pinned.object);
+        let may_be_touched = allowed.iter().any(|(_, other)| is_target(other));
+        (!may_be_touched || self.pinned > PINNED).then_some(pinned)
+    }
+
+    /// An object that has been pushed too far by parts of the robot that may not touch it; call in
+    /// every step.
+    pub(super) fn pushed(&mut self, world: &World, allowed: &AllowedPairs) -> Option<PushedObject> {
+        loose(world).find_map(|object| {
+            let contacts = world.object_contacts(object.name()).ok()?;
+            let is_allowed = |link: &BodyName| {
+                let mut pairs = allowed.iter();
+                pairs.any(|(one, other)| one == link && other.object() == Some(object.name()))
+            };
+            let mut by_robot = contacts.into_iter().filter(|contact| {
+                contact.body.robot_link().is_some() && !is_allowed(&contact.body)
+            });
+            let by = by_robot.next()?.body;
+            let now = world.object_pose(object.name()).ok()?;
+            let began = self.touched.iter().find(|(name, _)| name == object.name());
+            let Some((_, began)) = began else {
+                self.touched.push((object.name().to_owned(), now));
+                return None;
+            };
+            let distance = distance_between(began, &now);
+            (distance > PUSHED).then(|| PushedObject {
+                object: object.name().to_owned(),
+                by,
+                distance,
+            })
+        })
+    }
+}
+
+/// The objects that no hand holds.
+fn loose(world: &World) -> impl Iterator<Item = &Object> {
+    world
+        .objects()
+        .filter(|object| object.attachment().is_none())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spatial::pose::{from_xy_yaw, from_xyz_rpy};
+    use crate::tests::world::fixture;
+
+    #[test]
+    fn what_the_base_pushes_along_is_told_unless_it_may_be_touched() {
+        let models = fixture::models();
+        let robot = fixture::tucked(&models, [0.0, 0.0, 0.0], 0.1);
+        let mut world = World::new(models, robot.clone());
+        let box_at = from_xyz_rpy([0.42, 0.0, 0.1], [0.0; 3]);
+        fixture::spawn(&mut world, "BOX", "cube", &box_at);
+        let base = world.models().robot.link_named("base_link").unwrap();
+        let base = world.models().robot_body(base);
+        let object = BodyName::Object("BOX".to_owned());
+        let allowed = AllowedPairs::none().and(base.clone(), object);
+        let (mut strict, mut lenient) = (Pushing::default(), Pushing::default());
+        // Half a millimetre in each step.
+        let told = (0..400).find_map(|i| {
+            let mut robot = robot.clone();
+            robot.base = from_xy_yaw(5e-4 * f64::from(i), 0.0, 0.0);
+            world.set_robot_configuration(&robot);
+            world.step();
+            assert_eq!(lenient.pushed(&world, &allowed), None);
+            strict.pushed(&world, &AllowedPairs::none())
+        });
+        let told = told.unwrap();
+        assert_eq!((told.object.as_str(), told.by), ("BOX", base));
+        assert!((0.005..0.007).contains(&told.distance), "{}", told.distance);
+    }
+}
