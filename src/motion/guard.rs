@@ -3,9 +3,9 @@
 //! Planned paths are collision-free, but the world changes while a path is followed: other
 //! jobs move other joints, and objects get pushed. So every single step is checked again,
 //! whatever was planned. A step is refused if it brings the robot, or what it holds, deeper
-//! into something than [`GUARD_DEPTH`]. If two bodies already overlap that much, steps that
-//! separate them or slide along are still taken, or the robot could never get away; but no
-//! step may exceed [`GREATEST_DEPTH`].
+//! into something than [`GUARD_DEPTH`], or presses an object harder onto what carries it. If two
+//! bodies already overlap that much, steps that separate them or slide along are still taken,
+//! or the robot could never get away; but no step may exceed [`GREATEST_DEPTH`].
 
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,8 @@ use super::pull::StoppedPart;
 use crate::robot::{LinkId, Side};
 use crate::world::physics::GRAVITY;
 use crate::world::{
-    AllowedPairs, BodyName, CollisionHit, MovingParts, Pairs, RobotConfiguration, World,
+    AllowedPairs, BodyName, CollisionChecker, CollisionHit, MovingParts, Object, Pairs,
+    RobotConfiguration, World,
 };
 
 /// Overlap (m) that a step may cause: much less than the 2 mm that are never exceeded, to
@@ -29,6 +30,8 @@ pub(crate) const GREATEST_FORCE: f64 = 50.0;
 const GREATEST_DEPTH: f64 = 0.0019;
 /// A sliding step may seem to go deeper by this much (m): rounding, not motion.
 const SLIDE: f64 = 2e-5;
+/// Gap (m) up to which what is pressed counts as touching.
+const TOUCHING: f64 = 0.0005;
 /// Pairs that overlap less than this (m) do not count as overlapping before the step.
 const NOT_YET: f64 = GUARD_DEPTH / 2.0;
 
@@ -43,7 +46,9 @@ pub(super) fn obstacle(
     let now = world.robot_configuration();
     let moving = MovingParts::between(&world.models().robot, now, next);
     checker.expect_once(moving, Pairs::Changing);
-    let first = checker.first_hit(next, allowed, -GUARD_DEPTH)?;
+    let Some(first) = checker.first_hit(next, allowed, -GUARD_DEPTH) else {
+        return pressed_harder(world, &mut checker, next, allowed);
+    };
     let now = checker.all_hits(now, allowed, -NOT_YET);
     if now.is_empty() {
         return Some(first);
@@ -59,6 +64,32 @@ pub(super) fn obstacle(
         .all_hits(next, allowed, -GUARD_DEPTH)
         .into_iter()
         .find(is_deeper)
+}
+
+/// A pair that comes closer while the robot presses the object onto something: that gives way, so the
+/// two never overlap much.
+fn pressed_harder(
+    world: &World,
+    checker: &mut CollisionChecker<'_>,
+    next: &RobotConfiguration,
+    allowed: &AllowedPairs,
+) -> Option<CollisionHit> {
+    let pinned = loose(world).find_map(|object| pinned(world, object.name()))?;
+    let of_it = |hit: &CollisionHit| hit.other.object() == Some(&pinned.object);
+    let now = checker.all_hits(world.robot_configuration(), allowed, TOUCHING);
+    let is_deeper = |hit: &CollisionHit| {
+        let before = now.iter().find(|n| n.moving == hit.moving && of_it(n));
+        before.is_none_or(|before| hit.depth > before.depth)
+    };
+    let next = checker.all_hits(next, allowed, TOUCHING);
+    next.into_iter().filter(of_it).find(is_deeper)
+}
+
+/// The objects that no hand holds.
+pub(super) fn loose(world: &World) -> impl Iterator<Item = &Object> {
+    world
+        .objects()
+        .filter(|object| object.attachment().is_none())
 }
 
 /// What is wrong with objects in the hands on the links for which `is_hand`, if anything: one has

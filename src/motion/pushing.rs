@@ -1,4 +1,4 @@
-//! Objects that the robot presses onto something, or pushes along.
+//! Objects that the robot is to touch and presses onto something, and those that it pushes along.
 //!
 //! [`guard`] refuses steps into what does not give way. What gives way never gets deep into the
 //! robot, so it is watched here.
@@ -37,24 +37,26 @@ pub(super) struct Pushing {
 }
 
 impl Pushing {
-    /// An object that is pressed onto something, for too long if it may be touched; call in every
-    /// step.
+    /// An object that may be touched and has been pressed onto something for too long; call in
+    /// every step.
     pub(super) fn pinned(&mut self, world: &World, allowed: &AllowedPairs) -> Option<PinnedObject> {
-        let pinned = loose(world).find_map(|object| guard::pinned(world, object.name()));
-        let Some(pinned) = pinned else {
+        let may_be_touched = |object: &&Object| {
+            let mut pairs = allowed.iter();
+            pairs.any(|(_, other)| other.object() == Some(object.name()))
+        };
+        let mut touchable = guard::loose(world).filter(may_be_touched);
+        let Some(pinned) = touchable.find_map(|object| guard::pinned(world, object.name())) else {
             self.pinned = 0.0;
             return None;
         };
         self.pinned += STEP_SECONDS;
-        let is_target = |other: &BodyName| other.object() == Some(&pinned.object);
-        let may_be_touched = allowed.iter().any(|(_, other)| is_target(other));
-        (!may_be_touched || self.pinned > PINNED).then_some(pinned)
+        (self.pinned > PINNED).then_some(pinned)
     }
 
     /// An object that has been pushed too far by parts of the robot that may not touch it; call in
     /// every step.
     pub(super) fn pushed(&mut self, world: &World, allowed: &AllowedPairs) -> Option<PushedObject> {
-        loose(world).find_map(|object| {
+        guard::loose(world).find_map(|object| {
             let contacts = world.object_contacts(object.name()).ok()?;
             let is_allowed = |link: &BodyName| {
                 let mut pairs = allowed.iter();
@@ -78,13 +80,6 @@ impl Pushing {
             })
         })
     }
-}
-
-/// The objects that no hand holds.
-fn loose(world: &World) -> impl Iterator<Item = &Object> {
-    world
-        .objects()
-        .filter(|object| object.attachment().is_none())
 }
 
 #[cfg(test)]

@@ -210,3 +210,25 @@ fn a_hand_that_holds_something_grasps_nothing_else() {
     assert_eq!(report, "The right hand is not free: it holds BOTTLE-1.");
     assert_eq!(cook.in_right_hand(), "(BOTTLE-1)");
 }
+
+#[test]
+fn a_torso_that_brings_the_hand_down_on_a_bottle_stops_there() {
+    let mut cook = Cook::new();
+    cook.done("(spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))");
+    let stands = cook.pose("BOTTLE-1");
+    let report = cook.fails(
+        "TORSO-GOAL-UNREACHABLE",
+        "(let ((?place (make-pose \"map\" '((-1.447 -0.15 0) (0 0 -0.7071 0.7071))))
+               (?above (make-pose \"base_footprint\" '((0.75 -0.153 1.05) (0 0.7071 0 0.7071))))
+               (?up 0.33) (?down 0.05))
+           (cpl:par (perform (an action (type going) (target (a location (pose ?place)))))
+                    (perform (a motion (type moving-torso) (joint-angle ?up))))
+           (perform (a motion (type moving-tcp) (right-pose ?above)))
+           (perform (a motion (type moving-torso) (joint-angle ?down))))",
+    );
+    assert!(report.contains("r_gripper_r_finger_tip_link"), "{report}");
+    assert!(report.contains("BOTTLE-1"), "{report}");
+    // It used to be pressed 24 mm farther.
+    assert!(cook.distance("BOTTLE-1", &stands) < 0.001);
+    assert!(cook.turned_up("BOTTLE-1", &stands) < 0.5);
+}
