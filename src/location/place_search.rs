@@ -11,7 +11,8 @@ use super::tally::Tally;
 use crate::motion::interruption;
 use crate::robot::LinkId;
 use crate::spatial::Pose;
-use crate::world::{Extent, Ground, Load, NoRoom, StandingRoom, World, WorldError};
+use crate::spatial::pose::distance_between;
+use crate::world::{BodyName, Extent, Ground, Load, NoRoom, StandingRoom, World, WorldError};
 
 /// Edge lengths (m) of the cells: finer ones are tried if the coarser ones yield nothing.
 const RESOLUTIONS: [f64; 3] = [0.04, 0.02, 0.01];
@@ -19,6 +20,8 @@ const RESOLUTIONS: [f64; 3] = [0.04, 0.02, 0.01];
 const MOST_CELLS: usize = 20_000;
 /// How far (m) what carries a thing may be above or below the upper face of the support.
 const SLACK: f64 = 0.02;
+/// What is less far (m) from a pose than this is at it.
+const SAME_PLACE: f64 = 0.001;
 
 /// Number of points along each side at which boards are looked for.
 const PROBES: u32 = 8;
@@ -316,6 +319,27 @@ impl PlaceSearch {
         Ok(pose)
     }
 
+    /// Whether what the place is for stands at the pose already, on such ground: it may reach beyond
+    /// an edge then, or across one.
+    fn stands_at(&self, query: &PlaceQuery, world: &World, pose: &Pose) -> bool {
+        let (What::Object(name), Some(load)) = (&query.what, &self.load) else {
+            return false;
+        };
+        let (Ok(now), Ok(supports)) = (world.object_pose(name), world.supports(name)) else {
+            return false;
+        };
+        let bottom = pose.translation.z - load.depth(pose);
+        let heights = self.starts.iter();
+        let mut heights = heights.map(|[start, below]| start - below..=*start);
+        let carries = |body: &BodyName| match &query.support {
+            Support::Furniture(_) => matches!(body, BodyName::Furniture(_)),
+            Support::Object(name) => body.object() == Some(name),
+        };
+        distance_between(&now, pose) < SAME_PLACE
+            && heights.any(|heights| heights.contains(&bottom))
+            && supports.iter().any(|support| carries(&support.body))
+    }
+
     /// Why the pose is no such place, if it is none.
     pub(super) fn check(
         &self,
@@ -324,10 +348,15 @@ impl PlaceSearch {
         pose: &Pose,
     ) -> Result<(), String> {
         let t = pose.translation;
-        let factors = query.factors(&self.extent, self.margin());
+        let is_there = self.stands_at(query, scene.world, pose);
+        let margin = if is_there { 0.0 } else { self.margin() };
+        let factors = query.factors(&self.extent, margin);
         let missed = factors.iter().find(|f| (f.value)([t.x, t.y]) <= 0.0);
         if let Some(factor) = missed {
             return Err(format!("not {}", factor.key));
+        }
+        if is_there {
+            return Ok(());
         }
         let room = StandingRoom::new(scene.world, self.limits(), self.load.as_ref());
         let stands = self.try_at(query, &room, pose);

@@ -139,6 +139,7 @@ impl Worlds {
 
 /// Transports one object.
 fn trial(cook: &mut Cook, kind: &str, from: &Surface, to: &Surface, tally: &mut Tally) {
+    let stood = cook.pose("THING");
     let start = Instant::now();
     let said = cook.say(&format!("(transport {kind} :{} :{})", from.name, to.name));
     tally.trials += 1;
@@ -150,14 +151,20 @@ fn trial(cook: &mut Cook, kind: &str, from: &Surface, to: &Surface, tally: &mut 
             .unwrap_or_default()
             .to_owned();
         let report: String = report.chars().take(200).collect();
-        eprintln!("{kind} {} -> {}: {class} {report}", from.name, to.name);
+        eprintln!(
+            "{kind} {} {stood} -> {}: {class} {report}",
+            from.name, to.name
+        );
         *tally.reasons.entry(class).or_default() += 1;
         return;
     }
     let off = cook.done("(millimetres-off-target)");
     let off = off.trim().parse::<f64>().expect("a number") / 1e3;
     if off > NEAR {
-        eprintln!("{kind} {} -> {}: {off:.3} m off", from.name, to.name);
+        eprintln!(
+            "{kind} {} {stood} -> {}: {off:.3} m off",
+            from.name, to.name
+        );
         *tally.reasons.entry("elsewhere".to_owned()).or_default() += 1;
         return;
     }

@@ -107,3 +107,36 @@ fn what_is_not_in_the_world_is_searched_for_and_the_robot_is_parked_then() {
     assert_eq!(cook.done(parked), "(NIL)\n");
     cook.assert_no_overlap();
 }
+
+/// Looking for something of a type on a surface.
+fn search_on(kind: &str, surface: &str) -> String {
+    format!(
+        "(get-object-name
+           (with-simulated-robot
+             (perform (an action (type searching)
+                        (object (an object (type {kind})))
+                        (location (a location (on (an object (urdf-name {surface})
+                                                             (part-of kitchen)))))))))"
+    )
+}
+
+#[test]
+fn what_is_hidden_from_the_first_stand_is_seen_from_another() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(spawn-object '((-1.531 -0.890 0.821) (0 0 -0.987 0.159)) :bottle 'bottle-1)
+         (spawn-object '((-1.410 -0.8146 0.8325) (0 0 -0.888 0.459)) :milk 'milk-1)",
+    );
+    let said = cook.done(&search_on("bottle", "table-area-main"));
+    assert!(said.contains("hidden by MILK-1"), "{said}");
+    assert!(said.ends_with("BOTTLE-1\n"), "{said}");
+}
+
+#[test]
+fn what_stands_on_the_rim_of_the_sink_is_on_the_counter() {
+    let mut cook = Cook::new();
+    cook.done("(spawn-object '((1.5 -0.2 0.97) (0 0 0.3 0.95)) :cereal 'cereal-1)");
+    let said = cook.done(&search_on("cereal", "sink-area-surface"));
+    assert!(!said.contains("not at the place"), "{said}");
+    assert!(said.ends_with("CEREAL-1\n"), "{said}");
+}
