@@ -70,6 +70,23 @@ const PLAN: &str = "
                                      '(0 0 0 1))
                                :breakfast-cereal
                                (intern (format nil \"BOX-~a\" number))))))
+    (defun reachable-p ()
+      \"Is there any place to pick the thing up from, on a grid of 5 cm and 15 degrees?\"
+      (let* ((pose (get-current-pose-of-object 'thing))
+             (?object (desig:make-designator :object
+                        `((:type ,(desig-prop-value *object* :type)) (:name thing) (:pose ((:pose-in-map ,pose))))))
+             (location (a location (reachable-for pr2) (object ?object)))
+             (origin (cl-tf:origin pose)))
+        (loop for i from -21 to 21
+              thereis (loop for j from -21 to 21
+                            thereis (loop for k below 24
+                                          for half = (* k (/ pi 24))
+                                          thereis (coe::fulfils-p location
+                                                    (make-pose \"map\"
+                                                      (list (list (+ (cl-tf:x origin) (* i 0.05))
+                                                                  (+ (cl-tf:y origin) (* j 0.05))
+                                                                  0)
+                                                            (list 0 0 (sin half) (cos half))))))))))
     (defun millimetres-off-target ()
       (values (round (* 1000 (coe::distance
                               (coe::pose-in-map (reference (current-desig *target*)))
@@ -80,6 +97,8 @@ const PLAN: &str = "
 struct Tally {
     trials: u32,
     delivered: u32,
+    /// Those that cannot be picked up from anywhere.
+    out_of_reach: u32,
     moved_twice: u32,
     milliseconds: Vec<f64>,
     reasons: BTreeMap<String, u32>,
@@ -90,10 +109,11 @@ impl Tally {
         self.milliseconds.sort_by(f64::total_cmp);
         let median = self.milliseconds.get(self.milliseconds.len() / 2);
         eprintln!(
-            "{name:30} {:4} of {:4} delivered ({:.1} %), median {:.0} ms, {} moved again",
+            "{name:30} {:4} of {:4} delivered ({:.1} %), {} out of reach, median {:.0} ms, {} moved again",
             self.delivered,
-            self.trials,
-            100.0 * f64::from(self.delivered) / f64::from(self.trials.max(1)),
+            self.trials - self.out_of_reach,
+            100.0 * f64::from(self.delivered) / f64::from((self.trials - self.out_of_reach).max(1)),
+            self.out_of_reach,
             median.copied().unwrap_or(0.0),
             self.moved_twice,
         );
@@ -139,12 +159,17 @@ impl Worlds {
 
 /// Transports one object.
 fn trial(cook: &mut Cook, kind: &str, from: &Surface, to: &Surface, tally: &mut Tally) {
-    let stood = cook.pose("THING");
+    let stood = cook.done("(get-current-pose-of-object (quote thing))");
+    let stood = stood.trim();
     let start = Instant::now();
     let said = cook.say(&format!("(transport {kind} :{} :{})", from.name, to.name));
     tally.trials += 1;
     tally.milliseconds.push(start.elapsed().as_secs_f64() * 1e3);
     if let Err((report, class)) = said {
+        if report.contains("could not be fetched") && cook.done("(reachable-p)") == "NIL\n" {
+            tally.out_of_reach += 1;
+            return;
+        }
         let class = class
             .split_whitespace()
             .next()
@@ -223,6 +248,7 @@ fn how_often_objects_are_transported() {
         tally.line(kind);
         all.trials += tally.trials;
         all.delivered += tally.delivered;
+        all.out_of_reach += tally.out_of_reach;
         all.moved_twice += tally.moved_twice;
         all.milliseconds.append(&mut tally.milliseconds);
         for (reason, count) in tally.reasons {

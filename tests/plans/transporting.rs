@@ -205,3 +205,21 @@ fn a_bottle_is_put_down_although_its_target_is_just_inside_of_the_surface() {
         assert!((t.x + 0.8).hypot(t.y - 1.6) < 0.02, "{height}: {t}");
     }
 }
+
+#[test]
+fn a_plate_is_grasped_from_where_it_can_be_so_that_it_can_also_be_put_down() {
+    let mut cook = Cook::new();
+    cook.done("(spawn-object '((-1.013 -1.342 0.8) (0 0 -0.15389 0.98809)) :plate 'plate-1)");
+    // By the side that is nearest, it could be put down at the edge of the island only.
+    cook.done(
+        "(with-simulated-robot
+           (perform (an action (type transporting)
+                      (object (an object (type plate)))
+                      (location (a location (on (an object (urdf-name table-area-main)
+                                                           (part-of kitchen)))))
+                      (target (a location (on (an object (urdf-name kitchen-island-surface)
+                                                         (part-of kitchen)))
+                                          (for (an object (type plate))))))))",
+    );
+    assert!(cook.pose("PLATE-1").translation.z > 0.85);
+}
