@@ -1,10 +1,12 @@
 //! Functions written in Rust, as the machine calls them.
 
+use std::any::Any;
 use std::rc::Rc;
 
 use super::image::Image;
 use super::value::Value;
-use super::value::function::{Function, Native, NativeBody};
+use super::value::copy::{Copied, Copier};
+use super::value::function::{Function, MadeBody, Native, NativeBody};
 use super::value::raise::Raise;
 use super::value::symbol::Sym;
 use super::vm::machine::Machine;
@@ -29,11 +31,55 @@ pub(crate) enum BuiltinCall {
 }
 
 /// What [`NativeBody::Made`] holds.
-enum Made {
+struct Made {
+    call: MadeCall,
+    /// Makes the function again of a copy of its data; none if a copy of the image cannot have it.
+    copy: Option<Box<Recipe>>,
+}
+
+enum MadeCall {
     /// Returns at once.
     Pure(Box<MadeFn>),
     /// May call, wait or unwind.
     Control(Box<MadeControlFn>),
+}
+
+/// Makes a function of a copy of its data.
+type Recipe = dyn Fn(&mut Copier) -> Made;
+
+impl Made {
+    fn pure_of<D: Copied>(
+        data: Rc<D>,
+        call: impl Fn(&D, &mut Image, &[Value]) -> Result<Value, Box<Raise>> + Copy + 'static,
+    ) -> Made {
+        let own = data.clone();
+        Made {
+            call: MadeCall::Pure(Box::new(move |image, args| call(&own, image, args))),
+            copy: Some(Box::new(move |copier| {
+                Made::pure_of(Rc::new(data.copied(copier)), call)
+            })),
+        }
+    }
+
+    fn control_of<D: Copied>(
+        data: Rc<D>,
+        call: impl Fn(&D, &mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>> + Copy + 'static,
+    ) -> Made {
+        let own = data.clone();
+        Made {
+            call: MadeCall::Control(Box::new(move |machine, args| call(&own, machine, args))),
+            copy: Some(Box::new(move |copier| {
+                Made::control_of(Rc::new(data.copied(copier)), call)
+            })),
+        }
+    }
+}
+
+impl MadeBody for Made {
+    fn copied(&self, copier: &mut Copier) -> Option<Box<dyn MadeBody>> {
+        let made = self.copy.as_ref()?(copier);
+        Some(Box::new(made))
+    }
 }
 
 /// A function written in Rust, ready to be called.
@@ -57,11 +103,14 @@ impl Image {
                 BuiltinCall::Pure(f) => NativeCall::Pure(f),
                 BuiltinCall::Control(f) => NativeCall::Control(f),
             },
-            NativeBody::Made(made) => match made.downcast_ref() {
-                Some(Made::Pure(f)) => NativeCall::Made(f.as_ref()),
-                Some(Made::Control(f)) => NativeCall::MadeControl(f.as_ref()),
-                None => unreachable!("`made` and `made_control` alone make such functions"),
-            },
+            NativeBody::Made(made) => {
+                let made: &dyn Any = made.as_ref();
+                match made.downcast_ref::<Made>().map(|made| &made.call) {
+                    Some(MadeCall::Pure(f)) => NativeCall::Made(f.as_ref()),
+                    Some(MadeCall::Control(f)) => NativeCall::MadeControl(f.as_ref()),
+                    None => unreachable!("nothing else makes such functions"),
+                }
+            }
         }
     }
 
@@ -91,31 +140,38 @@ impl Image {
 }
 
 impl Function {
-    /// A pure function with data of its own.
-    pub(crate) fn made(
+    /// A pure function of its arguments and of data. An image that is copied has it of a copy of these.
+    pub(crate) fn pure_of<D: Copied>(
         name: Sym,
         arity: (u16, Option<u16>),
-        call: impl Fn(&mut Image, &[Value]) -> Result<Value, Box<Raise>> + 'static,
+        data: D,
+        call: impl Fn(&D, &mut Image, &[Value]) -> Result<Value, Box<Raise>> + Copy + 'static,
     ) -> Rc<Function> {
-        let made = Made::Pure(Box::new(call));
-        Rc::new(Function::native(
-            name,
-            arity,
-            NativeBody::Made(Box::new(made)),
-        ))
+        Function::of_made(name, arity, Made::pure_of(Rc::new(data), call))
     }
 
-    /// A control function with data of its own.
+    /// A control function of its arguments and of data. An image that is copied has it of a copy of these.
+    pub(crate) fn control_of<D: Copied>(
+        name: Sym,
+        arity: (u16, Option<u16>),
+        data: D,
+        call: impl Fn(&D, &mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>> + Copy + 'static,
+    ) -> Rc<Function> {
+        Function::of_made(name, arity, Made::control_of(Rc::new(data), call))
+    }
+
+    /// A control function that belongs to what runs: an image that has it cannot be copied.
     pub(crate) fn made_control(
         name: Sym,
         arity: (u16, Option<u16>),
         call: impl Fn(&mut Machine<'_>, Vec<Value>) -> Result<Step, Box<Raise>> + 'static,
     ) -> Rc<Function> {
-        let made = Made::Control(Box::new(call));
-        Rc::new(Function::native(
-            name,
-            arity,
-            NativeBody::Made(Box::new(made)),
-        ))
+        let call = MadeCall::Control(Box::new(call));
+        Function::of_made(name, arity, Made { call, copy: None })
+    }
+
+    fn of_made(name: Sym, arity: (u16, Option<u16>), made: Made) -> Rc<Function> {
+        let body = NativeBody::Made(Box::new(made));
+        Rc::new(Function::native(name, arity, body))
     }
 }

@@ -21,6 +21,7 @@ impl Place {
 pub(crate) struct SourceId(pub(crate) u32);
 
 /// One text that forms were read from: a file, or an input at the prompt.
+#[derive(Clone)]
 pub(crate) struct Source {
     /// File name, or a name such as `prompt[3]`.
     pub(crate) name: Rc<str>,
@@ -29,7 +30,7 @@ pub(crate) struct Source {
     /// Is it a part of the language that is written in Lisp?
     is_library: bool,
     /// Byte offset of the start of each line.
-    line_starts: Vec<u32>,
+    line_starts: Rc<[u32]>,
 }
 
 /// A source location for display: lines and columns count from one, columns in characters.
@@ -65,6 +66,7 @@ impl Location {
     }
 }
 
+#[derive(Clone, Copy)]
 struct Span {
     source: SourceId,
     start: u32,
@@ -72,7 +74,7 @@ struct Span {
 }
 
 /// All source texts of an image, and the places in them.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Sources {
     sources: Vec<Source>,
     spans: Vec<Span>,

@@ -345,7 +345,9 @@ type Report = fn(&mut Machine<'_>, Vec<Value>) -> Result<Step>;
 
 fn report_by(image: &mut Image, home: PackageId, name: &str, report: Report) {
     let name = image.export_symbol(home, name);
-    let function = Function::made_control(name, (2, Some(2)), report);
+    let function = Function::control_of(name, (2, Some(2)), (), move |(), machine, args| {
+        report(machine, args)
+    });
     if let Some(class) = image.class(name) {
         *class.report.borrow_mut() = Some(function);
     }
@@ -379,7 +381,7 @@ fn format(stream: Value, control: Value, args: Vec<Value>) -> Step {
 
 fn report_policy(image: &mut Image, home: PackageId, name: &str, text: &'static str) {
     let name = image.export_symbol(home, name);
-    let function = Function::made_control(name, (2, Some(2)), move |machine, args| {
+    let function = Function::control_of(name, (2, Some(2)), (), move |(), machine, args| {
         let slots = ["NAME", "PARAMETERS"];
         let values = slots.map(|slot| slot_value(machine.image, &args[0], slot));
         Ok(format(args[1].clone(), text.into(), values.to_vec()))

@@ -6,9 +6,11 @@ use std::rc::Rc;
 
 use crate::lisp::evaluator::matching::is_of_type;
 use crate::lisp::image::Image;
+use crate::lisp::image::extension::Extension;
 use crate::lisp::print;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::Copier;
 use crate::lisp::value::known;
 
 /// Sources of the plans that are built in.
@@ -87,6 +89,23 @@ impl Handlers {
             })
         });
         each.collect()
+    }
+}
+
+impl Extension for Handlers {
+    fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension> {
+        let all = self.0.borrow();
+        let all = all.iter().map(|handler| {
+            let types = handler.types.iter();
+            Handler {
+                place: handler.place,
+                location: handler.location.clone(),
+                types: types
+                    .map(|(name, count)| (copier.value(name), *count))
+                    .collect(),
+            }
+        });
+        Rc::new(Handlers(RefCell::new(all.collect())))
     }
 }
 

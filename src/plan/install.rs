@@ -70,7 +70,7 @@ fn define_variables(image: &mut Image, names: &Names) {
     variables.push((names.break_on_failures, None));
     variables.push((names.debug_on_errors, None));
     let name = names.inherit_parent_value;
-    let inherit = Function::made(name, (3, Some(3)), |_, args| Ok(args[2].clone()));
+    let inherit = Function::pure_of(name, (3, Some(3)), (), |(), _, args| Ok(args[2].clone()));
     image.set_function(name, inherit);
 }
 

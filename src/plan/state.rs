@@ -11,7 +11,9 @@ use super::journal::{Change, Journal};
 use super::names::Names;
 use super::tree::TreeNode;
 use crate::lisp::image::Image;
+use crate::lisp::image::extension::Extension;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::{Copied, Copier};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
@@ -33,6 +35,29 @@ pub(crate) struct Plan {
     pub(super) journal: Journal,
     /// Numbers for fluents and tasks without a name.
     numbers: Cell<u64>,
+}
+
+impl Extension for Plan {
+    fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension> {
+        if self.has_woken() || self.journal.is_kept() {
+            copier.refuse("a plan that runs");
+        }
+        if !self.trees.borrow().is_empty() {
+            copier.refuse("the task tree of a plan");
+        }
+        let variables = self.task_variables.borrow();
+        let variables = variables.iter();
+        let variables = variables.map(|(name, function)| (*name, function.copied(copier)));
+        Rc::new(Plan {
+            names: self.names,
+            now: self.now.clone(),
+            woken: RefCell::default(),
+            task_variables: RefCell::new(variables.collect()),
+            trees: RefCell::default(),
+            journal: Journal::default(),
+            numbers: self.numbers.clone(),
+        })
+    }
 }
 
 /// Where the clock ends, in simulated seconds: up to there, 136 years, it resolves a microsecond.

@@ -7,6 +7,7 @@ mod audience;
 mod check;
 mod console;
 mod converse;
+mod copy;
 pub(crate) mod dialogue;
 pub(crate) mod functions;
 mod halting;
@@ -106,7 +107,7 @@ impl Session {
         let mut simulation = Simulation::new(models, options.log_level, options.seed)
             .map_err(|error| SessionError::Models(error.to_string()))?;
         simulation.set_noise(options.noise_levels()?);
-        let objects = image.extend(objects::Objects::default());
+        let objects = objects::Objects::of(&mut image);
         let mut session = Session {
             options: options.clone(),
             image,

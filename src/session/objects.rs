@@ -2,11 +2,14 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::dialogue::ObjectNumber;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
+use crate::lisp::image::extension::Extension;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::Copier;
 use crate::lisp::value::raise::Raise;
 
 /// Most values that are kept; beyond that, the oldest are forgotten.
@@ -32,6 +35,12 @@ pub(super) struct Objects {
 }
 
 impl Objects {
+    /// Those of an image.
+    pub(super) fn of(image: &mut Image) -> Rc<Objects> {
+        let objects = image.extension::<Objects>();
+        objects.unwrap_or_else(|| image.extend(Objects::default()))
+    }
+
     /// Sets whether an editor is the front.
     pub(super) fn set_served(&self, is_served: bool) {
         self.is_served.set(is_served);
@@ -88,6 +97,15 @@ impl Objects {
     /// The value to inspect, once.
     pub(super) fn take_inspected(&self) -> Option<Value> {
         self.inspected.take()
+    }
+}
+
+impl Extension for Objects {
+    fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension> {
+        if self.is_served() || self.next() > 0 || self.inspected.borrow().is_some() {
+            copier.refuse("values that an editor refers to");
+        }
+        Rc::new(Objects::default())
     }
 }
 

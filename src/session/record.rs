@@ -2,13 +2,16 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
+use std::rc::Rc;
 
 use super::dialogue::prompt_line::prompt_line;
 use super::dialogue::repeat::with_interrupt;
 use super::dialogue::{Event, Outcome, Screen};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
+use crate::lisp::image::extension::Extension;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::Copier;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
@@ -16,6 +19,7 @@ use crate::lisp::value::raise::Raise;
 #[derive(Default)]
 pub(super) struct Record(RefCell<Vec<Entry>>);
 
+#[derive(Clone)]
 struct Entry {
     /// What the prompt showed, with the state of a stopped evaluation.
     prompt: String,
@@ -24,6 +28,12 @@ struct Entry {
     interrupted_at: Option<u64>,
     /// Whether it asked to end the session; if the session went on, it had no effect.
     quits: bool,
+}
+
+impl Extension for Record {
+    fn copied(self: Rc<Self>, _: &mut Copier) -> Rc<dyn Extension> {
+        Rc::new(Record(self.0.clone()))
+    }
 }
 
 impl Record {

@@ -7,7 +7,9 @@ use std::rc::Rc;
 use super::Session;
 use super::dialogue::{Evaluate, Event, Outcome, Repeat};
 use crate::lisp::image::Image;
+use crate::lisp::image::extension::Extension;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::Copier;
 use crate::plan::Handlers;
 use crate::sweep::pairs::Pairs;
 use crate::sweep::{Drawn, Draws, Ending, Record};
@@ -33,7 +35,7 @@ pub(crate) struct Known {
 #[derive(Default)]
 pub(super) struct Sweeping(RefCell<State>);
 
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct State {
     seed: u64,
     world: u64,
@@ -137,6 +139,18 @@ impl Sweeping {
     /// Keeps what came of the world.
     pub(super) fn keep(&self, record: Record) {
         self.0.borrow_mut().record = Some(record);
+    }
+}
+
+impl Extension for Sweeping {
+    fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension> {
+        let state = self.0.borrow();
+        let set = state.set.iter();
+        let set = set.map(|(path, value)| (path.clone(), copier.value(value)));
+        Rc::new(Sweeping(RefCell::new(State {
+            set: set.collect(),
+            ..state.clone()
+        })))
     }
 }
 

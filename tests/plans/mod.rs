@@ -23,6 +23,7 @@ mod properties;
 mod putting_down;
 mod refusals;
 mod searching;
+mod session_copies;
 mod spawning;
 mod sweeps;
 mod systems;

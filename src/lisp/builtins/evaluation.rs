@@ -244,29 +244,29 @@ fn values_list(_: &mut Image, args: &[Value]) -> Result<Value> {
 }
 
 fn constantly(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let value = args[0].clone();
-    let name = known::CONSTANTLY;
-    Ok(Value::Function(Function::made(
-        name,
+    let constant = Function::pure_of(
+        known::CONSTANTLY,
         (0, None),
-        move |_, _| Ok(value.clone()),
-    )))
+        args[0].clone(),
+        |value, _, _| Ok(value.clone()),
+    );
+    Ok(Value::Function(constant))
 }
 
 fn complement(_: &mut Image, args: &[Value]) -> Result<Value> {
-    let function = args[0].clone();
-    let name = known::COMPLEMENT;
-    Ok(Value::Function(Function::made_control(
-        name,
+    let complement = Function::control_of(
+        known::COMPLEMENT,
         (0, None),
-        move |machine, args| {
+        args[0].clone(),
+        |function, machine, args| {
             let function = function.clone();
             run(machine, "COMPLEMENT", |calls| async move {
                 let value = calls.call(&function, Args::Many(args)).await;
                 Ok(Value::bool(value.is_nil()))
             })
         },
-    )))
+    );
+    Ok(Value::Function(complement))
 }
 
 fn macroexpand(image: &mut Image, args: &[Value]) -> Result<Value> {
@@ -314,10 +314,11 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
         FunctionCell::Macro(f) => Value::Function(f.clone()),
         FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {
             Some(expand) => {
-                Value::Function(Function::made(name, (1, Some(2)), move |image, args| {
+                let function = Function::pure_of(name, (1, Some(2)), (), move |(), image, args| {
                     let environment = args.get(1).cloned().unwrap_or(Value::NIL);
                     image.expand_with(expand, &args[0], environment)
-                }))
+                });
+                Value::Function(function)
             }
             None => Value::NIL,
         },

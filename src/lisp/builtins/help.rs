@@ -3,16 +3,20 @@
 //! What is said about builtins and operators comes from their tables, what is said about the user's
 //! definitions from their code. Nothing here runs the user's code.
 
+use std::rc::Rc;
+
 use super::packages;
 use super::strings::designated;
 use crate::lisp::builtin::{Builtin, Entry, pure};
 use crate::lisp::image::Image;
+use crate::lisp::image::extension::Extension;
 use crate::lisp::library::definition_of;
 use crate::lisp::print;
 use crate::lisp::stream;
 use crate::lisp::types::type_of::type_of;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, ClassKind, Instance};
+use crate::lisp::value::copy::Copier;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::package::{Access, PackageTable};
 use crate::lisp::value::raise::Raise;
@@ -50,8 +54,15 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
 ];
 
-/// Tells what a name means to the layers above the language, which keep it in the image.
+/// Tells what a name means to the layers above the language, which keep it in the image. It holds
+/// nothing of an image.
 pub(crate) struct Topics(pub(crate) Box<MeaningsOf>);
+
+impl Extension for Topics {
+    fn copied(self: Rc<Self>, _: &mut Copier) -> Rc<dyn Extension> {
+        self
+    }
+}
 
 /// What a name means.
 type MeaningsOf = dyn Fn(&Image, Sym) -> Vec<Topic>;
@@ -292,7 +303,7 @@ fn kind_of_class(class: &Class) -> &'static str {
 fn of_class(image: &Image, class: &Class) -> String {
     let mut text = String::new();
     add_indented(&mut text, class.doc.borrow().as_deref());
-    let names = |classes: &[std::rc::Rc<Class>]| {
+    let names = |classes: &[Rc<Class>]| {
         let names: Vec<String> = classes
             .iter()
             .map(|class| shown(image, &class.name.into()))

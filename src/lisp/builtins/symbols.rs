@@ -175,13 +175,13 @@ fn fdefinition(image: &mut Image, args: &[Value]) -> Outcome {
             }
             FunctionCell::Unbound => Err(undefined()),
             FunctionCell::Builtin => {
-                let name = image.name(sym).to_owned();
-                let no_function = move |_: &mut Image, _: &[Value]| {
+                let function = Function::pure_of(sym, (0, None), (), move |(), image, _| {
+                    let name = image.name(sym);
                     Err(Raise::simple(format!(
                         "{name} is a macro or special operator; it cannot be called as a function."
                     )))
-                };
-                Ok(Value::Function(Function::made(sym, (0, None), no_function)))
+                });
+                Ok(Value::Function(function))
             }
         },
         FunctionName::Setf(sym) => match &image.symbol(sym).setf_function {

@@ -153,7 +153,7 @@ impl Machine<'_> {
         if parameters.rest {
             stack.push(Value::list(more.iter().cloned()));
         }
-        for key in &parameters.keys {
+        for key in parameters.keys.iter() {
             let value = more
                 .chunks_exact(2)
                 .find(|pair| pair[0].as_symbol() == Some(*key))

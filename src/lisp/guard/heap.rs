@@ -32,6 +32,11 @@ impl Heap {
         self.extensions.set(0);
     }
 
+    /// The limit.
+    pub(super) fn limit(&self) -> Option<HeapLimit> {
+        self.limit.get()
+    }
+
     /// Is more in use than may be? Says so once, and again when a sixteenth more is in use.
     pub(super) fn is_exhausted(&self) -> bool {
         self.would_exhaust(0)

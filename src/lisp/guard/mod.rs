@@ -49,6 +49,13 @@ pub(crate) enum Stopped {
 pub(crate) struct Watch(Option<Rc<Limits>>);
 
 impl Limits {
+    /// The same limit to the memory, and an interrupt flag of its own.
+    pub(crate) fn copied(&self) -> Limits {
+        let limits = Limits::default();
+        limits.heap.set_limit(self.heap.limit());
+        limits
+    }
+
     /// Puts the limits in force on this thread.
     pub(crate) fn watch(self: &Rc<Self>) -> Watch {
         Watch(CURRENT.replace(Some(Rc::clone(self))))

@@ -54,7 +54,7 @@ pub(crate) type Compile =
     fn(&mut Image, &'static Definition, Sym) -> Result<Rc<Function>, Box<Raise>>;
 
 /// What an image keeps of the library.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Installed {
     /// The definitions, by number.
     pub(crate) definitions: Vec<&'static Definition>,

@@ -10,6 +10,7 @@ use super::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::class::Instance;
+use crate::lisp::value::copy::Copier;
 use crate::lisp::value::foreign::ForeignBox;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::hash_table::HashTable;
@@ -78,6 +79,21 @@ pub(crate) struct Identities {
 }
 
 impl Identities {
+    /// The numbers of the objects' copies.
+    pub(super) fn copied(&self, copier: &Copier) -> Identities {
+        let entries = self.entries.iter().filter_map(|(address, (number, held))| {
+            let copy = held.is_alive().then(|| copier.copy_at(*address))??;
+            let (address, _, held) = Held::of(copy)?;
+            Some((address, (*number, held)))
+        });
+        Identities {
+            entries: entries.collect(),
+            given: self.given,
+            sweep_at: self.sweep_at,
+            is_aside: self.is_aside,
+        }
+    }
+
     /// How many numbers have been assigned so far.
     pub(crate) fn given(&self) -> u64 {
         self.given

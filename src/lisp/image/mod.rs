@@ -1,6 +1,8 @@
 //! One Lisp image: the meanings of all global names.
 
+mod copy;
 pub(crate) mod definition;
+pub(crate) mod extension;
 pub(crate) mod identity;
 pub(crate) mod input;
 pub(crate) mod notes;
@@ -9,7 +11,6 @@ mod output;
 pub(crate) mod setf_expander;
 pub(crate) mod signalled;
 
-use std::any::Any;
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -18,6 +19,7 @@ use std::sync::atomic::AtomicBool;
 use indexmap::IndexMap;
 
 use self::definition::Installed;
+use self::extension::Extension;
 use self::identity::Identities;
 use self::input::Input;
 use self::notes::{Note, NoteKind};
@@ -78,7 +80,7 @@ pub(crate) struct Image {
     /// Made-up addresses of objects that were printed.
     pub(crate) printed: RefCell<Identities>,
     /// What layers above the language keep in the image: one value per type.
-    extensions: Vec<Rc<dyn Any>>,
+    extensions: Vec<Rc<dyn Extension>>,
 }
 
 /// The stream of the random generator: any constant will do.
@@ -172,21 +174,6 @@ impl Image {
     /// Seeds `random`.
     pub(crate) fn seed(&mut self, seed: u64) {
         self.random = rand_pcg::Pcg64::new(u128::from(seed), STREAM);
-    }
-
-    /// Keeps a value of a layer above the language, replacing any value of the same type.
-    pub(crate) fn extend<T: 'static>(&mut self, value: T) -> Rc<T> {
-        let value = Rc::new(value);
-        self.extensions.retain(|kept| !kept.is::<T>());
-        self.extensions.push(value.clone());
-        value
-    }
-
-    /// The value of a layer above the language, found by its type.
-    pub(crate) fn extension<T: 'static>(&self) -> Option<Rc<T>> {
-        self.extensions
-            .iter()
-            .find_map(|kept| kept.clone().downcast().ok())
     }
 
     /// The symbol that a name without a prefix is read as.

@@ -14,6 +14,16 @@ pub(crate) struct Output {
 }
 
 impl Output {
+    /// The same at the same column, if nobody has to be shown anything.
+    pub(super) fn copied(&self) -> Option<Output> {
+        let is_idle = self.text.is_empty() && self.instead.is_none();
+        is_idle.then(|| Output {
+            column: self.column,
+            is_shown: self.is_shown,
+            ..Output::default()
+        })
+    }
+
     /// Writes a text.
     pub(crate) fn write(&mut self, text: &str) {
         if self.instead.is_some() {

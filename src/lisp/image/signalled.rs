@@ -40,6 +40,11 @@ impl Leaving {
 }
 
 impl Signalled {
+    /// Is nothing known of any condition?
+    pub(super) fn is_empty(&self) -> bool {
+        self.recent.is_empty() && self.leaving.cause().is_none()
+    }
+
     fn calls(&self, condition: &Value) -> Option<&Rc<RefCell<Vec<OpenCall>>>> {
         let (older, newer) = self.recent.as_slices();
         let mut all = newer.iter().rev().chain(older.iter().rev());

@@ -234,20 +234,20 @@ fn add_accessor(
     let of_class = Specializer::Class(class.clone());
     let (specializers, function) = match accessor {
         Accessor::Reader(slot) => {
-            let slot_name = Value::symbol(slot);
-            let function = Function::made_control(slot, (1, Some(1)), move |machine, args| {
-                let object = args.first().cloned().unwrap_or(Value::NIL);
-                super::access::slot_value(machine, &object, &slot_name)
-            });
+            let function =
+                Function::control_of(slot, (1, Some(1)), (), move |(), machine, args| {
+                    let object = args.first().cloned().unwrap_or(Value::NIL);
+                    super::access::slot_value(machine, &object, &Value::symbol(slot))
+                });
             (vec![of_class], function)
         }
         Accessor::Writer(slot) => {
-            let slot_name = Value::symbol(slot);
-            let function = Function::made_control(slot, (2, Some(2)), move |machine, args| {
-                let value = args.first().cloned().unwrap_or(Value::NIL);
-                let object = args.get(1).cloned().unwrap_or(Value::NIL);
-                super::access::set_slot_value(machine, value, &object, &slot_name)
-            });
+            let function =
+                Function::control_of(slot, (2, Some(2)), (), move |(), machine, args| {
+                    let value = args.first().cloned().unwrap_or(Value::NIL);
+                    let object = args.get(1).cloned().unwrap_or(Value::NIL);
+                    super::access::set_slot_value(machine, value, &object, &Value::symbol(slot))
+                });
             let anything = match image.class(known::T) {
                 Some(class) => Specializer::Class(class.clone()),
                 None => of_class.clone(),

@@ -7,8 +7,9 @@ use crate::lisp::image::Image;
 use crate::lisp::print::qualified;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Class;
+use crate::lisp::value::copy::Copier;
 use crate::lisp::value::dispatch::Dispatch;
-use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
+use crate::lisp::value::foreign::{Foreign, ForeignBox, ForeignCopy, PrintContext};
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::generic::{Accessor, GenericFunction, Method, Specializer};
 use crate::lisp::value::known;
@@ -41,6 +42,10 @@ const EXTENSIBLE: &[Sym] = &[
 pub(crate) struct MethodObject(pub(crate) Rc<Method>);
 
 impl Foreign for MethodObject {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::Refused("a method that is a value")
+    }
+
     fn type_symbol(&self) -> Sym {
         known::STANDARD_METHOD
     }

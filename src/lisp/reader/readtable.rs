@@ -4,7 +4,8 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::copy::Copier;
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 
@@ -40,6 +41,22 @@ impl Readtable {
 }
 
 impl Foreign for Readtable {
+    fn copied(&self, copier: &mut Copier) -> ForeignCopy {
+        let macros = self.macros.borrow();
+        let macros = macros.iter().map(|(c, (function, inside))| {
+            let copy = copier.value(function);
+            (*c, (copy, *inside))
+        });
+        let macros = macros.collect();
+        let dispatch = self.dispatch.borrow();
+        let dispatch = dispatch.iter();
+        let dispatch = dispatch.map(|(c, function)| (*c, copier.value(function)));
+        ForeignCopy::New(Box::new(Readtable {
+            macros: RefCell::new(macros),
+            dispatch: RefCell::new(dispatch.collect()),
+        }))
+    }
+
     fn type_symbol(&self) -> Sym {
         known::READTABLE
     }

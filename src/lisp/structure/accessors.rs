@@ -38,11 +38,10 @@ pub(crate) fn define(
     if is_inherited(image, class, accessor) {
         return;
     }
-    let of = class.clone();
-    let reader = Function::made(accessor, (1, Some(1)), move |_, args| {
-        instance_of(&args[0], &of)
+    let reader = Function::pure_of(accessor, (1, Some(1)), class.clone(), move |of, _, args| {
+        instance_of(&args[0], of)
             .and_then(|instance| instance.slots.borrow().get(index).cloned())
-            .ok_or_else(|| wrong_type(&args[0], &of))
+            .ok_or_else(|| wrong_type(&args[0], of))
     });
     image.set_function(accessor, reader);
     let data = image.symbols.get_mut(accessor);
@@ -50,17 +49,20 @@ pub(crate) fn define(
         data.setf_function = None;
         return;
     }
-    let of = class.clone();
-    let slot_type = slot.slot_type.clone();
-    let writer = Function::made(accessor, (2, Some(2)), move |image, args| {
-        let instance = instance_of(&args[1], &of).ok_or_else(|| wrong_type(&args[1], &of))?;
-        check_slot_type(image, &slot_type, &args[0])?;
-        cycles::note(instance, &args[0]);
-        if let Some(place) = instance.slots.borrow_mut().get_mut(index) {
-            *place = args[0].clone();
-        }
-        Ok(args[0].clone())
-    });
+    let writer = Function::pure_of(
+        accessor,
+        (2, Some(2)),
+        (class.clone(), slot.slot_type.clone()),
+        move |(of, slot_type), image, args| {
+            let instance = instance_of(&args[1], of).ok_or_else(|| wrong_type(&args[1], of))?;
+            check_slot_type(image, slot_type, &args[0])?;
+            cycles::note(instance, &args[0]);
+            if let Some(place) = instance.slots.borrow_mut().get_mut(index) {
+                *place = args[0].clone();
+            }
+            Ok(args[0].clone())
+        },
+    );
     data.setf_function = Some(writer);
 }
 
@@ -81,19 +83,17 @@ fn is_inherited(image: &Image, class: &Rc<Class>, accessor: Sym) -> bool {
 
 /// Defines the function that recognises structures of a class.
 pub(crate) fn define_predicate(image: &mut Image, class: &Rc<Class>, predicate: Sym) {
-    let of = class.clone();
-    let function = Function::made(predicate, (1, Some(1)), move |_, args| {
-        Ok(Value::bool(instance_of(&args[0], &of).is_some()))
+    let function = Function::pure_of(predicate, (1, Some(1)), class.clone(), |of, _, args| {
+        Ok(Value::bool(instance_of(&args[0], of).is_some()))
     });
     image.set_function(predicate, function);
 }
 
 /// Defines the function that copies structures of a class.
 pub(crate) fn define_copier(image: &mut Image, class: &Rc<Class>, copier: Sym) {
-    let of = class.clone();
-    let function = Function::made(copier, (1, Some(1)), move |_, args| {
-        if instance_of(&args[0], &of).is_none() {
-            return Err(wrong_type(&args[0], &of));
+    let function = Function::pure_of(copier, (1, Some(1)), class.clone(), |of, _, args| {
+        if instance_of(&args[0], of).is_none() {
+            return Err(wrong_type(&args[0], of));
         }
         copy_structure(&args[0])
     });

@@ -172,7 +172,7 @@ pub(crate) fn define_typed_structure(
         elements.push(element);
     }
     if let Some(copier) = copier.as_symbol().filter(|c| *c != known::NIL) {
-        let function = Function::made(copier, (1, Some(1)), |_, args| {
+        let function = Function::pure_of(copier, (1, Some(1)), (), |(), _, args| {
             let sequence = Sequence::of(&args[0])?;
             sequence.kind().make(sequence.all()?)
         });
@@ -193,12 +193,12 @@ pub(crate) fn define_typed_structure(
 }
 
 fn define_accessor(image: &mut Image, accessor: Sym, index: usize, read_only: bool) {
-    let reader = Function::made(accessor, (1, Some(1)), move |_, args| {
+    let reader = Function::pure_of(accessor, (1, Some(1)), (), move |(), _, args| {
         Sequence::of(&args[0])?.get(index)
     });
     image.set_function(accessor, reader);
     let writer = (!read_only).then(|| {
-        Function::made(accessor, (2, Some(2)), move |_, args| {
+        Function::pure_of(accessor, (2, Some(2)), (), move |(), _, args| {
             Sequence::of(&args[1])?.set(index, args[0].clone())?;
             Ok(args[0].clone())
         })
@@ -211,7 +211,7 @@ fn define_predicate(image: &mut Image, predicate: Sym, name: Sym, elements: &[Va
         .iter()
         .rposition(|e| e.as_symbol() == Some(name))
         .unwrap_or_default();
-    let function = Function::made(predicate, (1, Some(1)), move |_, args| {
+    let function = Function::pure_of(predicate, (1, Some(1)), (), move |(), _, args| {
         let found = match &args[0] {
             Value::Cons(_) | Value::Vector(_) => Sequence::of(&args[0])?.get(position).ok(),
             _ => None,

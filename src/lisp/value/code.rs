@@ -169,7 +169,7 @@ pub(crate) struct Parameters {
     /// Is there a rest parameter?
     pub(crate) rest: bool,
     /// Keywords of the key parameters.
-    pub(crate) keys: Vec<Sym>,
+    pub(crate) keys: Rc<[Sym]>,
     /// Does the lambda list have `&key`?
     pub(crate) has_keys: bool,
     /// Are other keywords allowed?
@@ -201,24 +201,24 @@ pub(crate) struct Local {
     pub(crate) to: u32,
 }
 
-/// Compiled code of one function.
+/// Compiled code of one function. Copies share what can never change.
 pub(crate) struct Code {
     /// Name: a symbol, `(setf name)`, `(lambda …)` or `NIL`.
     pub(crate) name: Value,
     pub(crate) parameters: Parameters,
     /// The operations.
-    pub(crate) ops: Vec<Op>,
+    pub(crate) ops: Rc<[Op]>,
     pub(crate) constants: Vec<Value>,
     /// Code of the closures made here, with their captures.
-    pub(crate) inner: Vec<(Rc<Code>, Vec<Capture>)>,
+    pub(crate) inner: Vec<(Rc<Code>, Rc<[Capture]>)>,
     /// For each tagbody that closures jump into: the positions of its tags.
-    pub(crate) tags: Vec<Vec<u32>>,
+    pub(crate) tags: Rc<[Vec<u32>]>,
     /// Places of calls: (first operation, place), in ascending order.
-    pub(crate) places: Vec<(u32, Place)>,
+    pub(crate) places: Rc<[(u32, Place)]>,
     /// Local variables, for the debugger, in the order of binding.
-    pub(crate) locals: Vec<Local>,
+    pub(crate) locals: Rc<[Local]>,
     /// Names of the free variables, in the order of the closure's captures.
-    pub(crate) free: Vec<Sym>,
+    pub(crate) free: Rc<[Sym]>,
     /// The lambda list as written.
     pub(crate) lambda_list: Value,
     /// The documentation string.

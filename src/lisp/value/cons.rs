@@ -38,6 +38,16 @@ impl Cons {
         self.cdr.get()
     }
 
+    /// Looks at the first half. `look` must not touch this pair.
+    pub(super) fn with_car<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
+        self.car.with(look)
+    }
+
+    /// Looks at the second half. `look` must not touch this pair.
+    pub(super) fn with_cdr<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
+        self.cdr.with(look)
+    }
+
     /// Replaces the first half.
     #[inline]
     pub(crate) fn set_car(&self, value: Value) {

@@ -67,6 +67,25 @@ pub(crate) fn note_foreign(object: &Rc<ForeignBox>) {
     }
 }
 
+/// Notes the copy of an object if the object itself may be noted.
+pub(super) fn note_copy(original: &Value, copy: &Value) {
+    macro_rules! note_if_noted {
+        ($($kind:ident)*) => {
+            match (original, copy) {
+                $((Value::$kind(original), Value::$kind(copy)) if Rc::weak_count(original) > 0 => {
+                    let suspect = Suspect::from(copy);
+                    let _ = SUSPECTS.try_with(|suspects| suspects.borrow_mut().push(suspect));
+                })*
+                (Value::Foreign(original), Value::Foreign(copy)) if original.is_suspect.get() => {
+                    note_foreign(copy);
+                }
+                _ => {}
+            }
+        };
+    }
+    note_if_noted!(Cons Cell Vector Array Hash Instance);
+}
+
 macro_rules! suspects {
     ($($kind:ident $type:ty,)*) => {$(
         impl From<&Rc<$type>> for Suspect {

@@ -4,6 +4,7 @@ use std::any::Any;
 use std::cell::Cell;
 
 use super::Value;
+use super::copy::Copier;
 use super::release::{Dead, release};
 use super::symbol::Sym;
 
@@ -59,11 +60,32 @@ pub(crate) trait Foreign: Any {
     /// Lets go of the values that it holds: nobody can see it any more.
     fn let_go(&self) {}
 
+    /// What a copy of the image has in its place; unless told, there can be no copy.
+    fn copied(&self, copier: &mut Copier) -> ForeignCopy {
+        let _ = copier;
+        ForeignCopy::Refused("a value of something that runs")
+    }
+
+    /// Puts into a new copy what it refers to that may refer to it.
+    fn fill_copy(&self, copy: &dyn Any, copier: &mut Copier) {
+        let _ = (copy, copier);
+    }
+
     /// Is this `equal` to another value that is not identical to it?
     fn is_equal(&self, other: &Value) -> bool {
         let _ = other;
         false
     }
+}
+
+/// What a copy of an image has in place of a foreign value.
+pub(crate) enum ForeignCopy {
+    /// The value itself: neither it nor what it refers to ever changes.
+    Same,
+    /// Another one.
+    New(Box<dyn Foreign>),
+    /// None, for this reason: the image cannot be copied.
+    Refused(&'static str),
 }
 
 /// Owner of a foreign value.
@@ -76,8 +98,13 @@ pub(crate) struct ForeignBox {
 impl ForeignBox {
     /// Wraps an object.
     pub(crate) fn new(object: impl Foreign) -> ForeignBox {
+        ForeignBox::of(Box::new(object))
+    }
+
+    /// Wraps an object that is in a box.
+    pub(super) fn of(object: Box<dyn Foreign>) -> ForeignBox {
         ForeignBox {
-            object: Box::new(object),
+            object,
             is_suspect: Cell::new(false),
         }
     }

@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use super::Value;
 use super::code::Code;
+use super::copy::Copier;
 use super::generic::GenericFunction;
 use super::release::release_values;
 use super::symbol::Sym;
@@ -69,7 +70,13 @@ pub(crate) enum NativeBody {
     /// In the image's table of builtins, under this number.
     Builtin(u32),
     /// Here, with data of its own. Its type is known where such functions are made.
-    Made(Box<dyn Any>),
+    Made(Box<dyn MadeBody>),
+}
+
+/// A Rust function with data of its own.
+pub(crate) trait MadeBody: Any {
+    /// The same function with copies of its data; `None` if a copy of the image cannot have it.
+    fn copied(&self, copier: &mut Copier) -> Option<Box<dyn MadeBody>>;
 }
 
 impl Native {

@@ -1,7 +1,7 @@
 //! Hash tables that remember the order of insertion, so that iteration is the same on
 //! every run.
 
-use std::cell::{Cell, RefCell};
+use std::cell::{Cell, Ref, RefCell};
 use std::collections::HashMap;
 use std::hash::{Hash, Hasher};
 
@@ -50,13 +50,15 @@ impl Hash for HashKey {
     }
 }
 
+/// Keys with their values in order of insertion; removed ones leave a gap.
+pub(super) type Entries = Vec<Option<(Value, Value)>>;
+
 pub(crate) struct HashTable {
     /// How keys are compared.
     pub(crate) test: HashTest,
     /// The position of each key's entry.
     index: RefCell<HashMap<HashKey, usize>>,
-    /// Entries in order of insertion; removed ones leave a gap.
-    entries: RefCell<Vec<Option<(Value, Value)>>>,
+    entries: RefCell<Entries>,
     /// The size that the table was made for.
     pub(crate) size: Cell<usize>,
 }
@@ -142,6 +144,24 @@ impl HashTable {
             visit(key);
             visit(value);
         }
+    }
+
+    /// The entries in order of insertion, with the gaps that removed ones have left.
+    pub(super) fn entries(&self) -> Ref<'_, Entries> {
+        self.entries.borrow()
+    }
+
+    /// Fills an empty table; false if two keys are equal.
+    pub(super) fn set_entries(&self, entries: Entries) -> bool {
+        let mut index = self.index.borrow_mut();
+        let mut is_new = true;
+        for (place, entry) in entries.iter().enumerate() {
+            if let Some((key, _)) = entry {
+                is_new &= index.insert(self.key(key), place).is_none();
+            }
+        }
+        self.entries.replace(entries);
+        is_new
     }
 
     /// Removes all entries.

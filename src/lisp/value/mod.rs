@@ -7,6 +7,7 @@ pub(crate) mod array;
 pub(crate) mod class;
 pub(crate) mod code;
 pub(crate) mod cons;
+pub(crate) mod copy;
 pub(crate) mod cycles;
 pub(crate) mod dispatch;
 pub(crate) mod equality;
@@ -49,10 +50,7 @@ use crate::lisp::guard::Pace;
 #[derive(Clone, Default)]
 pub(crate) enum Value {
     /// A symbol; `NIL` and `T` are symbols too. With what holds its data, if that may be freed.
-    Symbol(
-        Sym,
-        #[expect(dead_code, reason = "what counts is that it is there")] Hold,
-    ),
+    Symbol(Sym, Hold),
     /// An integer that fits 64 bits.
     Int(i64),
     /// An integer that does not fit 64 bits.

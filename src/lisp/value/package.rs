@@ -21,7 +21,7 @@ pub(crate) enum Access {
 }
 
 /// One package.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Package {
     pub(crate) name: Rc<str>,
     /// Other names.
@@ -36,10 +36,10 @@ pub(crate) struct Package {
     pub(crate) doc: Option<Rc<str>>,
 }
 
-/// All packages of an image.
-#[derive(Default)]
+/// All packages of an image. Copies share the packages until one changes them.
+#[derive(Clone, Default)]
 pub(crate) struct PackageTable {
-    packages: Vec<Package>,
+    packages: Vec<Rc<Package>>,
     by_name: BTreeMap<Rc<str>, PackageId>,
 }
 
@@ -61,10 +61,10 @@ impl PackageTable {
         let id = PackageId(u16::try_from(self.packages.len()).ok()?);
         let name: Rc<str> = name.into();
         self.by_name.insert(name.clone(), id);
-        self.packages.push(Package {
+        self.packages.push(Rc::new(Package {
             name,
             ..Package::default()
-        });
+        }));
         for nickname in nicknames {
             self.add_nickname(id, nickname);
         }
@@ -97,7 +97,7 @@ impl PackageTable {
 
     /// The package, mutably.
     pub(crate) fn get_mut(&mut self, id: PackageId) -> &mut Package {
-        &mut self.packages[usize::from(id.0)]
+        Rc::make_mut(&mut self.packages[usize::from(id.0)])
     }
 
     /// All names and nicknames with their packages, by name.

@@ -11,6 +11,7 @@ const LARGE: usize = 1 << 16;
 ///
 /// Positions count characters, not bytes. Texts of ASCII characters are indexed in
 /// constant time; in other texts, walking from one position to the next is constant too.
+#[derive(Clone)]
 pub(crate) struct LispString {
     text: RefCell<String>,
     /// Number of characters.

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::Value;
+use super::copy::{Copied, Copier};
 use super::function::Function;
 use super::package::PackageId;
 
@@ -91,6 +92,25 @@ impl SymbolData {
         }
     }
 
+    fn copied(&self, copier: &mut Copier) -> SymbolData {
+        SymbolData {
+            name: self.name.clone(),
+            package: self.package,
+            value: copier.value(&self.value),
+            kind: self.kind,
+            function: match &self.function {
+                FunctionCell::Function(f) => FunctionCell::Function(copier.function(f)),
+                FunctionCell::Macro(f) => FunctionCell::Macro(copier.function(f)),
+                other => other.clone(),
+            },
+            setf_function: self.setf_function.copied(copier),
+            plist: copier.value(&self.plist),
+            symbol_macro: self.symbol_macro.copied(copier),
+            variable_doc: self.variable_doc.clone(),
+            is_kept: self.is_kept.clone(),
+        }
+    }
+
     /// Has the symbol a meaning that somebody could ask for, who has only its index?
     fn stays(&self) -> bool {
         self.is_kept.get()
@@ -107,13 +127,37 @@ impl SymbolData {
 
 /// What holds the data of a passing symbol; nothing, for all others.
 #[derive(Clone, Default)]
-pub(crate) struct Hold(
-    #[expect(dead_code, reason = "what counts is that it is there")] Option<Rc<Held>>,
-);
+pub(crate) struct Hold(Option<Rc<Held>>);
 
 impl Hold {
     /// For symbols that stay.
     pub(crate) const NONE: Hold = Hold(None);
+
+    /// Does the symbol stay?
+    pub(crate) fn is_none(&self) -> bool {
+        self.0.is_none()
+    }
+}
+
+/// What holds the passing symbols of a table that is being copied.
+pub(crate) struct Holds {
+    held: BTreeMap<u32, Rc<Held>>,
+    gone: Rc<RefCell<Vec<Sym>>>,
+}
+
+impl Holds {
+    /// A value of a passing symbol.
+    pub(super) fn value(&mut self, sym: Sym) -> Value {
+        let gone = &self.gone;
+        let hold = || {
+            Rc::new(Held {
+                sym,
+                gone: gone.clone(),
+            })
+        };
+        let held = self.held.entry(sym.0).or_insert_with(hold);
+        Value::Symbol(sym, Hold(Some(held.clone())))
+    }
 }
 
 /// A passing symbol, and where its table is told that it is gone.
@@ -173,6 +217,29 @@ impl SymbolTable {
         self.count_on();
         let gone = self.gone.clone();
         Value::Symbol(sym, Hold(Some(Rc::new(Held { sym, gone }))))
+    }
+
+    /// What will hold the passing symbols of a copy.
+    pub(super) fn copied_holds(&self) -> Holds {
+        Holds {
+            held: BTreeMap::new(),
+            gone: Rc::new(RefCell::new(self.gone.borrow().clone())),
+        }
+    }
+
+    /// A copy of the table, with copies of the symbols' values and functions.
+    pub(crate) fn copied(&self, copier: &mut Copier) -> SymbolTable {
+        let entries = self.entries.iter().map(|data| data.copied(copier));
+        let entries = entries.collect();
+        let passing = self.passing.iter();
+        let passing = passing.map(|(sym, data)| (*sym, data.copied(copier)));
+        SymbolTable {
+            entries,
+            passing: passing.collect(),
+            next_passing: self.next_passing,
+            gone: copier.holds().gone.clone(),
+            forgotten: SymbolData::named(self.forgotten.name.clone()),
+        }
     }
 
     fn count_on(&mut self) {

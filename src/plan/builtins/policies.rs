@@ -3,7 +3,8 @@
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::copy::Copier;
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::Result;
@@ -20,6 +21,16 @@ pub(crate) struct Policy {
 }
 
 impl Foreign for Policy {
+    fn copied(&self, copier: &mut Copier) -> ForeignCopy {
+        ForeignCopy::New(Box::new(Policy {
+            name: copier.value(&self.name),
+            parameters: copier.value(&self.parameters),
+            doc: copier.value(&self.doc),
+            parts: copier.value(&self.parts),
+            type_symbol: self.type_symbol,
+        }))
+    }
+
     fn type_symbol(&self) -> Sym {
         self.type_symbol
     }

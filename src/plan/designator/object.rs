@@ -6,7 +6,8 @@ use super::value::{Class, Designator, Quantifier};
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::copy::Copier;
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::packages;
@@ -41,6 +42,14 @@ pub(crate) struct ObjectData {
 }
 
 impl Foreign for ObjectData {
+    fn copied(&self, copier: &mut Copier) -> ForeignCopy {
+        ForeignCopy::New(Box::new(ObjectData {
+            identifier: copier.value(&self.identifier),
+            pose: copier.value(&self.pose),
+            class_symbol: self.class_symbol,
+        }))
+    }
+
     fn type_symbol(&self) -> Sym {
         self.class_symbol
     }

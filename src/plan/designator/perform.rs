@@ -15,9 +15,11 @@ use super::value;
 use super::value::{Class, Designator};
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
+use crate::lisp::image::extension::Extension;
 use crate::lisp::print;
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::Copier;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -275,6 +277,13 @@ fn takes_keywords(image: &Image, plan: &Value) -> bool {
 
 /// Number of motions begun so far; the image keeps it for [`Performance`].
 pub(crate) struct MotionsBegun(pub(crate) u64);
+
+impl Extension for MotionsBegun {
+    fn copied(self: Rc<Self>, _: &mut Copier) -> Rc<dyn Extension> {
+        // It is replaced, never changed.
+        self
+    }
+}
 
 /// What is known about a call of an action's plan.
 pub(crate) struct Performance {

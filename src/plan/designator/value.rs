@@ -3,13 +3,15 @@
 //! A designator has its own identity. Equating two designators links them into a chain, whose
 //! newest member holds the best knowledge; each end keeps the other alive.
 
+use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::{Copied, Copier};
 use crate::lisp::value::cycles;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::plan::packages;
@@ -309,6 +311,32 @@ impl Drop for Level {
 }
 
 impl Foreign for Designator {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::New(Box::new(Designator {
+            class: self.class,
+            quantifier: self.quantifier,
+            description: RefCell::new(Value::NIL),
+            parent: RefCell::default(),
+            successor: RefCell::default(),
+            data: RefCell::default(),
+            is_effective: self.is_effective.clone(),
+            solutions: RefCell::default(),
+            memory: RefCell::default(),
+            class_symbol: self.class_symbol,
+        }))
+    }
+
+    fn fill_copy(&self, copy: &dyn Any, copier: &mut Copier) {
+        let Some(copy) = copy.downcast_ref::<Designator>() else {
+            return;
+        };
+        let description = copier.value(&self.description.borrow());
+        copy.description.replace(description);
+        for (link, copy) in self.links().into_iter().zip(copy.links()) {
+            copy.replace(link.borrow().copied(copier));
+        }
+    }
+
     fn type_symbol(&self) -> Sym {
         self.class_symbol
     }

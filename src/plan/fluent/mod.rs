@@ -12,12 +12,14 @@ mod evaluation;
 mod propagation;
 mod reference;
 
+use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::rc::{Rc, Weak};
 
 use crate::lisp::native::PureFn;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, ForeignBox, PrintContext};
+use crate::lisp::value::copy::{Copied, Copier};
+use crate::lisp::value::foreign::{Foreign, ForeignBox, ForeignCopy, PrintContext};
 use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::Sym;
 
@@ -216,6 +218,54 @@ impl Fluent {
 }
 
 impl Foreign for Fluent {
+    fn copied(&self, copier: &mut Copier) -> ForeignCopy {
+        let is_alone = self.waiters.borrow().is_empty()
+            && self
+                .dependents
+                .borrow()
+                .iter()
+                .all(|d| d.strong_count() == 0);
+        let Kind::Value { test, .. } = &self.kind else {
+            return ForeignCopy::Refused("a network of fluents");
+        };
+        if !is_alone {
+            return ForeignCopy::Refused("a fluent on which others depend");
+        }
+        let name = match &self.name {
+            FluentName::Given(name) => FluentName::Given(copier.value(name)),
+            FluentName::Numbered(prefix, number) => FluentName::Numbered(prefix, *number),
+        };
+        ForeignCopy::New(Box::new(Fluent {
+            name,
+            kind: Kind::Value {
+                value: Slot::default(),
+                test: copier.value(test),
+            },
+            rank: self.rank,
+            serial: self.serial,
+            pulses: self.pulses.clone(),
+            callbacks: RefCell::default(),
+            dependents: RefCell::default(),
+            waiters: RefCell::default(),
+            type_symbol: self.type_symbol,
+        }))
+    }
+
+    fn fill_copy(&self, copy: &dyn Any, copier: &mut Copier) {
+        let Some(copy) = copy.downcast_ref::<Fluent>() else {
+            return;
+        };
+        if let (Kind::Value { value, .. }, Kind::Value { value: filled, .. }) =
+            (&self.kind, &copy.kind)
+        {
+            filled.set(value.with(|value| copier.value(value)));
+        }
+        let callbacks = self.callbacks.borrow();
+        let callbacks = callbacks.iter();
+        let callbacks = callbacks.map(|callback| callback.copied(copier));
+        copy.callbacks.replace(callbacks.collect());
+    }
+
     fn type_symbol(&self) -> Sym {
         self.type_symbol
     }

@@ -6,7 +6,8 @@ use std::rc::Rc;
 use nalgebra::{Quaternion as Hamilton, Translation3, UnitQuaternion};
 
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::copy::Copier;
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::symbol::Sym;
 use crate::spatial;
 
@@ -246,6 +247,10 @@ fn numbers(context: &dyn PrintContext, numbers: &[f64]) -> String {
 }
 
 impl Foreign for Vector3 {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::Same
+    }
+
     fn type_symbol(&self) -> Sym {
         names::VECTOR_3D
     }
@@ -260,6 +265,10 @@ impl Foreign for Vector3 {
 }
 
 impl Foreign for Quaternion {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::Same
+    }
+
     fn type_symbol(&self) -> Sym {
         names::QUATERNION
     }
@@ -274,6 +283,10 @@ impl Foreign for Quaternion {
 }
 
 impl Foreign for Unstamped {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::Same
+    }
+
     fn type_symbol(&self) -> Sym {
         if self.is_transform {
             names::TRANSFORM
@@ -299,6 +312,10 @@ impl Foreign for Unstamped {
 }
 
 impl Foreign for PoseStamped {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::Same
+    }
+
     fn type_symbol(&self) -> Sym {
         names::POSE_STAMPED
     }
@@ -313,6 +330,10 @@ impl Foreign for PoseStamped {
 }
 
 impl Foreign for TransformStamped {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::Same
+    }
+
     fn type_symbol(&self) -> Sym {
         names::TRANSFORM_STAMPED
     }

@@ -9,8 +9,10 @@ use super::functor::Functor;
 use crate::closest_name::closest_name;
 use crate::lisp::builtin::{Builtin, Operator, pure};
 use crate::lisp::image::Image;
+use crate::lisp::image::extension::Extension;
 use crate::lisp::print;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::{Copied, Copier};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -79,6 +81,35 @@ impl Facts {
     pub(crate) fn knows(&self, functor: Sym) -> bool {
         let groups = self.groups.borrow();
         groups.values().flatten().any(|(name, _)| *name == functor)
+    }
+}
+
+impl Copied for Clause {
+    fn copied(&self, copier: &mut Copier) -> Clause {
+        Clause {
+            head: copier.value(&self.head),
+            body: copier.value(&self.body),
+        }
+    }
+}
+
+impl Extension for Facts {
+    fn copied(self: Rc<Self>, copier: &mut Copier) -> Rc<dyn Extension> {
+        let groups = self.groups.borrow();
+        let groups = groups.iter().map(|(name, clauses)| {
+            let clauses = clauses.iter();
+            let clauses = clauses.map(|(functor, clause)| (*functor, clause.copied(copier)));
+            (*name, clauses.collect())
+        });
+        let groups = groups.collect();
+        let handlers = self.handlers.borrow();
+        let handlers = handlers.iter();
+        let handlers = handlers.map(|(name, handler)| (*name, copier.value(handler)));
+        Rc::new(Facts {
+            groups: RefCell::new(groups),
+            handlers: RefCell::new(handlers.collect()),
+            functors: self.functors.clone(),
+        })
     }
 }
 

@@ -4,8 +4,9 @@ use std::rc::Rc;
 
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::Copier;
 use crate::lisp::value::equality;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -22,6 +23,10 @@ pub(crate) struct Variable {
 }
 
 impl Foreign for Variable {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::Same
+    }
+
     fn type_symbol(&self) -> Sym {
         known::SYMBOL
     }

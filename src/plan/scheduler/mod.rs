@@ -83,6 +83,30 @@ impl Scheduler {
         Scheduler::default()
     }
 
+    /// A scheduler that will number tasks and waits as this one would; `None` if there are tasks, or
+    /// ended ones that are remembered.
+    pub(crate) fn copied(&self) -> Option<Scheduler> {
+        let is_idle = self.entries.iter().all(Option::is_none)
+            && self.ready.is_empty()
+            && self.tickets.is_empty()
+            && self.roots.is_empty()
+            && self.interrupted.is_none()
+            && self.stops.is_empty()
+            && self.untold_stop.is_none()
+            && self.ended.is_empty();
+        is_idle.then(|| Scheduler {
+            entries: self.entries.iter().map(|_| None).collect(),
+            free: self.free.clone(),
+            must_stand_still: self.must_stand_still,
+            stops_in_place: self.stops_in_place,
+            time_stands_still: self.time_stands_still,
+            ended_root: self.ended_root,
+            last_id: self.last_id,
+            last_token: self.last_token,
+            ..Scheduler::default()
+        })
+    }
+
     /// Ends all tasks as they are, without running any of their cleanup code: after a panic in
     /// the middle of one.
     pub(crate) fn give_up(&mut self, image: &mut Image) {

@@ -55,6 +55,16 @@ impl Audience {
         }
     }
 
+    /// Whether nobody is shown anything.
+    pub(super) fn is_empty(&self) -> bool {
+        self.observer.is_none()
+            && !self.has_followers()
+            && self.view.is_none()
+            && !self.writes_files()
+            && self.pictures.is_empty()
+            && self.swept.is_none()
+    }
+
     /// Whether a film, a recording or a page of the run is being made.
     pub(super) fn writes_files(&self) -> bool {
         self.film.is_some() || self.recording.is_some() || self.kept.is_some()

@@ -9,7 +9,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
 
 /// Names that must not be reported as unknown.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(in crate::session) struct KnownNames {
     /// Names of functions, macros and variables.
     pub(crate) defined: BTreeSet<Sym>,

@@ -50,6 +50,19 @@ pub(super) struct Console {
     pub(crate) interrupt_next: Option<u64>,
 }
 
+impl Console {
+    /// Has nothing ever been stopped or asked?
+    pub(super) fn is_unused(&self) -> bool {
+        !self.is_interactive
+            && self.opened == 0
+            && self.base.is_none()
+            && self.draft.is_none()
+            && self.typed.is_none()
+            && self.inspected.is_empty()
+            && self.interrupt_next.is_none()
+    }
+}
+
 /// How the next input is to be understood.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 enum Asking {

@@ -11,6 +11,7 @@ use crate::picture::{Image, InlinePictures};
 use crate::session::dialogue::evaluate::{Abort, Event, Stop};
 
 /// Turns events into text.
+#[derive(Clone)]
 pub(crate) struct Screen<W> {
     to: W,
     at_line_start: bool,

@@ -1,5 +1,7 @@
 //! Defining grasps.
 
+use std::sync::Arc;
+
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::builtins::keywords;
 use crate::lisp::image::Image;
@@ -142,8 +144,7 @@ fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
             return Err(Raise::type_error(kind, known::SYMBOL));
         };
         for arm in &arms {
-            simulation
-                .grasps
+            Arc::make_mut(&mut simulation.grasps)
                 .define(&kind, *arm, &grasp, definition.clone())
                 .map_err(|error| Raise::simple(format!("{error}.")))?;
         }

@@ -6,7 +6,8 @@ use crate::lisp::builtins::keywords::{self, optional};
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::copy::Copier;
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
@@ -255,6 +256,10 @@ struct KitchenUrdf {
 }
 
 impl Foreign for KitchenUrdf {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::Same
+    }
+
     fn type_symbol(&self) -> Sym {
         self.symbol
     }

@@ -11,6 +11,7 @@ mod request;
 mod taped;
 
 use crate::lisp::image::Image;
+use crate::lisp::value::copy::Copier;
 use crate::plan::TaskId;
 use crate::plan::designator::perform::MotionsBegun;
 use crate::session::audience::Audience;
@@ -37,6 +38,21 @@ impl SimulationHost {
             person: Person::default(),
             audience,
             asking: TaskId(0),
+        }
+    }
+}
+
+impl SimulationHost {
+    /// The same host for a copy of the image, shown to nobody.
+    pub(super) fn copied(&self, copier: &mut Copier, audience: Audience) -> Self {
+        if !self.audience.is_empty() {
+            copier.refuse("a session that is shown");
+        }
+        Self {
+            simulation: self.simulation.copied(copier),
+            person: self.person.copied(copier),
+            audience,
+            asking: self.asking,
         }
     }
 }

@@ -3,6 +3,7 @@
 mod snapshots;
 
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::{Copied, Copier};
 pub(crate) use snapshots::Snapshots;
 
 /// The state of the prompt.
@@ -20,4 +21,18 @@ pub(crate) struct Person {
     pub(crate) port: Option<u16>,
     /// The exit status, once an exit has been requested.
     pub(crate) quit: Option<u8>,
+}
+
+impl Person {
+    /// The same state for a copy of the image.
+    pub(super) fn copied(&self, copier: &mut Copier) -> Person {
+        Person {
+            snapshots: self.snapshots.copied(copier),
+            tour_step: self.tour_step,
+            inspected: self.inspected.copied(copier),
+            can_serve: self.can_serve,
+            port: self.port,
+            quit: self.quit,
+        }
+    }
 }

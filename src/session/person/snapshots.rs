@@ -10,6 +10,7 @@ use indexmap::IndexMap;
 
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::{Copied, Copier};
 use crate::lisp::value::raise::Raise;
 use crate::session::simulation::Simulation;
 use crate::session::simulation::frames::Restored;
@@ -115,7 +116,54 @@ impl Snapshot {
     }
 }
 
+impl Copied for Snapshot {
+    fn copied(&self, copier: &mut Copier) -> Snapshot {
+        match self {
+            Snapshot::Here(restored) if restored.names.is_empty() => self.clone(),
+            Snapshot::Here(restored) => {
+                let names = restored.names.iter();
+                let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
+                Snapshot::Here(Rc::new(Restored {
+                    world: restored.world.clone(),
+                    names: names.collect(),
+                    held: restored.held.clone(),
+                    axes: restored.axes.clone(),
+                    searches: restored.searches,
+                }))
+            }
+            Snapshot::Stored(_) => {
+                copier.refuse("a state of the world on a tape");
+                Snapshot::Absent
+            }
+            Snapshot::Absent => Snapshot::Absent,
+        }
+    }
+}
+
 impl Snapshots {
+    /// The same snapshots for a copy of the image.
+    pub(super) fn copied(&self, copier: &mut Copier) -> Snapshots {
+        let forms = self.forms.iter().map(|before| BeforeForm {
+            form: copier.value(&before.form),
+            snapshot: before.snapshot.copied(copier),
+            hash: before.hash,
+        });
+        let forms = forms.collect();
+        let named = self.named.iter();
+        let named = named.map(|(name, snapshot)| (name.clone(), snapshot.copied(copier)));
+        let named = named.collect();
+        let motions = self.motions.iter();
+        let motions = motions.map(|(number, snapshot)| (*number, snapshot.copied(copier)));
+        Snapshots {
+            forms,
+            named,
+            motions: motions.collect(),
+            keeps_motions: self.keeps_motions,
+            is_touched: self.is_touched,
+            is_aside: self.is_aside,
+        }
+    }
+
     /// Sets whether snapshots before motions are kept.
     pub(crate) fn keep_snapshots_of_motions(&mut self, keeps: bool) {
         self.keeps_motions = keeps;

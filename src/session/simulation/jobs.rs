@@ -191,6 +191,14 @@ impl Jobs {
         self.active.is_empty() && self.waiting.is_empty() && self.leaving.is_empty()
     }
 
+    /// No motions, after so many.
+    pub(crate) fn after(begun: u64) -> Self {
+        Jobs {
+            begun,
+            ..Jobs::default()
+        }
+    }
+
     /// Forgets all motions.
     pub(crate) fn clear(&mut self) {
         self.active.clear();

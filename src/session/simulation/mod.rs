@@ -23,8 +23,9 @@ mod sweep_world;
 mod tally;
 pub(super) mod transforms;
 
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::ops::{Deref, DerefMut};
+use std::rc::Rc;
 use std::sync::Arc;
 
 use indexmap::IndexMap;
@@ -33,6 +34,7 @@ use serde::{Deserialize, Serialize};
 use super::log_level::LogLevel;
 use super::tape::Tape;
 use crate::lisp::value::Value;
+use crate::lisp::value::copy::Copier;
 use crate::motion::DetectQuery;
 use crate::picture::{LocationMap, Looks};
 use crate::sexp::DataError;
@@ -61,7 +63,7 @@ pub(crate) struct Axes {
 /// answers are played from a tape, the state is an old one.
 pub(crate) struct Simulation {
     pub(super) models: Arc<Models>,
-    pub(super) grasps: GraspLibrary,
+    pub(super) grasps: Arc<GraspLibrary>,
     pub(super) log_level: LogLevel,
     /// The seed of the session.
     seed: u64,
@@ -75,6 +77,8 @@ pub(crate) struct Simulation {
     /// The faults that may strike motions.
     pub(super) injection: SharedInjection,
     begun_searches: locations::Searches,
+    /// The world as it is at the start; copies of the session share it.
+    start: Rc<OnceCell<World>>,
     physical: Physical,
 }
 
@@ -146,7 +150,7 @@ impl Simulation {
                 put_for_sweep: Vec::new(),
             },
             models,
-            grasps,
+            grasps: Arc::new(grasps),
             log_level,
             seed,
             now: 0.0,
@@ -155,13 +159,63 @@ impl Simulation {
             tally: Tally::default(),
             injection: SharedInjection::default(),
             begun_searches: locations::Searches::default(),
+            start: Rc::default(),
         })
+    }
+
+    /// The same simulation for a copy of the image. A robot that moves, and what plans have learnt
+    /// from the world, are refused.
+    pub(super) fn copied(&self, copier: &mut Copier) -> Simulation {
+        let physical = &self.physical;
+        let is_idle =
+            physical.jobs.is_idle() && physical.jobs.partial_step.is_none() && self.tape.is_off();
+        let knows_nothing = physical.last_failure.is_none()
+            && physical.last_account.is_none()
+            && physical.sought.is_none()
+            && self.begun_searches.are_over();
+        if !is_idle || !knows_nothing {
+            copier.refuse("a world in which something has been done");
+        }
+        let names = physical.names.iter();
+        let names = names.map(|(name, symbol)| (name.clone(), copier.value(symbol)));
+        Simulation {
+            models: Arc::clone(&self.models),
+            grasps: Arc::clone(&self.grasps),
+            log_level: self.log_level,
+            seed: self.seed,
+            now: self.now,
+            tape: Tape::default(),
+            looks: OnceCell::new(),
+            tally: self.tally.clone(),
+            injection: Rc::new(RefCell::new(self.injection.borrow().clone())),
+            begun_searches: locations::Searches::default(),
+            start: Rc::clone(&self.start),
+            physical: Physical {
+                world: physical.world.clone(),
+                names: names.collect(),
+                held: physical.held.clone(),
+                jobs: Jobs::after(physical.jobs.begun),
+                axes: physical.axes.clone(),
+                location_map: physical.location_map.clone(),
+                resolved_map: physical.resolved_map.clone(),
+                last_failure: None,
+                last_account: None,
+                sought: None,
+                noises: physical.noises,
+                searches: physical.searches,
+                put_for_sweep: physical.put_for_sweep.clone(),
+            },
+        }
+    }
+
+    fn start(&self) -> &World {
+        self.start.get_or_init(|| starting_world(&self.models))
     }
 
     /// Resets the world: no objects, the robot at the origin. Simulated time continues.
     pub(super) fn restart(&mut self) {
         let noise = self.noise_levels();
-        self.world = starting_world(&self.models);
+        self.world = self.start().clone();
         self.set_noise(noise);
         self.names.clear();
         self.held.clear();

@@ -97,6 +97,11 @@ pub(crate) struct Tape {
 }
 
 impl Tape {
+    /// Has the world always answered itself, without anything being written down?
+    pub(crate) fn is_off(&self) -> bool {
+        matches!(self.mode, Mode::Off) && !self.is_stale && self.last.is_none() && self.begun == 0
+    }
+
     /// Something looks at the physical state.
     pub(crate) fn note_read(&self) {
         self.is_touched.set(true);

@@ -13,7 +13,8 @@ use super::error::{NumberResult, division_by_zero, not_a_number, not_real};
 use super::power::finite;
 use super::transcendental::{atan2, cos, exp, sin};
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::copy::Copier;
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -27,6 +28,10 @@ pub(crate) struct Complex {
 }
 
 impl Foreign for Complex {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::Same
+    }
+
     fn type_symbol(&self) -> Sym {
         known::COMPLEX
     }

@@ -11,7 +11,8 @@ use super::convert::from_big;
 use super::error::NumberResult;
 use super::large;
 use crate::lisp::value::Value;
-use crate::lisp::value::foreign::{Foreign, PrintContext};
+use crate::lisp::value::copy::Copier;
+use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -23,6 +24,12 @@ pub(crate) struct RandomState {
 }
 
 impl Foreign for RandomState {
+    fn copied(&self, _: &mut Copier) -> ForeignCopy {
+        ForeignCopy::New(Box::new(RandomState {
+            generator: self.generator.clone(),
+        }))
+    }
+
     fn type_symbol(&self) -> Sym {
         known::RANDOM_STATE
     }

@@ -6,11 +6,19 @@ use std::rc::Rc;
 use super::TypeRow;
 use crate::closest_name::closest_name;
 use crate::lisp::image::Image;
+use crate::lisp::image::extension::Extension;
+use crate::lisp::value::copy::Copier;
 use crate::plan::designator::value::Class;
 
 /// The table of an image, in order of definition.
 #[derive(Default)]
 struct Types(RefCell<Vec<Rc<TypeRow>>>);
+
+impl Extension for Types {
+    fn copied(self: Rc<Self>, _: &mut Copier) -> Rc<dyn Extension> {
+        Rc::new(Types(self.0.clone()))
+    }
+}
 
 /// Makes an empty table.
 pub(crate) fn install(image: &mut Image) {

@@ -30,7 +30,7 @@ use crate::sweep::Draws;
 use crate::world::World;
 
 /// All faults that may strike, and those that have.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(in crate::session) struct Injection {
     faults: Vec<Fault>,
     seed: u64,

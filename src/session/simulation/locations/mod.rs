@@ -42,6 +42,11 @@ pub(in crate::session) struct LocationStream {
 pub(super) struct Searches(Vec<Weak<RefCell<Stream>>>);
 
 impl Searches {
+    /// Does nothing hold any of them any more?
+    pub(super) fn are_over(&self) -> bool {
+        self.0.iter().all(|stream| stream.strong_count() == 0)
+    }
+
     fn note(&mut self, stream: &Rc<RefCell<Stream>>) {
         self.0.retain(|stream| stream.strong_count() > 0);
         self.0.push(Rc::downgrade(stream));

@@ -1,0 +1,129 @@
+//! Copies of functions and of their code.
+
+use std::rc::Rc;
+
+use super::{Copier, address, is_fixed, is_shared};
+use crate::lisp::value::Value;
+use crate::lisp::value::code::Code;
+use crate::lisp::value::function::{Body, Deferred, Function, Native, NativeBody};
+use crate::lisp::value::generic::GenericFunction;
+
+/// How deep functions may hold each other: they cannot be filled later.
+const MOST_NESTED: usize = 500;
+
+fn is_fixed_code(code: &Code) -> bool {
+    is_fixed(&code.name)
+        && is_fixed(&code.lambda_list)
+        && code.constants.iter().all(is_fixed)
+        && code.inner.iter().all(|(code, _)| is_fixed_code(code))
+}
+
+impl Copier {
+    /// The copy of a function.
+    pub(crate) fn function(&mut self, function: &Rc<Function>) -> Rc<Function> {
+        let is_shared = is_shared(function);
+        if is_shared && let Some(Value::Function(copy)) = self.copies.get(&address(function)) {
+            return copy.clone();
+        }
+        if self.depth == MOST_NESTED {
+            self.refuse("functions that hold functions that hold functions");
+            return function.clone();
+        }
+        self.depth += 1;
+        let body = self.body(&function.body);
+        self.depth -= 1;
+        let copy = match body {
+            Some(body) => Rc::new(Function { body }),
+            None => function.clone(),
+        };
+        if is_shared {
+            self.copies
+                .insert(address(function), Value::Function(copy.clone()));
+        }
+        if let Body::Generic(_) = copy.body {
+            let copy = Value::Function(copy.clone());
+            self.pending.push((Value::Function(function.clone()), copy));
+        }
+        copy
+    }
+
+    /// The copy of what a function does; `None` if the function never changes.
+    fn body(&mut self, body: &Body) -> Option<Body> {
+        match body {
+            Body::Closure { code, captured } => {
+                let copy = self.code(code);
+                if Rc::ptr_eq(&copy, code) && captured.iter().all(is_fixed) {
+                    return None;
+                }
+                Some(Body::Closure {
+                    code: copy,
+                    captured: self.all(captured),
+                })
+            }
+            Body::Native(Native {
+                body: NativeBody::Builtin(_),
+                ..
+            }) => None,
+            Body::Native(Native {
+                name,
+                min,
+                max,
+                body: NativeBody::Made(made),
+            }) => {
+                let Some(made) = made.copied(self) else {
+                    self.refuse("a function of something that runs");
+                    return None;
+                };
+                Some(Body::Native(Native {
+                    name: *name,
+                    min: *min,
+                    max: *max,
+                    body: NativeBody::Made(made),
+                }))
+            }
+            Body::Generic(generic) => {
+                let name = self.value(&generic.name);
+                let copy = GenericFunction::new(name, generic.parameters.borrow().clone());
+                Some(Body::Generic(Box::new(copy)))
+            }
+            Body::Deferred(deferred) => {
+                let copy = Deferred::new(deferred.name, deferred.number);
+                if let Some(compiled) = deferred.function.get() {
+                    let compiled = self.function(compiled);
+                    copy.function.get_or_init(|| compiled);
+                }
+                Some(Body::Deferred(copy))
+            }
+        }
+    }
+
+    fn code(&mut self, code: &Rc<Code>) -> Rc<Code> {
+        if is_fixed_code(code) {
+            return code.clone();
+        }
+        let is_shared = is_shared(code);
+        if is_shared && let Some(copy) = self.codes.get(&address(code)) {
+            return copy.clone();
+        }
+        let inner = code.inner.iter();
+        let inner = inner.map(|(code, captures)| (self.code(code), captures.clone()));
+        let inner = inner.collect();
+        let copy = Rc::new(Code {
+            name: self.value(&code.name),
+            parameters: code.parameters.clone(),
+            ops: code.ops.clone(),
+            constants: self.all(&code.constants),
+            inner,
+            tags: code.tags.clone(),
+            places: code.places.clone(),
+            locals: code.locals.clone(),
+            free: code.free.clone(),
+            lambda_list: self.value(&code.lambda_list),
+            doc: code.doc.clone(),
+        });
+        if is_shared {
+            self.codes.insert(address(code), copy.clone());
+        }
+        copy
+    }
+}
