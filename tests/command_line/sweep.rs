@@ -49,6 +49,63 @@ fn threads_do_not_matter() {
     assert!(text(&shown.stdout).starts_with("light   seed 5   4 worlds\nsuccess  "));
 }
 
+/// A plan that changes all that its file has defined, with a count of what earlier worlds have left.
+const CHANGING: &str = "
+    (defpackage :shop (:use :cpl :planwright))
+    (in-package :shop)
+    (defvar *seen* (list 0))
+    (defvar *by-text* (make-hash-table :test 'equal))
+    (defstruct place (visits 0))
+    (defvar *place* (make-place))
+    (defclass thing () ((made :allocation :class :initform 0 :accessor made)))
+    (let ((n 0)) (defun next () (incf n)))
+    (defun literal () '(0))
+    (defmethod size ((x thing)) 1)
+    (defvar *thing* (make-instance 'thing))
+    (defsweep changing (:worlds 21)
+      (vary (x (uniform 0 1)))
+      (run (progn (nconc *seen* (list x)) (nconc (literal) (list x))
+                  (setf (gethash (princ-to-string x) *by-text*) x)
+                  (incf (place-visits *place*)) (incf (made *thing*))
+                  (push :seen *features*) (intern (format nil \"~a\" x) :keyword)
+                  (eval '(defclass thing () ((other :initform 1))))
+                  (eval '(defmethod size ((x thing)) (1+ (slot-value x 'other))))
+                  (unless (find-package :market) (make-package :market))
+                  (set-macro-character #\\! (lambda (s c) (list s c)))
+                  (pp-tut:spawn-object '((-1.6 -0.9 0.82) (0 0 0 1)))
+                  (when (< x 0.1) (error 'end-of-file))))
+      (measure (seen (length *seen*)) (literals (length (literal)))
+               (texts (hash-table-count *by-text*)) (visits (place-visits *place*))
+               (size (size *thing*)) (next (next)) (drawn (random 1.0))
+               (features (count :seen *features*)) (made-up (parse-integer (subseq (string (gensym)) 1))))
+      (goal (success :at-least 0.5)))";
+
+#[test]
+fn no_world_notices_what_others_have_changed() {
+    let file = scratch("changing.plan", CHANGING);
+    let file = file.to_str().expect("a name");
+    let run = |more: &[&str]| {
+        let run = planwright(&[&["sweep", file, "--seed", "3", "--json"], more].concat());
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        text(&run.stdout)
+    };
+    let one = run(&["--threads", "1"]);
+    for line in one.lines() {
+        let left = r#""seen":2,"literals":2,"texts":1,"visits":1,"size":2,"next":1,"#;
+        assert!(
+            line.contains(left) || line.contains(r#""class":"END-OF-FILE""#),
+            "{line}"
+        );
+    }
+    for threads in ["2", "7"] {
+        assert_eq!(run(&["--threads", threads]), one);
+    }
+    let folder = std::env::temp_dir().join(format!("planwright-changing-{}", std::process::id()));
+    let into = folder.to_str().expect("a name");
+    assert_eq!(run(&["--into", into, "--shards", "4"]), one);
+    std::fs::remove_dir_all(folder).expect("a folder can be removed");
+}
+
 #[test]
 fn a_goal_that_is_missed_and_a_wrong_file_have_their_statuses() {
     let file = scratch("missed.plan", &SWEEP.replace("0.5)))", "0.99)))"));
@@ -375,4 +432,49 @@ fn options_that_say_too_little_are_refused_at_once() {
         assert_eq!(refused.status.code(), Some(2), "{said}");
         assert!(said.contains(why), "{said}");
     }
+}
+
+/// A sweep whose worlds are over as soon as they have begun.
+const IDLE: &str = "(defsweep idle (:worlds 10000) (run nil))";
+
+/// Of a process, kilobytes of memory that it holds.
+#[cfg(target_os = "linux")]
+fn resident(process: u32) -> u64 {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).expect("it runs");
+    let line = status.lines().find(|line| line.starts_with("VmRSS:"));
+    let number = line.and_then(|line| line.split_whitespace().nth(1));
+    number.expect("a number").parse().expect("a number")
+}
+
+#[test]
+#[ignore = "a measurement"]
+#[cfg(target_os = "linux")]
+fn memory_over_ten_thousand_worlds() {
+    use std::io::{BufRead, BufReader};
+    let file = scratch("idle.plan", IDLE);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_planwright"))
+        .args(["sweep", file.to_str().expect("a name"), "--threads", "1"])
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    let stderr = child.stderr.take().expect("it is piped");
+    let began = std::time::Instant::now();
+    let mut held = Vec::new();
+    for line in BufReader::new(stderr).lines() {
+        let line = line.expect("a line");
+        let resident = resident(child.id());
+        println!(
+            "{line}   {resident} kB, {:.2} s",
+            began.elapsed().as_secs_f64()
+        );
+        held.push(resident);
+    }
+    assert!(child.wait().expect("it ends").success());
+    // What is kept of a world is its record.
+    let (first, last) = (held[0], held[held.len() - 2]);
+    assert!(
+        last < first + 8_000,
+        "{first} kB after 1,000 worlds, {last} kB after 9,000"
+    );
 }

@@ -41,7 +41,10 @@ pub(super) fn compare(
     let records = pool::in_order(
         threads,
         &numbers,
-        |world| [first.run(*world, &[]), second.run(*world, &[])],
+        || {
+            let (mut first, mut second) = (first.runner(), second.runner());
+            move |world| [first(world), second(world)]
+        },
         |[a, b]| {
             if a.outcome.counts() && b.outcome.counts() && a.is_success() != b.is_success() {
                 only[usize::from(b.is_success())] += 1;

@@ -137,7 +137,7 @@ fn run(
     let records = pool::in_order(
         threads,
         &numbers,
-        |world| worlds.run(*world, &[]),
+        || worlds.runner(),
         |record| {
             tried += usize::from(record.outcome.counts());
             worked += usize::from(record.is_success());

@@ -7,13 +7,13 @@ use std::thread;
 
 use crate::front::command::STACK_BYTES;
 
-/// Does the work on several threads. `tell` gets every result, in the order of the work, as soon as it
-/// and all before it are known; if it returns false, no more work is begun. Returns all results up to
-/// the first that is missing.
-pub(super) fn in_order<W: Sync, R: Send>(
+/// Does the work on several threads, each with a function of its own that `worker` makes. `tell` gets
+/// every result, in the order of the work, as soon as it and all before it are known; if it returns
+/// false, no more work is begun. Returns all results up to the first that is missing.
+pub(super) fn in_order<W: Sync, R: Send, F: FnMut(&W) -> R>(
     threads: usize,
     work: &[W],
-    run: impl Fn(&W) -> R + Sync,
+    worker: impl Fn() -> F + Sync,
     mut tell: impl FnMut(&R) -> bool,
 ) -> Vec<R> {
     let next = AtomicUsize::new(0);
@@ -21,8 +21,9 @@ pub(super) fn in_order<W: Sync, R: Send>(
     thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         for _ in 0..threads.min(work.len()) {
-            let (sender, next, run) = (sender.clone(), &next, &run);
-            let worker = move || {
+            let (sender, next, worker) = (sender.clone(), &next, &worker);
+            let works = move || {
+                let mut run = worker();
                 loop {
                     let at = next.fetch_add(1, Ordering::Relaxed);
                     let Some(work) = work.get(at) else {
@@ -35,7 +36,7 @@ pub(super) fn in_order<W: Sync, R: Send>(
             };
             let thread = thread::Builder::new().stack_size(STACK_BYTES);
             // If the machine has no more threads, those that there are do the work.
-            if thread.spawn_scoped(scope, worker).is_err() {
+            if thread.spawn_scoped(scope, works).is_err() {
                 break;
             }
         }
@@ -65,9 +66,11 @@ mod tests {
         let work: Vec<u64> = (0..100).collect();
         for threads in [1, 2, 7] {
             let mut told = Vec::new();
-            let slow = |n: &u64| {
-                thread::sleep(std::time::Duration::from_micros(n * 7919 % 500));
-                n * n
+            let slow = || {
+                |n: &u64| {
+                    thread::sleep(std::time::Duration::from_micros(n * 7919 % 500));
+                    n * n
+                }
             };
             let done = in_order(threads, &work, slow, |square| {
                 told.push(*square);

@@ -4,7 +4,7 @@
 use std::io::{self, Write};
 
 use super::pool;
-use super::worlds::Worlds;
+use super::worlds::{Sessions, Worlds};
 use crate::front::command::failure::CommandError;
 use crate::sweep::pairs::Pairs;
 use crate::sweep::{Drawn, Record};
@@ -76,15 +76,18 @@ pub(super) fn shrink(
 
 /// The worlds with draws set in each of the ways.
 fn tried(worlds: &Worlds, number: u64, threads: usize, ways: &[Vec<Change>]) -> Vec<World> {
-    let run = |set: &Vec<Change>| {
-        let (record, simplest) = worlds.run_noting(number, set);
-        World {
-            set: set.clone(),
-            record,
-            simplest,
+    let runner = || {
+        let mut sessions = Sessions::of(worlds);
+        move |set: &Vec<Change>| {
+            let (record, simplest) = sessions.run(number, set);
+            World {
+                set: set.clone(),
+                record,
+                simplest,
+            }
         }
     };
-    pool::in_order(threads, ways, run, |_| true)
+    pool::in_order(threads, ways, runner, |_| true)
 }
 
 /// Applies changes as long as the world fails in the same way; returns it with the number of runs.

@@ -54,7 +54,7 @@ pub(super) fn shard(
     }
     let worlds = open(options, job)?;
     let numbers = job.worlds_of(shard);
-    let records = pool::in_order(threads, &numbers, |world| worlds.run(*world, &[]), |_| true);
+    let records = pool::in_order(threads, &numbers, || worlds.runner(), |_| true);
     job.write(shard, &records)?;
     Ok(Status::Good)
 }
@@ -85,7 +85,7 @@ pub(super) fn all(job: &Job, worlds: &Worlds, threads: usize) -> Result<(), Comm
         let records = pool::in_order(
             threads,
             &numbers,
-            |world| worlds.run(*world, &[]),
+            || worlds.runner(),
             |record| progress.record(record) && !interrupt::has_come(),
         );
         if records.len() < numbers.len() {
@@ -164,7 +164,7 @@ fn child(
 pub(super) fn one_world(options: &Options, job: &Job, world: u64) -> Result<Record, CommandError> {
     let worlds = open(options, job)?;
     let numbers = [world];
-    let mut records = pool::in_order(1, &numbers, |world| worlds.run(*world, &[]), |_| true);
+    let mut records = pool::in_order(1, &numbers, || worlds.runner(), |_| true);
     let record = records.pop();
     record.ok_or_else(|| CommandError::Sweep("the machine has no threads left".to_owned()))
 }

@@ -60,6 +60,12 @@ impl Worlds {
         Ok((worlds, known))
     }
 
+    /// A function that runs worlds, in the thread that asks for it.
+    pub(super) fn runner(&self) -> impl FnMut(&u64) -> Record {
+        let mut sessions = Sessions::of(self);
+        move |world| sessions.run(*world, &[]).0
+    }
+
     /// A session in which the file has been loaded.
     fn session(&self) -> Result<Session, String> {
         set_stack_budget(COMPILER_STACK);
@@ -72,11 +78,6 @@ impl Worlds {
         }
     }
 
-    /// Runs the plan in a world, in which draws are set as told. What a panic ends is a defect.
-    pub(super) fn run(&self, world: u64, set: &[(String, String)]) -> Record {
-        self.run_noting(world, set).0
-    }
-
     /// Runs the plan in a world and records it in an MCAP file.
     pub(super) fn run_recorded(&self, world: u64, path: &Path) -> Result<(), CommandError> {
         let mut session = self.session().map_err(CommandError::Sweep)?;
@@ -85,23 +86,65 @@ impl Worlds {
         session.end_recording()?;
         Ok(())
     }
+}
 
-    /// As [`Self::run`], with the simplest values of the draws.
-    pub(super) fn run_noting(
-        &self,
-        world: u64,
-        set: &[(String, String)],
-    ) -> (Record, Pairs<Drawn>) {
-        let nothing = Pairs::default;
-        let run = || match self.session() {
+/// The sessions of one thread's worlds. The file is loaded once, and every world gets a copy of the
+/// session in which that was done. A file that leaves something of which there is no copy, such as a
+/// task, is loaded for each world.
+pub(super) struct Sessions<'a> {
+    worlds: &'a Worlds,
+    loaded: Loaded,
+}
+
+enum Loaded {
+    NotYet,
+    Copied(Box<Session>),
+    ForEach,
+}
+
+impl<'a> Sessions<'a> {
+    /// For worlds of a sweep.
+    pub(super) fn of(worlds: &'a Worlds) -> Self {
+        Self {
+            worlds,
+            loaded: Loaded::NotYet,
+        }
+    }
+
+    /// Runs the plan in a world, in which draws are set as told, and returns what came of it, with
+    /// the simplest values of the draws. What a panic ends is a defect.
+    pub(super) fn run(&mut self, world: u64, set: &[(String, String)]) -> (Record, Pairs<Drawn>) {
+        let Worlds { name, seed, .. } = self.worlds;
+        let run = || match self.next() {
             Ok(mut session) => {
-                let record = session.run_sweep_world(&self.name, self.seed, world, set, MOST_POLLS);
+                let record = session.run_sweep_world(name, *seed, world, set, MOST_POLLS);
                 (record, session.simplest_draws())
             }
-            Err(report) => (defective(world, report), nothing()),
+            Err(report) => (defective(world, report), Pairs::default()),
         };
-        defect::caught(run)
-            .unwrap_or_else(|defect| (defective(world, defect.to_string()), nothing()))
+        defect::caught(run).unwrap_or_else(|defect| {
+            // Who knows what it has left.
+            self.loaded = Loaded::NotYet;
+            (defective(world, defect.to_string()), Pairs::default())
+        })
+    }
+
+    /// A session in which the file has been loaded, and nothing else done.
+    fn next(&mut self) -> Result<Session, String> {
+        if let Loaded::NotYet = self.loaded {
+            let session = self.worlds.session()?;
+            if session.copied().is_err() {
+                self.loaded = Loaded::ForEach;
+                return Ok(session);
+            }
+            self.loaded = Loaded::Copied(Box::new(session));
+        }
+        if let Loaded::Copied(session) = &self.loaded
+            && let Ok(copy) = session.copied()
+        {
+            return Ok(copy);
+        }
+        self.worlds.session()
     }
 }
 
