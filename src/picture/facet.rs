@@ -4,34 +4,22 @@ use nalgebra::Vector3;
 
 use super::scene::{Body, Finish, Kind, Scene};
 
+/// A corner of a body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Corner {
+    /// Position (m, map frame).
+    pub(crate) point: Vector3<f64>,
+    /// Unit vector away from the solid, for shading.
+    pub(crate) normal: Vector3<f64>,
+}
+
 /// A triangle of a body.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Facet {
-    /// Corners (m, map frame), counter-clockwise seen from outside.
-    pub(crate) points: [Vector3<f64>; 3],
-    /// Unit normals at the corners.
-    pub(crate) normals: [Vector3<f64>; 3],
-    /// Unit vector away from the solid.
-    pub(crate) outward: Vector3<f64>,
+    /// Indices of its corners, counter-clockwise seen from outside.
+    pub(crate) corners: [u32; 3],
     /// Index of its body in the scene.
     pub(crate) body: usize,
-}
-
-impl Facet {
-    /// A triangle; `None` if it has no area.
-    pub(crate) fn new(
-        points: [Vector3<f64>; 3],
-        normals: [Vector3<f64>; 3],
-        body: usize,
-    ) -> Option<Self> {
-        let [a, b, c] = points;
-        Some(Self {
-            points,
-            normals,
-            outward: (b - a).cross(&(c - a)).try_normalize(1e-15)?,
-            body,
-        })
-    }
 }
 
 /// Bodies that are shorter (m) than this, or thin, do not block light from the sky.
@@ -41,12 +29,24 @@ const THIN: f64 = 0.03;
 /// The same for the robot's parts, which are many and close together.
 const SHORT_PART: f64 = 0.17;
 
+/// Triangles and their corners.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mesh<'a> {
+    /// The corners.
+    pub(crate) corners: &'a [Corner],
+    /// The triangles, whose corners are all among these.
+    pub(crate) facets: &'a [Facet],
+    /// Index of the first corner that belongs to them; those before it are others'.
+    pub(crate) first: usize,
+}
+
 /// All triangles, sorted by how they block light: those of the floor, which blocks none, of
 /// small bodies, and of the others, each group in the order of the scene.
 pub(crate) struct Facets {
-    pub(crate) all: Vec<Facet>,
-    /// Indices at which small and large bodies start.
-    starts: [usize; 2],
+    corners: Vec<Corner>,
+    facets: Vec<Facet>,
+    /// Indices of the corner and the triangle at which each group starts.
+    starts: [[usize; 2]; 3],
 }
 
 impl Facets {
@@ -57,33 +57,48 @@ impl Facets {
             _ => 2,
         };
         let ranks: Vec<_> = scene.bodies.iter().map(rank).collect();
-        let count = scene.bodies.iter().map(|b| b.surface.triangles.len()).sum();
-        let mut all = Vec::with_capacity(count);
-        let mut points = Vec::new();
+        let surfaces = || scene.bodies.iter().map(|body| &body.surface);
+        let mut corners = Vec::with_capacity(surfaces().map(|s| s.corners.len()).sum());
+        let mut facets = Vec::with_capacity(surfaces().map(|s| s.triangles.len()).sum());
         let starts = [0, 1, 2].map(|rank| {
-            let start = all.len();
+            let start = [corners.len(), facets.len()];
             let bodies = scene.bodies.iter().zip(&ranks).enumerate();
             for (place, (body, _)) in bodies.filter(|(_, (_, r))| **r == rank) {
-                add(body, place, &mut points, &mut all);
+                add(body, place, &mut corners, &mut facets);
             }
             start
         });
         Self {
-            all,
-            starts: [starts[1], starts[2]],
+            corners,
+            facets,
+            starts,
         }
     }
 
+    /// All triangles.
+    pub(crate) fn all(&self) -> Mesh<'_> {
+        self.from(0)
+    }
+
     /// The triangles that cast shadows.
-    pub(crate) fn solid(&self) -> &[Facet] {
-        // The start is a valid index.
-        &self.all[self.starts[0]..]
+    pub(crate) fn solid(&self) -> Mesh<'_> {
+        self.from(1)
     }
 
     /// The triangles that block light from the sky.
-    pub(crate) fn large(&self) -> &[Facet] {
-        // The start is a valid index.
-        &self.all[self.starts[1]..]
+    pub(crate) fn large(&self) -> Mesh<'_> {
+        self.from(2)
+    }
+
+    /// The triangles of a group and those after it.
+    fn from(&self, group: usize) -> Mesh<'_> {
+        let [first, facet] = self.starts[group];
+        Mesh {
+            corners: &self.corners,
+            // The start is a valid index.
+            facets: &self.facets[facet..],
+            first,
+        }
     }
 }
 
@@ -109,21 +124,22 @@ fn is_small(body: &Body) -> bool {
     sizes[2] < short || sizes[1] < THIN
 }
 
-fn add(
-    body: &Body,
-    place: usize,
-    points: &mut Vec<(Vector3<f64>, Vector3<f64>)>,
-    all: &mut Vec<Facet>,
-) {
-    points.clear();
-    points.extend(body.surface.corners.iter().map(|corner| {
-        let point = body.pose.transform_point(&corner.point).coords;
-        (point, body.pose.rotation * corner.normal)
+/// Adds a body's corners and triangles.
+fn add(body: &Body, place: usize, corners: &mut Vec<Corner>, facets: &mut Vec<Facet>) {
+    // A scene of four billion corners does not fit into memory.
+    let first = u32::try_from(corners.len()).unwrap_or(u32::MAX);
+    let count = u32::try_from(body.surface.corners.len()).unwrap_or(0);
+    let rotation = body.pose.rotation.to_rotation_matrix();
+    let offset = body.pose.translation.vector;
+    corners.extend(body.surface.corners.iter().map(|corner| Corner {
+        point: rotation * corner.point.coords + offset,
+        normal: rotation * corner.normal,
     }));
-    all.extend(body.surface.triangles.iter().filter_map(|triangle| {
-        // A triangle with an index that is out of range is omitted.
-        let [a, b, c] = triangle.map(|i| points.get(i as usize).copied());
-        let (a, b, c) = (a?, b?, c?);
-        Facet::new([a.0, b.0, c.0], [a.1, b.1, c.1], place)
+    // A triangle with an index that is out of range is omitted.
+    let triangles = body.surface.triangles.iter();
+    let triangles = triangles.filter(|triangle| triangle.iter().all(|i| *i < count));
+    facets.extend(triangles.map(|triangle| Facet {
+        corners: triangle.map(|i| first.saturating_add(i)),
+        body: place,
     }));
 }

@@ -23,26 +23,36 @@ pub(crate) const FADE: [f32; 2] = [7.0, 22.0];
 /// The linear colour of the floor at a point (m, map frame), averaged where a pixel shows much
 /// of it; `grain` is the size (m) of a pixel there.
 pub(super) fn boards(point: &Vector3<f32>, grain: f32) -> Color {
-    let row = (point.y / BOARD_WIDTH).floor();
-    let shift = tone(row, 0.0);
-    let along = point.x / BOARD_LENGTH + shift;
-    let column = along.floor();
-    let inside = |value: f32, size: f32| {
-        let part = value - value.floor();
-        part.min(1.0 - part) * size
-    };
-    let seam = inside(point.y / BOARD_WIDTH, BOARD_WIDTH).min(inside(along, BOARD_LENGTH));
+    let across = point.y / BOARD_WIDTH;
+    let row = floor(across);
+    let along = point.x / BOARD_LENGTH + tone(row, 0.0);
+    let column = floor(along);
+    // The distance to the nearest gap.
+    let inside = |part: f32, size: f32| part.min(1.0 - part) * size;
+    let seam = inside(across - row, BOARD_WIDTH).min(inside(along - column, BOARD_LENGTH));
     let width = BOARD_GAP.max(grain);
-    let dark = (1.0 - seam / width).max(0.0) * (BOARD_GAP / width) * GAP_SHADE;
-    let fine = 1.0 - smooth(grain / BOARD_WIDTH * 1.5);
-    let light = (1.0 + (tone(row, column + 1.0) - 0.5) * VARIETY * fine) * (1.0 - dark);
+    let fine = 1.0 - smooth(grain * (1.5 / BOARD_WIDTH));
+    let mut light = 1.0 + (tone(row, column + 1.0) - 0.5) * VARIETY * fine;
+    if seam < width {
+        light *= 1.0 - (1.0 - seam / width) * (BOARD_GAP / width) * GAP_SHADE;
+    }
     BOARD.map(|c| c * light)
 }
 
 /// How much (0..1) the floor has faded out at a point seen from an eye (m, map frame).
 pub(super) fn faded(point: &Vector3<f32>, eye: &Vector3<f32>) -> f32 {
-    let far = (point - eye).xy().norm();
-    smooth((far - FADE[0]) / (FADE[1] - FADE[0]))
+    let square = (point - eye).xy().norm_squared();
+    match square > FADE[0] * FADE[0] {
+        true => smooth((square.sqrt() - FADE[0]) / (FADE[1] - FADE[0])),
+        false => 0.0,
+    }
+}
+
+/// The greatest integer that is not above the number, of some thousands at most. The oldest processors
+/// that programs are compiled for have no instruction for it, and a call would take longer.
+fn floor(value: f32) -> f32 {
+    let toward_zero = value as i32 as f32;
+    toward_zero - if toward_zero > value { 1.0 } else { 0.0 }
 }
 
 /// A pseudo-random number in 0..1 that is always the same for a board.

@@ -17,6 +17,7 @@ mod loft;
 pub(crate) mod looks;
 pub(crate) mod map_picture;
 mod obstruction;
+mod painter;
 mod palette;
 mod projector;
 mod raster;

@@ -45,18 +45,21 @@ impl Patch {
     /// The part of the triangle in a grid of this size; `None` if it covers no place.
     pub(crate) fn new(corners: [Corner; 3], width: usize, height: usize) -> Option<Self> {
         let [a, mut b, mut c] = corners;
-        let mut area = twice_area(a, b, c);
-        if area < 0.0 {
-            (b, c) = (c, b);
-            area = -area;
-        }
         let range = |axis: usize, end: usize| {
             let low = a[axis].min(b[axis]).min(c[axis]);
             let high = a[axis].max(b[axis]).max(c[axis]);
             first_place(low)..first_place(high).min(end)
         };
         let (rows, columns) = (range(1, height), range(0, width));
-        if rows.is_empty() || columns.is_empty() || area.is_nan() || area <= 0.0 {
+        if rows.is_empty() || columns.is_empty() {
+            return None;
+        }
+        let mut area = twice_area(a, b, c);
+        if area < 0.0 {
+            (b, c) = (c, b);
+            area = -area;
+        }
+        if area.is_nan() || area <= 0.0 {
             return None;
         }
         // Going round a triangle of positive area, the inside is to the left of edges that go
@@ -110,11 +113,13 @@ impl Patch {
     }
 }
 
-/// The first place whose centre, at a half, is not below `value`; the cast saturates.
-fn first_place(value: f64) -> usize {
+/// The first place whose centre, at a half, is not below `value`.
+pub(crate) fn first_place(value: f64) -> usize {
     let value = value - 0.5;
-    let below = value as usize;
-    below + usize::from((below as f64) < value)
+    // The cast saturates; grids are far smaller.
+    let below = value as i32;
+    let place = below.saturating_add(i32::from(f64::from(below) < value));
+    usize::try_from(place).unwrap_or(0)
 }
 
 /// Twice the signed area of the triangle.

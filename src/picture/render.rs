@@ -12,25 +12,17 @@ use nalgebra::Vector3;
 
 use super::facet::Facets;
 use super::image::Image;
+use super::painter::{Band, Painter, TILE};
 use super::projector::{Projector, SAMPLES, Seen};
-use super::scene::{Finish, Scene};
-use super::shade::{Color, Lights, Reach, background, unit};
+use super::scene::Scene;
+use super::shade::{Lights, unit};
 use crate::perception::camera::Camera;
 
-/// Rows of pixels in a band; a multiple of [`BLOCK`].
-const BAND: usize = 16;
+/// Rows of pixels in a band.
+const BAND: usize = TILE;
 
 /// Distance (samples) between those whose points tell which shadows are seen.
 const SPARSE: usize = 8;
-
-/// Edge length (pixels) of a square in which a surface gets the same light from the sky.
-const BLOCK: usize = 2;
-
-/// Brightness above which it grows more slowly, so that nothing is plain white.
-const SHOULDER: f32 = 0.72;
-
-/// Number of steps in the table that converts light to bytes.
-const TONES: usize = 4096;
 
 /// The scene as the camera sees it. The camera's far limit is ignored.
 pub(crate) fn render(scene: &Scene, camera: &Camera) -> Image {
@@ -45,33 +37,46 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
     let mut image = Image::black(camera.width, camera.height);
     let facets = Facets::of(scene);
     let projector = Projector::new(camera);
-    let seen = projector.project(&facets.all);
+    let seen = projector.project(facets.all());
     let rows = (0..projector.height).step_by(BAND * SAMPLES);
     let bands = rows.map(|row| row..(row + BAND * SAMPLES).min(projector.height));
-    let bands = in_parallel(threads, bands.collect(), |rows| {
-        samples(scene, &seen, projector.width, rows)
+    let bands = bands.zip(by_band(&seen, projector.height));
+    let bands = in_parallel(threads, bands.collect(), |(rows, some)| {
+        samples(scene, &some, projector.width, rows)
     });
+
     let points = some_points(&bands, &seen, projector.width);
     let lamps = in_parallel(threads, Lights::plans(), |plan| {
         Lights::lamp(plan, &facets, &points)
     });
+
     let Some(lights) = Lights::new(lamps) else {
         return image;
     };
-    let painter = Painter {
-        scene,
-        lights: &lights,
-        projector: &projector,
-        seen: &seen,
-        tones: tones(),
-    };
-    let band_bytes = (camera.width * 3 * BAND).max(1);
-    let bytes = image.bytes_mut().chunks_mut(band_bytes);
-    let bands = bytes.zip(&bands).enumerate();
-    in_parallel(threads, bands.collect(), |(i, (bytes, samples))| {
-        painter.paint(i * BAND, samples, bytes);
+    let painter = Painter::new(scene, &lights, &projector, &seen);
+    let band_pixels = (camera.width * BAND).max(1);
+    let pixels = image.bytes_mut().as_chunks_mut().0.chunks_mut(band_pixels);
+    let bands = pixels.zip(&bands).enumerate();
+    in_parallel(threads, bands.collect(), |(i, (pixels, samples))| {
+        painter.paint(Band {
+            first: i * BAND,
+            samples,
+            pixels,
+        });
     });
     image
+}
+
+/// The triangles that each band may show, in order.
+fn by_band(seen: &[Seen], height: usize) -> Vec<Vec<&Seen>> {
+    let mut bands = vec![Vec::new(); height.div_ceil(BAND * SAMPLES)];
+    for seen in seen {
+        let rows = seen.patch.rows();
+        let covered = rows.start / (BAND * SAMPLES)..rows.end.div_ceil(BAND * SAMPLES);
+        // Rows were clipped to the grid by the patch.
+        bands[covered].iter_mut().for_each(|band| band.push(seen));
+    }
+    bands
 }
 
 /// Points (m, map frame) of all that is seen: those of some samples.
@@ -95,9 +100,9 @@ fn some_points(bands: &[Vec<u32>], seen: &[Seen], width: usize) -> Vec<Vector3<f
 #[cfg(test)]
 pub(crate) fn segments(scene: &Scene, camera: &Camera) -> Vec<Option<usize>> {
     let projector = Projector::new(camera);
-    let seen = projector.project(&Facets::of(scene).all);
+    let seen = projector.project(Facets::of(scene).all());
     let (width, height) = (projector.width, projector.height);
-    let samples = samples(scene, &seen, width, 0..height);
+    let samples = samples(scene, &seen.iter().collect::<Vec<_>>(), width, 0..height);
     let body = |id: &u32| seen.get(*id as usize).map(|seen| seen.body);
     let rows = samples.chunks(width.max(1)).step_by(SAMPLES);
     rows.flat_map(|row| row.iter().step_by(SAMPLES).map(body))
@@ -137,149 +142,11 @@ fn in_parallel<I: Send, R: Send>(
 /// No triangle.
 const NOTHING: u32 = u32::MAX;
 
-/// What is known of the light on a triangle within a block.
-struct Known {
-    /// The triangle.
-    id: u32,
-    reach: Reach,
-    /// The light that it sends to the eye, if that is the same in the whole block.
-    color: Option<Color>,
-}
-
-/// What is needed to draw a band.
-struct Painter<'a> {
-    scene: &'a Scene,
-    lights: &'a Lights,
-    projector: &'a Projector,
-    seen: &'a [Seen],
-    tones: Vec<u8>,
-}
-
-impl Painter<'_> {
-    /// Draws rows of pixels, from `first` on, as many as fit into `bytes`, with the triangles
-    /// seen at their samples.
-    fn paint(&self, first: usize, samples: &[u32], bytes: &mut [u8]) {
-        let width = self.projector.width;
-        let pixels = width / SAMPLES;
-        let rows = bytes.len() / (pixels * 3);
-        let mut known = Vec::new();
-        for block_row in (0..rows).step_by(BLOCK) {
-            for block_column in (0..pixels).step_by(BLOCK) {
-                known.clear();
-                for row in block_row..(block_row + BLOCK).min(rows) {
-                    for column in block_column..(block_column + BLOCK).min(pixels) {
-                        let place = row * SAMPLES * width + column * SAMPLES;
-                        // Samples cover the same rows and columns as the bytes.
-                        let four = [0, 1, width, width + 1].map(|step| samples[place + step]);
-                        let color = self.pixel(column, first + row, four, &mut known);
-                        let at = (row * pixels + column) * 3;
-                        bytes[at..at + 3].copy_from_slice(&color.map(|c| self.byte(c)));
-                    }
-                }
-            }
-        }
-    }
-
-    /// The colour of a pixel whose samples show the triangles.
-    fn pixel(&self, column: usize, row: usize, samples: [u32; 4], known: &mut Vec<Known>) -> Color {
-        if samples == [samples[0]; 4] {
-            let x = (column * SAMPLES) as f64 + 1.0;
-            let y = (row * SAMPLES) as f64 + 1.0;
-            return self.light(samples[0], x, y, known).map(tone);
-        }
-        let mut sum = [0.0; 3];
-        let samples = self.merged(samples);
-        for (i, id) in samples.iter().enumerate() {
-            if samples[..i].contains(id) {
-                continue;
-            }
-            // The position on the surface is the mean of the samples that show it.
-            let (mut x, mut y, mut count) = (0.0, 0.0, 0.0);
-            for (j, _) in samples.iter().enumerate().filter(|(_, s)| *s == id) {
-                x += (j % SAMPLES) as f64 + 0.5;
-                y += (j / SAMPLES) as f64 + 0.5;
-                count += 1.0;
-            }
-            let x = (column * SAMPLES) as f64 + x / count;
-            let y = (row * SAMPLES) as f64 + y / count;
-            let color = self.light(*id, x, y, known);
-            for (sum, light) in sum.iter_mut().zip(color) {
-                *sum += tone(light) * (count / 4.0) as f32;
-            }
-        }
-        sum
-    }
-
-    /// The light at a place in the grid of samples that shows the triangle, or the background.
-    fn light(&self, id: u32, x: f64, y: f64, known: &mut Vec<Known>) -> Color {
-        match self.seen.get(id as usize) {
-            None => background(&self.projector.ray(x, y)),
-            Some(seen) => self.surface(id, seen, x, y, known),
-        }
-    }
-
-    /// The samples, with neighbours on a gently bent surface merged.
-    fn merged(&self, mut samples: [u32; 4]) -> [u32; 4] {
-        for i in 1..4 {
-            // An ID that is no triangle's is not among those that are seen.
-            let Some(here) = self.seen.get(samples[i] as usize) else {
-                continue;
-            };
-            let is_near = |id: &&u32| {
-                let other = self.seen.get(**id as usize);
-                other.is_some_and(|other| other.continues(here))
-            };
-            let found = samples[..i].iter().find(is_near).copied();
-            samples[i] = found.unwrap_or(samples[i]);
-        }
-        samples
-    }
-
-    /// The light of a triangle at a column and row of the grid of samples.
-    fn surface(&self, id: u32, seen: &Seen, x: f64, y: f64, known: &mut Vec<Known>) -> Color {
-        let own = known.iter().find(|known| known.id == id);
-        if let Some(color) = own.and_then(|own| own.color) {
-            return color;
-        }
-        let (point, normal) = seen.at(x, y);
-        let eye = self.projector.eye.cast();
-        let grain = (point - eye).norm() * SAMPLES as f32 / self.projector.focal as f32;
-        let continues = |known: &&Known| {
-            let other = self.seen.get(known.id as usize);
-            known.id == id || other.is_some_and(|other| other.continues(seen))
-        };
-        let reach = match known.iter().find(continues) {
-            Some(known) => known.reach,
-            None => self.lights.reach(&point, &normal, grain),
-        };
-        // Every triangle belongs to a body of the scene.
-        let body = &self.scene.bodies[seen.body];
-        let color = self
-            .lights
-            .shade(body, [&point, &normal], &eye, reach, grain);
-        let is_even = seen.is_flat && reach.is_even() && body.finish != Finish::Boards;
-        if own.is_none() {
-            known.push(Known {
-                id,
-                reach,
-                color: is_even.then_some(color),
-            });
-        }
-        color
-    }
-
-    fn byte(&self, light: f32) -> u8 {
-        let step = (unit(light) * (TONES - 1) as f32 + 0.5) as usize;
-        // The index of a value in 0..1 is within the table.
-        self.tones[step]
-    }
-}
-
 /// The nearest triangle at each sample of the rows.
-fn samples(scene: &Scene, seen: &[Seen], width: usize, rows: Range<usize>) -> Vec<u32> {
+fn samples(scene: &Scene, seen: &[&Seen], width: usize, rows: Range<usize>) -> Vec<u32> {
     let mut nearness = vec![0f32; rows.len() * width];
     let mut nearest = vec![NOTHING; rows.len() * width];
-    for (i, seen) in (0u32..).zip(seen) {
+    for seen in seen {
         let covered = seen.patch.rows();
         // Every triangle belongs to a body of the scene.
         let alpha = unit(scene.bodies[seen.body].color[3]);
@@ -299,13 +166,13 @@ fn samples(scene: &Scene, seen: &[Seen], width: usize, rows: Range<usize>) -> Ve
                     let here = start + slope * j as i32 as f32;
                     let wins = here > *near;
                     *near = if wins { here } else { *near };
-                    *who = if wins { i } else { *who };
+                    *who = if wins { seen.face } else { *who };
                 }
             } else {
                 for (j, (near, who)) in places {
                     let here = start + slope * j as i32 as f32;
                     if here > *near && shows(columns.start + j, row, alpha) {
-                        (*near, *who) = (here, i);
+                        (*near, *who) = (here, seen.face);
                     }
                 }
             }
@@ -326,36 +193,12 @@ fn shows(column: usize, row: usize, alpha: f32) -> bool {
     rank < alpha
 }
 
-/// Maps light of any strength into 0..1.
-fn tone(light: f32) -> f32 {
-    if light <= SHOULDER {
-        return light;
-    }
-    let room = 1.0 - SHOULDER;
-    let over = (light - SHOULDER) / room;
-    SHOULDER + room * over / (1.0 + over)
-}
-
-/// The sRGB bytes for linear light in equal steps.
-fn tones() -> Vec<u8> {
-    (0..TONES)
-        .map(|step| {
-            let light = step as f64 / (TONES - 1) as f64;
-            let value = match light {
-                l if l <= 0.003_130_8 => 12.92 * l,
-                l => 1.055 * libm::pow(l, 1.0 / 2.4) - 0.055,
-            };
-            (value * 255.0 + 0.5) as u8
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
     use crate::picture::render::*;
-    use crate::picture::scene::{Body, Kind, Owner};
+    use crate::picture::scene::{Body, Finish, Kind, Owner};
     use crate::picture::surface::Surface;
     use crate::spatial::Pose;
 

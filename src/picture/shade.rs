@@ -31,6 +31,9 @@ const SKY_CELL: f64 = 0.02;
 /// the azimuth of the first one (degrees).
 const SKY: [(usize, f64, f64); 2] = [(5, 28.0, 20.0), (3, 62.0, 75.0)];
 
+/// Light that is not visible beside other light.
+const FAINT: f32 = 1e-4;
+
 /// Colours of the far distance.
 const HORIZON: Color = [0.62, 0.66, 0.70];
 const ZENITH: Color = [0.36, 0.44, 0.55];
@@ -51,10 +54,59 @@ impl Reach {
     }
 }
 
+/// What is known of the light on a piece of a surface before any place on it is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foreknown {
+    /// The light of those lights of the sky that reach all of it, or nothing.
+    open: f32,
+    /// The other lights of the sky, as bits.
+    unsure: u32,
+    /// Share (0 or 1) of the lamp's light, if it is the same everywhere.
+    key: Option<f32>,
+}
+
+impl Foreknown {
+    /// Whether the light is the same everywhere.
+    pub(crate) fn is_all(&self) -> bool {
+        self.unsure == 0 && self.key.is_some()
+    }
+}
+
+/// How the light at a place makes the colour of what is there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shading {
+    /// What is scattered, if the surface is white.
+    light: Color,
+    /// What is reflected of the lamp's light.
+    shine: f32,
+}
+
+impl Shading {
+    /// The light that a point (m, map frame) of the body sends to the eye; `grain` is the size (m) of
+    /// a pixel there.
+    pub(crate) fn color(
+        &self,
+        body: &Body,
+        point: &Vector3<f32>,
+        eye: &Vector3<f32>,
+        grain: f32,
+    ) -> Color {
+        let shone = |albedo: Color| {
+            [0, 1, 2].map(|i| albedo[i] * self.light[i] + KEY_COLOR[i] * self.shine)
+        };
+        match body.finish {
+            Finish::Boards => mix(shone(boards(point, grain)), HORIZON, faded(point, eye)),
+            _ => shone([0, 1, 2].map(|i| unit(body.color[i]))),
+        }
+    }
+}
+
 /// All lights of a scene.
 pub(crate) struct Lights {
     key: Lamp,
     sky: Vec<Lamp>,
+    /// The light of the whole sky on the floor.
+    full: f32,
 }
 
 impl Lights {
@@ -84,37 +136,91 @@ impl Lights {
 
     /// One lamp of the plans, for a picture that shows these points.
     pub(crate) fn lamp(plan: LampPlan, facets: &Facets, seen: &[Vector3<f32>]) -> Lamp {
-        let facets = match plan.is_sky {
+        let blocking = match plan.is_sky {
             true => facets.large(),
             false => facets.solid(),
         };
-        Lamp::new(plan, facets, seen)
+        Lamp::new(plan, blocking, seen)
     }
 
     /// The lights, from the lamps of the plans in their order.
     pub(crate) fn new(lamps: Vec<Lamp>) -> Option<Self> {
         let mut lamps = lamps.into_iter();
-        Some(Self {
-            key: lamps.next()?,
-            sky: lamps.collect(),
-        })
+        let key = lamps.next()?;
+        let sky: Vec<_> = lamps.collect();
+        let full = sky.iter().map(|lamp| lamp.towards.z).sum();
+        Some(Self { key, sky, full })
+    }
+
+    /// Nothing is known.
+    pub(crate) fn nothing_known(&self) -> Foreknown {
+        Foreknown {
+            open: 0.0,
+            // There are less than 32 lights.
+            unsure: (1 << self.sky.len()) - 1,
+            key: None,
+        }
+    }
+
+    /// What is known of the light on the flat piece of a surface with these corners and this unit
+    /// normal, given what is known of a larger piece.
+    pub(crate) fn foreknown(
+        &self,
+        corners: &[Vector3<f32>; 4],
+        normal: &Vector3<f32>,
+        larger: &Foreknown,
+    ) -> Foreknown {
+        let mut foreknown = *larger;
+        foreknown.key = larger
+            .key
+            .or_else(|| self.key.reaches_all::<4>(corners, normal));
+        for (i, lamp) in self.unsure(larger) {
+            if let Some(share) = lamp.reaches_all::<2>(corners, normal) {
+                foreknown.open += lamp.towards.dot(normal) * share;
+                foreknown.unsure &= !(1 << i);
+            }
+        }
+        foreknown
+    }
+
+    /// The lights of the sky whose light on a piece of a surface is not known.
+    fn unsure(&self, foreknown: &Foreknown) -> impl Iterator<Item = (usize, &Lamp)> {
+        let unsure = foreknown.unsure;
+        let lamps = self.sky.iter().enumerate();
+        lamps.filter(move |(i, _)| unsure >> i & 1 == 1)
     }
 
     /// The light that reaches the point with this normal and its neighbourhood of `grain` (m).
-    pub(crate) fn reach(&self, point: &Vector3<f32>, normal: &Vector3<f32>, grain: f32) -> Reach {
-        let (mut open, mut full) = (0.0, 0.0);
-        for lamp in &self.sky {
+    pub(crate) fn reach(
+        &self,
+        foreknown: &Foreknown,
+        [point, normal]: [&Vector3<f32>; 2],
+        grain: f32,
+    ) -> Reach {
+        let mut open = foreknown.open;
+        for (_, lamp) in self.unsure(foreknown) {
             let facing = lamp.towards.dot(normal);
             if facing > 0.0 {
                 open += facing * lamp.reaches::<2>(point, normal);
             }
-            full += lamp.towards.z;
         }
-        let key = (grain < 1.5 * self.key.grain())
-            .then(|| self.key.reaches::<4>(point, normal))
-            .filter(|key| *key == 0.0 || *key == 1.0);
-        let open = open / full;
+        let key = foreknown.key.or_else(|| {
+            (grain < 1.5 * self.key.grain())
+                .then(|| self.key.reaches::<4>(point, normal))
+                .filter(|key| *key == 0.0 || *key == 1.0)
+        });
+        let open = open / self.full;
         Reach { open, key }
+    }
+
+    /// Whether a surface reflects the lamp visibly to the eye, at a point (m, map frame) of it.
+    pub(crate) fn shines(
+        &self,
+        finish: Finish,
+        normal: &Vector3<f32>,
+        view: &Vector3<f32>,
+    ) -> bool {
+        self.gloss(finish, normal, view) > FAINT
     }
 
     /// The light that the point of the body sends to the eye; `reach` is the light that reaches
@@ -122,11 +228,23 @@ impl Lights {
     pub(crate) fn shade(
         &self,
         body: &Body,
-        [point, normal]: [&Vector3<f32>; 2],
+        place: [&Vector3<f32>; 2],
         eye: &Vector3<f32>,
         reach: Reach,
         grain: f32,
     ) -> Color {
+        self.shading(body, place, eye, reach)
+            .color(body, place[0], eye, grain)
+    }
+
+    /// How the light at a point of the body, with this normal, makes its colour.
+    pub(crate) fn shading(
+        &self,
+        body: &Body,
+        [point, normal]: [&Vector3<f32>; 2],
+        eye: &Vector3<f32>,
+        reach: Reach,
+    ) -> Shading {
         let facing = self.key.towards.dot(normal);
         let mut lit = 0.0;
         if facing > 0.0 {
@@ -136,25 +254,19 @@ impl Lights {
             };
         }
         let below = (1.0 - normal.z) / 2.0;
-        let albedo = match body.finish {
-            Finish::Boards => boards(point, grain),
-            _ => [0, 1, 2].map(|i| unit(body.color[i])),
-        };
         let shine = match lit > 0.0 {
             true => lit * self.gloss(body.finish, normal, &(eye - point)),
             false => 0.0,
         };
-        let mut color = [0, 1, 2].map(|i| {
-            let light = KEY_COLOR[i] * facing.max(0.0) * lit
-                + SKY_COLOR[i] * reach.open
-                + BOUNCE_COLOR[i] * below
-                + REST;
-            albedo[i] * light + KEY_COLOR[i] * shine
-        });
-        if body.finish == Finish::Boards {
-            color = mix(color, HORIZON, faded(point, eye));
+        Shading {
+            light: [0, 1, 2].map(|i| {
+                KEY_COLOR[i] * facing.max(0.0) * lit
+                    + SKY_COLOR[i] * reach.open
+                    + BOUNCE_COLOR[i] * below
+                    + REST
+            }),
+            shine,
         }
-        color
     }
 
     /// The lamp's light reflected along `view`, of any length.
