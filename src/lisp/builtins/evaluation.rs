@@ -331,7 +331,7 @@ fn function_lambda_expression(_: &mut Image, args: &[Value]) -> Result<Value> {
         return Err(Raise::type_error(&args[0], known::FUNCTION));
     };
     let name = match &function.body {
-        Body::Closure { code, .. } => code.name.clone(),
+        Body::Closure { code, .. } => code.name.value(),
         Body::Native(native) => native.name.into(),
         Body::Generic(generic) => generic.name.clone(),
         Body::Deferred(deferred) => deferred.name.into(),

@@ -211,7 +211,7 @@ fn call(image: &Image, sym: Sym, lambda_list: &str) -> String {
 fn of_definition(image: &Image, function: &Function) -> (String, Option<String>) {
     match &function.body {
         Body::Closure { code, .. } => {
-            let list = print::to_string(image, &code.lambda_list, true).to_lowercase();
+            let list = print::to_string(image, code.lambda_list.shown(), true).to_lowercase();
             let inner = list
                 .strip_prefix('(')
                 .and_then(|rest| rest.strip_suffix(')'))

@@ -10,7 +10,7 @@ use super::node::{Binding, LambdaNode, Node, Prologue, Target};
 use super::scope::{Block, Tagbody, Var};
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
-use crate::lisp::value::code::{Capture, Code, Local, Op};
+use crate::lisp::value::code::{Capture, Code, Local, Op, Signature};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -76,8 +76,8 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
     emitter.emit_prologue(lambda)?;
     emitter.emit(&lambda.body, Want::All)?;
     emitter.op(Op::Return);
-    Ok(Rc::new(Code {
-        name: lambda.name.clone(),
+    let code = Code {
+        name: Signature::of(&lambda.name),
         parameters: lambda.parameters.clone(),
         ops: emitter.ops.into(),
         constants: emitter.constants,
@@ -86,9 +86,11 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
         places: emitter.places.into(),
         locals: emitter.locals.into(),
         free: lambda.free.iter().map(|var| var.name).collect(),
-        lambda_list: lambda.lambda_list.clone(),
+        lambda_list: Signature::of(&lambda.lambda_list),
         doc: lambda.doc.clone(),
-    }))
+        is_fixed: false,
+    };
+    Ok(code.finished())
 }
 
 /// The operation that replaces a call of the function with `count` arguments, if there is one.

@@ -102,7 +102,7 @@ impl Fiber {
                     });
                     FrameView {
                         index,
-                        name: code.name.clone(),
+                        name: code.name.value(),
                         arguments: values.filter(|value| !value.is_unbound()).collect(),
                         place: code.place_at(pc.saturating_sub(1)),
                         annotation: None,

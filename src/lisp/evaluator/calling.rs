@@ -91,7 +91,7 @@ impl Machine<'_> {
         let parameters = &code.parameters;
         if parameters.is_simple() {
             if count != usize::from(parameters.required) {
-                return Err(wrong_count(code.name.clone(), count));
+                return Err(wrong_count(code.name.value(), count));
             }
         } else {
             self.arrange_arguments(code, count)?;
@@ -133,7 +133,7 @@ impl Machine<'_> {
         let positional = required + optional;
         let takes_more = parameters.rest || parameters.has_keys;
         if count < required || (count > positional && !takes_more) {
-            return Err(wrong_count(code.name.clone(), count));
+            return Err(wrong_count(code.name.value(), count));
         }
         let stack = &mut self.fiber.stack;
         let start = stack.len() - count;
@@ -236,7 +236,7 @@ fn check_keywords(image: &Image, code: &Code, more: &[Value]) -> Result<(), Box<
             let shown = print::to_string(image, &pair[0], true);
             let keys = code.parameters.keys.iter().map(|key| image.name(*key));
             let raise = Raise::unknown_key(&shown, keys);
-            return Err(raise.with(known::K_NAME, code.name.clone()));
+            return Err(raise.with(known::K_NAME, code.name.value()));
         }
     }
     Ok(())

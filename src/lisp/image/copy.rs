@@ -56,7 +56,7 @@ impl Image {
             signalled: Signalled::default(),
             identities: self.identities,
             entries: self.entries.clone(),
-            library: self.library.clone(),
+            library: self.library.copied(copier),
             new_symbols: self.new_symbols,
             natives: self.natives.clone(),
             printed: RefCell::default(),

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use super::Image;
 use crate::lisp::source::SourceId;
+use crate::lisp::value::copy::{Copied, Copier};
 use crate::lisp::value::function::{Deferred, Function};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -54,12 +55,14 @@ pub(crate) type Compile =
     fn(&mut Image, &'static Definition, Sym) -> Result<Rc<Function>, Box<Raise>>;
 
 /// What an image keeps of the library.
-#[derive(Clone, Default)]
+#[derive(Default)]
 pub(crate) struct Installed {
     /// The definitions, by number.
     pub(crate) definitions: Vec<&'static Definition>,
     /// The files that have been read from, by name.
     pub(crate) sources: Vec<(&'static str, SourceId)>,
+    /// Those that have been compiled, by number.
+    compiled: Vec<Option<Rc<Function>>>,
     /// How a definition is compiled.
     pub(crate) compile: Option<Compile>,
 }
@@ -67,7 +70,7 @@ pub(crate) struct Installed {
 impl Image {
     /// The function of a definition; compiles it unless that has already happened.
     pub(crate) fn force(&mut self, deferred: &Deferred) -> Result<Rc<Function>, Box<Raise>> {
-        if let Some(function) = deferred.function.get() {
+        if let Some(Some(function)) = self.library.compiled.get(deferred.number) {
             return Ok(function.clone());
         }
         let definition = self.library.definitions.get(deferred.number).copied();
@@ -75,7 +78,24 @@ impl Image {
             return Err(Raise::undefined_function(deferred.name.into()));
         };
         let function = compile(self, definition, deferred.name)?;
-        Ok(deferred.function.get_or_init(|| function).clone())
+        let compiled = &mut self.library.compiled;
+        compiled.resize(self.library.definitions.len(), None);
+        if let Some(kept) = compiled.get_mut(deferred.number) {
+            return Ok(kept.get_or_insert(function).clone());
+        }
+        Ok(function)
+    }
+}
+
+impl Copied for Installed {
+    fn copied(&self, copier: &mut Copier) -> Installed {
+        let compiled = self.compiled.iter();
+        Installed {
+            definitions: self.definitions.clone(),
+            sources: self.sources.clone(),
+            compiled: compiled.map(|function| function.copied(copier)).collect(),
+            compile: self.compile,
+        }
     }
 }
 

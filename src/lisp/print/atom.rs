@@ -168,8 +168,8 @@ fn function(image: &Image, value: &Value, function: &Function, settings: &Settin
             } else {
                 "CLOSURE"
             };
-            let name = super::to_string(image, &code.name, true);
-            if captured.is_empty() && code.name.as_symbol().is_some() {
+            let name = super::to_string(image, code.name.shown(), true);
+            if captured.is_empty() && code.name.shown().as_symbol().is_some() {
                 format!("#<{kind} {name}>")
             } else {
                 format!("#<{kind} {name} {}>", identity(image, value))

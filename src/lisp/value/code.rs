@@ -8,6 +8,9 @@ use std::rc::Rc;
 
 use crate::lisp::source::Place;
 use crate::lisp::value::Value;
+use crate::lisp::value::cons::Cons;
+use crate::lisp::value::copy::{Copied, Copier, is_fixed};
+use crate::lisp::value::string::LispString;
 use crate::lisp::value::symbol::Sym;
 
 /// One operation. "Push" and "pop" refer to the value stack.
@@ -201,10 +204,80 @@ pub(crate) struct Local {
     pub(crate) to: u32,
 }
 
+/// A name or a lambda list: made of pairs and strings, it is copied on the way in and on the way out,
+/// so that nobody can change it.
+pub(crate) struct Signature {
+    value: Value,
+    /// Could all of it be copied?
+    is_own: bool,
+}
+
+/// How deep and how long a list in a signature may be that is copied.
+const MOST_IN_SIGNATURE: usize = 1000;
+
+impl Signature {
+    /// A copy of the value, or the value itself if it has parts of other kinds.
+    pub(crate) fn of(value: &Value) -> Signature {
+        let mut left = MOST_IN_SIGNATURE;
+        let copy = tree(value, &mut left);
+        Signature {
+            is_own: copy.is_some(),
+            value: copy.unwrap_or_else(|| value.clone()),
+        }
+    }
+
+    /// The value, for whoever may change it.
+    pub(crate) fn value(&self) -> Value {
+        match self.is_own {
+            true => Signature::of(&self.value).value,
+            false => self.value.clone(),
+        }
+    }
+
+    /// The value, for somebody who only looks at it.
+    pub(crate) fn shown(&self) -> &Value {
+        &self.value
+    }
+
+    /// Can nobody change it?
+    pub(super) fn is_fixed(&self) -> bool {
+        self.is_own
+    }
+}
+
+impl Copied for Signature {
+    fn copied(&self, copier: &mut Copier) -> Signature {
+        let value = match self.is_own {
+            true => self.value.clone(),
+            false => copier.value(&self.value),
+        };
+        Signature {
+            value,
+            is_own: self.is_own,
+        }
+    }
+}
+
+/// A copy of what consists of so many pairs and strings; `None` if it has parts of other kinds that
+/// could be changed, or more parts.
+fn tree(value: &Value, left: &mut usize) -> Option<Value> {
+    *left = left.checked_sub(1)?;
+    match value {
+        Value::Cons(cons) => {
+            let car = tree(&cons.car(), left)?;
+            let copy = Cons::new(car, tree(&cons.cdr(), left)?);
+            copy.set_place(cons.place());
+            Some(Value::Cons(Rc::new(copy)))
+        }
+        Value::Str(text) => Some(Value::Str(Rc::new(LispString::clone(text)))),
+        other => is_fixed(other).then(|| other.clone()),
+    }
+}
+
 /// Compiled code of one function. Copies share what can never change.
 pub(crate) struct Code {
     /// Name: a symbol, `(setf name)`, `(lambda …)` or `NIL`.
-    pub(crate) name: Value,
+    pub(crate) name: Signature,
     pub(crate) parameters: Parameters,
     /// The operations.
     pub(crate) ops: Rc<[Op]>,
@@ -220,12 +293,23 @@ pub(crate) struct Code {
     /// Names of the free variables, in the order of the closure's captures.
     pub(crate) free: Rc<[Sym]>,
     /// The lambda list as written.
-    pub(crate) lambda_list: Value,
+    pub(crate) lambda_list: Signature,
     /// The documentation string.
     pub(crate) doc: Option<Rc<str>>,
+    /// Can nothing of it ever change, nor of the code in it?
+    pub(crate) is_fixed: bool,
 }
 
 impl Code {
+    /// Finds out whether it can ever change.
+    pub(crate) fn finished(mut self) -> Rc<Code> {
+        self.is_fixed = self.name.is_fixed()
+            && self.lambda_list.is_fixed()
+            && self.constants.iter().all(is_fixed)
+            && self.inner.iter().all(|(code, _)| code.is_fixed);
+        Rc::new(self)
+    }
+
     /// The place of the call that the operation belongs to.
     pub(crate) fn place_at(&self, pc: usize) -> Place {
         let pc = u32::try_from(pc).unwrap_or(u32::MAX);

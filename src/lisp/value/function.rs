@@ -1,7 +1,6 @@
 //! Functions: closures, builtins and generic functions.
 
 use std::any::Any;
-use std::cell::OnceCell;
 use std::rc::Rc;
 
 use super::Value;
@@ -39,18 +38,12 @@ pub(crate) struct Deferred {
     pub(crate) name: Sym,
     /// The number of its definition among those of the image.
     pub(crate) number: usize,
-    /// The compiled function.
-    pub(crate) function: OnceCell<Rc<Function>>,
 }
 
 impl Deferred {
     /// A definition that has not been needed yet.
     pub(crate) fn new(name: Sym, number: usize) -> Deferred {
-        Deferred {
-            name,
-            number,
-            function: OnceCell::new(),
-        }
+        Deferred { name, number }
     }
 }
 

@@ -88,7 +88,7 @@ impl Session {
             return None;
         };
         // What is at the top level has no name.
-        let name = Some(&code.name).filter(|name| name.is_true())?;
+        let name = Some(code.name.shown()).filter(|name| name.is_true())?;
         let function = newest_definition(&self.image, name).unwrap_or(Value::Function(function));
         Some((function, args))
     }

@@ -233,8 +233,8 @@ fn parts(image: &mut Image, value: &Value) -> Vec<(String, Value)> {
             Body::Closure { code, .. } => {
                 let doc = code.doc.as_deref().map_or(Value::NIL, Value::string);
                 vec![
-                    part("name", code.name.clone()),
-                    part("lambda list", code.lambda_list.clone()),
+                    part("name", code.name.value()),
+                    part("lambda list", code.lambda_list.value()),
                     part("documentation", doc),
                 ]
             }

@@ -2,21 +2,14 @@
 
 use std::rc::Rc;
 
-use super::{Copier, address, is_fixed, is_shared};
+use super::{Copied, Copier, address, is_fixed, is_shared};
 use crate::lisp::value::Value;
 use crate::lisp::value::code::Code;
-use crate::lisp::value::function::{Body, Deferred, Function, Native, NativeBody};
+use crate::lisp::value::function::{Body, Function, Native, NativeBody};
 use crate::lisp::value::generic::GenericFunction;
 
 /// How deep functions may hold each other: they cannot be filled later.
 const MOST_NESTED: usize = 500;
-
-fn is_fixed_code(code: &Code) -> bool {
-    is_fixed(&code.name)
-        && is_fixed(&code.lambda_list)
-        && code.constants.iter().all(is_fixed)
-        && code.inner.iter().all(|(code, _)| is_fixed_code(code))
-}
 
 impl Copier {
     /// The copy of a function.
@@ -60,7 +53,8 @@ impl Copier {
                     captured: self.all(captured),
                 })
             }
-            Body::Native(Native {
+            Body::Deferred(_)
+            | Body::Native(Native {
                 body: NativeBody::Builtin(_),
                 ..
             }) => None,
@@ -86,19 +80,11 @@ impl Copier {
                 let copy = GenericFunction::new(name, generic.parameters.borrow().clone());
                 Some(Body::Generic(Box::new(copy)))
             }
-            Body::Deferred(deferred) => {
-                let copy = Deferred::new(deferred.name, deferred.number);
-                if let Some(compiled) = deferred.function.get() {
-                    let compiled = self.function(compiled);
-                    copy.function.get_or_init(|| compiled);
-                }
-                Some(Body::Deferred(copy))
-            }
         }
     }
 
     fn code(&mut self, code: &Rc<Code>) -> Rc<Code> {
-        if is_fixed_code(code) {
+        if code.is_fixed {
             return code.clone();
         }
         let is_shared = is_shared(code);
@@ -109,7 +95,7 @@ impl Copier {
         let inner = inner.map(|(code, captures)| (self.code(code), captures.clone()));
         let inner = inner.collect();
         let copy = Rc::new(Code {
-            name: self.value(&code.name),
+            name: code.name.copied(self),
             parameters: code.parameters.clone(),
             ops: code.ops.clone(),
             constants: self.all(&code.constants),
@@ -118,8 +104,9 @@ impl Copier {
             places: code.places.clone(),
             locals: code.locals.clone(),
             free: code.free.clone(),
-            lambda_list: self.value(&code.lambda_list),
+            lambda_list: code.lambda_list.copied(self),
             doc: code.doc.clone(),
+            is_fixed: false,
         });
         if is_shared {
             self.codes.insert(address(code), copy.clone());

@@ -86,7 +86,7 @@ fn address<T>(object: &Rc<T>) -> usize {
 }
 
 /// Can the value never change, nor anything that it refers to?
-fn is_fixed(value: &Value) -> bool {
+pub(crate) fn is_fixed(value: &Value) -> bool {
     match value {
         Value::Symbol(_, hold) => hold.is_none(),
         Value::Int(_)
