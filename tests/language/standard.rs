@@ -271,6 +271,14 @@ fn subtypes_are_told_where_the_standard_tells_them() {
         ("(cons integer t)", "(or (cons number t) null)", "T T"),
         ("(cons number t)", "(cons integer t)", "NIL T"),
         ("(and list (not null))", "cons", "T T"),
+        ("(integer (9))", "(integer 10)", "T T"),
+        ("(and integer (real -1/2 (3/2)))", "(integer 0 1)", "T T"),
+        (
+            "(and integer (not (eql 10)))",
+            "(or (integer * 9) (integer 11))",
+            "T T",
+        ),
+        ("(and ratio (rational 0 0))", "nil", "T T"),
         ("(not cons)", "atom", "T T"),
         ("(member a b)", "(or (eql a) (eql b))", "T T"),
         ("(satisfies evenp)", "integer", "NIL NIL"),
@@ -351,4 +359,79 @@ fn forms_are_expanded_all_the_way() {
         .map(|(form, (_, shown))| (form.as_str(), shown))
         .collect();
     check(&checked);
+}
+
+#[test]
+fn loops_with_mistakes_are_errors() {
+    check(&[
+        (
+            "(loop with x = '(a) for y in '(b) collect y into x finally (return x))",
+            "!! The variable X stands twice in LOOP.",
+        ),
+        (
+            "(loop for i from 1 to 3 collect i always (< i 9))",
+            "!! ALWAYS in LOOP decides what is returned; give what is accumulated a variable with INTO.",
+        ),
+        (
+            "(loop for k being the hash-keys of (make-hash-table) using (hash-value k) count t)",
+            "!! The variable K stands twice in LOOP.",
+        ),
+        (
+            "(loop with (a b c) of-type (fixnum float t) return (list a b c))",
+            "(0 0.0 NIL)",
+        ),
+        (
+            "(loop for x in '(1 2 3) count (< x 3) into n float finally (return n))",
+            "2.0",
+        ),
+        (
+            "(let ((it 'z)) (loop for x in '(a b) when x collect it and collect it))",
+            "(A Z B Z)",
+        ),
+    ]);
+}
+
+#[test]
+fn packages_have_no_conflicts_unnoticed() {
+    check(&[
+        (
+            "(progn (make-package :pc-a :use nil) (make-package :pc-b :use '(:pc-a)) (intern \"X\" :pc-b) (export (intern \"X\" :pc-a) :pc-a))",
+            "!! EXPORT PC-A::X causes a name conflict in PC-B, which uses PC-A: it has another symbol of that name; shadow it there first.",
+        ),
+        (
+            "(unexport 'car :pc-a)",
+            "!! CAR cannot be unexported: it is not accessible in PC-A.",
+        ),
+        (
+            "(defpackage :pc-c (:use) (:shadow \"A\") (:intern \"A\"))",
+            "!! DEFPACKAGE has A both in :SHADOW and in :INTERN.",
+        ),
+        (
+            "(defpackage :pc-d (:use) (:size 10) (:size 20))",
+            "!! DEFPACKAGE has two options :SIZE.",
+        ),
+        (
+            "(progn (delete-package :pc-b) (package-used-by-list :pc-a))",
+            "NIL",
+        ),
+    ]);
+}
+
+#[test]
+fn assertions_are_tried_again() {
+    check(&[
+        (
+            "(let ((x 0)) (handler-bind ((type-error (lambda (c) (incf x) (continue c)))) (assert (> x 5) () 'type-error) x))",
+            "6",
+        ),
+        (
+            "(let ((*error-output* (make-string-output-stream))) (warn \"w\") (get-output-stream-string *error-output*))",
+            "\"WARNING: w \"",
+        ),
+        (
+            "(handler-case (nbutlast (list 1) 20.0) (type-error () :type-error))",
+            ":TYPE-ERROR",
+        ),
+        ("(let ((x (list* 'a 'b 'c 'd))) (nbutlast x))", "(A B)"),
+    ]);
 }

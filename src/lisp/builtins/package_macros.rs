@@ -47,6 +47,7 @@ fn define_package(image: &mut Image, args: &[Value]) -> Outcome {
             .flat_map(|(_, items)| items.iter().cloned())
             .collect::<Vec<Value>>()
     };
+    check_options(image, &options)?;
     let nicknames = texts(image, &of(known::K_NICKNAMES))?;
     let used: Vec<PackageId> = of(known::K_USE)
         .iter()
@@ -54,12 +55,6 @@ fn define_package(image: &mut Image, args: &[Value]) -> Outcome {
         .collect::<Result<_, _>>()?;
     let imports = imported(image, &options, known::K_IMPORT_FROM)?;
     let shadowing_imports = imported(image, &options, known::K_SHADOWING_IMPORT_FROM)?;
-    if let Some((key, _)) = options.iter().find(|(key, _)| !is_option(*key)) {
-        return Err(Raise::program(format!(
-            "Bogus DEFPACKAGE option: {}; there are :USE, :EXPORT, :NICKNAMES, :IMPORT-FROM, :SHADOW, :SHADOWING-IMPORT-FROM, :INTERN, :SIZE and :DOCUMENTATION.",
-            shown(image, &(*key).into())
-        )));
-    }
     let id = match image.packages.find(&name) {
         Some(id) => {
             for nickname in &nicknames {
@@ -101,6 +96,56 @@ fn define_package(image: &mut Image, args: &[Value]) -> Outcome {
         image.packages.get_mut(id).doc = Some(doc.text().into());
     }
     Ok(Value::Package(id))
+}
+
+/// Checks that there are only options that exist, each of which there can be one of once, and that no
+/// name is given two meanings.
+fn check_options(image: &Image, options: &[(Sym, Vec<Value>)]) -> Result<(), Box<Raise>> {
+    let mut meanings: Vec<(String, Sym)> = Vec::new();
+    for (index, (key, items)) in options.iter().enumerate() {
+        if !is_option(*key) {
+            return Err(Raise::program(format!(
+                "Bogus DEFPACKAGE option: {}; there are :USE, :EXPORT, :NICKNAMES, :IMPORT-FROM, :SHADOW, :SHADOWING-IMPORT-FROM, :INTERN, :SIZE and :DOCUMENTATION.",
+                shown(image, &(*key).into())
+            )));
+        }
+        let is_single = matches!(*key, known::K_SIZE | known::K_DOCUMENTATION);
+        if is_single && options.iter().take(index).any(|(other, _)| other == key) {
+            return Err(Raise::program(format!(
+                "DEFPACKAGE has two options {}.",
+                shown(image, &(*key).into())
+            )));
+        }
+        let names = match *key {
+            known::K_SHADOW | known::K_INTERN | known::K_EXPORT => items.as_slice(),
+            known::K_IMPORT_FROM | known::K_SHADOWING_IMPORT_FROM => {
+                items.get(1..).unwrap_or_default()
+            }
+            _ => &[],
+        };
+        for name in texts(image, names)? {
+            let other = meanings
+                .iter()
+                .find(|(n, other)| *n == name && are_exclusive(*key, *other));
+            if let Some((_, other)) = other {
+                return Err(Raise::program(format!(
+                    "DEFPACKAGE has {name} both in {} and in {}.",
+                    shown(image, &(*other).into()),
+                    shown(image, &(*key).into())
+                )));
+            }
+            meanings.push((name, *key));
+        }
+    }
+    Ok(())
+}
+
+/// May a name not stand in options of both kinds? What is exported may also be shadowed or imported.
+fn are_exclusive(a: Sym, b: Sym) -> bool {
+    match (a, b) {
+        (known::K_EXPORT, other) | (other, known::K_EXPORT) => other == known::K_INTERN,
+        _ => a != b,
+    }
 }
 
 fn is_option(key: Sym) -> bool {

@@ -133,7 +133,7 @@ fn package_used_by_list(image: &mut Image, args: &[Value]) -> Outcome {
     let id = designated(image, &args[0])?;
     let users = image.packages.ids();
     Ok(package_list(users.filter(|user| {
-        image.packages.get(*user).uses.contains(&id)
+        !image.packages.is_deleted(*user) && image.packages.get(*user).uses.contains(&id)
     })))
 }
 
@@ -364,6 +364,44 @@ fn shadowing_import(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::T)
 }
 
+/// Removes a symbol from a package, unless two different symbols that it shadows would get its name.
+fn unintern(image: &mut Image, args: &[Value]) -> Outcome {
+    let sym = symbol(&args[0])?;
+    let package = or_current(image, args.get(1))?;
+    let name = image.name(sym).to_owned();
+    let this = image.packages.get(package);
+    let is_present = this
+        .symbols
+        .get(name.as_str())
+        .is_some_and(|(present, _)| *present == sym);
+    if is_present
+        && this
+            .shadowing
+            .iter()
+            .any(|shadowed| shadowed.as_ref() == name)
+    {
+        let mut inherited: Vec<Sym> = this
+            .uses
+            .iter()
+            .filter_map(|used| image.packages.get(*used).symbols.get(name.as_str()))
+            .filter(|(_, external)| *external)
+            .map(|(inherited, _)| *inherited)
+            .collect();
+        inherited.dedup();
+        if inherited.len() > 1 {
+            return Err(package_error(
+                format!(
+                    "UNINTERN {name} causes a name conflict in {}: it shadows different symbols of packages that are used.",
+                    this.name
+                ),
+                &Value::Package(package),
+            ));
+        }
+    }
+    let found = image.packages.unintern(&mut image.symbols, package, sym);
+    Ok(found.into())
+}
+
 fn export(image: &mut Image, args: &[Value]) -> Outcome {
     let package = or_current(image, args.get(1))?;
     for sym in symbols(&args[0])? {
@@ -378,14 +416,56 @@ fn export(image: &mut Image, args: &[Value]) -> Outcome {
                 &Value::Package(package),
             ));
         }
+        no_conflict_in_users(image, package, sym)?;
         image.packages.export(&mut image.symbols, package, sym);
     }
     Ok(Value::T)
 }
 
+/// Checks that no package that uses this one has another symbol of the name, unless it shadows that.
+fn no_conflict_in_users(image: &Image, package: PackageId, sym: Sym) -> Result<(), Box<Raise>> {
+    let name = image.name(sym);
+    let conflict = image.packages.ids().find(|user| {
+        let this = image.packages.get(*user);
+        !image.packages.is_deleted(*user)
+            && this.uses.contains(&package)
+            && !this
+                .shadowing
+                .iter()
+                .any(|shadowed| shadowed.as_ref() == name)
+            && image
+                .packages
+                .find_symbol(*user, name)
+                .is_some_and(|(other, _)| other != sym)
+    });
+    match conflict {
+        None => Ok(()),
+        Some(user) => Err(package_error(
+            format!(
+                "EXPORT {} causes a name conflict in {}, which uses {}: it has another symbol of that name; shadow it there first.",
+                shown(image, &sym.into()),
+                image.packages.get(user).name,
+                image.packages.get(package).name
+            ),
+            &Value::Package(package),
+        )),
+    }
+}
+
 fn unexport(image: &mut Image, args: &[Value]) -> Outcome {
     let package = or_current(image, args.get(1))?;
     for sym in symbols(&args[0])? {
+        let found = image.packages.find_symbol(package, image.name(sym));
+        if found.is_none_or(|(other, _)| other != sym) {
+            return Err(package_error(
+                format!(
+                    "{} cannot be unexported: it is not accessible in {}.",
+                    shown(image, &sym.into()),
+                    image.packages.get(package).name
+                ),
+                &Value::Package(package),
+            ));
+        }
         image.packages.unexport(&image.symbols, package, sym);
     }
     Ok(Value::T)
@@ -547,6 +627,13 @@ pub(crate) static TABLE: &[Builtin] = &[
         "Exports symbols from a package (the current one).",
         &["(export 'exported-as-example) => T"],
         export,
+    ),
+    pure(
+        "UNINTERN",
+        "symbol &optional package",
+        "Takes a symbol out of a package; was it there?",
+        &["(unintern (make-symbol \"X\")) => NIL"],
+        unintern,
     ),
     pure(
         "UNEXPORT",

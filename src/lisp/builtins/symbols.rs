@@ -237,13 +237,6 @@ fn find_symbol(image: &mut Image, args: &[Value]) -> Outcome {
     ]))
 }
 
-fn unintern(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[0])?;
-    let package = super::packages::or_current(image, args.get(1))?;
-    let found = image.packages.unintern(&mut image.symbols, package, sym);
-    Ok(found.into())
-}
-
 /// Symbols.
 pub(crate) static TABLE: &[Builtin] = &[
     pure(
@@ -387,13 +380,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         "The symbol of a name, and how it is accessible, or `NIL`.",
         &["(find-symbol \"CAR\" :cl) => CAR ; :EXTERNAL"],
         find_symbol,
-    ),
-    pure(
-        "UNINTERN",
-        "symbol &optional package",
-        "Takes a symbol out of a package; was it there?",
-        &["(unintern (make-symbol \"X\")) => NIL"],
-        unintern,
     ),
 ];
 

@@ -188,31 +188,35 @@
   Examples:
   (handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"
   (let ((condition (%condition datum arguments 'simple-warning)))
-    (if (not (typep condition 'warning))
+    (if (or (not (typep condition 'warning)) (and arguments (typep datum 'condition)))
         (error 'type-error :datum condition :expected-type 'warning))
     (restart-case
         (progn
           (signal condition)
           (let ((kind (if (typep condition 'style-warning) "STYLE-WARNING" "WARNING"))
                 (text (princ-to-string condition)))
-            (fresh-line)
-            (format t "~A: ~A~%" kind text)
+            (fresh-line *error-output*)
+            (format *error-output* "~A: ~A~%" kind text)
             nil))
       (muffle-warning () :report "Skip warning." nil))))
 
 (defmacro assert (test &optional places datum &rest arguments)
-  "An error unless the test is true.
+  "An error unless the test is true. Its restart CONTINUE evaluates the test again; change the places first.
   Examples:
-  (assert (= 1 1)) => NIL"
+  (assert (= 1 1)) => NIL
+  (let ((x 1)) (handler-bind ((error (lambda (c) (setq x 2) (continue c)))) (assert (= x 2) (x))) x) => 2"
   (declare (ignore places))
-  `(if ,test
-       nil
-       (progn
-         (with-simple-restart (continue "Go on without it.")
-           (error ,@(if datum
-                        (cons datum arguments)
-                        `("The assertion ~S failed." ',test))))
-         nil)))
+  (let ((again (gensym "AGAIN"))
+        (done (gensym "DONE")))
+    `(tagbody
+        ,again
+        (if ,test (go ,done))
+        (with-simple-restart (continue "Retry the assertion.")
+          (error ,@(if datum
+                       (cons datum arguments)
+                       `("The assertion ~S failed." ',test))))
+        (go ,again)
+        ,done)))
 
 (defmacro check-type (place type &optional string)
   "An error unless the place's value has the type; its restart STORE-VALUE stores another one.

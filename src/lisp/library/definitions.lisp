@@ -16,8 +16,11 @@
   "Defines a constant.
   Examples:
   (progn (defconstant +answer+ 42) +answer+) => 42"
-  (declare (ignore documentation))
-  `(define-constant ',(%name name "a constant") ,value))
+  (let ((definition `(define-constant ',(%name name "a constant") ,value)))
+    (if documentation
+        `(prog1 ,definition
+           (setf (documentation ',name 'variable) ,documentation))
+        definition)))
 
 (defmacro define-compiler-macro (name lambda-list &body body)
   "Has no effect: there are no compiler macros.

@@ -19,6 +19,9 @@
   "A copy of the part of a list before one of its tails.
   Examples:
   (let ((l (list 1 2 3))) (ldiff l (cddr l))) => (1 2)"
+  ;; CHECK-TYPE needs this function itself.
+  (unless (listp list)
+    (error 'type-error :datum list :expected-type 'list))
   (do ((rest list (cdr rest))
        (part '() (cons (car rest) part)))
       ((or (atom rest) (eql rest tail))
@@ -36,7 +39,9 @@
   "Cuts the last `n` (1) elements off a list.
   Examples:
   (nbutlast (list 1 2 3)) => (1 2)"
-  (let ((kept (- (length list) n)))
+  (check-type list list)
+  (check-type n (integer 0))
+  (let ((kept (- (loop for pair on list count t) n)))
     (when (plusp kept)
       (setf (cdr (nthcdr (1- kept) list)) '())
       list)))

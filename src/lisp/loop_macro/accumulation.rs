@@ -62,7 +62,10 @@ pub(crate) fn parse(
     let into = if parser.accept(&["INTO"]) {
         let variable = parser.form("INTO")?;
         match variable.as_symbol() {
-            Some(sym) if sym != known::NIL && !parser.image.is_keyword(sym) => Some(variable),
+            Some(sym) if sym != known::NIL && !parser.image.is_keyword(sym) => {
+                assign::only_once(parser, plan, &variable)?;
+                Some(variable)
+            }
             _ => {
                 return Err(Raise::program(format!(
                     "INTO in LOOP is followed by a variable, not {}.",
@@ -84,9 +87,9 @@ pub(crate) fn parse(
         return Ok(form);
     };
     let adds = add(parser, accumulator, adding, form);
-    // A sum of floats starts at zero of their type.
+    // A sum or number of floats starts at zero of their type.
     if let Some(of_type) = of_type
-        && let (Adding::Sum, start @ (Value::Single(_) | Value::Double(_))) =
+        && let (Adding::Sum | Adding::Count, start @ (Value::Single(_) | Value::Double(_))) =
             (adding, assign::default_value(Some(&of_type)))
     {
         let variable = accumulator.variable.clone();

@@ -1,7 +1,7 @@
 //! Variables of clauses: single ones, and trees that destructure a list.
 
 use super::parser::Parser;
-use super::plan::{Assignment, Plan};
+use super::plan::{Accumulator, Assignment, Plan};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -31,15 +31,33 @@ pub(crate) fn variable(
                 parser.shown(&name)
             )));
         }
-        if plan.variables.iter().any(|v| v.is_eq(&name)) {
-            return Err(Raise::program(format!(
-                "The variable {} stands twice in LOOP.",
-                parser.shown(&name)
-            )));
+        let is_result = |a: &Accumulator| a.into.as_ref().is_some_and(|into| into.is_eq(&name));
+        if plan.accumulators.iter().any(is_result) {
+            return Err(twice(parser, &name));
         }
+        only_once(parser, plan, &name)?;
         plan.variables.push(name);
     }
     Ok((tree, variable_type(parser, clause)?))
+}
+
+/// Checks that no `for` or `with` clause binds a variable yet.
+pub(crate) fn only_once(
+    parser: &Parser<'_>,
+    plan: &Plan,
+    variable: &Value,
+) -> Result<(), Box<Raise>> {
+    if plan.variables.iter().any(|v| v.is_eq(variable)) {
+        return Err(twice(parser, variable));
+    }
+    Ok(())
+}
+
+fn twice(parser: &Parser<'_>, variable: &Value) -> Box<Raise> {
+    Raise::program(format!(
+        "The variable {} stands twice in LOOP.",
+        parser.shown(variable)
+    ))
 }
 
 /// Reads a type: after `of-type`, or one of the simple types that may stand alone.
@@ -73,6 +91,30 @@ pub(crate) fn default_value(of_type: Option<&Value>) -> Value {
         Some(Value::Symbol(known::DOUBLE_FLOAT, ..)) => Value::Double(0.0),
         _ => Value::NIL,
     }
+}
+
+/// Each variable of a tree, with the value that it has if it is given none. The type may be a tree, too.
+pub(crate) fn defaults(tree: &Value, of_type: Option<&Value>) -> Vec<Assignment> {
+    let mut found = Vec::new();
+    let mut pending = vec![(tree.clone(), of_type.cloned())];
+    while let Some((part, of_type)) = pending.pop() {
+        match (&part, &of_type) {
+            (Value::Cons(names), Some(Value::Cons(types))) => {
+                pending.push((names.cdr(), Some(types.cdr())));
+                pending.push((names.car(), Some(types.car())));
+            }
+            (Value::Cons(names), _) => {
+                pending.push((names.cdr(), of_type.clone()));
+                pending.push((names.car(), of_type));
+            }
+            (Value::Symbol(known::NIL, ..), _) => {}
+            _ => {
+                let value = default_value(of_type.as_ref());
+                found.push((part, value));
+            }
+        }
+    }
+    found
 }
 
 /// The variables of a tree; `NIL` is none.

@@ -75,6 +75,13 @@ pub(crate) fn parse(parser: &mut Parser<'_>) -> Result<Plan, Box<Raise>> {
         clause(parser, &mut plan, &word, &previous)?;
         previous = format!("the {word} clause");
     }
+    if let Some(word) = plan.decides
+        && plan.accumulators.iter().any(|a| a.into.is_none())
+    {
+        return Err(Raise::program(format!(
+            "{word} in LOOP decides what is returned; give what is accumulated a variable with INTO."
+        )));
+    }
     Ok(plan)
 }
 
@@ -141,11 +148,13 @@ fn clause(
             let stop = returning(plan, Value::NIL);
             plan.body.push(call(operator, [test, stop]));
             plan.default_true = true;
+            plan.decides = Some(if word == "ALWAYS" { "ALWAYS" } else { "NEVER" });
             Ok(())
         }
         "THEREIS" => {
             parser.accept(&[word]);
             let form = parser.form(word)?;
+            plan.decides = Some("THEREIS");
             let found = parser.fresh("FOUND");
             plan.scratch.push(found.clone());
             let stop = returning(plan, found.clone());
@@ -263,7 +272,9 @@ fn branch(
     let mut forms = Vec::new();
     loop {
         let word = parser.word().map(str::to_owned).unwrap_or_default();
-        match selectable(parser, plan, &word, Some(it), depth + 1)? {
+        // In the clauses after the first one, IT is a variable like others.
+        let it = forms.is_empty().then_some(it);
+        match selectable(parser, plan, &word, it, depth + 1)? {
             Some(form) => forms.push(form),
             None => return Err(parser.unexpected(after, CONDITIONAL)),
         }
@@ -279,11 +290,15 @@ fn with(parser: &mut Parser<'_>, plan: &mut Plan) -> Result<(), Box<Raise>> {
     let mut parts = Vec::new();
     loop {
         let (tree, of_type) = assign::variable(parser, plan, "WITH")?;
-        let value = if parser.accept(&["="]) {
-            parser.form("=")?
-        } else {
-            assign::default_value(of_type.as_ref())
-        };
+        if !parser.accept(&["="]) {
+            group.extend(assign::defaults(&tree, of_type.as_ref()));
+            if !parser.accept(&["AND"]) {
+                break;
+            }
+            parser.accept(&["WITH"]);
+            continue;
+        }
+        let value = parser.form("=")?;
         match &tree {
             Value::Symbol(sym, ..) if *sym != known::NIL => group.push((tree, value)),
             _ => {

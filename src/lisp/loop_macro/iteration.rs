@@ -426,11 +426,10 @@ fn using(
         [Value::Symbol(word, ..), variable]
             if parser.image.name(*word).trim_end_matches('S') == wanted =>
         {
-            plan.variables.extend(
-                assign::parts(variable, &Value::NIL)
-                    .into_iter()
-                    .map(|(variable, _)| variable),
-            );
+            for (variable, _) in assign::parts(variable, &Value::NIL) {
+                assign::only_once(parser, plan, &variable)?;
+                plan.variables.push(variable);
+            }
             Ok(Some(variable.clone()))
         }
         _ => Err(Raise::program(format!(

@@ -76,6 +76,8 @@ pub(crate) struct Plan {
     pub(crate) accumulators: Vec<Accumulator>,
     /// Does the loop return true if nothing ended it (`always`, `never`)?
     pub(crate) default_true: bool,
+    /// The clause `always`, `never` or `thereis` that decides what the loop returns.
+    pub(crate) decides: Option<&'static str>,
     /// The tag at the loop's end.
     pub(crate) end_tag: Value,
     /// All variables of `for` and `with` clauses.

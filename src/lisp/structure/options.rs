@@ -157,9 +157,14 @@ impl StructureDefinition {
                 });
             }
             Some(known::K_CONSTRUCTOR) => {
-                given.has_constructors = first.is_some() || given.has_constructors;
+                given.has_constructors = true;
                 let lambda_list = args.get(1).cloned();
-                if let Some(name) = symbol(&first) {
+                let name = match &first {
+                    // Without a name, the one that there is without the option, too.
+                    None => Some(self.usual_constructor(image)),
+                    Some(_) => symbol(&first),
+                };
+                if let Some(name) = name {
                     given.constructors.push(Constructor { name, lambda_list });
                 }
             }
@@ -209,7 +214,7 @@ impl StructureDefinition {
         self.constructors = given.constructors;
         if !given.has_constructors {
             self.constructors.push(Constructor {
-                name: image.intern(package, &format!("MAKE-{name}")),
+                name: self.usual_constructor(image),
                 lambda_list: None,
             });
         }
@@ -225,8 +230,17 @@ impl StructureDefinition {
         };
     }
 
-    /// The name of the accessor of a slot.
+    fn usual_constructor(&self, image: &mut Image) -> Sym {
+        let name = format!("MAKE-{}", image.name(self.name));
+        let package = image.current_package();
+        image.intern(package, &name)
+    }
+
+    /// The name of the accessor of a slot: without prefix, that of the slot itself.
     pub(crate) fn accessor(&self, image: &mut Image, slot: Sym) -> Sym {
+        if self.conc_name.is_empty() {
+            return slot;
+        }
         let name = format!("{}{}", self.conc_name, image.name(slot));
         let package = image.current_package();
         image.intern(package, &name)

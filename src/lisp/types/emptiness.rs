@@ -202,16 +202,7 @@ impl Intersection {
         {
             return Verdict::all((*from..=*to).map(|n| self.lacks(image, &Value::Int(n))));
         }
-        match covers(kind, &low, &high, &self.without) {
-            // Ranges leave something; single numbers may fill the rest of a bounded one.
-            No if self.without.iter().any(|p| matches!(p, Type::Member(_))) => {
-                match (&low, &high) {
-                    (Bound::None, _) | (_, Bound::None) => No,
-                    _ => Unknown,
-                }
-            }
-            verdict => verdict,
-        }
+        covers(kind, &low, &high, &self.without)
     }
 
     fn are_pairs_missing(&self, image: &Image) -> Verdict {

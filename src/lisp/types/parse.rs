@@ -6,6 +6,7 @@ use crate::lisp::types::sequence_types;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
 use crate::lisp::value::known;
+use crate::lisp::value::number::{Rounding, add, divide, sub};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
@@ -146,18 +147,18 @@ impl Parser<'_> {
             (known::MOD, [Value::Int(n)]) => integers(Some(0), Some(n - 1)),
             (known::UNSIGNED_BYTE, []) => integers(Some(0), None),
             (known::UNSIGNED_BYTE, [bits]) if is_star(bits) => integers(Some(0), None),
-            (known::UNSIGNED_BYTE, [Value::Int(bits)]) if *bits > 0 => Type::Real(
+            (known::UNSIGNED_BYTE, [Value::Int(bits)]) if *bits > 0 => real(
                 Integer,
                 Bound::Inclusive(Value::Int(0)),
                 Bound::Exclusive(power_of_two(*bits)),
-            ),
+            )?,
             (known::SIGNED_BYTE, []) => integers(None, None),
             (known::SIGNED_BYTE, [bits]) if is_star(bits) => integers(None, None),
-            (known::SIGNED_BYTE, [Value::Int(bits)]) if *bits > 0 => Type::Real(
+            (known::SIGNED_BYTE, [Value::Int(bits)]) if *bits > 0 => real(
                 Integer,
                 Bound::Inclusive(negated(power_of_two(bits - 1))),
                 Bound::Exclusive(power_of_two(bits - 1)),
-            ),
+            )?,
             _ => return Ok(None),
         };
         Ok(Some(found))
@@ -263,8 +264,8 @@ fn real_range(image: &Image, kinds: &[RealKind], args: &[Value]) -> Result<Type,
     let high = bound(image, args.get(1))?;
     let mut types: Vec<Type> = kinds
         .iter()
-        .map(|kind| Type::Real(*kind, low.clone(), high.clone()))
-        .collect();
+        .map(|kind| real(*kind, low.clone(), high.clone()))
+        .collect::<Result<_, _>>()?;
     Ok(match types.pop() {
         Some(only) if types.is_empty() => only,
         Some(last) => {
@@ -273,6 +274,52 @@ fn real_range(image: &Image, kinds: &[RealKind], args: &[Value]) -> Result<Type,
         }
         None => Type::Nothing,
     })
+}
+
+/// The reals of one representation between two bounds. Ranges of integers begin and end at integers
+/// that they contain; no ratio is an integer.
+fn real(kind: RealKind, low: Bound, high: Bound) -> Result<Type, Stop> {
+    let one = Value::Int(1);
+    let (low, high) = match kind {
+        RealKind::Integer => (
+            match low {
+                Bound::Inclusive(n) if is_finite(&n) => {
+                    Bound::Inclusive(divide(&n, &one, Rounding::Ceiling)?.0)
+                }
+                Bound::Exclusive(n) if is_finite(&n) => {
+                    Bound::Inclusive(add(&divide(&n, &one, Rounding::Floor)?.0, &one)?)
+                }
+                other => other,
+            },
+            match high {
+                Bound::Inclusive(n) if is_finite(&n) => {
+                    Bound::Inclusive(divide(&n, &one, Rounding::Floor)?.0)
+                }
+                Bound::Exclusive(n) if is_finite(&n) => {
+                    Bound::Inclusive(sub(&divide(&n, &one, Rounding::Ceiling)?.0, &one)?)
+                }
+                other => other,
+            },
+        ),
+        RealKind::Ratio => (without_integer(low), without_integer(high)),
+        _ => (low, high),
+    };
+    Ok(Type::Real(kind, low, high))
+}
+
+fn is_finite(number: &Value) -> bool {
+    match number {
+        Value::Single(x) => x.is_finite(),
+        Value::Double(x) => x.is_finite(),
+        _ => true,
+    }
+}
+
+fn without_integer(bound: Bound) -> Bound {
+    match bound {
+        Bound::Inclusive(n @ (Value::Int(_) | Value::Big(_))) => Bound::Exclusive(n),
+        other => other,
+    }
 }
 
 fn bound(image: &Image, arg: Option<&Value>) -> Result<Bound, Stop> {

@@ -60,6 +60,19 @@ pub(crate) enum RealKind {
     Double,
 }
 
+impl RealKind {
+    /// Is a value a number of this representation?
+    pub(crate) fn has(self, value: &Value) -> bool {
+        match value {
+            Value::Int(_) | Value::Big(_) => self == RealKind::Integer,
+            Value::Ratio(_) => self == RealKind::Ratio,
+            Value::Single(_) => self == RealKind::Single,
+            Value::Double(_) => self == RealKind::Double,
+            _ => false,
+        }
+    }
+}
+
 /// A bound of a range.
 #[derive(Clone)]
 pub(crate) enum Bound {

@@ -248,17 +248,29 @@ pub(super) fn is_gap(high: &Bound, low: &Bound) -> bool {
     }
 }
 
-/// Do the ranges among `parts` together cover a range?
+/// Do the ranges and numbers among `parts` together cover a range?
 pub(super) fn covers(kind: RealKind, low: &Bound, high: &Bound, parts: &[Type]) -> Verdict {
-    let mut from = low.clone();
-    let mut used = vec![false; parts.len()];
-    loop {
-        let next = parts.iter().enumerate().find_map(|(i, part)| match part {
-            Type::Real(k, lo, hi) if *k == kind && !used[i] && !starts_before(&from, lo) => {
-                Some((i, hi))
+    let mut ranges: Vec<(Bound, Bound)> = Vec::new();
+    for part in parts {
+        match part {
+            Type::Real(k, lo, hi) if *k == kind => ranges.push((lo.clone(), hi.clone())),
+            Type::Member(values) => {
+                for value in values.iter().filter(|value| kind.has(value)) {
+                    let point = Bound::Inclusive(value.clone());
+                    ranges.push((point.clone(), point));
+                }
             }
-            _ => None,
-        });
+            _ => {}
+        }
+    }
+    let mut from = low.clone();
+    let mut used = vec![false; ranges.len()];
+    loop {
+        let next = ranges
+            .iter()
+            .enumerate()
+            .find(|(i, (lo, _))| !used[*i] && !starts_before(&from, lo))
+            .map(|(i, (_, hi))| (i, hi));
         let Some((i, reached)) = next else {
             return No;
         };
