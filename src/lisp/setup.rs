@@ -38,10 +38,16 @@ impl Default for Image {
 
 fn define_variables(image: &mut Image) {
     stream::install(image);
-    let features: Vec<Value> = ["PLANWRIGHT", "COMMON-LISP", "ANSI-CL", "CRAM"]
-        .iter()
-        .map(|name| image.keyword(name).into())
-        .collect();
+    let features: Vec<Value> = [
+        "PLANWRIGHT",
+        "COMMON-LISP",
+        "ANSI-CL",
+        "CRAM",
+        "LITTLE-ENDIAN",
+    ]
+    .iter()
+    .map(|name| image.keyword(name).into())
+    .collect();
     let history: [Sym; 9] = [
         known::TIMES,
         known::V_STAR,

@@ -362,6 +362,49 @@ fn forms_are_expanded_all_the_way() {
 }
 
 #[test]
+fn displaced_arrays_share_their_elements() {
+    check(&[
+        (
+            "(let* ((a (make-array '(2 3) :initial-contents '((1 2 3) (4 5 6)))) (v (make-array 4 :displaced-to a :displaced-index-offset 1))) (setf (aref v 0) :x (aref a 1 0) :y) (list v a))",
+            "(#(:X 3 :Y 5) #2A((1 :X 3) (:Y 5 6)))",
+        ),
+        (
+            "(let* ((s (copy-seq \"hello\")) (d (make-array 3 :element-type 'character :displaced-to s :displaced-index-offset 1))) (setf (char d 0) #\\E) (nstring-upcase d :start 1) (list s d (length d) (position #\\L d)))",
+            "(\"hELLo\" \"ELL\" 3 1)",
+        ),
+        (
+            "(let* ((v (vector 1 2 3 4)) (d (make-array 3 :displaced-to v :fill-pointer 1))) (vector-push :a d) (list v d (fill-pointer d) (multiple-value-list (array-displacement d))))",
+            "(#(1 :A 3 4) #(1 :A) 2 (#(1 :A 3 4) 0))",
+        ),
+        // Elements that are needed beyond those of the other array are the array's own.
+        (
+            "(let* ((v (vector 1 2)) (d (make-array 2 :displaced-to v :fill-pointer 2 :adjustable t))) (vector-push-extend 3 d) (setf (aref d 0) :own) (list v d (array-displacement d)))",
+            "(#(1 2) #(:OWN 2 3) NIL)",
+        ),
+        (
+            "(let* ((v (vector 1 2 3 4)) (a (make-array 2 :adjustable t))) (adjust-array a 3 :displaced-to v :displaced-index-offset 1) (list a (typep a 'simple-array)))",
+            "(#(2 3 4) NIL)",
+        ),
+        (
+            "(let* ((v (vector 1 2 3)) (d (make-array 2 :displaced-to v)) (e (make-array 1 :displaced-to d :displaced-index-offset 1))) (setf (aref e 0) :deep) (list v (subseq d 0) (reverse d) (equalp d #(1 :deep))))",
+            "(#(1 :DEEP 3) #(1 :DEEP) #(:DEEP 1) T)",
+        ),
+        (
+            "(make-array 3 :displaced-to #(1 2 3) :displaced-index-offset 1)",
+            "!! 3 elements from index 1 on are more than the array has to which another is to be displaced: 3.",
+        ),
+        (
+            "(let ((a (make-array 2 :adjustable t))) (adjust-array a 2 :displaced-to a))",
+            "!! An array cannot be displaced to itself.",
+        ),
+        (
+            "(let ((s (make-array 4 :element-type 'character :fill-pointer 2 :initial-element #\\a))) (setf (char s 3) #\\z) (list (copy-seq s) (char s 3) (progn (setf (fill-pointer s) 4) s)))",
+            "(\"aa\" #\\z \"aaaz\")",
+        ),
+    ]);
+}
+
+#[test]
 fn loops_with_mistakes_are_errors() {
     check(&[
         (
@@ -433,5 +476,108 @@ fn assertions_are_tried_again() {
             ":TYPE-ERROR",
         ),
         ("(let ((x (list* 'a 'b 'c 'd))) (nbutlast x))", "(A B)"),
+    ]);
+}
+
+#[test]
+fn files_have_characters_or_bytes() {
+    let folder = std::env::temp_dir().join(format!("planwright-files-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let name = |file: &str| format!("{:?}", folder.join(file).to_str().unwrap());
+    let bytes = format!(
+        "(progn (with-open-file (s {0} :direction :output :element-type '(unsigned-byte 16)) (write-sequence #(1 65535) s) (write-byte 258 s)) (with-open-file (s {0} :element-type '(unsigned-byte 8)) (list (file-length s) (loop for b = (read-byte s nil) while b collect b) (stream-element-type s))))",
+        name("bytes")
+    );
+    let signed = format!(
+        "(with-open-file (s {} :element-type '(signed-byte 16)) (file-position s 1) (list (read-byte s) (file-position s) (typep s 'file-stream)))",
+        name("bytes")
+    );
+    let both = format!(
+        "(progn (with-open-file (s {0} :direction :io :if-does-not-exist :create) (write-string \"naïve\" s) (file-position s 0) (read-char s) (write-char #\\A s) (finish-output s) (read-line s)) (with-open-file (s {0}) (read-line s)))",
+        name("both")
+    );
+    let files = format!(
+        "(let ((all (directory {}))) (mapcar #'pathname-name all))",
+        name("*")
+    );
+    let load = format!(
+        "(progn (with-open-file (s {0} :direction :output) (print '(defparameter cl-user::*seen* *load-truename*) s) (print '(setq *package* (find-package :keyword)) s)) (load (pathname {0})) (list (package-name *package*) (pathname-name cl-user::*seen*)))",
+        name("load.lisp")
+    );
+    check(&[
+        (&bytes, "(6 (1 0 255 255 2 1) (UNSIGNED-BYTE 8))"),
+        (&signed, "(-1 2 T)"),
+        (&both, "\"nAïve\" ; T"),
+        (&files, "(\"both\" \"bytes\")"),
+        (&load, "(\"COMMON-LISP-USER\" \"load\")"),
+        (
+            "(read-byte (make-string-input-stream \"a\"))",
+            "!! The elements of the stream are characters, not bytes; give OPEN an :ELEMENT-TYPE such as (UNSIGNED-BYTE 8).",
+        ),
+    ]);
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn pathnames_are_objects() {
+    check(&[
+        (
+            "(let ((p (make-pathname :directory '(:absolute \"a\") :name \"b\" :type \"c\"))) (list p (pathnamep p) (stringp p) (equal p #P\"/a/b.c\") (princ-to-string p)))",
+            "(#P\"/a/b.c\" T NIL T \"/a/b.c\")",
+        ),
+        (
+            "(list (merge-pathnames \"x.lisp\" #P\"/a/b.c\") (merge-pathnames \"../y\" \"/a/b.c\") (enough-namestring \"/a/b\" \"/a/\"))",
+            "(#P\"/a/x.lisp\" #P\"/a/../y.c\" \"b\")",
+        ),
+        (
+            "(mapcar (lambda (p) (pathname-match-p p \"/a/**/*-x.lisp\")) '(\"/a/1-x.lisp\" \"/a/b/c/2-x.lisp\" \"/b/1-x.lisp\" \"/a/1-x.plan\"))",
+            "(T T NIL NIL)",
+        ),
+        (
+            "(open \"a*.lisp\")",
+            "!! \"a*.lisp\" stands for several files; one is needed here.",
+        ),
+        (
+            "(let ((s (make-string-output-stream))) (close s) (list (typep s 'string-stream) (typep (make-broadcast-stream) 'broadcast-stream) (class-name (class-of (make-concatenated-stream)))))",
+            "(T T CONCATENATED-STREAM)",
+        ),
+        (
+            "(handler-case (make-two-way-stream (make-broadcast-stream) (make-broadcast-stream)) (type-error (c) (typep (type-error-datum c) (type-error-expected-type c))))",
+            "NIL",
+        ),
+    ]);
+}
+
+#[test]
+fn names_of_types_stand_for_sequences_and_elements() {
+    check(&[
+        (
+            "(progn (deftype letter () 'character) (deftype word () '(vector letter *)) (list (map 'word #'char-upcase \"ab\") (concatenate 'word \"a\" '(#\\b)) (make-array 2 :element-type 'letter :initial-element #\\x)))",
+            "(\"AB\" \"ab\" \"xx\")",
+        ),
+        (
+            "(progn (deftype row (&optional (n '*)) `(vector bit ,n)) (make-sequence 'row 3))",
+            "#*000",
+        ),
+        (
+            "(progn (defstruct (ring (:constructor)) a) (ring-a (make-ring :a 1)))",
+            "1",
+        ),
+        (
+            "(progn (defconstant +nine+ 9 \"Nine.\") (documentation '+nine+ 'variable))",
+            "\"Nine.\"",
+        ),
+        (
+            "(let ((*readtable* (copy-readtable nil))) (setf (readtable-case *readtable*) :invert) (list (symbol-name (read-from-string \"CupTray\")) (read-from-string \"cup\") (prin1-to-string 'cup) (prin1-to-string '|Cup|)))",
+            "(\"CupTray\" CUP \"cup\" \"Cup\")",
+        ),
+        (
+            "(let ((*readtable* (copy-readtable nil))) (setf (readtable-case *readtable*) :downcase) (list (symbol-name (read-from-string \"Cup\")) (let ((*print-case* :capitalize)) (prin1-to-string '|cup|))))",
+            "(\"cup\" \"Cup\")",
+        ),
+        (
+            "(setf (readtable-case (copy-readtable nil)) :sideways)",
+            "!! The value :SIDEWAYS is not of type (MEMBER :UPCASE :DOWNCASE :PRESERVE :INVERT)",
+        ),
     ]);
 }

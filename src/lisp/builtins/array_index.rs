@@ -63,9 +63,8 @@ fn type_name(array: &Value) -> String {
     };
     match array {
         Value::Vector(v) => {
-            let size = v.items.borrow().len();
-            let simple = v.fill_pointer.get().is_none() && !v.adjustable;
-            match (simple, v.element_type) {
+            let size = v.items.len();
+            match (v.is_simple(), v.element_type) {
                 (true, known::T) => format!("(SIMPLE-VECTOR {size})"),
                 (true, known::BIT) => format!("(SIMPLE-BIT-VECTOR {size})"),
                 (true, other) => format!("(SIMPLE-ARRAY {} ({size}))", of_type(other)),
@@ -77,7 +76,7 @@ fn type_name(array: &Value) -> String {
                 }
             }
         }
-        Value::Str(s) if s.has_fill_pointer.get() => {
+        Value::Str(s) if !s.is_simple() => {
             format!(
                 "(AND (VECTOR CHARACTER {}) (NOT SIMPLE-ARRAY))",
                 s.capacity()

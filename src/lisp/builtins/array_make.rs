@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
+use super::arrays::{element_type, total_size};
 use super::keywords;
 use super::lists::size;
 use super::sequence_access::default_element;
@@ -12,6 +13,7 @@ use crate::lisp::image::Image;
 use crate::lisp::types::sequence_types::upgraded;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
+use crate::lisp::value::elements::{Displacement, Elements};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::Kind;
@@ -30,11 +32,13 @@ pub(crate) struct Options {
     pub(crate) element: Option<Value>,
     /// Nested sequences of the elements.
     pub(crate) contents: Option<Value>,
-    /// The type of the elements, as it is stored.
-    pub(crate) element_type: Sym,
+    /// The type of the elements, as it is stored, if it is given.
+    pub(crate) element_type: Option<Sym>,
     /// May the array be adjusted?
     pub(crate) adjustable: bool,
     fill_pointer: Option<Value>,
+    displaced_to: Option<Value>,
+    offset: Option<Value>,
 }
 
 impl Options {
@@ -47,7 +51,7 @@ impl Options {
             fill_pointer,
             adjustable,
             displaced_to,
-            _,
+            offset,
         ] = keywords::parse(
             image,
             args,
@@ -61,9 +65,15 @@ impl Options {
                 known::K_DISPLACED_INDEX_OFFSET,
             ],
         )?;
-        if displaced_to.is_some_and(|v| v.is_true()) {
+        let displaced_to = displaced_to.filter(Value::is_true);
+        if displaced_to.is_some() && (element.is_some() || contents.is_some()) {
             return Err(Raise::simple(
-                "Displaced arrays are not available; copy the part with SUBSEQ or REPLACE.",
+                "A displaced array has the elements of another one; :INITIAL-ELEMENT and :INITIAL-CONTENTS cannot be given.",
+            ));
+        }
+        if displaced_to.is_none() && offset.is_some() {
+            return Err(Raise::simple(
+                ":DISPLACED-INDEX-OFFSET needs :DISPLACED-TO.",
             ));
         }
         if element.is_some() && contents.is_some() {
@@ -74,10 +84,42 @@ impl Options {
         Ok(Options {
             element,
             contents,
-            element_type: upgraded(image, &element_type.unwrap_or(Value::T)),
+            element_type: element_type.map(|element_type| upgraded(image, &element_type)),
             adjustable: adjustable.is_some_and(|v| v.is_true()),
             fill_pointer,
+            displaced_to,
+            offset,
         })
+    }
+
+    /// The part of another array that an array of this shape is to consist of, if it is to be
+    /// displaced.
+    pub(crate) fn displacement(
+        &self,
+        of_type: Sym,
+        shape: &[usize],
+    ) -> Result<Option<Displacement>, Box<Raise>> {
+        let Some(target) = &self.displaced_to else {
+            return Ok(None);
+        };
+        if element_type(target)? != of_type {
+            return Err(Raise::simple(
+                "An array can be displaced only to one with the same type of elements.",
+            ));
+        }
+        let offset = self.offset.as_ref().map_or(Ok(0), index)?;
+        let size: usize = shape.iter().product();
+        let total = total_size(target)?;
+        if offset.saturating_add(size) > total {
+            return Err(Raise::simple(format!(
+                "{size} elements from index {offset} on are more than the array has to which another is to be displaced: {total}."
+            )));
+        }
+        Ok(Some(Displacement {
+            target: target.clone(),
+            offset,
+            size,
+        }))
     }
 
     /// The fill pointer for a vector of this size, if it is to have one.
@@ -173,18 +215,65 @@ pub(crate) fn vector(
         return Ok(Value::Str(Rc::new(string)));
     }
     Ok(Value::Vector(Rc::new(Vector {
-        items: RefCell::new(items),
+        items: Elements::new(items),
         fill_pointer: Cell::new(fill_pointer),
         adjustable,
         element_type,
     })))
 }
 
+/// A new array that is a part of another one.
+pub(super) fn displaced(
+    element_type: Sym,
+    shape: Vec<usize>,
+    displacement: Displacement,
+    options: &Options,
+) -> Outcome {
+    let size = displacement.size;
+    if shape.len() != 1 {
+        no_fill_pointer(options)?;
+        let array = Array {
+            adjustable: options.adjustable,
+            ..Array::new(element_type, shape, Vec::new())
+        };
+        array.items.displace(displacement);
+        return Ok(Value::Array(Rc::new(array)));
+    }
+    let pointer = options.fill_pointer(size)?;
+    if element_type == known::CHARACTER {
+        let string = LispString::new(String::new());
+        string.adjustable.set(options.adjustable);
+        string.has_fill_pointer.set(pointer.is_some());
+        string.displace(displacement);
+        string.set_length(pointer.unwrap_or(size));
+        return Ok(Value::Str(Rc::new(string)));
+    }
+    let vector = Vector {
+        items: Elements::new(Vec::new()),
+        fill_pointer: Cell::new(pointer),
+        adjustable: options.adjustable,
+        element_type,
+    };
+    vector.items.displace(displacement);
+    Ok(Value::Vector(Rc::new(vector)))
+}
+
+/// Only vectors have fill pointers.
+fn no_fill_pointer(options: &Options) -> Result<(), Box<Raise>> {
+    if options.fill_pointer.as_ref().is_some_and(Value::is_true) {
+        return Err(Raise::simple("Only vectors can have fill pointers."));
+    }
+    Ok(())
+}
+
 fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
     let shape = shape(&args[0])?;
     let options = Options::parse(image, &args[1..])?;
     let total: usize = shape.iter().product();
-    let of_type = options.element_type;
+    let of_type = options.element_type.unwrap_or(known::T);
+    if let Some(displacement) = options.displacement(of_type, &shape)? {
+        return displaced(of_type, shape, displacement, &options);
+    }
     let items = match &options.contents {
         Some(contents) => {
             let items = flatten(contents, &shape)?;
@@ -202,13 +291,11 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
         let pointer = options.fill_pointer(total)?;
         return vector(of_type, items, pointer, options.adjustable);
     }
-    if options.fill_pointer.as_ref().is_some_and(Value::is_true) {
-        return Err(Raise::simple("Only vectors can have fill pointers."));
-    }
+    no_fill_pointer(&options)?;
     Ok(Value::Array(Rc::new(Array {
         dimensions: RefCell::new(shape),
         adjustable: options.adjustable,
-        items: RefCell::new(items),
+        items: Elements::new(items),
         element_type: of_type,
     })))
 }
@@ -216,11 +303,12 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
 /// Making arrays.
 pub(crate) static TABLE: &[Builtin] = &[pure(
     "MAKE-ARRAY",
-    "dimensions &key element-type initial-element initial-contents adjustable fill-pointer",
-    "An array; the dimensions are a list of sizes, or one size for a vector.",
+    "dimensions &key element-type initial-element initial-contents adjustable fill-pointer displaced-to displaced-index-offset",
+    "An array; the dimensions are a list of sizes, or one size for a vector. A displaced array has the elements of another one, from an index in row-major order on.",
     &[
         "(make-array 3 :initial-element 'x) => #(X X X)",
         "(make-array '(2 2) :initial-contents '((1 2) (3 4))) => #2A((1 2) (3 4))",
+        "(make-array 2 :displaced-to #2A((1 2) (3 4)) :displaced-index-offset 1) => #(2 3)",
     ],
     make_array,
 )];

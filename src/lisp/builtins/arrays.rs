@@ -9,6 +9,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Array;
 use crate::lisp::value::cycles;
+use crate::lisp::value::elements::{Displacement, Elements, displacement};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{checked_element, index, text_of};
@@ -19,7 +20,7 @@ type Outcome = Result<Value, Box<Raise>>;
 /// Sizes of an array's dimensions; a fill pointer does not count.
 pub(crate) fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
     match array {
-        Value::Vector(v) => Ok(vec![v.items.borrow().len()]),
+        Value::Vector(v) => Ok(vec![v.items.len()]),
         Value::Str(s) => Ok(vec![s.capacity()]),
         Value::Array(a) => Ok(a.dimensions.borrow().clone()),
         _ => Err(Raise::type_error(array, known::ARRAY)),
@@ -39,7 +40,7 @@ pub(crate) fn element_type(array: &Value) -> Result<Sym, Box<Raise>> {
 /// Index in row-major order of the element with these subscripts.
 fn row_major_index(array: &Value, subscripts: &[Value]) -> Result<usize, Box<Raise>> {
     if let ([subscript], Value::Vector(v)) = (subscripts, array) {
-        let size = v.items.borrow().len();
+        let size = v.items.len();
         return match subscript {
             Value::Int(n) if usize::try_from(*n).is_ok_and(|n| n < size) => index(subscript),
             _ => Err(array_index::invalid(array, subscript, size)),
@@ -72,29 +73,24 @@ fn row_major_index(array: &Value, subscripts: &[Value]) -> Result<usize, Box<Rai
 fn row_major(array: &Value, at: usize) -> Option<Value> {
     match array {
         Value::Vector(v) => v.get(at),
-        Value::Str(s) => s.char_at(at).map(Value::Char),
-        Value::Array(a) => a.items.borrow().get(at).cloned(),
+        Value::Str(s) => s.element(at).map(Value::Char),
+        Value::Array(a) => a.items.get(at),
         _ => None,
     }
 }
 
 fn set_row_major(array: &Value, at: usize, value: &Value) -> Outcome {
     let value = checked_element(element_type(array)?, value.clone())?;
-    match array {
+    let holder = displacement(array).and_then(|displacement| displacement.holder(at));
+    match holder.as_ref().map_or(array, |(holder, _)| holder) {
         Value::Vector(vector) => cycles::note(vector, &value),
         Value::Array(array) => cycles::note(array, &value),
         _ => {}
     }
     let done = match (array, &value) {
         (Value::Vector(v), _) => v.set(at, value.clone()),
-        (Value::Str(s), Value::Char(c)) => s.set_char(at, *c),
-        (Value::Array(a), _) => match a.items.borrow_mut().get_mut(at) {
-            Some(place) => {
-                *place = value.clone();
-                true
-            }
-            None => false,
-        },
+        (Value::Str(s), Value::Char(c)) => s.set_element(at, *c),
+        (Value::Array(a), _) => a.items.set(at, value.clone()),
         _ => false,
     };
     if done {
@@ -104,7 +100,7 @@ fn set_row_major(array: &Value, at: usize, value: &Value) -> Outcome {
     }
 }
 
-fn total_size(array: &Value) -> Result<usize, Box<Raise>> {
+pub(super) fn total_size(array: &Value) -> Result<usize, Box<Raise>> {
     Ok(dimensions(array)?.iter().product())
 }
 
@@ -240,7 +236,11 @@ fn adjustable_array_p(_: &mut Image, args: &[Value]) -> Outcome {
 
 fn array_displacement(_: &mut Image, args: &[Value]) -> Outcome {
     element_type(&args[0])?;
-    Ok(Value::values(vec![Value::NIL, Value::Int(0)]))
+    let (target, offset) = match displacement(&args[0]) {
+        Some(displacement) => (displacement.target.clone(), displacement.offset),
+        None => (Value::NIL, 0),
+    };
+    Ok(Value::values(vec![target, offset.into()]))
 }
 
 fn arrayp(_: &mut Image, args: &[Value]) -> Outcome {
@@ -256,7 +256,7 @@ fn vectorp(_: &mut Image, args: &[Value]) -> Outcome {
 
 /// Is this a vector without a fill pointer whose elements may be anything?
 fn is_simple_vector(value: &Value) -> bool {
-    matches!(value, Value::Vector(v) if v.element_type == known::T) && !is_adjustable(value)
+    matches!(value, Value::Vector(v) if v.element_type == known::T && v.is_simple())
 }
 
 fn simple_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
@@ -272,9 +272,9 @@ fn bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn simple_bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(
-        is_bit_vector(&args[0]) && !is_adjustable(&args[0]),
-    ))
+    let simple =
+        matches!(&args[0], Value::Vector(v) if v.element_type == known::BIT && v.is_simple());
+    Ok(Value::bool(simple))
 }
 
 fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
@@ -289,6 +289,14 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
         )));
     }
     let of_type = element_type(&args[0])?;
+    if options.element_type.is_some_and(|wanted| wanted != of_type) {
+        return Err(Raise::simple(
+            "An array cannot be given another type of elements.",
+        ));
+    }
+    if let Some(displacement) = options.displacement(of_type, &shape)? {
+        return displaced(&args[0], of_type, shape, displacement, &options);
+    }
     let items = match &options.contents {
         Some(contents) => array_make::flatten(contents, &shape)?,
         None => {
@@ -316,7 +324,7 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
         }
         Value::Vector(v) if is_adjustable(&args[0]) => {
             let count = items.len();
-            *v.items.borrow_mut() = items;
+            v.items.own(items);
             if let Some(old) = v.fill_pointer.get() {
                 let pointer = options.fill_pointer(count)?.unwrap_or(old.min(count));
                 v.fill_pointer.set(Some(pointer));
@@ -325,13 +333,13 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
         }
         Value::Array(a) if a.adjustable => {
             *a.dimensions.borrow_mut() = shape;
-            *a.items.borrow_mut() = items;
+            a.items.own(items);
             Ok(args[0].clone())
         }
         Value::Array(a) => Ok(Value::Array(Rc::new(Array {
             dimensions: std::cell::RefCell::new(shape),
             adjustable: options.adjustable,
-            items: std::cell::RefCell::new(items),
+            items: Elements::new(items),
             element_type: a.element_type,
         }))),
         _ => {
@@ -339,6 +347,46 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
             array_make::vector(of_type, items, pointer, options.adjustable)
         }
     }
+}
+
+/// ADJUST-ARRAY that makes an array a part of another one.
+fn displaced(
+    array: &Value,
+    of_type: Sym,
+    shape: Vec<usize>,
+    displacement: Displacement,
+    options: &array_make::Options,
+) -> Outcome {
+    if !is_adjustable(array) {
+        return array_make::displaced(of_type, shape, displacement, options);
+    }
+    if displacement.leads_to(array) {
+        return Err(Raise::simple("An array cannot be displaced to itself."));
+    }
+    let size = displacement.size;
+    let pointer = options.fill_pointer(size)?;
+    match array {
+        Value::Str(s) => {
+            s.displace(displacement);
+            if s.has_fill_pointer.get() {
+                s.set_fill_pointer(pointer.unwrap_or(s.len()));
+            } else {
+                s.set_length(size);
+            }
+        }
+        Value::Vector(v) => {
+            v.items.displace(displacement);
+            if let Some(old) = v.fill_pointer.get() {
+                v.fill_pointer.set(Some(pointer.unwrap_or(old.min(size))));
+            }
+        }
+        Value::Array(a) => {
+            *a.dimensions.borrow_mut() = shape;
+            a.items.displace(displacement);
+        }
+        _ => {}
+    }
+    Ok(array.clone())
 }
 
 /// The elements of an array in a new shape; places that the old one lacks get a filler.
@@ -461,13 +509,16 @@ pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "ARRAY-DISPLACEMENT",
         "array",
-        "The array that an array shares its elements with (there is none), and the offset.",
-        &["(array-displacement #(1)) => NIL ; 0"],
+        "The array that an array shares its elements with, or `NIL`, and the index of the first of them.",
+        &[
+            "(array-displacement #(1)) => NIL ; 0",
+            "(array-displacement (make-array 2 :displaced-to #(1 2 3) :displaced-index-offset 1)) => #(1 2 3) ; 1",
+        ],
         array_displacement,
     ),
     pure(
         "ADJUST-ARRAY",
-        "array dimensions &key initial-element initial-contents fill-pointer element-type",
+        "array dimensions &key initial-element initial-contents fill-pointer element-type displaced-to displaced-index-offset",
         "An array of another size with the same elements; an adjustable vector is changed itself.",
         &["(adjust-array (make-array 2 :initial-element 1) 3 :initial-element 0) => #(1 1 0)"],
         adjust_array,

@@ -1,6 +1,5 @@
 //! Bit arrays: the logical operations on all bits.
 
-use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::array_make;
@@ -23,7 +22,7 @@ fn bits(array: &Value) -> Result<Vec<bool>, Box<Raise>> {
     }
     Ok(match array {
         Value::Vector(v) => to_bits(&v.to_vec()),
-        Value::Array(a) => to_bits(&a.items.borrow()),
+        Value::Array(a) => to_bits(&a.items.to_vec()),
         _ => Vec::new(),
     })
 }
@@ -35,12 +34,12 @@ fn deliver(operand: &Value, result: Option<&Value>, bits: &[bool]) -> Outcome {
     let target = match result {
         None | Some(Value::Symbol(known::NIL, ..)) => {
             if let Value::Array(a) = operand {
-                return Ok(Value::Array(Rc::new(Array {
-                    dimensions: a.dimensions.clone(),
-                    adjustable: false,
-                    items: RefCell::new(items),
-                    element_type: known::BIT,
-                })));
+                let dimensions = a.dimensions.borrow().clone();
+                return Ok(Value::Array(Rc::new(Array::new(
+                    known::BIT,
+                    dimensions,
+                    items,
+                ))));
             }
             return array_make::vector(known::BIT, items, None, false);
         }
@@ -54,8 +53,8 @@ fn deliver(operand: &Value, result: Option<&Value>, bits: &[bool]) -> Outcome {
         Value::Array(a) => &a.items,
         other => return Err(Raise::type_error(other, bit_array_type())),
     };
-    for (place, item) in places.borrow_mut().iter_mut().zip(items) {
-        *place = item;
+    for (index, item) in items.into_iter().enumerate() {
+        places.set(index, item);
     }
     Ok(target.clone())
 }

@@ -107,7 +107,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "condition",
         "The file that an error is about.",
         &[
-            "(handler-case (open \"no-such-file\") (file-error (c) (file-error-pathname c))) => \"no-such-file\"",
+            "(handler-case (open \"no-such-file\") (file-error (c) (file-error-pathname c))) => #P\"no-such-file\"",
         ],
         |_, args| read(args, known::FILE_ERROR, known::PATHNAME),
     ),

@@ -299,10 +299,10 @@ fn compile_function(image: &mut Image, args: &[Value]) -> Result<Value> {
 }
 
 fn special_operator_p(image: &mut Image, args: &[Value]) -> Result<Value> {
-    let is_special = args[0]
-        .as_symbol()
-        .and_then(|s| image.operator(s))
-        .is_some_and(|o| o.expand.is_none());
+    let Some(name) = args[0].as_symbol() else {
+        return Err(Raise::type_error(&args[0], known::SYMBOL));
+    };
+    let is_special = image.operator(name).is_some_and(|o| o.expand.is_none());
     Ok(is_special.into())
 }
 

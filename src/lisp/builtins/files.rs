@@ -1,9 +1,10 @@
-//! Files: opening, finding, deleting, renaming. Names are strings, relative to the
-//! directory that the program was started in; texts are UTF-8.
+//! Files, by the names that the machine knows them by: opening, finding, deleting, renaming. Relative
+//! names begin in the directory that the program was started in; texts are UTF-8.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufWriter, Error, ErrorKind};
 use std::rc::Rc;
+use std::time::UNIX_EPOCH;
 
 use super::keywords;
 use super::shown::shown;
@@ -14,12 +15,22 @@ use crate::lisp::image::Image;
 use crate::lisp::stream::{Stream, StreamKind};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::lisp::value::pathname::Pathname;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::stream::Elements;
 
 type Outcome = Result<Value, Box<Raise>>;
 
 fn path(value: &Value) -> Result<String, Box<Raise>> {
-    Ok(string(value)?.text())
+    let path = string(value)?.text();
+    if path.contains('*') {
+        return Err(Raise::new(
+            known::FILE_ERROR,
+            format!("\"{path}\" stands for several files; one is needed here."),
+        )
+        .with(known::K_PATHNAME, Value::foreign(Pathname::parse(&path))));
+    }
+    Ok(path)
 }
 
 /// Why a file could not be used; not in the system's own words where these differ between platforms.
@@ -40,13 +51,24 @@ fn file_error(doing: &str, path: &str, error: &Error) -> Box<Raise> {
         known::FILE_ERROR,
         format!("Error {doing} \"{path}\": {}.", reason(error)),
     )
-    .with(known::K_PATHNAME, Value::string(path))
+    .with(known::K_PATHNAME, Value::foreign(Pathname::parse(path)))
+}
+
+/// What the elements of a file are: characters, or so many bits, with a sign if negative.
+fn elements(size: &Value) -> Elements {
+    match size {
+        Value::Int(bits) => Elements::Integers {
+            bits: u32::try_from(bits.unsigned_abs()).unwrap_or(u32::MAX),
+            signed: *bits < 0,
+        },
+        _ => Elements::Characters,
+    }
 }
 
 fn open(image: &mut Image, args: &[Value]) -> Outcome {
     let [direction, if_exists, if_does_not_exist, _, _] = keywords::parse(
         image,
-        &args[1..],
+        &args[2..],
         [
             known::K_DIRECTION,
             known::K_IF_EXISTS,
@@ -56,43 +78,99 @@ fn open(image: &mut Image, args: &[Value]) -> Outcome {
         ],
     )?;
     let path = path(&args[0])?;
-    match direction.as_ref() {
+    let elements = elements(&args[1]);
+    let kind = match direction.as_ref() {
         None | Some(Value::Symbol(known::K_INPUT, ..)) => {
-            open_input(&path, if_does_not_exist.as_ref())
+            open_input(&path, elements, if_does_not_exist.as_ref())?
         }
         Some(Value::Symbol(known::K_OUTPUT, ..)) => {
-            open_output(image, &path, if_exists.as_ref(), if_does_not_exist.as_ref())
+            open_output(image, &path, if_exists.as_ref(), if_does_not_exist.as_ref())?
         }
-        Some(Value::Symbol(known::K_PROBE, ..)) => {
-            let exists = fs::metadata(&path).is_ok();
-            let stream = Stream::new(StreamKind::Closed);
-            Ok(if exists {
-                Value::Stream(Rc::new(stream))
-            } else {
-                Value::NIL
-            })
+        Some(Value::Symbol(known::K_IO, ..)) => {
+            open_both(image, &path, if_exists.as_ref(), if_does_not_exist.as_ref())?
         }
-        Some(other) => Err(Raise::simple(format!(
-            "{} is no direction to open a file in; :INPUT, :OUTPUT and :PROBE are.",
-            shown(image, other)
-        ))),
-    }
+        Some(Value::Symbol(known::K_PROBE, ..)) => open_probe(&path, if_does_not_exist.as_ref())?,
+        Some(other) => {
+            return Err(Raise::simple(format!(
+                "{} is no direction to open a file in; :INPUT, :OUTPUT, :IO and :PROBE are.",
+                shown(image, other)
+            )));
+        }
+    };
+    Ok(kind.map_or(Value::NIL, |kind| {
+        Value::Stream(Rc::new(Stream::of_file(kind, &path, elements)))
+    }))
 }
 
-fn open_input(path: &str, if_does_not_exist: Option<&Value>) -> Outcome {
-    let read = || fs::read_to_string(path);
-    let text = match read() {
-        Err(error) if error.kind() == ErrorKind::NotFound => match if_does_not_exist {
-            Some(Value::Symbol(known::NIL, ..)) => return Ok(Value::NIL),
+type Opened = Result<Option<StreamKind>, Box<Raise>>;
+
+/// Looks whether a file is there.
+fn open_probe(path: &str, if_does_not_exist: Option<&Value>) -> Opened {
+    if fs::metadata(path).is_err() {
+        match if_does_not_exist {
+            Some(Value::Symbol(known::K_ERROR, ..)) => {
+                let error = Error::from(ErrorKind::NotFound);
+                return Err(file_error("opening", path, &error));
+            }
             Some(Value::Symbol(known::K_CREATE, ..)) => {
                 File::create(path).map_err(|error| file_error("creating", path, &error))?;
-                String::new()
+            }
+            _ => return Ok(None),
+        }
+    }
+    Ok(Some(StreamKind::Closed))
+}
+
+fn open_input(path: &str, elements: Elements, if_does_not_exist: Option<&Value>) -> Opened {
+    let bytes = match fs::read(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => match if_does_not_exist {
+            Some(Value::Symbol(known::NIL, ..)) => return Ok(None),
+            Some(Value::Symbol(known::K_CREATE, ..)) => {
+                File::create(path).map_err(|error| file_error("creating", path, &error))?;
+                Vec::new()
             }
             _ => return Err(file_error("opening", path, &error)),
         },
         result => result.map_err(|error| file_error("opening", path, &error))?,
     };
-    Ok(Value::Stream(Rc::new(Stream::from_text(text))))
+    if elements != Elements::Characters {
+        return Ok(Some(StreamKind::FileContents {
+            bytes,
+            position: 0,
+            changed: None,
+        }));
+    }
+    let text = String::from_utf8(bytes)
+        .map_err(|_| file_error("opening", path, &Error::from(ErrorKind::InvalidData)))?;
+    Ok(Some(StreamKind::StringInput {
+        text: text.into(),
+        position: 0,
+    }))
+}
+
+/// Opens a file for both directions. What is written is in the file once the stream is closed, or its
+/// output finished.
+fn open_both(
+    image: &Image,
+    path: &str,
+    if_exists: Option<&Value>,
+    if_does_not_exist: Option<&Value>,
+) -> Opened {
+    // Opening it for writing creates or empties it, as is wished.
+    let Some(kind) = open_output(image, path, if_exists, if_does_not_exist)? else {
+        return Ok(None);
+    };
+    drop(kind);
+    let bytes = fs::read(path).map_err(|error| file_error("opening", path, &error))?;
+    let position = match if_exists {
+        Some(Value::Symbol(known::K_APPEND, ..)) => bytes.len(),
+        _ => 0,
+    };
+    Ok(Some(StreamKind::FileContents {
+        bytes,
+        position,
+        changed: Some(false),
+    }))
 }
 
 fn open_output(
@@ -100,13 +178,13 @@ fn open_output(
     path: &str,
     if_exists: Option<&Value>,
     if_does_not_exist: Option<&Value>,
-) -> Outcome {
+) -> Opened {
     let exists = fs::metadata(path).is_ok();
     let mut options = OpenOptions::new();
     options.write(true);
     if exists {
         match if_exists {
-            Some(Value::Symbol(known::NIL, ..)) => return Ok(Value::NIL),
+            Some(Value::Symbol(known::NIL, ..)) => return Ok(None),
             None | Some(Value::Symbol(known::K_ERROR, ..)) => {
                 let error = Error::from(ErrorKind::AlreadyExists);
                 return Err(file_error("opening", path, &error));
@@ -128,8 +206,14 @@ fn open_output(
             }
         };
     } else {
-        match if_does_not_exist {
-            Some(Value::Symbol(known::NIL, ..)) => return Ok(Value::NIL),
+        // A file to which something is to be added, or of which a part is to be replaced, must exist.
+        let needs_file = matches!(
+            if_exists,
+            Some(Value::Symbol(known::K_APPEND | known::K_OVERWRITE, ..))
+        );
+        let default = needs_file.then(|| Value::from(known::K_ERROR));
+        match if_does_not_exist.or(default.as_ref()) {
+            Some(Value::Symbol(known::NIL, ..)) => return Ok(None),
             Some(Value::Symbol(known::K_ERROR, ..)) => {
                 let error = Error::from(ErrorKind::NotFound);
                 return Err(file_error("opening", path, &error));
@@ -140,22 +224,32 @@ fn open_output(
     let file = options
         .open(path)
         .map_err(|error| file_error("opening", path, &error))?;
-    Ok(Value::Stream(Rc::new(Stream::new(
-        StreamKind::FileOutput {
-            file: BufWriter::new(file),
-            column: 0,
-            position: 0,
-        },
-    ))))
+    let position = match (exists, if_exists) {
+        (true, Some(Value::Symbol(known::K_APPEND, ..))) => {
+            fs::metadata(path).map_or(0, |data| data.len())
+        }
+        _ => 0,
+    };
+    Ok(Some(StreamKind::FileOutput {
+        file: BufWriter::new(file),
+        column: 0,
+        position,
+    }))
 }
 
-fn probe_file(_: &mut Image, args: &[Value]) -> Outcome {
+/// The name of a file without links, or `NIL` if there is no such file; that of a folder ends with a slash.
+fn true_name(_: &mut Image, args: &[Value]) -> Outcome {
     let path = path(&args[0])?;
-    Ok(if fs::metadata(&path).is_ok() {
-        args[0].clone()
-    } else {
-        Value::NIL
-    })
+    let here = if path.is_empty() { "." } else { path.as_str() };
+    let Some(found) = fs::canonicalize(here)
+        .ok()
+        .and_then(|found| found.into_os_string().into_string().ok())
+    else {
+        return Ok(Value::NIL);
+    };
+    let is_folder = fs::metadata(&found).is_ok_and(|data| data.is_dir());
+    let needs_slash = is_folder && !found.ends_with('/');
+    Ok(Value::string(if needs_slash { found + "/" } else { found }))
 }
 
 fn delete_file(_: &mut Image, args: &[Value]) -> Outcome {
@@ -167,15 +261,34 @@ fn delete_file(_: &mut Image, args: &[Value]) -> Outcome {
 fn rename_file(_: &mut Image, args: &[Value]) -> Outcome {
     let (old, new) = (path(&args[0])?, path(&args[1])?);
     fs::rename(&old, &new).map_err(|error| file_error("renaming", &old, &error))?;
-    Ok(Value::values(vec![
-        args[1].clone(),
-        args[0].clone(),
-        args[1].clone(),
-    ]))
+    Ok(Value::T)
+}
+
+/// Seconds from the beginning of universal time, 1900, to that of the machine's, 1970.
+const UNIVERSAL_TO_UNIX: u64 = 2_208_988_800;
+
+fn file_date(_: &mut Image, args: &[Value]) -> Outcome {
+    let path = path(&args[0])?;
+    let written = fs::metadata(&path)
+        .and_then(|data| data.modified())
+        .map_err(|error| file_error("looking at", &path, &error))?;
+    let since = written.duration_since(UNIX_EPOCH).unwrap_or_default();
+    let date = i64::try_from(since.as_secs() + UNIVERSAL_TO_UNIX);
+    Ok(date.map_or(Value::NIL, Value::Int))
+}
+
+/// Makes a folder and those around it; was it missing?
+fn make_directories(_: &mut Image, args: &[Value]) -> Outcome {
+    let path = path(&args[0])?;
+    if path.is_empty() || fs::metadata(&path).is_ok_and(|data| data.is_dir()) {
+        return Ok(Value::NIL);
+    }
+    fs::create_dir_all(&path).map_err(|error| file_error("making", &path, &error))?;
+    Ok(Value::T)
 }
 
 fn file_names(_: &mut Image, args: &[Value]) -> Outcome {
-    let folder = path(&args[0])?;
+    let folder = string(&args[0])?.text();
     let Ok(entries) = fs::read_dir(&folder) else {
         return Ok(Value::NIL);
     };
@@ -218,30 +331,40 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         &["(system:closest-name \"iterat\" '(\"fiveam\" \"iterate\")) => \"iterate\""],
         closest,
     ),
-];
-
-/// Files.
-pub(crate) static TABLE: &[Builtin] = &[
     pure(
-        "OPEN",
-        "path &key direction if-exists if-does-not-exist element-type external-format",
-        "Opens a file for reading (the default) or writing; `with-open-file` closes it again.",
-        &["(open \"no-such-file.txt\" :if-does-not-exist nil) => NIL"],
+        "%OPEN-FILE",
+        "name size &key direction if-exists if-does-not-exist element-type external-format",
+        "Opens a file. The size is that of its elements in bits, negative if they have a sign; `NIL` for characters.",
+        &["(system::%open-file \"no-such-file.txt\" nil :if-does-not-exist nil) => NIL"],
         open,
     ),
     pure(
-        "PROBE-FILE",
-        "path",
-        "The path if there is such a file, else `NIL`.",
-        &["(probe-file \"no-such-file.txt\") => NIL"],
-        probe_file,
+        "%TRUE-NAME",
+        "name",
+        "The name of a file without links, or `NIL`.",
+        &["(system::%true-name \"no-such-file.txt\") => NIL"],
+        true_name,
     ),
-    pure("DELETE-FILE", "path", "Deletes a file.", &[], delete_file),
+    pure("%DELETE-FILE", "name", "Deletes a file.", &[], delete_file),
     pure(
-        "RENAME-FILE",
-        "path new-path",
+        "%RENAME-FILE",
+        "name new-name",
         "Renames a file.",
         &[],
         rename_file,
+    ),
+    pure(
+        "%FILE-DATE",
+        "name",
+        "The universal time at which a file was written last.",
+        &[],
+        file_date,
+    ),
+    pure(
+        "%MAKE-DIRECTORIES",
+        "name",
+        "Makes a folder and those around it; was it missing?",
+        &["(system::%make-directories \"\") => NIL"],
+        make_directories,
     ),
 ];

@@ -44,7 +44,7 @@ fn set_fill_pointer(_: &mut Image, args: &[Value]) -> Outcome {
     let pointer = index(&args[0])?;
     let (done, size) = match vector {
         Value::Vector(v) => {
-            let size = v.items.borrow().len();
+            let size = v.items.len();
             if pointer <= size {
                 v.fill_pointer.set(Some(pointer));
             }
@@ -84,18 +84,15 @@ fn push(value: &Value, vector: &Value, extension: Option<usize>) -> Outcome {
         Value::Vector(v) => {
             let value = element(v, value.clone())?;
             cycles::note(v, &value);
-            let mut items = v.items.borrow_mut();
-            if pointer >= items.len() {
+            let size = v.items.len();
+            if pointer >= size {
                 let Some(extension) = extension else {
                     return Ok(Value::NIL);
                 };
                 let filler = super::array_make::filler(v.element_type);
-                let grown = items.len() + extension.max(items.len());
-                items.resize(grown, filler);
+                v.items.resize(size + extension.max(size), filler);
             }
-            if let Some(place) = items.get_mut(pointer) {
-                *place = value;
-            }
+            v.set(pointer, value);
             v.fill_pointer.set(Some(pointer + 1));
         }
         Value::Str(s) => {

@@ -7,7 +7,9 @@ use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::reader::{Outcome, Reader};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::lisp::value::pathname::{Pathname, file_name};
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::run;
 use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine::Machine;
@@ -28,12 +30,18 @@ pub(crate) static TABLE: &[Builtin] = &[control(
 pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Result<Step> {
     let source = machine.image.sources.add(name, text);
     let mut reader = Reader::new(machine.image, source);
-    // The file may change the current package; the caller's is restored afterwards.
-    let package = machine.image.special(known::V_PACKAGE).clone();
-    machine
-        .fiber
-        .dynamic
-        .push(Dynamic::Bind(known::V_PACKAGE, package));
+    // The file may change these variables; the caller's values are restored afterwards.
+    for variable in BOUND {
+        let outside = machine.image.special(variable).clone();
+        machine.fiber.dynamic.push(Dynamic::Bind(variable, outside));
+    }
+    let file = Value::foreign(Pathname::parse(name));
+    machine.image.set_special(known::V_LOAD_PATHNAME, file);
+    let absolute = std::fs::canonicalize(name).ok();
+    let truename = absolute.map_or(Value::NIL, |path| {
+        Value::foreign(Pathname::parse(&path.to_string_lossy()))
+    });
+    machine.image.set_special(known::V_LOAD_TRUENAME, truename);
     run(machine, "LOAD", |calls| async move {
         let eval = Value::from(known::EVAL);
         let mut supplied = None;
@@ -55,7 +63,7 @@ pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Re
                 }
                 Outcome::Evaluate(form) => Some(calls.call1(&eval, form).await),
                 Outcome::End => {
-                    calls.with(restore_package).await;
+                    calls.with(restore).await;
                     return Ok(Value::T);
                 }
             };
@@ -63,22 +71,52 @@ pub(crate) fn load_text(machine: &mut Machine<'_>, name: &str, text: &str) -> Re
     })
 }
 
-/// Undoes the binding of `*package*` that loading made: the innermost dynamic entry.
-fn restore_package(machine: &mut Machine<'_>) {
-    if let Some(Dynamic::Bind(known::V_PACKAGE, _)) = machine.fiber.dynamic.last()
-        && let Some(Dynamic::Bind(sym, outside)) = machine.fiber.dynamic.pop()
-    {
-        machine.image.set_special(sym, outside);
+/// The variables that loading a file binds.
+const BOUND: [Sym; 4] = [
+    known::V_PACKAGE,
+    known::V_READTABLE,
+    known::V_LOAD_PATHNAME,
+    known::V_LOAD_TRUENAME,
+];
+
+/// Undoes the bindings that loading made: the innermost dynamic entries.
+fn restore(machine: &mut Machine<'_>) {
+    for variable in BOUND.into_iter().rev() {
+        if let Some(Dynamic::Bind(bound, _)) = machine.fiber.dynamic.last()
+            && *bound == variable
+            && let Some(Dynamic::Bind(sym, outside)) = machine.fiber.dynamic.pop()
+        {
+            machine.image.set_special(sym, outside);
+        }
     }
 }
 
 fn load(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step> {
-    let Some(path) = args[0].as_text() else {
+    if let Value::Stream(stream) = &args[0] {
+        let name = stream.file.as_deref().unwrap_or("stream").to_owned();
+        let (text, from) = crate::lisp::stream::rest(machine.image, &args[0])?;
+        let text = text.get(from..).unwrap_or_default();
+        crate::lisp::stream::advance(machine.image, &args[0], text.len())?;
+        return load_text(machine, &name, text);
+    }
+    let Some(path) = file_name(&args[0]) else {
         return Err(Raise::type_error(&args[0], known::STRING));
     };
     let path = beside(machine, &path).unwrap_or(path);
-    let text = read_file(&path)?;
+    let text = match read_file(&path) {
+        Err(_) if may_be_missing(&args[1..]) => return Ok(Step::Return(Value::NIL)),
+        result => result?,
+    };
     load_text(machine, &path, &text)
+}
+
+/// Do the arguments say that LOAD returns NIL if there is no such file?
+fn may_be_missing(args: &[Value]) -> bool {
+    let mut pairs = args.chunks(2);
+    pairs.any(|pair| match pair {
+        [Value::Symbol(known::K_IF_DOES_NOT_EXIST, ..), value] => value.is_nil(),
+        _ => false,
+    })
 }
 
 /// The file of that name in the folder of the file whose form is being evaluated, if there
@@ -113,6 +151,6 @@ fn read_file(path: &str) -> Result<String> {
             known::FILE_ERROR,
             format!("The file {path:?} cannot be read: {}.", reason(&error)),
         )
-        .with(known::K_PATHNAME, path.into())
+        .with(known::K_PATHNAME, Value::foreign(Pathname::parse(path)))
     })
 }

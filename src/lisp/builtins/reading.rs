@@ -6,7 +6,7 @@ use super::keywords;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
-use crate::lisp::reader::readtable::Readtable;
+use crate::lisp::reader::readtable::{LetterCase, Readtable};
 use crate::lisp::reader::{Completeness, ReadError, Reader, is_complete};
 use crate::lisp::stream::{self, Stream};
 use crate::lisp::value::Value;
@@ -68,10 +68,13 @@ pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "READTABLE-CASE",
         "readtable",
-        "What the reader does with letters: it upcases them.",
-        &["(readtable-case *readtable*) => :UPCASE"],
+        "What the reader does with letters that are not escaped: `:upcase`, `:downcase`, `:preserve` or `:invert`.",
+        &[
+            "(readtable-case *readtable*) => :UPCASE",
+            "(let ((*readtable* (copy-readtable nil))) (setf (readtable-case *readtable*) :preserve) (symbol-name (read-from-string \"Cup\"))) => \"Cup\"",
+        ],
         |_, args| match args[0].as_foreign::<Readtable>() {
-            Some(_) => Ok(known::K_UPCASE.into()),
+            Some(table) => Ok(table.case.get().keyword().into()),
             None => Err(Raise::type_error(&args[0], known::READTABLE)),
         },
     ),
@@ -114,6 +117,34 @@ pub(crate) static TABLE: &[Builtin] = &[
         },
     ),
 ];
+
+/// Places for `setf`; the new value is the first argument.
+pub(crate) static SETTERS: &[Builtin] = &[pure(
+    "READTABLE-CASE",
+    "case readtable",
+    "Sets what the reader does with letters.",
+    &[],
+    |_, args| {
+        let Some(table) = args[1].as_foreign::<Readtable>() else {
+            return Err(Raise::type_error(&args[1], known::READTABLE));
+        };
+        let Some(case) = args[0].as_symbol().and_then(LetterCase::named) else {
+            let names = [
+                known::K_UPCASE,
+                known::K_DOWNCASE,
+                known::K_PRESERVE,
+                known::K_INVERT,
+            ];
+            let expected = [known::MEMBER].into_iter().chain(names).map(Value::symbol);
+            return Err(Raise::type_error(
+                &args[0],
+                Value::list(expected.collect::<Vec<_>>()),
+            ));
+        };
+        table.case.set(case);
+        Ok(args[0].clone())
+    },
+)];
 
 /// Gives `*readtable*` its value.
 pub(crate) fn define_variables(image: &mut Image) {

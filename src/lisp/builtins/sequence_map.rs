@@ -72,7 +72,7 @@ fn map_into(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Rai
     let mut side = Side::new(&args[2..])?;
     // A vector with a fill pointer is filled up to its full size.
     let room = match &target {
-        Sequence::Vector(vector) => vector.items.borrow().len(),
+        Sequence::Vector(vector) => vector.items.len(),
         Sequence::Str(string) => string.capacity(),
         other => other.len()?,
     };

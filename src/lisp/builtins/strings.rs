@@ -55,7 +55,7 @@ fn stringp(_: &mut Image, args: &[Value]) -> Outcome {
 
 fn simple_string_p(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(
-        matches!(&args[0], Value::Str(s) if !s.has_fill_pointer.get()),
+        matches!(&args[0], Value::Str(s) if s.is_simple()),
     ))
 }
 
@@ -72,19 +72,19 @@ fn make_string(image: &mut Image, args: &[Value]) -> Outcome {
 
 fn char_at(_: &mut Image, args: &[Value]) -> Outcome {
     let string = string(&args[0])?;
-    match string.char_at(index(&args[1])?) {
+    match string.element(index(&args[1])?) {
         Some(c) => Ok(Value::Char(c)),
-        None => Err(array_index::invalid(&args[0], &args[1], string.len())),
+        None => Err(array_index::invalid(&args[0], &args[1], string.capacity())),
     }
 }
 
 fn set_char_at(_: &mut Image, args: &[Value]) -> Outcome {
     let string = string(&args[1])?;
     let c = character(&args[0])?;
-    if string.set_char(index(&args[2])?, c) {
+    if string.set_element(index(&args[2])?, c) {
         Ok(args[0].clone())
     } else {
-        Err(array_index::invalid(&args[1], &args[2], string.len()))
+        Err(array_index::invalid(&args[1], &args[2], string.capacity()))
     }
 }
 

@@ -65,8 +65,8 @@ pub(crate) static TABLE: &[Builtin] = &[
 /// Builtins of the package `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[pure(
     "%DEFINE-TYPE",
-    "name expander",
-    "Defines a type whose specifiers the expander turns, from the list of their arguments, into others.",
+    "name expander alone",
+    "Defines a type whose specifiers the expander turns, from the list of their arguments, into others. The last argument is a list of what the name stands for by itself, if that is known.",
     &[],
     define_type,
 )];
@@ -118,6 +118,10 @@ fn define_type(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
                 )));
             }
             image.types.insert(*name, expander.clone());
+            match &args[2] {
+                Value::Cons(known) => image.type_names.insert(*name, known.car()),
+                _ => image.type_names.shift_remove(name),
+            };
             Ok(args[0].clone())
         }
         (name, _) => Err(Raise::type_error(name, Value::symbol(known::SYMBOL))),

@@ -41,6 +41,7 @@ impl Image {
             packages: self.packages.clone(),
             classes: named(&self.classes, copier),
             types: named(&self.types, copier),
+            type_names: named(&self.type_names, copier),
             sources: self.sources.clone(),
             output: output.unwrap_or_else(|| {
                 copier.refuse("output that nobody has been shown");

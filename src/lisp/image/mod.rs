@@ -48,6 +48,8 @@ pub(crate) struct Image {
     pub(crate) classes: IndexMap<Sym, Rc<Class>>,
     /// Expanders of `deftype`, by name.
     pub(crate) types: IndexMap<Sym, Rc<Function>>,
+    /// What names of `deftype` stand for by themselves, without arguments.
+    pub(crate) type_names: IndexMap<Sym, Value>,
     /// Source texts and places.
     pub(crate) sources: Sources,
     /// Text written to standard output that has not been taken yet.
@@ -109,6 +111,7 @@ impl Image {
             packages,
             classes: IndexMap::new(),
             types: IndexMap::new(),
+            type_names: IndexMap::new(),
             sources: Sources::default(),
             output: Output::default(),
             input: Input::default(),

@@ -1,4 +1,4 @@
-;;;; ALEXANDRIA: streams and files of text.
+;;;; ALEXANDRIA: streams and files.
 
 (in-package :alexandria)
 
@@ -24,19 +24,18 @@
     (error "WITH-OUTPUT-TO-FILE takes no :DIRECTION: it is :OUTPUT."))
   `(with-open-file (,stream ,file :direction :output ,@options) ,@body))
 
-(defun copy-stream (input output &key (element-type 'character) (buffer-size 4096)
-                                   (buffer (make-string buffer-size))
+(defun copy-stream (input output &key (element-type (stream-element-type input))
+                                   (buffer-size 4096)
+                                   (buffer (make-array buffer-size :element-type element-type))
                                    (start 0) end finish-output)
-  "Copies the characters from `start` to `end` of a stream to another; how many were copied.
+  "Copies the elements from `start` to `end` of a stream to another; how many were copied.
   Examples:
   (with-output-to-string (o) (with-input-from-string (i \"abc\") (alexandria:copy-stream i o :start 1))) => \"bc\""
-  (unless (subtypep element-type 'character)
-    (error "Streams have characters, not elements of the type ~s." element-type))
   (when (and end (< end start))
     (error "The end ~s lies before the start ~s." end start))
   (loop repeat start
-        unless (read-char input nil)
-          do (error "The stream has less than ~d characters." start))
+        unless (if (subtypep element-type 'character) (read-char input nil) (read-byte input nil))
+          do (error "The stream has less than ~d elements." start))
   (let ((copied 0))
     (loop
       (let* ((wanted (if end
@@ -49,13 +48,42 @@
           (when finish-output (finish-output output))
           (return copied))))))
 
-(defun copy-file (from to &key (if-to-exists :supersede) (element-type 'character) finish-output)
-  "Copies a text file; how many characters were copied.
+(defun copy-file (from to &key (if-to-exists :supersede) (element-type '(unsigned-byte 8))
+                             finish-output)
+  "Copies a file; how many elements were copied.
   Examples:
   (handler-case (alexandria:copy-file \"no-such-file.txt\" \"copy.txt\") (file-error () 'no-file)) => NO-FILE"
-  (with-input-from-file (input from)
-    (with-output-to-file (output to :if-exists if-to-exists)
+  (with-input-from-file (input from :element-type element-type)
+    (with-output-to-file (output to :if-exists if-to-exists :element-type element-type)
       (copy-stream input output :element-type element-type :finish-output finish-output))))
+
+(defun read-stream-content-into-byte-vector (stream &key length (initial-size 4096))
+  "What a stream of bytes still has, as a vector; if there is a limit, no more than that.
+  Examples:
+  (handler-case (alexandria:read-stream-content-into-byte-vector (make-string-input-stream \"a\")) (stream-error () 'characters)) => CHARACTERS"
+  (check-type length (or null (integer 0)))
+  (check-type initial-size (integer 1))
+  (coerce (loop repeat (or length most-positive-fixnum)
+                for byte = (read-byte stream nil)
+                while byte collect byte)
+          '(vector (unsigned-byte 8))))
+
+(defun read-file-into-byte-vector (file)
+  "The bytes of a file.
+  Examples:
+  (handler-case (alexandria:read-file-into-byte-vector \"no-such-file.txt\") (file-error () 'no-file)) => NO-FILE"
+  (with-input-from-file (stream file :element-type '(unsigned-byte 8))
+    (read-stream-content-into-byte-vector stream)))
+
+(defun write-byte-vector-into-file (bytes file &key (if-exists :error) if-does-not-exist)
+  "Writes bytes into a file; the bytes.
+  Examples:
+  (handler-case (alexandria:write-byte-vector-into-file #(1) \"no-such-folder/a\") (file-error () 'no-folder)) => NO-FOLDER"
+  (check-type bytes vector)
+  (with-output-to-file (stream file :if-exists if-exists
+                                    :if-does-not-exist (or if-does-not-exist :create)
+                                    :element-type '(unsigned-byte 8))
+    (write-sequence bytes stream)))
 
 (defun read-stream-content-into-string (stream &key (buffer-size 4096))
   "What a stream still has, as a string.

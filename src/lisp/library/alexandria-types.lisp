@@ -35,7 +35,8 @@
                (%define-type (find-symbol name :alexandria)
                              (lambda (arguments)
                                (declare (ignore arguments))
-                               specifier))))))
+                               specifier)
+                             (list specifier))))))
 
 (defun %number-type (base low high)
   "The type of the numbers of a base type within limits, in which ZERO is the zero of that type."

@@ -1,132 +1,169 @@
-;;; Names of files: chapter 19 of the standard. A pathname is a string; directories are separated
-;;; by slashes, and a name that ends with one is that of a directory.
+;;; Files: chapter 20 of the standard.
 
 (in-package :common-lisp)
 
-(defun pathname (file)
-  "The name of a file.
+(defvar *load-verbose* nil
+  "Whether LOAD tells what it does, for programs that ask; it never does.")
+
+(defvar *load-print* nil
+  "Whether LOAD prints values, for programs that ask; it never does.")
+
+(defvar *compile-verbose* nil
+  "Whether COMPILE-FILE tells what it does, for programs that ask; it never does.")
+
+(defvar *compile-print* nil
+  "Whether COMPILE-FILE tells what it compiles, for programs that ask; it never does.")
+
+(defvar *compile-file-pathname* nil
+  "The file that COMPILE-FILE compiles, for programs that ask; forms are compiled when they are loaded.")
+
+(defvar *compile-file-truename* nil
+  "The true name of the file that COMPILE-FILE compiles, for programs that ask.")
+
+(defun %native (file)
+  "The name by which the machine knows a file."
+  (namestring (merge-pathnames file)))
+
+(defun open (file &rest options
+             &key direction element-type if-exists if-does-not-exist external-format)
+  "Opens a file for reading (the default), writing, or both; `with-open-file` closes it again. Its
+  elements are characters, or bytes if the type is one of integers.
   Examples:
-  (pathname \"plans/a.lisp\") => \"plans/a.lisp\""
-  (check-type file (or string symbol))
-  (string file))
+  (open \"no-such-file.txt\" :if-does-not-exist nil) => NIL"
+  (declare (ignore direction if-exists if-does-not-exist external-format))
+  (apply #'%open-file (%native file) (%byte-size element-type) options))
 
-(defun namestring (file)
-  "The name of a file as a string.
+(defun %byte-size (type)
+  "The number of bits of a file's elements, negative if they have a sign; NIL for characters."
+  (cond ((or (null type) (eq type :default) (subtypep type 'character)) nil)
+        ((subtypep type '(integer 0))
+         (or (loop for bits from 1 to 1024
+                   when (subtypep type `(unsigned-byte ,bits)) return bits)
+             8))
+        ((subtypep type 'integer)
+         (or (loop for bits from 1 to 1024
+                   when (subtypep type `(signed-byte ,bits)) return (- bits))
+             -8))
+        (t (error "~s is no type of a file's elements; these are characters or integers." type))))
+
+(defun probe-file (file)
+  "The pathname of a file if there is one, else NIL.
   Examples:
-  (namestring \"plans/a.lisp\") => \"plans/a.lisp\""
-  (pathname file))
-
-(defun directory-namestring (file)
-  "The part of a file's name that is its directory, with the slash at its end.
-  Examples:
-  (directory-namestring \"plans/a.lisp\") => \"plans/\""
-  (let ((name (pathname file)))
-    (subseq name 0 (1+ (or (position #\/ name :from-end t) -1)))))
-
-(defun file-namestring (file)
-  "A file's name without its directory.
-  Examples:
-  (file-namestring \"plans/a.lisp\") => \"a.lisp\""
-  (let ((name (pathname file)))
-    (subseq name (1+ (or (position #\/ name :from-end t) -1)))))
-
-(defun pathname-name (file)
-  "A file's name without directory and type; NIL if it has none.
-  Examples:
-  (pathname-name \"plans/a.lisp\") => \"a\"
-  (pathname-name \"plans/\") => NIL"
-  (let* ((name (file-namestring file))
-         (dot (%type-dot name)))
-    (if (string= name "") nil (subseq name 0 dot))))
-
-(defun pathname-type (file)
-  "What stands after the last dot of a file's name; NIL if it has none.
-  Examples:
-  (pathname-type \"plans/a.lisp\") => \"lisp\"
-  (pathname-type \".profile\") => NIL"
-  (let* ((name (file-namestring file))
-         (dot (%type-dot name)))
-    (and dot (subseq name (1+ dot)))))
-
-(defun %type-dot (name)
-  "Where the dot before the type of a file's name is. A name may begin with a dot."
-  (let ((dot (position #\. name :from-end t)))
-    (and dot (plusp dot) dot)))
-
-(defun pathname-directory (file)
-  "The directory of a file as a list.
-  Examples:
-  (pathname-directory \"/home/me/a.lisp\") => (:ABSOLUTE \"home\" \"me\")
-  (pathname-directory \"a.lisp\") => NIL"
-  (let ((directory (directory-namestring file)))
-    (unless (string= directory "")
-      (cons (if (char= (char directory 0) #\/) :absolute :relative)
-            (remove "" (%split-at-slashes directory) :test #'string=)))))
-
-(defun %split-at-slashes (text)
-  "The parts of a text between its slashes."
-  (loop for start = 0 then (1+ end)
-        for end = (position #\/ text :start start)
-        collect (subseq text start end)
-        while end))
-
-(defun make-pathname (&key directory name type defaults host device version)
-  "The name of a file, put together from its parts. A directory is a string or a list that begins with
-  :ABSOLUTE or :RELATIVE. Parts that are not given are those of the default.
-  Examples:
-  (make-pathname :directory '(:absolute \"home\" \"me\") :name \"a\" :type \"lisp\") => \"/home/me/a.lisp\""
-  (declare (ignore host device version))
-  (let* ((directory (or directory (and defaults (pathname-directory defaults))))
-         (name (or name (and defaults (pathname-name defaults))))
-         (type (or type (and defaults (pathname-type defaults)))))
-    (concatenate 'string
-                 (cond ((null directory) "")
-                       ((stringp directory)
-                        (if (alexandria:ends-with #\/ directory)
-                            directory
-                            (concatenate 'string directory "/")))
-                       (t (format nil "~:[~;/~]~{~a/~}"
-                                  (eq (first directory) :absolute) (rest directory))))
-                 (or name "")
-                 (if type "." "")
-                 (or type ""))))
-
-(defun merge-pathnames (file &optional (defaults "") version)
-  "The name of a file, with the parts that it lacks from another name; a relative directory is one
-  in the directory of that.
-  Examples:
-  (merge-pathnames \"b.lisp\" \"/home/me/a.lisp\") => \"/home/me/b.lisp\"
-  (merge-pathnames \"plans/b\" \"/home/me/a.lisp\") => \"/home/me/plans/b.lisp\""
-  (declare (ignore version))
-  (let ((directory (directory-namestring file)))
-    (concatenate 'string
-                 (if (alexandria:starts-with #\/ directory)
-                     directory
-                     (concatenate 'string (directory-namestring defaults) directory))
-                 (make-pathname :name (or (pathname-name file) (pathname-name defaults))
-                                :type (or (pathname-type file) (pathname-type defaults))))))
-
-(defun enough-namestring (file &optional (defaults ""))
-  "The name of a file as seen from the directory of another.
-  Examples:
-  (enough-namestring \"/home/me/a.lisp\" \"/home/me/\") => \"a.lisp\""
-  (let ((name (pathname file))
-        (directory (directory-namestring defaults)))
-    (if (alexandria:starts-with-subseq directory name)
-        (subseq name (length directory))
-        name)))
-
-(defun wild-pathname-p (file &optional part)
-  "Does a file's name stand for several?
-  Examples:
-  (wild-pathname-p \"*.lisp\") => T"
-  (declare (ignore part))
-  (and (find #\* (pathname file)) t))
+  (probe-file \"no-such-file.txt\") => NIL"
+  (let ((name (%true-name (%native file))))
+    (and name (%parse-pathname name))))
 
 (defun truename (file)
-  "The name of a file that exists.
+  "The pathname of a file that exists: absolute, and without links.
   Examples:
   (handler-case (truename \"no such file\") (file-error () :missing)) => :MISSING"
   ;; To open a file that does not exist is an error that says so.
   (or (probe-file file)
-      (progn (close (open (pathname file))) file)))
+      (progn (close (open file)) (probe-file file))))
+
+(defun delete-file (file)
+  "Deletes a file.
+  Examples:
+  (handler-case (delete-file \"no such file\") (file-error () :missing)) => :MISSING"
+  (%delete-file (%native file)))
+
+(defun rename-file (file new-name)
+  "Renames a file; parts that the new name lacks are those of the old one. Returns the new name, and the
+  true names before and after.
+  Examples:
+  (handler-case (rename-file \"no such file\" \"another\") (file-error () :missing)) => :MISSING"
+  (let ((new (merge-pathnames new-name file))
+        (old (truename file)))
+    (%rename-file (%native file) (%native new))
+    (values new old (truename new))))
+
+(defun file-write-date (file)
+  "The universal time at which a file was written last.
+  Examples:
+  (handler-case (file-write-date \"no such file\") (file-error () :missing)) => :MISSING"
+  (%file-date (%native file)))
+
+(defun file-author (file)
+  "The author of a file: NIL, since files do not tell.
+  Examples:
+  (handler-case (file-author \"no such file\") (file-error () :missing)) => :MISSING"
+  (truename file)
+  nil)
+
+(defun ensure-directories-exist (file &key verbose)
+  "Makes the directories of a file that are not there; the file's pathname, and whether one was made.
+  Examples:
+  (ensure-directories-exist \"a.txt\") => #P\"a.txt\" ; NIL"
+  (declare (ignore verbose))
+  (values (pathname file)
+          (%make-directories (directory-namestring (%native file)))))
+
+(defun directory (file &key &allow-other-keys)
+  "The true names of all files that a name, which may be wild, stands for, in alphabetical order.
+  Examples:
+  (directory \"no-such-folder/*.*\") => NIL"
+  (let* ((file (merge-pathnames file))
+         (folders (%folders (%checked-directory file)))
+         (name (pathname-name file))
+         (type (pathname-type file))
+         (found '()))
+    (dolist (folder folders)
+      (if (or name type)
+          (dolist (entry (system:file-names (if (string= folder "") "." folder)))
+            (let* ((plain (string-right-trim "/" entry))
+                   (parts (%parse-pathname plain)))
+              (when (and (%part-match-p (pathname-name parts) name)
+                         (or (%part-match-p (pathname-type parts) type)
+                             (and (null type) (eq name :wild) (null (pathname-type parts)))))
+                (push (probe-file (concatenate 'string folder plain)) found))))
+          (push (probe-file folder) found)))
+    (sort (remove-duplicates (remove nil found) :test #'equal) #'string< :key #'namestring)))
+
+(defun %checked-directory (file)
+  "The directory of a file, if it does not go up from where there is nothing above."
+  (let ((directory (pathname-directory file)))
+    (loop for (part next) on directory
+          when (and (member part '(:absolute :wild-inferiors)) (member next '(:up :back)))
+            do (error 'file-error :pathname file))
+    directory))
+
+(defun %folders (directory)
+  "The names of the folders that a pathname's directory stands for, each with a slash at its end."
+  (labels ((below (folder)
+             (loop for entry in (system:file-names (if (string= folder "") "." folder))
+                   when (alexandria:ends-with #\/ entry)
+                     collect entry))
+           (expand (folder parts depth)
+             (destructuring-bind (&optional part &rest rest) parts
+               (cond ((null parts) (list folder))
+                     ((eq part :wild-inferiors)
+                      (append (expand folder rest depth)
+                              ;; Links might lead in a circle.
+                              (when (plusp depth)
+                                (loop for entry in (below folder)
+                                      append (expand (concatenate 'string folder entry) parts
+                                                     (1- depth))))))
+                     ((or (eq part :wild) (and (stringp part) (find #\* part)))
+                      (loop for entry in (below folder)
+                            when (%part-match-p (string-right-trim "/" entry) part)
+                              append (expand (concatenate 'string folder entry) rest depth)))
+                     (t (expand (concatenate 'string folder
+                                             (directory-namestring
+                                              (%pathname-of-parts (list :relative part) nil nil nil)))
+                                rest depth))))))
+    (expand (if (eq (first directory) :absolute) "/" "") (rest directory) 32)))
+
+(defun user-homedir-pathname (&optional host)
+  "The directory of the user: that in which the program was started.
+  Examples:
+  (pathname-name (user-homedir-pathname)) => NIL"
+  (declare (ignore host))
+  (probe-file "./"))
+
+(defun compile-file-pathname (file &key output-file)
+  "The file that COMPILE-FILE would write: that which it reads, since forms are compiled when they are
+  loaded.
+  Examples:
+  (compile-file-pathname \"a.lisp\") => #P\"a.lisp\""
+  (declare (ignore output-file))
+  (merge-pathnames file))

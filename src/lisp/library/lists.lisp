@@ -15,13 +15,16 @@
   (nreconc (list 1 2) '(3)) => (2 1 3)"
   (nconc (nreverse list) tail))
 
+(defun %check-list (list)
+  "An error unless the argument is a list. CHECK-TYPE needs the functions that call this."
+  (unless (listp list)
+    (error 'type-error :datum list :expected-type 'list)))
+
 (defun ldiff (list tail)
   "A copy of the part of a list before one of its tails.
   Examples:
   (let ((l (list 1 2 3))) (ldiff l (cddr l))) => (1 2)"
-  ;; CHECK-TYPE needs this function itself.
-  (unless (listp list)
-    (error 'type-error :datum list :expected-type 'list))
+  (%check-list list)
   (do ((rest list (cdr rest))
        (part '() (cons (car rest) part)))
       ((or (atom rest) (eql rest tail))
@@ -112,6 +115,7 @@
   "The list from the first element that satisfies a predicate.
   Examples:
   (member-if #'evenp '(1 2 3)) => (2 3)"
+  (%check-list list)
   (let ((position (position-if predicate list :key key)))
     (and position (nthcdr position list))))
 
@@ -119,5 +123,6 @@
   "The list from the first element that does not satisfy a predicate.
   Examples:
   (member-if-not #'oddp '(1 2 3)) => (2 3)"
+  (%check-list list)
   (let ((position (position-if-not predicate list :key key)))
     (and position (nthcdr position list))))

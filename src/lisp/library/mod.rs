@@ -98,6 +98,7 @@ static FILES: &[File] = &[
     library_file!("src/lisp/library", "alexandria-types.lisp"),
     library_file!("src/lisp/library", "alexandria-files.lisp"),
     library_file!("src/lisp/library", "alexandria-2.lisp"),
+    library_file!("src/lisp/library", "pathnames.lisp"),
     library_file!("src/lisp/library", "files.lisp"),
     library_file!("src/lisp/library", "time.lisp"),
     library_file!("src/lisp/library", "tracing.lisp"),

@@ -6,11 +6,15 @@
   "Defines a type by what its specifiers stand for.
   Examples:
   (deftype small () '(integer 0 9)) => SMALL"
-  (let ((arguments (gensym "ARGS")))
-    `(%define-type ',name
-                   (lambda (,arguments)
-                     (destructuring-bind ,(%star-defaults lambda-list nil) ,arguments
-                       (block ,name ,@body))))))
+  (let ((arguments (gensym "ARGS"))
+        (expander (gensym "EXPANDER"))
+        (stands-alone (or (null lambda-list)
+                          (member (first lambda-list) '(&optional &key &rest &aux)))))
+    `(let ((,expander (lambda (,arguments)
+                        (destructuring-bind ,(%star-defaults lambda-list nil) ,arguments
+                          (block ,name ,@body)))))
+       (%define-type ',name ,expander
+                     ,(and stands-alone `(ignore-errors (list (funcall ,expander '()))))))))
 
 (defun %star-defaults (lambda-list is-optional)
   "The lambda list with '* as the default of optional parameters that have none."

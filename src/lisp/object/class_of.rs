@@ -3,7 +3,6 @@
 use std::rc::Rc;
 
 use crate::lisp::image::Image;
-use crate::lisp::stream::StreamKind;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, ClassKind};
 use crate::lisp::value::function::Body;
@@ -45,18 +44,16 @@ pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
         Value::Double(_) => known::DOUBLE_FLOAT,
         Value::Char(_) => known::CHARACTER,
         Value::Cons(_) => known::CONS,
-        Value::Str(s) if s.has_fill_pointer.get() => known::STRING,
-        Value::Str(_) => known::SIMPLE_STRING,
-        Value::Vector(v) => {
-            let simple = v.fill_pointer.get().is_none() && !v.adjustable;
-            match (v.element_type, simple) {
-                (known::BIT, true) => known::SIMPLE_BIT_VECTOR,
-                (known::BIT, false) => known::BIT_VECTOR,
-                (known::T, true) => known::SIMPLE_VECTOR,
-                _ => known::VECTOR,
-            }
-        }
-        Value::Array(_) => known::SIMPLE_ARRAY,
+        Value::Str(s) if s.is_simple() => known::SIMPLE_STRING,
+        Value::Str(_) => known::STRING,
+        Value::Vector(v) => match (v.element_type, v.is_simple()) {
+            (known::BIT, true) => known::SIMPLE_BIT_VECTOR,
+            (known::BIT, false) => known::BIT_VECTOR,
+            (known::T, true) => known::SIMPLE_VECTOR,
+            _ => known::VECTOR,
+        },
+        Value::Array(a) if a.is_simple() => known::SIMPLE_ARRAY,
+        Value::Array(_) => known::ARRAY,
         Value::Function(f) => match f.body {
             Body::Generic(_) => known::STANDARD_GENERIC_FUNCTION,
             _ => known::FUNCTION,
@@ -65,14 +62,7 @@ pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
         Value::Instance(instance) => instance.class.borrow().name,
         Value::Class(class) => metaclass_name(class),
         Value::Package(_) => known::PACKAGE,
-        Value::Stream(stream) => match &*stream.kind.borrow() {
-            StreamKind::StringOutput { .. }
-            | StreamKind::StringInput { .. }
-            | StreamKind::StringTarget { .. } => known::STRING_STREAM,
-            StreamKind::Broadcast { .. } => known::BROADCAST_STREAM,
-            StreamKind::StandardOutput | StreamKind::StandardInput => known::SYNONYM_STREAM,
-            _ => known::STREAM,
-        },
+        Value::Stream(stream) => stream.class,
         Value::Foreign(foreign) => foreign.object().type_symbol(),
         // Internal values, which user code never has.
         Value::Cell(_) | Value::Multiple(_) | Value::Unbound => known::T,

@@ -59,7 +59,7 @@ pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String 
         Value::Stream(stream) => {
             let kind = match &*stream.kind.borrow() {
                 StreamKind::StringOutput { .. } => "STRING-OUTPUT-STREAM",
-                StreamKind::StringInput { .. } => "STRING-INPUT-STREAM",
+                StreamKind::StringInput { .. } if stream.file.is_none() => "STRING-INPUT-STREAM",
                 StreamKind::StringTarget { .. } => "FILL-POINTER-OUTPUT-STREAM",
                 StreamKind::Broadcast { .. } => "BROADCAST-STREAM",
                 _ => "STREAM",

@@ -45,7 +45,7 @@ fn parts(value: &Value, out: &mut Vec<Value>) {
     match value {
         Value::Cons(c) => out.extend([c.cdr(), c.car()].into_iter().filter(keep)),
         Value::Vector(v) => out.extend(v.to_vec().into_iter().filter(keep).rev()),
-        Value::Array(a) => out.extend(a.items.borrow().iter().filter(|v| keep(v)).rev().cloned()),
+        Value::Array(a) => out.extend(a.items.to_vec().into_iter().filter(keep).rev()),
         Value::Instance(i) if i.class().kind == ClassKind::Structure => {
             out.extend(i.slots.borrow().iter().filter(|v| keep(v)).rev().cloned());
         }

@@ -445,7 +445,7 @@ impl<'a> Printer<'a> {
         depth: usize,
     ) {
         let Some(length) = array.dimensions.borrow().get(dimension).copied() else {
-            let item = array.items.borrow().get(offset).cloned();
+            let item = array.items.get(offset);
             let item = item.unwrap_or(Value::NIL);
             self.tasks.push(Task::Value(item, Style::Auto, depth + 1));
             return;

@@ -1,6 +1,7 @@
 //! The printer variables, read once per call.
 
 use crate::lisp::image::Image;
+use crate::lisp::reader::LetterCase;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
@@ -37,6 +38,8 @@ pub(crate) struct Settings {
     pub(crate) level: Option<usize>,
     /// `*print-circle*`: shared parts as `#1#`?
     pub(crate) circle: bool,
+    /// `readtable-case`: what the reader does with letters.
+    pub(crate) letters: LetterCase,
     /// `*print-gensym*`: uninterned symbols with `#:`?
     pub(crate) gensym: bool,
     /// `*print-array*`: arrays with their elements?
@@ -79,6 +82,7 @@ impl Settings {
                 Some(known::K_CAPITALIZE) => Case::Capitalize,
                 _ => Case::Up,
             },
+            letters: LetterCase::current(image),
             length: count(image, known::V_PRINT_LENGTH),
             level: count(image, known::V_PRINT_LEVEL),
             circle: flag(known::V_PRINT_CIRCLE),

@@ -2,7 +2,7 @@
 
 use super::settings::{Case, Settings};
 use crate::lisp::image::Image;
-use crate::lisp::reader;
+use crate::lisp::reader::{self, LetterCase};
 use crate::lisp::value::package::Access;
 use crate::lisp::value::symbol::Sym;
 
@@ -10,7 +10,7 @@ use crate::lisp::value::symbol::Sym;
 pub(super) fn symbol(image: &Image, sym: Sym, settings: &Settings) -> String {
     let data = image.symbol(sym);
     if !settings.escape {
-        return cased(&data.name, settings.case);
+        return cased(&data.name, settings);
     }
     let mut text = String::new();
     match data.package {
@@ -32,7 +32,7 @@ pub(super) fn symbol(image: &Image, sym: Sym, settings: &Settings) -> String {
 
 /// A name, between bars if the reader would change it.
 pub(super) fn name(name: &str, settings: &Settings) -> String {
-    if needs_bars(name, settings.base) {
+    if needs_bars(name, settings) {
         let mut text = String::with_capacity(name.len() + 2);
         text.push('|');
         for c in name.chars() {
@@ -44,11 +44,23 @@ pub(super) fn name(name: &str, settings: &Settings) -> String {
         text.push('|');
         return text;
     }
-    cased(name, settings.case)
+    cased(name, settings)
 }
 
-fn cased(name: &str, case: Case) -> String {
-    match case {
+fn cased(name: &str, settings: &Settings) -> String {
+    match settings.letters {
+        LetterCase::Upcase => {}
+        LetterCase::Preserve => return name.to_owned(),
+        LetterCase::Invert => return name.chars().map(reader::inverting(name.chars())).collect(),
+        LetterCase::Downcase => {
+            return match settings.case {
+                Case::Down => name.to_owned(),
+                Case::Up => name.chars().map(reader::upcase).collect(),
+                Case::Capitalize => capitalized(name),
+            };
+        }
+    }
+    match settings.case {
         Case::Up => name.to_owned(),
         Case::Down => name.to_lowercase(),
         Case::Capitalize => {
@@ -68,22 +80,38 @@ fn cased(name: &str, case: Case) -> String {
     }
 }
 
-fn needs_bars(name: &str, base: u32) -> bool {
+/// A name of small letters with capitals at the beginnings of its words.
+fn capitalized(name: &str) -> String {
+    let mut in_word = false;
+    name.chars()
+        .map(|c| {
+            let is_first = !in_word;
+            in_word = c.is_alphanumeric();
+            if is_first { reader::upcase(c) } else { c }
+        })
+        .collect()
+}
+
+fn needs_bars(name: &str, settings: &Settings) -> bool {
     name.is_empty()
         || name.starts_with('#')
         || name.chars().all(|c| c == '.')
-        || name.chars().any(is_special)
-        || looks_like_number(name, base)
+        || name.chars().any(|c| is_special(c, settings.letters))
+        || looks_like_number(name, settings.base)
 }
 
 /// Would the reader take the character for something else?
-fn is_special(c: char) -> bool {
+fn is_special(c: char, letters: LetterCase) -> bool {
     matches!(
         c,
         '(' | ')' | '"' | '\'' | '`' | ',' | ';' | ':' | '|' | '\\'
     ) || reader::lexer::is_blank(c)
         || c.is_control()
-        || reader::upcase(c) != c
+        || match letters {
+            LetterCase::Upcase => reader::upcase(c) != c,
+            LetterCase::Downcase => reader::downcase(c) != c,
+            LetterCase::Preserve | LetterCase::Invert => false,
+        }
         || reader::meant_by_quotation_mark(c).is_some()
 }
 

@@ -101,18 +101,18 @@ fn replace(root: &Value, old: &Value, new: &Value) {
                 }
             }
             Value::Vector(vector) if seen.insert(Rc::as_ptr(vector).cast()) => {
-                for item in vector.items.borrow_mut().iter_mut() {
+                vector.items.change(|item| {
                     if let Some(new) = visit(item, &mut pending) {
                         *item = new;
                     }
-                }
+                });
             }
             Value::Array(array) if seen.insert(Rc::as_ptr(array).cast()) => {
-                for item in array.items.borrow_mut().iter_mut() {
+                array.items.change(|item| {
                     if let Some(new) = visit(item, &mut pending) {
                         *item = new;
                     }
-                }
+                });
             }
             Value::Instance(instance) if seen.insert(Rc::as_ptr(instance).cast()) => {
                 for item in instance.slots.borrow_mut().iter_mut() {

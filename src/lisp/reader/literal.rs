@@ -1,12 +1,12 @@
 //! Values of tokens and of finished `#` forms: strings, characters, radix numbers, bit
 //! vectors, vectors, arrays and structures.
 
-use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::char_name::char_named;
 use super::error::ReadErrorKind;
 use super::numeric::parse_rational;
+use super::readtable::LetterCase;
 use super::symbol;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -19,7 +19,7 @@ use crate::lisp::value::number;
 const MAX_FILL: usize = 1 << 24;
 
 /// Most dimensions of an array.
-const MAX_RANK: u32 = 64;
+const MAX_RANK: u32 = 128;
 
 /// A string from the text between its quotation marks.
 pub(crate) fn string(body: &str) -> Value {
@@ -79,7 +79,7 @@ pub(crate) fn prefixed(
 }
 
 fn uninterned(image: &mut Image, body: &str) -> Result<Value, ReadErrorKind> {
-    let name = symbol::split(body)?;
+    let name = symbol::split(body, LetterCase::current(image))?;
     if name.package.is_some() {
         return Err(ReadErrorKind::TooManyColons {
             token: format!("#:{body}"),
@@ -175,12 +175,11 @@ pub(crate) fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind>
         dimensions.push(width);
         level = rows.into_iter().flatten().collect();
     }
-    Ok(Value::Array(Rc::new(Array {
-        dimensions: RefCell::new(dimensions),
-        adjustable: false,
-        items: RefCell::new(level),
-        element_type: known::T,
-    })))
+    Ok(Value::Array(Rc::new(Array::new(
+        known::T,
+        dimensions,
+        level,
+    ))))
 }
 
 /// The result of reading `#S(…)`.

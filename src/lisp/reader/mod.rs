@@ -24,8 +24,9 @@ pub(crate) use lexer::{Lexer, Token, TokenKind};
 #[cfg(test)]
 pub(crate) use parser::read_all;
 pub(crate) use parser::{Outcome, Reader};
+pub(crate) use readtable::LetterCase;
 pub(crate) use suggest::nearest;
-pub(crate) use symbol::{meant_by_quotation_mark, upcase};
+pub(crate) use symbol::{downcase, inverting, meant_by_quotation_mark, upcase};
 
 #[cfg(test)]
 mod tests;

@@ -8,13 +8,14 @@ use super::label::Labels;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::literal;
 use super::numeric::parse_number;
-use super::readtable::Readtable;
+use super::readtable::{LetterCase, Readtable};
 use super::symbol;
 use crate::lisp::image::Image;
 use crate::lisp::source::{Place, SourceId};
 use crate::lisp::stream::{Stream, StreamKind};
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::lisp::value::pathname::Pathname;
 use crate::lisp::value::symbol::{Sym, VariableKind};
 
 /// The result of reading.
@@ -481,7 +482,7 @@ impl Reader {
         if let Some(number) = parse_number(token, radix, float_format) {
             return number.map(Some);
         }
-        let name = symbol::split(token)?;
+        let name = symbol::split(token, LetterCase::current(image))?;
         let sym = if self.features > 0 && name.package.is_none() {
             image.keyword(&name.name)
         } else {
@@ -628,7 +629,11 @@ impl Reader {
                     }
                 },
                 Kind::Complex => value = literal::complex(&value)?,
-                Kind::Pathname => {}
+                Kind::Pathname => {
+                    if let Some(name) = value.as_text() {
+                        value = Value::foreign(Pathname::parse(&name));
+                    }
+                }
                 Kind::Label(label) => self.labels.close(label, &value)?,
             }
         }

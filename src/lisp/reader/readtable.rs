@@ -1,13 +1,57 @@
 //! Characters to which a program gives a meaning: `set-macro-character`.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::copy::Copier;
 use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::Sym;
+
+/// What the reader does with the letters of symbols: `readtable-case`.
+#[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
+pub(crate) enum LetterCase {
+    /// They become capitals.
+    #[default]
+    Upcase,
+    /// They become small.
+    Downcase,
+    /// They stay as they are.
+    Preserve,
+    /// If they are all in one case, they change to the other one.
+    Invert,
+}
+
+impl LetterCase {
+    /// All cases, with the keywords that name them.
+    const NAMES: [(LetterCase, Sym); 4] = [
+        (LetterCase::Upcase, known::K_UPCASE),
+        (LetterCase::Downcase, known::K_DOWNCASE),
+        (LetterCase::Preserve, known::K_PRESERVE),
+        (LetterCase::Invert, known::K_INVERT),
+    ];
+
+    /// The keyword that names it.
+    pub(crate) fn keyword(self) -> Sym {
+        let found = LetterCase::NAMES.iter().find(|(case, _)| *case == self);
+        found.map_or(known::K_UPCASE, |(_, name)| *name)
+    }
+
+    /// The case that a keyword names.
+    pub(crate) fn named(name: Sym) -> Option<LetterCase> {
+        let found = LetterCase::NAMES.iter().find(|(_, other)| *other == name);
+        found.map(|(case, _)| *case)
+    }
+
+    /// That of the current readtable.
+    pub(crate) fn current(image: &Image) -> LetterCase {
+        let table = image.special(known::V_READTABLE);
+        let table = table.as_foreign::<Readtable>();
+        table.map_or(LetterCase::Upcase, |table| table.case.get())
+    }
+}
 
 /// A program's changes to the standard syntax.
 #[derive(Default, Clone)]
@@ -18,6 +62,8 @@ pub(crate) struct Readtable {
     /// Functions of stream, sub-character and number, by dispatching character and
     /// sub-character (in upper case).
     pub(crate) dispatch: RefCell<BTreeMap<(char, char), Value>>,
+    /// What happens to letters.
+    pub(crate) case: Cell<LetterCase>,
 }
 
 impl Readtable {
@@ -54,6 +100,7 @@ impl Foreign for Readtable {
         ForeignCopy::New(Box::new(Readtable {
             macros: RefCell::new(macros),
             dispatch: RefCell::new(dispatch.collect()),
+            case: self.case.clone(),
         }))
     }
 

@@ -1,12 +1,13 @@
 //! From the text of a token to a symbol of a package.
 
 use super::error::ReadErrorKind;
+use super::readtable::LetterCase;
 use super::suggest::nearest;
 use crate::lisp::image::Image;
 use crate::lisp::value::package::{Access, PackageId, PackageTable};
 use crate::lisp::value::symbol::Sym;
 
-/// A token split at its package marker, escapes resolved and letters upcased.
+/// A token split at its package marker, escapes resolved and letters in the case of the readtable.
 pub(crate) struct Name {
     /// The text before the marker; `None` without a marker.
     pub(crate) package: Option<String>,
@@ -30,8 +31,56 @@ pub(crate) fn upcase(c: char) -> char {
     }
 }
 
+/// Downcases as the reader does: only letters that have exactly one lower-case form.
+pub(crate) fn downcase(c: char) -> char {
+    let mut lower = c.to_lowercase();
+    match (lower.next(), lower.next()) {
+        (Some(one), None) => one,
+        _ => c,
+    }
+}
+
+/// What a readtable does with a token's letters that are not escaped.
+fn fold(token: &str, case: LetterCase) -> fn(char) -> char {
+    match case {
+        LetterCase::Upcase => upcase,
+        LetterCase::Downcase => downcase,
+        LetterCase::Preserve => std::convert::identity,
+        LetterCase::Invert => inverting(unescaped(token)),
+    }
+}
+
+/// How letters that are all in one case are put into the other one.
+pub(crate) fn inverting(letters: impl Iterator<Item = char> + Clone) -> fn(char) -> char {
+    let has_upper = letters.clone().any(|c| downcase(c) != c);
+    let has_lower = letters.clone().any(|c| upcase(c) != c);
+    match (has_upper, has_lower) {
+        (true, false) => downcase,
+        (false, true) => upcase,
+        _ => std::convert::identity,
+    }
+}
+
+/// The characters of a token that are not escaped.
+fn unescaped(token: &str) -> impl Iterator<Item = char> + Clone {
+    let mut in_bars = false;
+    let mut is_next_escaped = false;
+    token.chars().filter(move |c| {
+        if std::mem::take(&mut is_next_escaped) {
+            return false;
+        }
+        match c {
+            '\\' => is_next_escaped = true,
+            '|' => in_bars = !in_bars,
+            _ => return !in_bars,
+        }
+        false
+    })
+}
+
 /// Splits a token.
-pub(crate) fn split(token: &str) -> Result<Name, ReadErrorKind> {
+pub(crate) fn split(token: &str, case: LetterCase) -> Result<Name, ReadErrorKind> {
+    let fold = fold(token, case);
     let mut result = Name {
         package: None,
         name: String::with_capacity(token.len()),
@@ -65,7 +114,7 @@ pub(crate) fn split(token: &str) -> Result<Name, ReadErrorKind> {
             }
             c => match meant_by_quotation_mark(c) {
                 Some(instead) => return Err(ReadErrorKind::SmartQuote { mark: c, instead }),
-                None => result.name.push(upcase(c)),
+                None => result.name.push(fold(c)),
             },
         }
     }

@@ -3,15 +3,18 @@
 //! All text that a program writes goes through [`write()`]; nothing else prints. Reading at the end
 //! gives `None`; the caller decides whether that is an error.
 
-use std::cell::RefCell;
+mod bytes;
+
 use std::io::Write as _;
 use std::rc::Rc;
+
+pub(crate) use bytes::{read_byte, write_byte};
 
 use super::image::Image;
 use super::value::Value;
 use super::value::known;
 use super::value::raise::Raise;
-pub(crate) use super::value::stream::{MAX_NESTING, Stream, StreamKind};
+pub(crate) use super::value::stream::{Elements, MAX_NESTING, Stream, StreamKind};
 use super::value::symbol::Sym;
 
 /// Defines the standard stream variables.
@@ -20,14 +23,13 @@ pub(crate) fn install(image: &mut Image) {
     let output = Rc::new(Stream::new(StreamKind::StandardOutput));
     let both = || {
         Value::Stream(Rc::new(Stream {
-            kind: RefCell::new(StreamKind::TwoWay {
+            nesting: 1,
+            ..Stream::new(StreamKind::TwoWay {
                 input: input.clone(),
                 output: output.clone(),
                 echo: false,
                 unread: None,
-            }),
-            nesting: 1,
-            backquotes: std::cell::Cell::new(0),
+            })
         }))
     };
     image.define_special(known::V_STANDARD_INPUT, Value::Stream(input.clone()));
@@ -82,7 +84,7 @@ fn endless_synonym(stream: &Value) -> Box<Raise> {
 }
 
 /// The value of the variable for a synonym stream; any other stream unchanged.
-fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>, Box<Raise>> {
+pub(crate) fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>, Box<Raise>> {
     designated(image, &Value::Stream(stream.clone()), known::NIL)
 }
 
@@ -113,6 +115,29 @@ fn write_to(
         }
         StreamKind::StringTarget { string } => {
             text.chars().for_each(|c| string.push(c));
+            return Ok(());
+        }
+        StreamKind::FileOutput { .. } | StreamKind::FileContents { .. }
+            if stream.elements != Elements::Characters =>
+        {
+            return Err(of_bytes(stream));
+        }
+        StreamKind::FileContents {
+            bytes,
+            position,
+            changed: Some(changed),
+        } => {
+            // As many characters are replaced as are written.
+            let old = String::from_utf8_lossy(bytes.get(*position..).unwrap_or_default());
+            let replaced: usize = old
+                .chars()
+                .take(text.chars().count())
+                .map(char::len_utf8)
+                .sum();
+            let end = (*position + replaced).min(bytes.len());
+            *changed = true;
+            bytes.splice(*position..end, text.bytes());
+            *position += text.len();
             return Ok(());
         }
         StreamKind::FileOutput {
@@ -205,6 +230,12 @@ fn peek_at(image: &Image, stream: &Rc<Stream>, depth: u32) -> Result<Option<char
         StreamKind::StringInput { text, position } => {
             return Ok(text.get(*position..).and_then(|rest| rest.chars().next()));
         }
+        StreamKind::FileContents { .. } if stream.elements != Elements::Characters => {
+            return Err(of_bytes(stream));
+        }
+        StreamKind::FileContents {
+            bytes, position, ..
+        } => return Ok(next_char(bytes.get(*position..).unwrap_or_default())),
         StreamKind::TwoWay {
             unread: Some(c), ..
         }
@@ -274,6 +305,16 @@ fn rest_of(
             collected.push_str(text.get(*position..).unwrap_or(""));
             return Ok(());
         }
+        StreamKind::FileContents { .. } if stream.elements != Elements::Characters => {
+            return Err(of_bytes(stream));
+        }
+        StreamKind::FileContents {
+            bytes, position, ..
+        } => {
+            let rest = bytes.get(*position..).unwrap_or_default();
+            collected.push_str(&String::from_utf8_lossy(rest));
+            return Ok(());
+        }
         StreamKind::TwoWay { input, unread, .. } => {
             collected.extend(unread);
             vec![input.clone()]
@@ -320,6 +361,15 @@ fn advance_in(
         StreamKind::StringInput { text, position } => {
             let available = text.len().saturating_sub(*position);
             let step = available.min(bytes);
+            *position += step;
+            return Ok(bytes - step);
+        }
+        StreamKind::FileContents {
+            bytes: contents,
+            position,
+            ..
+        } => {
+            let step = contents.len().saturating_sub(*position).min(bytes);
             *position += step;
             return Ok(bytes - step);
         }
@@ -398,6 +448,10 @@ pub(crate) fn unread_char(
                     )),
                 };
             }
+            StreamKind::FileContents { position, .. } => {
+                *position = position.saturating_sub(c.len_utf8());
+                return Ok(());
+            }
             StreamKind::TwoWay {
                 unread, echo: true, ..
             }
@@ -418,12 +472,43 @@ pub(crate) fn unread_char(
     Err(endless_synonym(&Value::Stream(stream)))
 }
 
+/// Does a stream read or write integers, perhaps by way of other streams?
+pub(crate) fn has_integers(image: &Image, stream: &Rc<Stream>) -> Result<bool, Box<Raise>> {
+    let mut stream = followed(image, stream)?;
+    for _ in 0..=MAX_NESTING {
+        let next = match &*stream.kind.borrow() {
+            StreamKind::TwoWay { input, .. } => input.clone(),
+            StreamKind::Broadcast { targets: parts }
+            | StreamKind::Concatenated { inputs: parts, .. } => match parts.first() {
+                Some(first) => first.clone(),
+                // Nothing is at its end, and takes everything.
+                None => return Ok(true),
+            },
+            _ => return Ok(stream.elements != Elements::Characters),
+        };
+        stream = followed(image, &next)?;
+    }
+    Ok(false)
+}
+
 /// Flushes the buffer of a file stream.
 pub(crate) fn flush(stream: &Stream) -> Result<(), Box<Raise>> {
     match &mut *stream.kind.borrow_mut() {
         StreamKind::FileOutput { file, .. } => file
             .flush()
             .map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string())),
+        StreamKind::FileContents {
+            bytes,
+            changed: Some(changed @ true),
+            ..
+        } => {
+            if let Some(file) = &stream.file {
+                std::fs::write(&**file, bytes)
+                    .map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string()))?;
+            }
+            *changed = false;
+            Ok(())
+        }
         _ => Ok(()),
     }
 }
@@ -443,12 +528,27 @@ pub(crate) fn close(stream: &Stream) -> Result<bool, Box<Raise>> {
     Ok(was_open)
 }
 
+/// The first character of a text in UTF-8; `None` if it is empty.
+fn next_char(bytes: &[u8]) -> Option<char> {
+    let start = bytes.get(..bytes.len().min(4)).unwrap_or_default();
+    String::from_utf8_lossy(start).chars().next()
+}
+
+/// The error for a file whose elements are no characters.
+fn of_bytes(stream: &Rc<Stream>) -> Box<Raise> {
+    Raise::new(
+        known::STREAM_ERROR,
+        "The elements of the stream are integers, not characters; READ-BYTE and WRITE-BYTE are for these.",
+    )
+    .with(known::K_STREAM, Value::Stream(stream.clone()))
+}
+
 fn closed(stream: &Rc<Stream>) -> Box<Raise> {
     Raise::new(known::STREAM_ERROR, "The stream is closed.")
         .with(known::K_STREAM, Value::Stream(stream.clone()))
 }
 
-fn not_usable(stream: &Rc<Stream>, predicate: &str, image: &Image) -> Box<Raise> {
+pub(crate) fn not_usable(stream: &Rc<Stream>, predicate: &str, image: &Image) -> Box<Raise> {
     let stream = Value::Stream(stream.clone());
     let predicate = image
         .packages

@@ -32,6 +32,8 @@ pub(crate) struct StructureDefinition {
     pub(crate) name: Sym,
     /// The prefix of the accessors.
     pub(crate) conc_name: String,
+    /// Is there a prefix, if only an empty one?
+    has_prefix: bool,
     pub(crate) constructors: Vec<Constructor>,
     /// The function that copies a structure.
     pub(crate) copier: Option<Sym>,
@@ -88,6 +90,7 @@ impl StructureDefinition {
         let mut definition = StructureDefinition {
             name,
             conc_name: String::new(),
+            has_prefix: true,
             constructors: Vec::new(),
             copier: None,
             predicate: None,
@@ -149,6 +152,7 @@ impl StructureDefinition {
         };
         match keyword.as_symbol() {
             Some(known::K_CONC_NAME) => {
+                self.has_prefix = first.as_ref().is_some_and(Value::is_true);
                 given.conc_name = Some(match &first {
                     Some(Value::Symbol(known::NIL, ..)) | None => String::new(),
                     Some(Value::Symbol(sym, ..)) => image.name(*sym).to_owned(),
@@ -236,9 +240,9 @@ impl StructureDefinition {
         image.intern(package, &name)
     }
 
-    /// The name of the accessor of a slot: without prefix, that of the slot itself.
+    /// The name of the accessor of a slot: that of the slot itself if there is no prefix.
     pub(crate) fn accessor(&self, image: &mut Image, slot: Sym) -> Sym {
-        if self.conc_name.is_empty() {
+        if !self.has_prefix {
             return slot;
         }
         let name = format!("{}{}", self.conc_name, image.name(slot));

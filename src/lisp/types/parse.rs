@@ -6,7 +6,7 @@ use crate::lisp::types::sequence_types;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
 use crate::lisp::value::known;
-use crate::lisp::value::number::{Rounding, add, divide, sub};
+use crate::lisp::value::number::{Rounding, add, divide, rational, sub};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
@@ -301,7 +301,7 @@ fn real(kind: RealKind, low: Bound, high: Bound) -> Result<Type, Stop> {
                 other => other,
             },
         ),
-        RealKind::Ratio => (without_integer(low), without_integer(high)),
+        RealKind::Ratio => (without_integer(low)?, without_integer(high)?),
         _ => (low, high),
     };
     Ok(Type::Real(kind, low, high))
@@ -315,11 +315,18 @@ fn is_finite(number: &Value) -> bool {
     }
 }
 
-fn without_integer(bound: Bound) -> Bound {
-    match bound {
-        Bound::Inclusive(n @ (Value::Int(_) | Value::Big(_))) => Bound::Exclusive(n),
-        other => other,
-    }
+fn without_integer(bound: Bound) -> Result<Bound, Stop> {
+    let exact = |n: Value| -> Result<Value, Box<Raise>> {
+        if is_finite(&n) { rational(&n) } else { Ok(n) }
+    };
+    Ok(match bound {
+        Bound::Inclusive(n) => match exact(n)? {
+            n @ (Value::Int(_) | Value::Big(_)) => Bound::Exclusive(n),
+            n => Bound::Inclusive(n),
+        },
+        Bound::Exclusive(n) => Bound::Exclusive(exact(n)?),
+        Bound::None => Bound::None,
+    })
 }
 
 fn bound(image: &Image, arg: Option<&Value>) -> Result<Bound, Stop> {

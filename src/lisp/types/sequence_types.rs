@@ -21,8 +21,9 @@ pub(crate) struct SequenceType {
 impl SequenceType {
     /// The sequence type that a type specifier denotes, if it names a kind of sequence.
     pub(crate) fn of(image: &Image, specifier: &Value) -> Option<SequenceType> {
-        let mut parts = specifier.iter_list();
-        let (name, first, second) = match specifier {
+        let named = by_itself(image, specifier);
+        let mut parts = named.iter_list();
+        let (name, first, second) = match &named {
             Value::Symbol(sym, ..) => (*sym, None, None),
             _ => (parts.next()?.as_symbol()?, parts.next(), parts.next()),
         };
@@ -94,6 +95,22 @@ impl SequenceType {
     }
 }
 
+/// How often a name may stand for another one.
+const MOST_EXPANSIONS: usize = 50;
+
+/// What a specifier stands for, if it is a name that `deftype` has defined.
+fn by_itself(image: &Image, specifier: &Value) -> Value {
+    let mut specifier = specifier;
+    for _ in 0..MOST_EXPANSIONS {
+        let name = specifier.as_symbol();
+        match name.and_then(|name| image.type_names.get(&name)) {
+            Some(expansion) => specifier = expansion,
+            None => break,
+        }
+    }
+    specifier.clone()
+}
+
 /// The kind of vector that holds elements of a type.
 pub(crate) fn vector_kind(image: &Image, element_type: &Value) -> Kind {
     match upgraded(image, element_type) {
@@ -104,7 +121,7 @@ pub(crate) fn vector_kind(image: &Image, element_type: &Value) -> Kind {
 
 /// The actual element type of an array that is made for elements of a type.
 pub(crate) fn upgraded(image: &Image, element_type: &Value) -> Sym {
-    match element_type {
+    match &by_itself(image, element_type) {
         Value::Symbol(known::CHARACTER | known::BASE_CHAR | known::STANDARD_CHAR, ..) => {
             known::CHARACTER
         }

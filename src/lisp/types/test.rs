@@ -172,12 +172,9 @@ fn is_array(
     dimensions: Option<&[Option<usize>]>,
 ) -> bool {
     let (own_simple, own_element, sizes) = match value {
-        Value::Str(s) => (!s.has_fill_pointer.get(), known::CHARACTER, vec![s.len()]),
-        Value::Vector(v) => {
-            let own_simple = v.fill_pointer.get().is_none() && !v.adjustable;
-            (own_simple, v.element_type, vec![v.items.borrow().len()])
-        }
-        Value::Array(a) => (!a.adjustable, a.element_type, a.dimensions.borrow().clone()),
+        Value::Str(s) => (s.is_simple(), known::CHARACTER, vec![s.capacity()]),
+        Value::Vector(v) => (v.is_simple(), v.element_type, vec![v.items.len()]),
+        Value::Array(a) => (a.is_simple(), a.element_type, a.dimensions.borrow().clone()),
         _ => return false,
     };
     (own_simple || !simple)

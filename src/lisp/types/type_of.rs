@@ -20,12 +20,9 @@ pub(crate) fn type_of(image: &Image, value: &Value) -> Value {
         Value::Int(_) | Value::Big(_) => integer_type(image, value),
         Value::Char(c) if is_standard_char(*c) => known::STANDARD_CHAR.into(),
         Value::Char(c) if c.is_ascii() => known::BASE_CHAR.into(),
-        Value::Str(s) => {
-            let simple = !s.has_fill_pointer.get();
-            array_type(simple, known::CHARACTER, &[s.len()])
-        }
+        Value::Str(s) => array_type(s.is_simple(), known::CHARACTER, &[s.capacity()]),
         Value::Vector(v) => vector_type(v),
-        Value::Array(a) => array_type(!a.adjustable, a.element_type, &a.dimensions.borrow()),
+        Value::Array(a) => array_type(a.is_simple(), a.element_type, &a.dimensions.borrow()),
         Value::Function(f) => match f.body {
             Body::Generic(_) => known::STANDARD_GENERIC_FUNCTION.into(),
             _ => known::COMPILED_FUNCTION.into(),
@@ -53,9 +50,8 @@ fn unsigned_beyond_fixnum() -> Value {
 }
 
 fn vector_type(vector: &Vector) -> Value {
-    let simple = vector.fill_pointer.get().is_none() && !vector.adjustable;
-    let size = vector.items.borrow().len();
-    match (vector.element_type, simple) {
+    let size = vector.items.len();
+    match (vector.element_type, vector.is_simple()) {
         (known::T, true) => Value::list([known::SIMPLE_VECTOR.into(), size.into()]),
         (known::BIT, true) => Value::list([known::SIMPLE_BIT_VECTOR.into(), size.into()]),
         (element, simple) => array_type(simple, element, &[size]),

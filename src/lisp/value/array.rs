@@ -3,13 +3,13 @@
 use std::cell::{Cell, RefCell};
 
 use super::Value;
-use super::release::release_values;
+use super::elements::Elements;
 use super::symbol::{Sym, known};
 
 /// A one-dimensional array.
 pub(crate) struct Vector {
     /// All elements, those beyond the fill pointer included.
-    pub(crate) items: RefCell<Vec<Value>>,
+    pub(crate) items: Elements,
     /// Number of active elements, if the vector has a fill pointer.
     pub(crate) fill_pointer: Cell<Option<usize>>,
     /// May the vector grow?
@@ -27,7 +27,7 @@ impl Vector {
     /// A vector of an element type, without fill pointer.
     pub(crate) fn of_type(element_type: Sym, items: Vec<Value>) -> Vector {
         Vector {
-            items: RefCell::new(items),
+            items: Elements::new(items),
             fill_pointer: Cell::new(None),
             adjustable: false,
             element_type,
@@ -36,31 +36,27 @@ impl Vector {
 
     /// Number of active elements.
     pub(crate) fn len(&self) -> usize {
-        self.fill_pointer
-            .get()
-            .unwrap_or_else(|| self.items.borrow().len())
+        self.fill_pointer.get().unwrap_or_else(|| self.items.len())
     }
 
     /// The element at an index, whether or not the fill pointer covers it.
     pub(crate) fn get(&self, index: usize) -> Option<Value> {
-        self.items.borrow().get(index).cloned()
+        self.items.get(index)
     }
 
     /// Replaces the element at an index; false if there is none.
     pub(crate) fn set(&self, index: usize, value: Value) -> bool {
-        match self.items.borrow_mut().get_mut(index) {
-            Some(item) => {
-                *item = value;
-                true
-            }
-            None => false,
-        }
+        self.items.set(index, value)
     }
 
     /// A copy of the active elements.
     pub(crate) fn to_vec(&self) -> Vec<Value> {
-        let items = self.items.borrow();
-        items.iter().take(self.len()).cloned().collect()
+        self.items.copied(self.len())
+    }
+
+    /// Is the vector neither adjustable nor displaced, and without fill pointer?
+    pub(crate) fn is_simple(&self) -> bool {
+        self.fill_pointer.get().is_none() && !self.adjustable && self.items.displacement().is_none()
     }
 }
 
@@ -71,19 +67,24 @@ pub(crate) struct Array {
     /// May its dimensions change?
     pub(crate) adjustable: bool,
     /// The elements, the last index running fastest.
-    pub(crate) items: RefCell<Vec<Value>>,
+    pub(crate) items: Elements,
     /// `T`, or the element type the array was made with.
     pub(crate) element_type: Sym,
 }
 
-impl Drop for Vector {
-    fn drop(&mut self) {
-        release_values(self.items.take());
+impl Array {
+    /// An array that is not adjustable.
+    pub(crate) fn new(element_type: Sym, dimensions: Vec<usize>, items: Vec<Value>) -> Array {
+        Array {
+            dimensions: RefCell::new(dimensions),
+            adjustable: false,
+            items: Elements::new(items),
+            element_type,
+        }
     }
-}
 
-impl Drop for Array {
-    fn drop(&mut self) {
-        release_values(self.items.take());
+    /// Is the array neither adjustable nor displaced?
+    pub(crate) fn is_simple(&self) -> bool {
+        !self.adjustable && self.items.displacement().is_none()
     }
 }

@@ -264,8 +264,8 @@ fn for_each_reference(object: &Value, visit: &mut dyn FnMut(&Value)) {
             }
         }
         Value::Instance(instance) => instance.slots.borrow().iter().for_each(visit),
-        Value::Vector(vector) => vector.items.borrow().iter().for_each(visit),
-        Value::Array(array) => array.items.borrow().iter().for_each(visit),
+        Value::Vector(vector) => vector.items.for_each_reference(&mut visit),
+        Value::Array(array) => array.items.for_each_reference(&mut visit),
         Value::Hash(table) => table.for_each_reference(&mut visit),
         Value::Foreign(object) => object.object().for_each_reference(&mut visit),
         _ => {}
@@ -275,8 +275,8 @@ fn for_each_reference(object: &Value, visit: &mut dyn FnMut(&Value)) {
 /// About how many references an object has.
 fn size(object: &Value) -> usize {
     match object {
-        Value::Vector(vector) => vector.items.borrow().len() + 1,
-        Value::Array(array) => array.items.borrow().len() + 1,
+        Value::Vector(vector) => vector.items.len() + 1,
+        Value::Array(array) => array.items.len() + 1,
         Value::Hash(table) => 3 * table.len() + 1,
         _ => 3,
     }
@@ -317,8 +317,8 @@ fn empty(object: &Value) {
         Value::Cons(cons) => cons.empty(),
         Value::Cell(slot) => drop(slot.take()),
         Value::Instance(instance) => drop(instance.slots.take()),
-        Value::Vector(vector) => drop(vector.items.take()),
-        Value::Array(array) => drop(array.items.take()),
+        Value::Vector(vector) => vector.items.empty(),
+        Value::Array(array) => array.items.empty(),
         Value::Hash(table) => table.clear(),
         Value::Foreign(object) => object.object().let_go(),
         _ => {}

@@ -83,7 +83,7 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
                 if x.dimensions != y.dimensions {
                     return false;
                 }
-                let (x, y) = (x.items.borrow().clone(), y.items.borrow().clone());
+                let (x, y) = (x.items.to_vec(), y.items.to_vec());
                 pending.extend(x.into_iter().zip(y));
             }
             (Value::Instance(x), Value::Instance(y)) => {

@@ -102,8 +102,8 @@ impl Sequence {
                 }
             }
             Sequence::Vector(vector) => {
-                for (place, item) in vector.items.borrow_mut().iter_mut().zip(items) {
-                    *place = item.clone();
+                for (index, item) in items.iter().enumerate() {
+                    vector.set(index, item.clone());
                 }
             }
             Sequence::Str(string) => string.set_text(text_of(items)?),

@@ -1,4 +1,4 @@
-//! Streams of characters: string streams, files, combinations of streams, and the session's
+//! Streams: string streams, files, combinations of streams, and the session's
 //! standard output.
 
 use std::cell::{Cell, RefCell};
@@ -17,13 +17,33 @@ pub(crate) const MAX_NESTING: u32 = 100;
 pub(crate) struct Stream {
     /// Where its characters come from or go to.
     pub(crate) kind: RefCell<StreamKind>,
+    /// Its class, which it keeps when it is closed.
+    pub(crate) class: Sym,
+    /// The name of the file that it reads or writes.
+    pub(crate) file: Option<Rc<str>>,
+    /// What its elements are.
+    pub(crate) elements: Elements,
     /// How many levels of other streams it is made of.
     pub(crate) nesting: u32,
     /// How many backquotes, less commas, enclose the place that a reader passes on as a stream.
     pub(crate) backquotes: Cell<usize>,
 }
 
-/// Where a stream's characters come from or go to.
+/// What the elements of a stream are.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Elements {
+    /// Characters, which files encode as UTF-8.
+    Characters,
+    /// Integers of so many bits, the low byte first in files.
+    Integers {
+        /// Number of bits.
+        bits: u32,
+        /// May they be negative?
+        signed: bool,
+    },
+}
+
+/// Where a stream's elements come from or go to.
 pub(crate) enum StreamKind {
     /// The image's standard output.
     StandardOutput,
@@ -53,6 +73,15 @@ pub(crate) enum StreamKind {
         column: usize,
         /// Number of bytes written.
         position: u64,
+    },
+    /// Reads a file that is not text, or reads and writes one. All of it is in memory.
+    FileContents {
+        bytes: Vec<u8>,
+        /// Index of the next byte.
+        position: usize,
+        /// Is it written, and what has been written not in the file yet? None for a file that is
+        /// only read.
+        changed: Option<bool>,
     },
     /// Writes to several streams.
     Broadcast {
@@ -86,13 +115,46 @@ pub(crate) enum StreamKind {
     Closed,
 }
 
+impl StreamKind {
+    /// The class of streams of this kind, unless they are those of a file.
+    fn class(&self) -> Sym {
+        match self {
+            StreamKind::StringOutput { .. }
+            | StreamKind::StringInput { .. }
+            | StreamKind::StringTarget { .. } => known::STRING_STREAM,
+            StreamKind::FileOutput { .. } | StreamKind::FileContents { .. } => known::FILE_STREAM,
+            StreamKind::Broadcast { .. } => known::BROADCAST_STREAM,
+            StreamKind::Concatenated { .. } => known::CONCATENATED_STREAM,
+            StreamKind::TwoWay { echo: true, .. } => known::ECHO_STREAM,
+            StreamKind::TwoWay { .. } => known::TWO_WAY_STREAM,
+            StreamKind::StandardOutput | StreamKind::StandardInput | StreamKind::Synonym { .. } => {
+                known::SYNONYM_STREAM
+            }
+            StreamKind::Closed => known::STREAM,
+        }
+    }
+}
+
 impl Stream {
     /// A stream of a kind that is not made of other streams.
     pub(crate) fn new(kind: StreamKind) -> Stream {
         Stream {
+            class: kind.class(),
             kind: RefCell::new(kind),
+            file: None,
+            elements: Elements::Characters,
             nesting: 0,
             backquotes: Cell::new(0),
+        }
+    }
+
+    /// A stream that reads or writes a file.
+    pub(crate) fn of_file(kind: StreamKind, name: &str, elements: Elements) -> Stream {
+        Stream {
+            class: known::FILE_STREAM,
+            file: Some(name.into()),
+            elements,
+            ..Stream::new(kind)
         }
     }
 
@@ -106,9 +168,8 @@ impl Stream {
             ));
         }
         Ok(Stream {
-            kind: RefCell::new(kind),
             nesting,
-            backquotes: Cell::new(0),
+            ..Stream::new(kind)
         })
     }
 
@@ -135,12 +196,21 @@ impl Stream {
         }
     }
 
+    /// Number of bytes that an element takes in a file; characters count as one.
+    pub(crate) fn width(&self) -> usize {
+        match self.elements {
+            Elements::Characters => 1,
+            Elements::Integers { bits, .. } => bits.div_ceil(8).max(1) as usize,
+        }
+    }
+
     /// Can the stream be read?
     pub(crate) fn is_input(&self) -> bool {
         matches!(
             &*self.kind.borrow(),
             StreamKind::StandardInput
                 | StreamKind::StringInput { .. }
+                | StreamKind::FileContents { .. }
                 | StreamKind::Concatenated { .. }
                 | StreamKind::TwoWay { .. }
                 | StreamKind::Synonym { .. }
@@ -155,6 +225,10 @@ impl Stream {
                 | StreamKind::StringOutput { .. }
                 | StreamKind::StringTarget { .. }
                 | StreamKind::FileOutput { .. }
+                | StreamKind::FileContents {
+                    changed: Some(_),
+                    ..
+                }
                 | StreamKind::Broadcast { .. }
                 | StreamKind::TwoWay { .. }
                 | StreamKind::Synonym { .. }

@@ -2,6 +2,8 @@
 
 use std::cell::{Cell, Ref, RefCell};
 
+use super::Value;
+use super::elements::Displacement;
 use crate::lisp::guard::{permit_length, reserve};
 
 /// Bytes of a text for which there may be no room.
@@ -26,6 +28,9 @@ pub(crate) struct LispString {
     capacity: Cell<usize>,
     /// Characters beyond a fill pointer that was set back, the nearest one last.
     beyond: RefCell<Vec<char>>,
+    /// The part of an array that the string consists of, if it is displaced. What is kept here of
+    /// its characters is then a copy, which is taken anew before each use.
+    displaced: RefCell<Option<Displacement>>,
 }
 
 impl LispString {
@@ -41,6 +46,7 @@ impl LispString {
             adjustable: Cell::new(false),
             capacity: Cell::new(0),
             beyond: RefCell::default(),
+            displaced: RefCell::default(),
         }
     }
 
@@ -53,8 +59,105 @@ impl LispString {
         string
     }
 
+    /// Makes the string a part of an array of characters.
+    pub(crate) fn displace(&self, displacement: Displacement) {
+        self.length.set(self.length.get().min(displacement.size));
+        self.capacity.set(displacement.size);
+        drop(self.displaced.replace(Some(displacement)));
+    }
+
+    /// What part of which array the string is, if it is displaced.
+    pub(crate) fn displacement(&self) -> Option<Displacement> {
+        self.displaced.borrow().clone()
+    }
+
+    /// Sets how many characters of a displaced string are active.
+    pub(crate) fn set_length(&self, length: usize) {
+        self.length.set(length);
+    }
+
+    /// Takes the characters of a displaced string from where they are.
+    fn refresh(&self) {
+        let displaced = self.displaced.borrow();
+        let Some(displacement) = &*displaced else {
+            return;
+        };
+        // While the text is borrowed, it is not changed either.
+        let Ok(mut text) = self.text.try_borrow_mut() else {
+            return;
+        };
+        let character = |index| match displacement.get(index) {
+            Some(Value::Char(c)) => c,
+            _ => '\0',
+        };
+        let length = self.length.get();
+        *text = (0..length).map(character).collect();
+        *self.beyond.borrow_mut() = (length..displacement.size).rev().map(character).collect();
+        self.cursor.set((0, 0));
+    }
+
+    /// Puts the characters of a displaced string where they belong. One that has outgrown its place
+    /// has its own characters from then on.
+    fn write_back(&self) {
+        let displaced = self.displaced.borrow();
+        let Some(displacement) = &*displaced else {
+            return;
+        };
+        let characters: Vec<char> = {
+            let beyond = self.beyond.borrow();
+            let text = self.text.borrow();
+            text.chars().chain(beyond.iter().rev().copied()).collect()
+        };
+        if self.length.get() > displacement.size {
+            drop(displaced);
+            drop(self.displaced.take());
+            return;
+        }
+        for (index, c) in characters.into_iter().enumerate() {
+            displacement.set(index, Value::Char(c));
+        }
+    }
+
+    /// Is the string neither adjustable nor displaced, and without fill pointer?
+    pub(crate) fn is_simple(&self) -> bool {
+        !self.has_fill_pointer.get() && !self.adjustable.get() && self.displaced.borrow().is_none()
+    }
+
+    /// The character at a position, whether or not the fill pointer covers it.
+    pub(crate) fn element(&self, index: usize) -> Option<char> {
+        if index < self.len() {
+            return self.char_at(index);
+        }
+        self.refresh();
+        let beyond = self.beyond.borrow();
+        let at = beyond.len().checked_sub(index - self.len() + 1);
+        let c = at.and_then(|at| beyond.get(at).copied()).unwrap_or('\0');
+        (index < self.capacity()).then_some(c)
+    }
+
+    /// Replaces the character at a position, whether or not the fill pointer covers it; false if
+    /// there is none.
+    pub(crate) fn set_element(&self, index: usize, c: char) -> bool {
+        if index < self.len() || index >= self.capacity() {
+            return self.set_char(index, c);
+        }
+        self.refresh();
+        let mut beyond: Vec<char> = self.beyond.take();
+        beyond.reverse();
+        let at = index - self.len();
+        beyond.resize(beyond.len().max(at + 1), '\0');
+        if let Some(place) = beyond.get_mut(at) {
+            *place = c;
+        }
+        beyond.reverse();
+        *self.beyond.borrow_mut() = beyond;
+        self.write_back();
+        true
+    }
+
     /// A copy of the text.
     pub(crate) fn text(&self) -> String {
+        self.refresh();
         let text = self.text.borrow();
         if text.len() > LARGE {
             reserve(text.len());
@@ -64,6 +167,7 @@ impl LispString {
 
     /// The text, borrowed; must not be held across a change of the string.
     pub(crate) fn borrow(&self) -> Ref<'_, String> {
+        self.refresh();
         self.text.borrow()
     }
 
@@ -104,12 +208,19 @@ impl LispString {
 
     /// The character at a position.
     pub(crate) fn char_at(&self, index: usize) -> Option<char> {
+        if let Some(displacement) = &*self.displaced.borrow() {
+            return match displacement.get(index) {
+                Some(Value::Char(c)) if index < self.len() => Some(c),
+                _ => None,
+            };
+        }
         let offset = self.offset(index)?;
         self.text.borrow().get(offset..)?.chars().next()
     }
 
     /// The characters from `start` to `end` (none: to the end).
     pub(crate) fn slice(&self, start: usize, end: Option<usize>) -> String {
+        self.refresh();
         let length = self.length.get();
         let start = self.offset(start.min(length)).unwrap_or(0);
         let end = self.offset(end.unwrap_or(length).min(length));
@@ -130,6 +241,7 @@ impl LispString {
 
     /// Replaces as many characters from `start` on as `new` has, but none beyond the end.
     pub(crate) fn overwrite(&self, start: usize, new: &str) {
+        self.refresh();
         let count = new.chars().count();
         let end = start.saturating_add(count).min(self.length.get());
         let (Some(from), Some(to)) = (self.offset(start), self.offset(end)) else {
@@ -143,19 +255,23 @@ impl LispString {
             .borrow_mut()
             .replace_range(from..to, new.get(..fitting).unwrap_or(new));
         self.cursor.set((0, 0));
+        self.write_back();
     }
 
     /// Replaces the whole text.
     pub(crate) fn set_text(&self, text: String) {
         let length = text.chars().count();
         permit_length(length);
+        self.refresh();
         self.length.set(length);
         self.cursor.set((0, 0));
         *self.text.borrow_mut() = text;
+        self.write_back();
     }
 
-    /// Gives the string other characters, of which so many are before the fill pointer.
+    /// Gives the string other characters, its own, of which so many are before the fill pointer.
     pub(crate) fn replace(&self, text: &str, length: usize) {
+        drop(self.displaced.take());
         let mut characters = text.chars();
         let active: String = characters.by_ref().take(length).collect();
         let mut beyond: Vec<char> = characters.collect();
@@ -168,13 +284,16 @@ impl LispString {
     /// Appends a character.
     pub(crate) fn push(&self, c: char) {
         permit_length(self.length.get() + 1);
+        self.refresh();
         self.length.set(self.length.get() + 1);
         self.text.borrow_mut().push(c);
         self.beyond.borrow_mut().pop();
+        self.write_back();
     }
 
     /// Removes and returns the last character.
     pub(crate) fn pop(&self) -> Option<char> {
+        self.refresh();
         let c = self.text.borrow_mut().pop()?;
         self.length.set(self.length.get().saturating_sub(1));
         self.cursor.set((0, 0));

@@ -55,25 +55,25 @@ names.")
           (errorp (%no-system name nil)))))
 
 (defun system-source-file (system)
-  "The name of the file that describes a system; NIL if it is built in.
+  "The pathname of the file that describes a system; NIL if it is built in.
   Examples:
   (asdf:system-source-file :alexandria) => NIL"
   (let ((name (find-system system)))
     (unless (system:built-in-system-p name)
-      (%system-file name))))
+      (pathname (%system-file name)))))
 
 (defun system-source-directory (system)
-  "The folder of a system, with a slash at its end; NIL if the system is built in.
+  "The pathname of a system's folder; NIL if the system is built in.
   Examples:
   (asdf:system-source-directory :alexandria) => NIL"
   (let ((file (system-source-file system)))
-    (and file (directory-namestring file))))
+    (and file (pathname (directory-namestring file)))))
 
 (defun system-relative-pathname (system name)
-  "The name of a file in the folder of a system.
+  "The pathname of a file in the folder of a system.
   Examples:
-  (asdf:system-relative-pathname :alexandria \"a.txt\") => \"a.txt\""
-  (concatenate 'string (system-source-directory system) (pathname name)))
+  (asdf:system-relative-pathname :alexandria \"a.txt\") => #P\"a.txt\""
+  (merge-pathnames name (or (system-source-directory system) "")))
 
 (defun registered-systems ()
   "The names of all systems that `asdf:*central-registry*` leads to.
@@ -220,9 +220,6 @@ names.")
 
 (defun %load-file (file)
   "Loads a file of a system. It has its own package and readtable."
-  (let ((*readtable* *readtable*)
-        (*load-pathname* file)
-        (*load-truename* file)
-        (variables %*file-local-variables*))
+  (let ((variables %*file-local-variables*))
     (progv variables (mapcar #'symbol-value variables)
       (load file))))

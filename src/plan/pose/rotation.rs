@@ -206,7 +206,7 @@ fn matrix_numbers(argument: &Value) -> Option<[f64; 9]> {
     let items: Vec<Value> = match argument {
         Value::Array(array) => {
             let is_square = array.dimensions.borrow().as_slice() == [3, 3];
-            is_square.then(|| array.items.borrow().clone())?
+            is_square.then(|| array.items.to_vec())?
         }
         Value::Cons(_) => argument
             .list_to_vec()?

@@ -9,6 +9,7 @@ use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::package::{Access, PackageId, PackageTable};
+use crate::lisp::value::pathname::file_name;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
 use crate::plan::designator::schema;
 use crate::plan::designator::value::Class;
@@ -123,10 +124,7 @@ fn package_hint(image: &Image, designator: &Value) -> Option<String> {
 /// What to say to somebody who has named a file that does not exist: one with a similar name in the
 /// same folder.
 fn file_hint(path: &Value) -> Option<String> {
-    let Value::Str(path) = path else {
-        return None;
-    };
-    let path = PathBuf::from(path.text());
+    let path = PathBuf::from(file_name(path)?);
     if path.exists() {
         return None;
     }

@@ -25,6 +25,7 @@ use crate::lisp::value::class::{Class, Instance};
 use crate::lisp::value::code::Code;
 use crate::lisp::value::cons::Cons;
 use crate::lisp::value::cycles;
+use crate::lisp::value::elements::{Displacement, Elements};
 use crate::lisp::value::foreign::{ForeignBox, ForeignCopy};
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::generic::Method;
@@ -161,7 +162,7 @@ impl Copier {
             Value::Str(string) => Value::Str(self.string(string)),
             Value::Vector(vector) => self.object(value, vector, |_, vector| {
                 Value::Vector(Rc::new(Vector {
-                    items: RefCell::default(),
+                    items: Elements::new(Vec::new()),
                     fill_pointer: vector.fill_pointer.clone(),
                     adjustable: vector.adjustable,
                     element_type: vector.element_type,
@@ -171,7 +172,7 @@ impl Copier {
                 Value::Array(Rc::new(Array {
                     dimensions: array.dimensions.clone(),
                     adjustable: array.adjustable,
-                    items: RefCell::default(),
+                    items: Elements::new(Vec::new()),
                     element_type: array.element_type,
                 }))
             }),
@@ -227,6 +228,10 @@ impl Copier {
             return copy.clone();
         }
         let copy = Rc::new(LispString::clone(string));
+        if string.displacement().is_some() {
+            let (original, copy) = (Value::Str(string.clone()), Value::Str(copy.clone()));
+            self.pending.push((original, copy));
+        }
         if is_shared {
             self.copies
                 .insert(address(string), Value::Str(copy.clone()));
@@ -267,6 +272,21 @@ impl Copier {
         copy
     }
 
+    fn fill_elements(&mut self, original: &Elements, copy: &Elements) {
+        match original.displacement() {
+            Some(displacement) => copy.displace(self.displacement(&displacement)),
+            None => copy.own(self.all(&original.to_vec())),
+        }
+    }
+
+    fn displacement(&mut self, original: &Displacement) -> Displacement {
+        Displacement {
+            target: self.value(&original.target),
+            offset: original.offset,
+            size: original.size,
+        }
+    }
+
     /// Puts into a copy what the original holds.
     fn fill(&mut self, original: &Value, copy: &Value) {
         match (original, copy) {
@@ -275,10 +295,15 @@ impl Copier {
                 copy.set_cdr(original.with_cdr(|cdr| self.value(cdr)));
             }
             (Value::Vector(original), Value::Vector(copy)) => {
-                copy.items.replace(self.all(&original.items.borrow()));
+                self.fill_elements(&original.items, &copy.items);
             }
             (Value::Array(original), Value::Array(copy)) => {
-                copy.items.replace(self.all(&original.items.borrow()));
+                self.fill_elements(&original.items, &copy.items);
+            }
+            (Value::Str(original), Value::Str(copy)) => {
+                if let Some(displacement) = original.displacement() {
+                    copy.displace(self.displacement(&displacement));
+                }
             }
             (Value::Hash(original), Value::Hash(copy)) => {
                 let entries = original.entries();

@@ -12,6 +12,9 @@ impl Copier {
         let copy = self.object(&Value::Stream(stream.clone()), stream, |_, stream| {
             Value::Stream(Rc::new(Stream {
                 kind: RefCell::new(StreamKind::Closed),
+                class: stream.class,
+                file: stream.file.clone(),
+                elements: stream.elements,
                 nesting: stream.nesting,
                 backquotes: stream.backquotes.clone(),
             }))
@@ -38,7 +41,16 @@ impl Copier {
                 text: text.clone(),
                 position: *position,
             },
-            StreamKind::FileOutput { .. } => {
+            StreamKind::FileContents {
+                bytes,
+                position,
+                changed: None,
+            } => StreamKind::FileContents {
+                bytes: bytes.clone(),
+                position: *position,
+                changed: None,
+            },
+            StreamKind::FileOutput { .. } | StreamKind::FileContents { .. } => {
                 self.refuse("a file that is being written");
                 StreamKind::Closed
             }

@@ -1,0 +1,223 @@
+//! Elements of streams: sequences of them, bytes, and positions in files.
+
+use std::io::{Seek as _, SeekFrom};
+use std::rc::Rc;
+
+use super::keywords;
+use super::streams::{at_end, stream_of};
+use super::strings::string;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::stream::{self, Stream, StreamKind};
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence, index, text_of};
+
+type Outcome = Result<Value, Box<Raise>>;
+
+fn read_sequence(image: &mut Image, args: &[Value]) -> Outcome {
+    let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
+    let target = Sequence::of(&args[0])?;
+    let bounds = Bounds::new(&target, start.as_ref(), end.as_ref())?;
+    let end = bounds.end_of(target.len()?);
+    let source = stream::input_stream(image, &args[1])?;
+    let reads_bytes = stream::has_integers(image, &source)?;
+    let read = |image: &mut Image| match reads_bytes {
+        true => stream::read_byte(image, &source),
+        false => Ok(stream::read_char(image, &args[1])?.map(Value::Char)),
+    };
+    let mut at = bounds.start;
+    while at < end
+        && let Some(element) = read(image)?
+    {
+        target.set(at, element)?;
+        at += 1;
+    }
+    Ok(at.into())
+}
+
+fn write_sequence(image: &mut Image, args: &[Value]) -> Outcome {
+    let [start, end] = keywords::parse(image, &args[2..], [known::K_START, known::K_END])?;
+    let source = Sequence::of(&args[0])?;
+    let bounds = Bounds::new(&source, start.as_ref(), end.as_ref())?;
+    let items = source.items(bounds)?;
+    let target = stream::output_stream(image, &args[1])?;
+    if stream::has_integers(image, &target)? {
+        for item in &items {
+            stream::write_byte(image, &target, item)?;
+        }
+    } else {
+        stream::write(image, &args[1], &text_of(&items)?)?;
+    }
+    Ok(args[0].clone())
+}
+
+/// `(read-byte stream eof-error-p eof-value)`.
+fn read_byte(image: &mut Image, args: &[Value]) -> Outcome {
+    match stream::read_byte(image, stream_of(&args[0])?)? {
+        Some(byte) => Ok(byte),
+        None => at_end(image, args.first(), args.get(1), args.get(2)),
+    }
+}
+
+fn write_byte(image: &mut Image, args: &[Value]) -> Outcome {
+    stream::write_byte(image, stream_of(&args[1])?, &args[0])?;
+    Ok(args[0].clone())
+}
+
+/// How many bytes a character or a string takes in a file.
+fn file_string_length(image: &mut Image, args: &[Value]) -> Outcome {
+    stream::output_stream(image, &args[0])?;
+    Ok(match &args[1] {
+        Value::Char(c) => c.len_utf8(),
+        other => string(other)?.borrow().len(),
+    }
+    .into())
+}
+
+/// The position in a stream: in characters, or in bytes for a stream that writes a file.
+fn file_position(_: &mut Image, args: &[Value]) -> Outcome {
+    let stream = stream_of(&args[0])?;
+    match (&mut *stream.kind.borrow_mut(), args.get(1)) {
+        (StreamKind::StringInput { text, position }, None) => {
+            let before = text.get(..*position).unwrap_or("");
+            Ok(before.chars().count().into())
+        }
+        (StreamKind::StringInput { text, position }, Some(new)) => {
+            let count = match new {
+                Value::Symbol(sym, ..) if *sym == known::K_START => 0,
+                Value::Symbol(sym, ..) if *sym == known::K_END => usize::MAX,
+                other => index(other)?,
+            };
+            let offset = text.char_indices().nth(count);
+            *position = offset.map_or(text.len(), |(i, _)| i);
+            Ok(Value::T)
+        }
+        (StreamKind::StringOutput { text }, None) => Ok(text.chars().count().into()),
+        (StreamKind::FileOutput { position, .. }, None) => {
+            let elements = *position / stream.width() as u64;
+            Ok(i64::try_from(elements).map_or(Value::NIL, Value::Int))
+        }
+        (StreamKind::FileOutput { file, position, .. }, Some(new)) => {
+            let target = match new {
+                Value::Symbol(known::K_START, ..) => SeekFrom::Start(0),
+                Value::Symbol(known::K_END, ..) => SeekFrom::End(0),
+                other => SeekFrom::Start((index(other)? * stream.width()) as u64),
+            };
+            *position = file
+                .seek(target)
+                .map_err(|error| Raise::new(known::STREAM_ERROR, error.to_string()))?;
+            Ok(Value::T)
+        }
+        (StreamKind::FileContents { position, .. }, None) => {
+            Ok((*position / stream.width()).into())
+        }
+        (
+            StreamKind::FileContents {
+                bytes, position, ..
+            },
+            Some(new),
+        ) => {
+            let target = match new {
+                Value::Symbol(known::K_START, ..) => 0,
+                Value::Symbol(known::K_END, ..) => bytes.len(),
+                other => index(other)?.saturating_mul(stream.width()),
+            };
+            let exists = target <= bytes.len();
+            if exists {
+                *position = target;
+            }
+            Ok(Value::bool(exists))
+        }
+        (StreamKind::Broadcast { targets }, None) if targets.is_empty() => Ok(Value::Int(0)),
+        _ => Ok(Value::NIL),
+    }
+}
+
+/// The file stream that tells the length of a stream: of several to which one writes, the last one.
+fn measured(stream: &Rc<Stream>) -> Option<Rc<Stream>> {
+    let mut stream = stream.clone();
+    loop {
+        let next = match &*stream.kind.borrow() {
+            StreamKind::Broadcast { targets } => targets.last()?.clone(),
+            _ => break,
+        };
+        stream = next;
+    }
+    Some(stream)
+}
+
+fn file_length(_: &mut Image, args: &[Value]) -> Outcome {
+    let Some(stream) = measured(stream_of(&args[0])?) else {
+        return Ok(Value::Int(0));
+    };
+    let bytes = match &*stream.kind.borrow() {
+        StreamKind::StringInput { text, .. } if stream.file.is_some() => text.len(),
+        StreamKind::FileContents { bytes, .. } => bytes.len(),
+        StreamKind::FileOutput { file, .. } => {
+            let buffered = file.buffer().len();
+            let written = file.get_ref().metadata().map_or(0, |data| data.len());
+            usize::try_from(written).unwrap_or(usize::MAX) + buffered
+        }
+        _ => return Err(Raise::type_error(&args[0], known::FILE_STREAM)),
+    };
+    Ok((bytes / stream.width()).into())
+}
+
+/// Elements of streams.
+pub(crate) static TABLE: &[Builtin] = &[
+    pure(
+        "READ-SEQUENCE",
+        "sequence stream &key start end",
+        "Reads characters or bytes into a sequence; the index after the last one.",
+        &["(read-sequence (make-string 2) (make-string-input-stream \"abc\")) => 2"],
+        read_sequence,
+    ),
+    pure(
+        "WRITE-SEQUENCE",
+        "sequence stream &key start end",
+        "Writes the characters or bytes of a sequence.",
+        &["(with-output-to-string (s) (write-sequence \"hello\" s :start 1 :end 3)) => \"el\""],
+        write_sequence,
+    ),
+    pure(
+        "FILE-POSITION",
+        "stream &optional position",
+        "How far a stream has come, or sets that.",
+        &["(file-position (make-string-input-stream \"x\")) => 0"],
+        file_position,
+    ),
+    pure(
+        "FILE-LENGTH",
+        "stream",
+        "The length of the file behind a stream.",
+        &["(file-length (make-broadcast-stream)) => 0"],
+        file_length,
+    ),
+    pure(
+        "READ-BYTE",
+        "stream &optional eof-error-p eof-value",
+        "Reads an integer from a file that was opened with an :ELEMENT-TYPE of integers.",
+        &[
+            "(handler-case (read-byte (make-string-input-stream \"a\")) (stream-error () 'characters)) => CHARACTERS",
+        ],
+        read_byte,
+    ),
+    pure(
+        "WRITE-BYTE",
+        "integer stream",
+        "Writes an integer to a file that was opened with an :ELEMENT-TYPE of integers.",
+        &[
+            "(handler-case (write-byte 1 (make-string-output-stream)) (stream-error () 'characters)) => CHARACTERS",
+        ],
+        write_byte,
+    ),
+    pure(
+        "FILE-STRING-LENGTH",
+        "stream object",
+        "How many bytes a character or string would take in a file.",
+        &["(file-string-length *standard-output* \"naïve\") => 6"],
+        file_string_length,
+    ),
+];

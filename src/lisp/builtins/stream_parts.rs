@@ -1,0 +1,300 @@
+//! Making streams, combining them, and what they are made of.
+
+use std::rc::Rc;
+
+use super::keywords;
+use super::streams::stream_of;
+use super::strings::string;
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::stream::{self, Stream, StreamKind};
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::value::sequence::{Bounds, Sequence};
+
+type Outcome = Result<Value, Box<Raise>>;
+
+fn made(stream: Stream) -> Value {
+    Value::Stream(Rc::new(stream))
+}
+
+fn make_string_output_stream(image: &mut Image, args: &[Value]) -> Outcome {
+    keywords::parse(image, args, [known::K_ELEMENT_TYPE])?;
+    Ok(made(Stream::to_text()))
+}
+
+fn get_output_stream_string(_: &mut Image, args: &[Value]) -> Outcome {
+    match stream_of(&args[0])?.take_text() {
+        Some(text) => Ok(Value::string(text)),
+        None => Err(Raise::type_error(&args[0], known::STRING_STREAM)),
+    }
+}
+
+fn make_string_input_stream(_: &mut Image, args: &[Value]) -> Outcome {
+    let string = string(&args[0])?.clone();
+    let sequence = Sequence::Str(string.clone());
+    let bounds = Bounds::new(&sequence, args.get(1), args.get(2))?;
+    Ok(made(Stream::from_text(
+        string.slice(bounds.start, bounds.end),
+    )))
+}
+
+/// A stream that appends to a string with a fill pointer.
+fn make_fill_pointer_stream(_: &mut Image, args: &[Value]) -> Outcome {
+    let target = string(&args[0])?.clone();
+    if !target.has_fill_pointer.get() {
+        return Err(Raise::simple(
+            "The string has no fill pointer, so nothing can be appended to it.",
+        ));
+    }
+    Ok(made(Stream::new(StreamKind::StringTarget {
+        string: target,
+    })))
+}
+
+/// The streams that one is made of; all must be usable in its direction.
+fn parts(
+    image: &Image,
+    args: &[Value],
+    is_usable: fn(&Stream) -> bool,
+    predicate: &str,
+) -> Result<Vec<Rc<Stream>>, Box<Raise>> {
+    let usable = |arg| {
+        let stream = stream_of(arg)?;
+        if is_usable(stream) {
+            Ok(stream.clone())
+        } else {
+            Err(stream::not_usable(stream, predicate, image))
+        }
+    };
+    args.iter().map(usable).collect()
+}
+
+fn inputs(image: &Image, args: &[Value]) -> Result<Vec<Rc<Stream>>, Box<Raise>> {
+    parts(image, args, Stream::is_input, "INPUT-STREAM-P")
+}
+
+fn outputs(image: &Image, args: &[Value]) -> Result<Vec<Rc<Stream>>, Box<Raise>> {
+    parts(image, args, Stream::is_output, "OUTPUT-STREAM-P")
+}
+
+fn make_broadcast_stream(image: &mut Image, args: &[Value]) -> Outcome {
+    let targets = outputs(image, args)?;
+    let kind = StreamKind::Broadcast {
+        targets: targets.clone(),
+    };
+    Stream::compound(kind, &targets).map(made)
+}
+
+fn make_concatenated_stream(image: &mut Image, args: &[Value]) -> Outcome {
+    let inputs = inputs(image, args)?;
+    let kind = StreamKind::Concatenated {
+        inputs: inputs.clone(),
+        unread: None,
+    };
+    Stream::compound(kind, &inputs).map(made)
+}
+
+fn two_way(image: &Image, args: &[Value], echo: bool) -> Outcome {
+    let mut parts = inputs(image, &args[..1])?;
+    parts.extend(outputs(image, &args[1..2])?);
+    let [input, output] = parts.as_slice() else {
+        return Err(Raise::type_error(&args[0], known::STREAM));
+    };
+    let kind = StreamKind::TwoWay {
+        input: input.clone(),
+        output: output.clone(),
+        echo,
+        unread: None,
+    };
+    Stream::compound(kind, &parts).map(made)
+}
+
+fn make_two_way_stream(image: &mut Image, args: &[Value]) -> Outcome {
+    two_way(image, args, false)
+}
+
+fn make_echo_stream(image: &mut Image, args: &[Value]) -> Outcome {
+    two_way(image, args, true)
+}
+
+fn make_synonym_stream(_: &mut Image, args: &[Value]) -> Outcome {
+    let symbol = super::property_lists::symbol(&args[0])?;
+    Ok(made(Stream::new(StreamKind::Synonym { symbol })))
+}
+
+fn stream_list(streams: &[Rc<Stream>]) -> Value {
+    Value::list(streams.iter().cloned().map(Value::Stream))
+}
+
+/// The parts of a combined stream, as a list.
+fn components(value: &Value) -> Result<Value, Box<Raise>> {
+    match &*stream_of(value)?.kind.borrow() {
+        StreamKind::Broadcast { targets } => Ok(stream_list(targets)),
+        StreamKind::Concatenated { inputs, .. } => Ok(stream_list(inputs)),
+        StreamKind::TwoWay { input, output, .. } => {
+            Ok(stream_list(&[input.clone(), output.clone()]))
+        }
+        StreamKind::Synonym { symbol } => Ok(Value::list([Value::symbol(*symbol)])),
+        _ => Err(Raise::type_error(value, known::STREAM)),
+    }
+}
+
+fn all_components(_: &mut Image, args: &[Value]) -> Outcome {
+    components(&args[0])
+}
+
+fn first_component(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(components(&args[0])?.car_or_nil())
+}
+
+fn second_component(_: &mut Image, args: &[Value]) -> Outcome {
+    Ok(components(&args[0])?.cdr_or_nil().car_or_nil())
+}
+
+fn stream_file(_: &mut Image, args: &[Value]) -> Outcome {
+    let file = &stream_of(&args[0])?.file;
+    Ok(file.as_deref().map_or(Value::NIL, Value::string))
+}
+
+/// Making and combining streams.
+pub(crate) static TABLE: &[Builtin] = &[
+    pure(
+        "MAKE-STRING-OUTPUT-STREAM",
+        "&key element-type",
+        "A stream that collects what is written.",
+        &[
+            "(let ((s (make-string-output-stream))) (princ 1 s) (get-output-stream-string s)) => \"1\"",
+        ],
+        make_string_output_stream,
+    ),
+    pure(
+        "GET-OUTPUT-STREAM-STRING",
+        "stream",
+        "Takes the text that a string output stream has collected.",
+        &["(get-output-stream-string (make-string-output-stream)) => \"\""],
+        get_output_stream_string,
+    ),
+    pure(
+        "MAKE-STRING-INPUT-STREAM",
+        "string &optional start end",
+        "A stream that gives the characters of a string.",
+        &["(read-char (make-string-input-stream \"abc\" 1)) => #\\b"],
+        make_string_input_stream,
+    ),
+    pure(
+        "MAKE-BROADCAST-STREAM",
+        "&rest streams",
+        "A stream that writes to several others.",
+        &["(princ 1 (make-broadcast-stream)) => 1"],
+        make_broadcast_stream,
+    ),
+    pure(
+        "MAKE-CONCATENATED-STREAM",
+        "&rest streams",
+        "A stream that reads several others one after the other.",
+        &[
+            "(read-line (make-concatenated-stream (make-string-input-stream \"a\") (make-string-input-stream \"b\"))) => \"ab\" ; T",
+        ],
+        make_concatenated_stream,
+    ),
+    pure(
+        "MAKE-TWO-WAY-STREAM",
+        "input output",
+        "A stream that reads one stream and writes another.",
+        &[
+            "(read-char (make-two-way-stream (make-string-input-stream \"a\") (make-broadcast-stream))) => #\\a",
+        ],
+        make_two_way_stream,
+    ),
+    pure(
+        "MAKE-ECHO-STREAM",
+        "input output",
+        "A stream that writes what it reads to another.",
+        &[
+            "(let* ((out (make-string-output-stream)) (s (make-echo-stream (make-string-input-stream \"ab\") out))) (read-char s) (get-output-stream-string out)) => \"a\"",
+        ],
+        make_echo_stream,
+    ),
+    pure(
+        "MAKE-SYNONYM-STREAM",
+        "symbol",
+        "A stream that stands for the value of a variable.",
+        &["(streamp (make-synonym-stream '*standard-output*)) => T"],
+        make_synonym_stream,
+    ),
+    pure(
+        "BROADCAST-STREAM-STREAMS",
+        "stream",
+        "The streams that a broadcast stream writes to.",
+        &["(broadcast-stream-streams (make-broadcast-stream)) => NIL"],
+        all_components,
+    ),
+    pure(
+        "CONCATENATED-STREAM-STREAMS",
+        "stream",
+        "The streams that a concatenated stream has still to read.",
+        &["(concatenated-stream-streams (make-concatenated-stream)) => NIL"],
+        all_components,
+    ),
+    pure(
+        "TWO-WAY-STREAM-INPUT-STREAM",
+        "stream",
+        "The stream that is read.",
+        &["(streamp (two-way-stream-input-stream *terminal-io*)) => T"],
+        first_component,
+    ),
+    pure(
+        "TWO-WAY-STREAM-OUTPUT-STREAM",
+        "stream",
+        "The stream that is written.",
+        &["(streamp (two-way-stream-output-stream *terminal-io*)) => T"],
+        second_component,
+    ),
+    pure(
+        "ECHO-STREAM-INPUT-STREAM",
+        "stream",
+        "The stream that is read.",
+        &[
+            "(streamp (echo-stream-input-stream (make-echo-stream *standard-input* *standard-output*))) => T",
+        ],
+        first_component,
+    ),
+    pure(
+        "ECHO-STREAM-OUTPUT-STREAM",
+        "stream",
+        "The stream that is written.",
+        &[
+            "(streamp (echo-stream-output-stream (make-echo-stream *standard-input* *standard-output*))) => T",
+        ],
+        second_component,
+    ),
+    pure(
+        "SYNONYM-STREAM-SYMBOL",
+        "stream",
+        "The variable that a synonym stream stands for.",
+        &["(synonym-stream-symbol (make-synonym-stream '*x*)) => *X*"],
+        first_component,
+    ),
+];
+
+/// What expansions call; in `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "%MAKE-FILL-POINTER-STREAM",
+        "string",
+        "A stream that appends to a string with a fill pointer.",
+        &[
+            "(streamp (system::%make-fill-pointer-stream (make-array 0 :element-type 'character :fill-pointer 0))) => T",
+        ],
+        make_fill_pointer_stream,
+    ),
+    pure(
+        "%STREAM-FILE",
+        "stream",
+        "The name of the file that a stream reads or writes, or `NIL`.",
+        &["(system::%stream-file *standard-input*) => NIL"],
+        stream_file,
+    ),
+];
