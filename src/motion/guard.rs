@@ -66,23 +66,31 @@ pub(super) fn obstacle(
         .find(is_deeper)
 }
 
-/// A pair that comes closer while the robot presses the object onto something: that gives way, so the
-/// two never overlap much.
+/// A pair of robot and object that comes closer while the robot presses the object onto something:
+/// that gives way, so the two never overlap much.
 fn pressed_harder(
     world: &World,
     checker: &mut CollisionChecker<'_>,
     next: &RobotConfiguration,
     allowed: &AllowedPairs,
 ) -> Option<CollisionHit> {
-    let pinned = loose(world).find_map(|object| pinned(world, object.name()))?;
-    let of_it = |hit: &CollisionHit| hit.other.object() == Some(&pinned.object);
+    let is_pinned = |object: &&Object| pinned(world, object.name()).is_some();
+    let all_pinned: Vec<&str> = loose(world).filter(is_pinned).map(Object::name).collect();
+    if all_pinned.is_empty() {
+        return None;
+    }
+    let is_of_one = |hit: &CollisionHit| {
+        let object = hit.other.object();
+        object.is_some_and(|object| all_pinned.contains(&object))
+    };
     let now = checker.all_hits(world.robot_configuration(), allowed, TOUCHING);
     let is_deeper = |hit: &CollisionHit| {
-        let before = now.iter().find(|n| n.moving == hit.moving && of_it(n));
+        let is_same = |n: &&CollisionHit| n.moving == hit.moving && n.other == hit.other;
+        let before = now.iter().find(is_same);
         before.is_none_or(|before| hit.depth > before.depth)
     };
     let next = checker.all_hits(next, allowed, TOUCHING);
-    next.into_iter().filter(of_it).find(is_deeper)
+    next.into_iter().filter(is_of_one).find(is_deeper)
 }
 
 /// The objects that no hand holds.
