@@ -391,7 +391,7 @@ fn displaced_arrays_share_their_elements() {
         ),
         (
             "(make-array 3 :displaced-to #(1 2 3) :displaced-index-offset 1)",
-            "!! 3 elements from index 1 on are more than the array has to which another is to be displaced: 3.",
+            "!! An array of 3 elements cannot be displaced to index 1 of one that has 3.",
         ),
         (
             "(let ((a (make-array 2 :adjustable t))) (adjust-array a 2 :displaced-to a))",

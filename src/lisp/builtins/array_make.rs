@@ -112,7 +112,7 @@ impl Options {
         let total = total_size(target)?;
         if offset.saturating_add(size) > total {
             return Err(Raise::simple(format!(
-                "{size} elements from index {offset} on are more than the array has to which another is to be displaced: {total}."
+                "An array of {size} elements cannot be displaced to index {offset} of one that has {total}."
             )));
         }
         Ok(Some(Displacement {

@@ -29,6 +29,7 @@ pub(crate) mod numbers;
 pub(crate) mod object_printing;
 pub(crate) mod objects;
 pub(crate) mod package_macros;
+pub(crate) mod package_symbols;
 pub(crate) mod packages;
 pub(crate) mod pairs;
 pub(crate) mod pathnames;

@@ -1,9 +1,7 @@
 //! What `defpackage`, `do-symbols` and related macros call.
 
-use super::packages::{
-    accessible, designated, import_one, make, one_or_more, package_error, shadow_one, status,
-    use_one,
-};
+use super::package_symbols::{import_one, shadow_one};
+use super::packages::{accessible, designated, make, one_or_more, package_error, status, use_one};
 use super::shown::shown;
 use super::strings;
 use crate::lisp::builtin::{Builtin, pure};

@@ -1,11 +1,9 @@
-//! Packages: finding, making, using, exporting, importing, shadowing.
+//! Packages: finding, making, using.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::keywords;
-use super::property_lists::symbol;
-use super::shown::shown;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -168,7 +166,7 @@ fn find_all_symbols(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::list(found.into_iter().map(Value::symbol)))
 }
 
-fn names(image: &Image, list: Option<&Value>) -> Result<Vec<String>, Box<Raise>> {
+pub(super) fn names(image: &Image, list: Option<&Value>) -> Result<Vec<String>, Box<Raise>> {
     let items = list.map_or(Ok(Vec::new()), one_or_more)?;
     items
         .iter()
@@ -318,193 +316,6 @@ fn unuse_package(image: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::T)
 }
 
-/// Makes a symbol present in a package, unless the package has another of its name.
-pub(crate) fn import_one(
-    image: &mut Image,
-    package: PackageId,
-    sym: Sym,
-) -> Result<(), Box<Raise>> {
-    let found = image.packages.find_symbol(package, image.name(sym));
-    if let Some((other, _)) = found
-        && other != sym
-    {
-        return Err(package_error(
-            format!(
-                "IMPORT {} causes a name conflict in {}: it has another symbol of that name.",
-                shown(image, &sym.into()),
-                image.packages.get(package).name
-            ),
-            &Value::Package(package),
-        ));
-    }
-    image.packages.import(&mut image.symbols, package, sym);
-    Ok(())
-}
-
-fn import(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
-        import_one(image, package, sym)?;
-    }
-    Ok(Value::T)
-}
-
-/// The symbols of a designator for a list of symbols; `NIL` is the empty list, not a symbol.
-fn symbols(value: &Value) -> Result<Vec<Sym>, Box<Raise>> {
-    one_or_more(value)?.iter().map(symbol).collect()
-}
-
-fn shadowing_import(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
-        image
-            .packages
-            .shadowing_import(&mut image.symbols, package, sym);
-    }
-    Ok(Value::T)
-}
-
-/// Removes a symbol from a package, unless two different symbols that it shadows would get its name.
-fn unintern(image: &mut Image, args: &[Value]) -> Outcome {
-    let sym = symbol(&args[0])?;
-    let package = or_current(image, args.get(1))?;
-    let name = image.name(sym).to_owned();
-    let this = image.packages.get(package);
-    let is_present = this
-        .symbols
-        .get(name.as_str())
-        .is_some_and(|(present, _)| *present == sym);
-    if is_present
-        && this
-            .shadowing
-            .iter()
-            .any(|shadowed| shadowed.as_ref() == name)
-    {
-        let mut inherited: Vec<Sym> = this
-            .uses
-            .iter()
-            .filter_map(|used| image.packages.get(*used).symbols.get(name.as_str()))
-            .filter(|(_, external)| *external)
-            .map(|(inherited, _)| *inherited)
-            .collect();
-        inherited.dedup();
-        if inherited.len() > 1 {
-            return Err(package_error(
-                format!(
-                    "UNINTERN {name} causes a name conflict in {}: it shadows different symbols of packages that are used.",
-                    this.name
-                ),
-                &Value::Package(package),
-            ));
-        }
-    }
-    let found = image.packages.unintern(&mut image.symbols, package, sym);
-    Ok(found.into())
-}
-
-fn export(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
-        let found = image.packages.find_symbol(package, image.name(sym));
-        if found.is_none_or(|(other, _)| other != sym) {
-            return Err(package_error(
-                format!(
-                    "{} cannot be exported: it is not accessible in {}; import it first.",
-                    shown(image, &sym.into()),
-                    image.packages.get(package).name
-                ),
-                &Value::Package(package),
-            ));
-        }
-        no_conflict_in_users(image, package, sym)?;
-        image.packages.export(&mut image.symbols, package, sym);
-    }
-    Ok(Value::T)
-}
-
-/// Checks that no package that uses this one has another symbol of the name, unless it shadows that.
-fn no_conflict_in_users(image: &Image, package: PackageId, sym: Sym) -> Result<(), Box<Raise>> {
-    let name = image.name(sym);
-    let conflict = image.packages.ids().find(|user| {
-        let this = image.packages.get(*user);
-        !image.packages.is_deleted(*user)
-            && this.uses.contains(&package)
-            && !this
-                .shadowing
-                .iter()
-                .any(|shadowed| shadowed.as_ref() == name)
-            && image
-                .packages
-                .find_symbol(*user, name)
-                .is_some_and(|(other, _)| other != sym)
-    });
-    match conflict {
-        None => Ok(()),
-        Some(user) => Err(package_error(
-            format!(
-                "EXPORT {} causes a name conflict in {}, which uses {}: it has another symbol of that name; shadow it there first.",
-                shown(image, &sym.into()),
-                image.packages.get(user).name,
-                image.packages.get(package).name
-            ),
-            &Value::Package(package),
-        )),
-    }
-}
-
-fn unexport(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for sym in symbols(&args[0])? {
-        let found = image.packages.find_symbol(package, image.name(sym));
-        if found.is_none_or(|(other, _)| other != sym) {
-            return Err(package_error(
-                format!(
-                    "{} cannot be unexported: it is not accessible in {}.",
-                    shown(image, &sym.into()),
-                    image.packages.get(package).name
-                ),
-                &Value::Package(package),
-            ));
-        }
-        image.packages.unexport(&image.symbols, package, sym);
-    }
-    Ok(Value::T)
-}
-
-/// Makes a name refer to a symbol of the package itself, whatever it would inherit.
-pub(crate) fn shadow_one(image: &mut Image, package: PackageId, name: &str) {
-    let present = image
-        .packages
-        .get(package)
-        .symbols
-        .get(name)
-        .map(|(s, _)| *s);
-    let sym = present.unwrap_or_else(|| image.make_symbol(name));
-    if present.is_none() {
-        image.symbols.get_mut(sym).package = Some(package);
-    }
-    let external = image
-        .packages
-        .get(package)
-        .symbols
-        .get(name)
-        .is_some_and(|(_, external)| *external);
-    image
-        .packages
-        .shadowing_import(&mut image.symbols, package, sym);
-    if external {
-        image.packages.export(&mut image.symbols, package, sym);
-    }
-}
-
-fn shadow(image: &mut Image, args: &[Value]) -> Outcome {
-    let package = or_current(image, args.get(1))?;
-    for name in names(image, Some(&args[0]))? {
-        shadow_one(image, package, &name);
-    }
-    Ok(Value::T)
-}
-
 /// Packages.
 pub(crate) static TABLE: &[Builtin] = &[
     pure(
@@ -606,47 +417,5 @@ pub(crate) static TABLE: &[Builtin] = &[
         "Takes packages out of those that a package uses.",
         &["(unuse-package :keyword) => T"],
         unuse_package,
-    ),
-    pure(
-        "IMPORT",
-        "symbols &optional package",
-        "Makes symbols present in a package (the current one).",
-        &["(import 'cl:car) => T"],
-        import,
-    ),
-    pure(
-        "SHADOWING-IMPORT",
-        "symbols &optional package",
-        "Makes symbols present in a package in place of others of their names.",
-        &["(shadowing-import nil) => T"],
-        shadowing_import,
-    ),
-    pure(
-        "EXPORT",
-        "symbols &optional package",
-        "Exports symbols from a package (the current one).",
-        &["(export 'exported-as-example) => T"],
-        export,
-    ),
-    pure(
-        "UNINTERN",
-        "symbol &optional package",
-        "Takes a symbol out of a package; was it there?",
-        &["(unintern (make-symbol \"X\")) => NIL"],
-        unintern,
-    ),
-    pure(
-        "UNEXPORT",
-        "symbols &optional package",
-        "Makes exported symbols internal again.",
-        &["(unexport 'exported-as-example) => T"],
-        unexport,
-    ),
-    pure(
-        "SHADOW",
-        "names &optional package",
-        "Gives a package symbols of its own in place of inherited ones.",
-        &["(shadow \"OWN-SYMBOL\") => T"],
-        shadow,
     ),
 ];

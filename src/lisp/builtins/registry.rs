@@ -45,6 +45,7 @@ pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
     hash_tables::TABLE,
     help::TABLE,
     packages::TABLE,
+    package_symbols::TABLE,
     streams::TABLE,
     stream_elements::TABLE,
     stream_parts::TABLE,

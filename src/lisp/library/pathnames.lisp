@@ -128,7 +128,8 @@
   (cond ((null directory) nil)
         ((stringp directory) (list :absolute directory))
         ((eq directory :wild) (list :absolute :wild-inferiors))
-        (t (remove "" directory :test #'equal))))
+        ((consp directory) (remove "" directory :test #'equal))
+        (t directory)))
 
 (defun %checked-pathname (directory name type version)
   "The pathname with these parts, if they can be parts of one."
