@@ -534,6 +534,10 @@ fn pathnames_are_objects() {
             "(T T NIL NIL)",
         ),
         (
+            "(make-pathname :directory 5)",
+            "!! 5 is no directory; it is a string, or a list of :ABSOLUTE or :RELATIVE and names.",
+        ),
+        (
             "(open \"a*.lisp\")",
             "!! \"a*.lisp\" stands for several files; one is needed here.",
         ),
