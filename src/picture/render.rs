@@ -46,7 +46,7 @@ fn render_with(scene: &Scene, camera: &Camera, threads: usize) -> Image {
     });
 
     let points = some_points(&bands, &seen, projector.width);
-    let lamps = in_parallel(threads, Lights::plans(), |plan| {
+    let lamps = in_parallel(threads, Lights::plans(camera.height), |plan| {
         Lights::lamp(plan, &facets, &points)
     });
 

@@ -15,8 +15,10 @@ pub(crate) type Color = [f32; 3];
 /// Direction towards the lamp.
 pub(crate) const LAMP: [f64; 3] = [-0.55, -0.42, 1.25];
 const KEY_COLOR: Color = [0.80, 0.74, 0.65];
-/// Most cells along its shadow map, and the least distance between them (m).
-const KEY_CELLS: f64 = 1500.0;
+/// Most cells along its shadow map, for each row of the picture and in all, and the least distance
+/// between them (m). About as fine as the pixels: what is finer takes time and is not seen.
+const KEY_CELLS_PER_ROW: f64 = 2.1;
+const KEY_CELLS: f64 = 3000.0;
 const KEY_CELL: f64 = 0.0025;
 
 /// Colours of the sky's light, of light reflected by the floor, and of ambient light.
@@ -24,7 +26,7 @@ const SKY_COLOR: Color = [0.42, 0.45, 0.50];
 const BOUNCE_COLOR: Color = [0.14, 0.12, 0.10];
 const REST: f32 = 0.05;
 /// The same for each of the sky's lights; finer shadows would show that there are few of them.
-const SKY_CELLS: f64 = 440.0;
+const SKY_CELLS: f64 = 300.0;
 const SKY_CELL: f64 = 0.02;
 
 /// Rings of directions of the sky: how many, their elevation above the horizon (degrees), and
@@ -110,11 +112,11 @@ pub(crate) struct Lights {
 }
 
 impl Lights {
-    /// The plans of all lamps, the key lamp first.
-    pub(crate) fn plans() -> Vec<LampPlan> {
+    /// The plans of all lamps for a picture with this number of rows, the key lamp first.
+    pub(crate) fn plans(rows: usize) -> Vec<LampPlan> {
         let mut plans = vec![LampPlan {
             towards: Vector3::from(LAMP),
-            most: KEY_CELLS,
+            most: (KEY_CELLS_PER_ROW * rows.max(1) as f64).min(KEY_CELLS),
             least: KEY_CELL,
             is_sky: false,
         }];
