@@ -1,0 +1,72 @@
+;;; Patterns with wildcards are looked for in lists of symbols: ? stands for one element, symbols that
+;;; begin with ? for one element that is the same everywhere, and those with * for any number.
+
+(defvar *random* 21)
+
+(defun next-random ()
+  (setq *random* (mod (* *random* 17) 251)))
+
+(defun kind (name)
+  (char (symbol-name name) 0))
+
+(defun variable-p (item first)
+  (and (symbolp item) (eql (kind item) first)))
+
+(defun pattern-matches (pattern data bindings)
+  (cond ((null pattern) (null data))
+        ((null data)
+         (and (variable-p (car pattern) #\*)
+              (pattern-matches (cdr pattern) data bindings)))
+        ((or (eq (car pattern) '?) (eq (car pattern) (car data)))
+         (pattern-matches (cdr pattern) (cdr data) bindings))
+        ((variable-p (car pattern) #\?)
+         (let ((binding (assoc (car pattern) bindings)))
+           (if binding
+               (and (equal (cdr binding) (car data))
+                    (pattern-matches (cdr pattern) (cdr data) bindings))
+               (pattern-matches (cdr pattern) (cdr data)
+                                (acons (car pattern) (car data) bindings)))))
+        ((variable-p (car pattern) #\*)
+         (let ((binding (assoc (car pattern) bindings)))
+           (if binding
+               (pattern-matches (append (cdr binding) (cdr pattern)) data bindings)
+               (do ((taken '() (append taken (list (car rest))))
+                    (rest data (cdr rest)))
+                   ((null rest)
+                    (pattern-matches (cdr pattern) '()
+                                     (acons (car pattern) taken bindings)))
+                 (when (pattern-matches (cdr pattern) rest
+                                        (acons (car pattern) taken bindings))
+                   (return t))))))
+        ((and (consp (car pattern)) (consp (car data)))
+         (and (pattern-matches (car pattern) (car data) bindings)
+              (pattern-matches (cdr pattern) (cdr data) bindings)))
+        (t nil)))
+
+(defun make-units (count)
+  (let ((units '()))
+    (dotimes (i count units)
+      (let ((unit (intern (format nil "UNIT~D" i))))
+        (setf (get unit 'data)
+              (list (random-list 5) (random-list 6) (random-list 7)))
+        (push unit units)))))
+
+(defun random-list (length)
+  (let ((list '()))
+    (dotimes (i length list)
+      (push (if (< (next-random) 180)
+                (nth (mod (next-random) 3) '(a b c))
+                (list (nth (mod (next-random) 2) '(a b)) 'b))
+            list))))
+
+(defun run ()
+  (setq *random* 21)
+  (let ((units (make-units 100)) (found 0))
+    (dotimes (i 20 found)
+      (dolist (unit units)
+        (dolist (pattern '((*a ?b *b ?b a *a a *b *a)
+                           (*a *b *b *a (*a) (*b))
+                           (? ? * (b a) * ? ?)))
+          (dolist (data (get unit 'data))
+            (when (pattern-matches pattern data '())
+              (incf found))))))))

@@ -1,0 +1,16 @@
+;;; Hash tables whose keys are integers and symbols.
+
+(defun run ()
+  (let ((numbers (make-hash-table :test 'eql))
+        (names (make-hash-table :test 'eq))
+        (sum 0))
+    (dotimes (round 5)
+      (dotimes (i 40000)
+        (setf (gethash (mod (* i 7919) 50021) numbers) i))
+      (dotimes (i 40000)
+        (setq sum (+ sum (gethash i numbers 1)))))
+    (dotimes (i 100000)
+      (incf (gethash (if (evenp i) 'even 'odd) names 0)))
+    (dotimes (i 50000)
+      (remhash i numbers))
+    (list sum (hash-table-count numbers) (gethash 'odd names))))
