@@ -53,7 +53,13 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         "tag &rest values",
         "Leaves the innermost CATCH of the tag with the values.",
         &["(catch 'x (system:throw-values 'x 1 2)) => 1 ; 2"],
-        |m, args| m.throw(&args[0], Value::values(args[1..].to_vec())),
+        |m, mut args| match args.as_slice() {
+            [tag, value] => m.throw(tag, value.clone()),
+            _ => {
+                let tag = args.remove(0);
+                m.throw(&tag, Value::values(args))
+            }
+        },
     ),
     control(
         "CASE-FAILED",

@@ -84,27 +84,41 @@ impl Machine<'_> {
         cut: usize,
         multi: bool,
     ) -> Result<(), Box<Raise>> {
-        let frames = self.fiber.frames.len();
-        if frames >= MOST_FRAMES {
-            self.check_depth(frames)?;
+        if !self.has_room() {
+            self.check_depth(self.fiber.frames.len())?;
         }
-        let parameters = &code.parameters;
-        if parameters.is_simple() {
-            if count != usize::from(parameters.required) {
-                return Err(wrong_count(code.name.value(), count));
-            }
-        } else {
-            self.arrange_arguments(code, count)?;
+        match code.exact_count {
+            Some(exact) if count == usize::from(exact) => {}
+            Some(_) => return Err(wrong_count(code.name.value(), count)),
+            None => self.arrange_arguments(code, count)?,
         }
-        let slots = code.parameters.slots();
+        let base = self.fiber.stack.len() - code.parameters.slots();
+        self.push_frame(function, base, cut, multi);
+        Ok(())
+    }
+
+    /// Is there room for one more call, so that its depth need not be looked at closely?
+    #[inline(always)]
+    pub(super) fn has_room(&self) -> bool {
+        self.fiber.frames.len() < MOST_FRAMES
+    }
+
+    /// Enters a closure whose slots are filled from `base` on.
+    #[inline(always)]
+    pub(super) fn push_frame(
+        &mut self,
+        function: Rc<Function>,
+        base: usize,
+        cut: usize,
+        multi: bool,
+    ) {
         self.fiber.frames.push(Frame {
             kind: FrameKind::Code { function, pc: 0 },
-            base: self.fiber.stack.len() - slots,
+            base,
             cut,
             dynamic: self.fiber.dynamic.len(),
             multi,
         });
-        Ok(())
     }
 
     fn check_depth(&self, frames: usize) -> Result<(), Box<Raise>> {
@@ -192,6 +206,21 @@ impl Machine<'_> {
             };
         }
         let start = self.fiber.stack.len() - count;
+        if let Body::Native(native) = &function.body
+            && native.accepts(count)
+            && let Some(f) = self.image.pure_call(native)
+        {
+            let result = f(self.image, &self.fiber.stack[start..]);
+            self.fiber.stack.truncate(cut);
+            return match result {
+                Ok(value) => {
+                    let value = if multi { value } else { value.primary() };
+                    self.fiber.stack.push(value);
+                    Next::Run
+                }
+                Err(raise) => self.raise(raise),
+            };
+        }
         let args: Vec<Value> = self.fiber.stack.drain(start..).collect();
         self.fiber.stack.truncate(cut);
         match self.call_value(Value::Function(function), args, multi) {

@@ -1,9 +1,12 @@
 //! Operations that compute a value from the topmost ones: pairs, tests, arithmetic.
 
 use crate::lisp::value::Value;
+use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
+use crate::lisp::value::operation::Comparison;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
 
 /// An operation on two numbers.
@@ -19,8 +22,26 @@ impl Machine<'_> {
     /// Drops the topmost `count` values.
     #[inline(always)]
     pub(super) fn drop_values(&mut self, count: u32) {
-        let height = self.fiber.stack.len() - count as usize;
-        self.fiber.stack.truncate(height);
+        self.cut_stack(self.fiber.stack.len() - count as usize);
+    }
+
+    /// Drops values down to a height: mostly one to three, of which few need to be freed.
+    #[inline(always)]
+    pub(super) fn cut_stack(&mut self, height: usize) {
+        while self.fiber.stack.len() > height {
+            self.drop_top();
+        }
+    }
+
+    /// Drops the top, in its place.
+    #[inline(always)]
+    pub(super) fn drop_top(&mut self) {
+        let stack = &mut self.fiber.stack;
+        if stack.last().is_some_and(Value::is_plain) {
+            std::mem::forget(stack.pop());
+        } else {
+            stack.truncate(stack.len().saturating_sub(1));
+        }
     }
 
     /// Drops `count` values below the top.
@@ -59,13 +80,6 @@ impl Machine<'_> {
         }
     }
 
-    /// Replaces the top with the result of a function.
-    #[inline(always)]
-    pub(super) fn map_top(&mut self, function: impl FnOnce(Value) -> Value) {
-        let value = function(self.pop());
-        self.fiber.stack.push(value);
-    }
-
     /// Replaces the two topmost values with the result of a function.
     #[inline(always)]
     pub(super) fn join_top(&mut self, function: impl FnOnce(Value, Value) -> Value) {
@@ -77,33 +91,170 @@ impl Machine<'_> {
     /// Replaces the top with its car.
     #[inline(always)]
     pub(super) fn car(&mut self) -> Result<(), Box<Raise>> {
-        let value = match self.pop() {
-            Value::Cons(cons) => cons.car(),
-            Value::Symbol(known::NIL, ..) => Value::NIL,
+        match self.pop() {
+            Value::Cons(cons) => cons.push_car(&mut self.fiber.stack),
+            Value::Symbol(known::NIL, ..) => self.fiber.stack.push(Value::NIL),
             other => return Err(Raise::type_error(&other, known::LIST)),
-        };
-        self.fiber.stack.push(value);
+        }
         Ok(())
     }
 
     /// Replaces the top with its cdr.
     #[inline(always)]
     pub(super) fn cdr(&mut self) -> Result<(), Box<Raise>> {
-        let value = match self.pop() {
-            Value::Cons(cons) => cons.cdr(),
-            Value::Symbol(known::NIL, ..) => Value::NIL,
+        match self.pop() {
+            Value::Cons(cons) => cons.push_cdr(&mut self.fiber.stack),
+            Value::Symbol(known::NIL, ..) => self.fiber.stack.push(Value::NIL),
             other => return Err(Raise::type_error(&other, known::LIST)),
-        };
+        }
+        Ok(())
+    }
+
+    /// Pushes the car of a local.
+    #[inline(always)]
+    pub(super) fn local_car(&mut self, at: usize) -> Result<(), Box<Raise>> {
+        // Another reference to the pair, since the stack that it stands in is pushed on.
+        match &self.fiber.stack[at] {
+            Value::Cons(cons) => {
+                let cons = cons.clone();
+                cons.push_car(&mut self.fiber.stack);
+            }
+            Value::Symbol(known::NIL, ..) => self.fiber.stack.push(Value::NIL),
+            other => return Err(Raise::type_error(other, known::LIST)),
+        }
+        Ok(())
+    }
+
+    /// Pushes the cdr of a local.
+    #[inline(always)]
+    pub(super) fn local_cdr(&mut self, at: usize) -> Result<(), Box<Raise>> {
+        match &self.fiber.stack[at] {
+            Value::Cons(cons) => {
+                let cons = cons.clone();
+                cons.push_cdr(&mut self.fiber.stack);
+            }
+            Value::Symbol(known::NIL, ..) => self.fiber.stack.push(Value::NIL),
+            other => return Err(Raise::type_error(other, known::LIST)),
+        }
+        Ok(())
+    }
+
+    /// Replaces a local by its cdr.
+    #[inline(always)]
+    pub(super) fn local_to_cdr(&mut self, at: usize) -> Result<(), Box<Raise>> {
+        let local = &mut self.fiber.stack[at];
+        match local {
+            Value::Cons(cons) => {
+                let cons = cons.clone();
+                cons.copy_cdr_to(local);
+            }
+            Value::Symbol(known::NIL, ..) => {}
+            other => return Err(Raise::type_error(other, known::LIST)),
+        }
+        Ok(())
+    }
+
+    /// Replaces the top with what a path leads to from it.
+    pub(super) fn path(&mut self, mut path: u8) -> Result<(), Box<Raise>> {
+        let mut value = self.pop();
+        while path > 1 {
+            value = match path & 1 {
+                0 => car_of(&value)?,
+                _ => cdr_of(&value)?,
+            };
+            path >>= 1;
+        }
         self.fiber.stack.push(value);
         Ok(())
     }
 
+    /// `rplaca` of the two topmost values.
+    pub(super) fn set_car(&mut self) -> Result<(), Box<Raise>> {
+        let value = self.pop();
+        let list = self.pop();
+        let Value::Cons(cons) = &list else {
+            return Err(Raise::type_error(&list, known::CONS));
+        };
+        cycles::note(cons, &value);
+        cons.set_car(value);
+        self.fiber.stack.push(list);
+        Ok(())
+    }
+
+    /// `rplacd` of the two topmost values.
+    pub(super) fn set_cdr(&mut self) -> Result<(), Box<Raise>> {
+        let value = self.pop();
+        let list = self.pop();
+        let Value::Cons(cons) = &list else {
+            return Err(Raise::type_error(&list, known::CONS));
+        };
+        cycles::note(cons, &value);
+        cons.set_cdr(value);
+        self.fiber.stack.push(list);
+        Ok(())
+    }
+
+    /// Replaces a vector and an index by the element, and returns whether it can be done without
+    /// the builtin: `aref` takes any vector, `svref` only simple ones.
+    #[inline(always)]
+    pub(super) fn element(&mut self, builtin: Sym) -> bool {
+        let stack = &mut self.fiber.stack;
+        let value = match stack.as_slice() {
+            [.., Value::Vector(vector), Value::Int(index)]
+                if builtin == known::AREF || vector.is_general_simple() =>
+            {
+                let index = usize::try_from(*index).unwrap_or(usize::MAX);
+                vector.get(index)
+            }
+            _ => None,
+        };
+        let Some(value) = value else {
+            return false;
+        };
+        stack.pop();
+        stack.pop();
+        stack.push(value);
+        true
+    }
+
+    /// Stores the third value from the top in a vector at an index, leaving only the value, and
+    /// returns whether it can be done without the builtin.
+    #[inline(always)]
+    pub(super) fn set_element(&mut self) -> bool {
+        let stack = &mut self.fiber.stack;
+        let done = match stack.as_slice() {
+            [.., value, Value::Vector(vector), Value::Int(index)] if vector.is_general_simple() => {
+                cycles::note(vector, value);
+                let index = usize::try_from(*index).unwrap_or(usize::MAX);
+                vector.set(index, value.clone())
+            }
+            _ => false,
+        };
+        if done {
+            stack.pop();
+            stack.pop();
+        }
+        done
+    }
+
     /// Replaces the two topmost values with the result of an operation on numbers.
     #[inline(always)]
-    pub(super) fn arithmetic(&mut self, operation: Binary) -> Result<(), Box<Raise>> {
+    pub(super) fn arithmetic(
+        &mut self,
+        of_integers: fn(i64, i64) -> Option<i64>,
+        of_numbers: Binary,
+    ) -> Result<(), Box<Raise>> {
+        let stack = &mut self.fiber.stack;
+        if let [.., Value::Int(x), Value::Int(y)] = stack.as_mut_slice()
+            && let Some(result) = of_integers(*x, *y)
+        {
+            *x = result;
+            self.drop_top();
+            return Ok(());
+        }
         let b = self.pop();
         let a = self.pop();
-        let value = operation(&a, &b)?;
+        let value = of_numbers(&a, &b)?;
         self.fiber.stack.push(value);
         Ok(())
     }
@@ -111,30 +262,112 @@ impl Machine<'_> {
     /// Adds a small integer to the top.
     #[inline(always)]
     pub(super) fn add_int(&mut self, n: i32) -> Result<(), Box<Raise>> {
-        let n = i64::from(n);
+        if let Some(Value::Int(x)) = self.fiber.stack.last_mut()
+            && let Some(sum) = x.checked_add(i64::from(n))
+        {
+            *x = sum;
+            return Ok(());
+        }
         let a = self.pop();
-        let value = match &a {
-            Value::Int(x) if x.checked_add(n).is_some() => Value::Int(x.wrapping_add(n)),
-            _ => number::add(&a, &Value::Int(n))?,
-        };
+        let value = number::add(&a, &Value::Int(i64::from(n)))?;
         self.fiber.stack.push(value);
         Ok(())
     }
 
-    /// Replaces the two topmost values with the result of comparing them.
+    /// Pushes a local plus a small integer.
     #[inline(always)]
-    pub(super) fn compare(
-        &mut self,
-        of_integers: fn(&i64, &i64) -> bool,
-        of_numbers: fn(&Value, &Value) -> Result<bool, Box<Raise>>,
-    ) -> Result<(), Box<Raise>> {
-        let b = self.pop();
-        let a = self.pop();
-        let holds = match (&a, &b) {
-            (Value::Int(x), Value::Int(y)) => of_integers(x, y),
-            _ => of_numbers(&a, &b)?,
-        };
-        self.fiber.stack.push(Value::bool(holds));
+    pub(super) fn local_add_int(&mut self, at: usize, n: i32) -> Result<(), Box<Raise>> {
+        let n = i64::from(n);
+        let local = &self.fiber.stack[at];
+        if let Value::Int(x) = local
+            && let Some(sum) = x.checked_add(n)
+        {
+            self.fiber.stack.push(Value::Int(sum));
+            return Ok(());
+        }
+        let value = number::add(local, &Value::Int(n))?;
+        self.fiber.stack.push(value);
         Ok(())
+    }
+
+    /// Adds a small integer to a local.
+    #[inline(always)]
+    pub(super) fn add_to_local(&mut self, at: usize, n: i32) -> Result<(), Box<Raise>> {
+        let local = &mut self.fiber.stack[at];
+        if let Value::Int(x) = local
+            && let Some(sum) = x.checked_add(i64::from(n))
+        {
+            *x = sum;
+            return Ok(());
+        }
+        *local = number::add(local, &Value::Int(i64::from(n)))?;
+        Ok(())
+    }
+
+    /// Compares the two topmost values, and drops them.
+    #[inline(always)]
+    pub(super) fn compare(&mut self, comparison: Comparison) -> Result<bool, Box<Raise>> {
+        let result = match self.fiber.stack.as_slice() {
+            [.., a, b] => number::compare_like(comparison, a, b),
+            _ => Ok(false),
+        };
+        self.drop_top();
+        self.drop_top();
+        result
+    }
+
+    /// Compares the top with a small integer, and drops it.
+    #[inline(always)]
+    pub(super) fn compare_int(
+        &mut self,
+        comparison: Comparison,
+        n: i32,
+    ) -> Result<bool, Box<Raise>> {
+        let result = match self.fiber.stack.last() {
+            Some(a) => number::compare_int(comparison, a, n),
+            None => Ok(false),
+        };
+        self.drop_top();
+        result
+    }
+
+    /// Has the top a property? Drops it.
+    #[inline(always)]
+    pub(super) fn test_top(&mut self, test: impl FnOnce(&Value) -> bool) -> bool {
+        let result = self.fiber.stack.last().is_some_and(test);
+        self.drop_top();
+        result
+    }
+
+    /// Are the two topmost values the same object? Drops them.
+    #[inline(always)]
+    pub(super) fn are_eq(&mut self) -> bool {
+        let result = match self.fiber.stack.as_slice() {
+            [.., a, b] => a.is_eq(b),
+            _ => false,
+        };
+        self.drop_top();
+        self.drop_top();
+        result
+    }
+}
+
+/// The car of a list.
+#[inline(always)]
+fn car_of(list: &Value) -> Result<Value, Box<Raise>> {
+    match list {
+        Value::Cons(cons) => Ok(cons.car()),
+        Value::Symbol(known::NIL, ..) => Ok(Value::NIL),
+        other => Err(Raise::type_error(other, known::LIST)),
+    }
+}
+
+/// The cdr of a list.
+#[inline(always)]
+fn cdr_of(list: &Value) -> Result<Value, Box<Raise>> {
+    match list {
+        Value::Cons(cons) => Ok(cons.cdr()),
+        Value::Symbol(known::NIL, ..) => Ok(Value::NIL),
+        other => Err(Raise::type_error(other, known::LIST)),
     }
 }

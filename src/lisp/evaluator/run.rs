@@ -4,12 +4,15 @@
 //! loop itself controls where execution continues. An operation either falls through to the next
 //! one, moves the program counter, switches to another frame of code, or leaves the loop.
 
+use std::rc::Rc;
+
 use super::entry::{INTERRUPT_INTERVAL, Next};
 use super::variables::unbox;
 use crate::lisp::value::Value;
-use crate::lisp::value::code::Op;
-use crate::lisp::value::function::Body;
+use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::known;
 use crate::lisp::value::number;
+use crate::lisp::value::operation::Op;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 use crate::lisp::vm::fiber::{Frame, FrameKind};
@@ -46,6 +49,8 @@ impl Machine<'_> {
                 return Next::Run;
             };
 
+            let ops: &[Op] = &code.ops;
+
             macro_rules! check {
                 ($result:expr) => {
                     if let Err(raise) = $result {
@@ -64,12 +69,43 @@ impl Machine<'_> {
                 };
             }
 
+            macro_rules! called {
+                ($called:expr) => {
+                    match $called {
+                        Called::Here => {}
+                        Called::Frame => break,
+                        Called::Elsewhere(next) => return next,
+                    }
+                };
+            }
+            // Jumps if a test has the wanted result.
+            macro_rules! branch {
+                ($test:expr, $when:expr, $target:expr) => {
+                    if $test == $when {
+                        pc = $target as usize;
+                    }
+                };
+            }
+            // The same if there may be no result; else the next operation is skipped.
+            macro_rules! branch_or_skip {
+                ($test:expr, $when:expr, $target:expr) => {
+                    match $test {
+                        Ok(result) if result == $when => pc = $target as usize,
+                        Ok(_) => pc += 1,
+                        Err(raise) => {
+                            self.save_pc(pc);
+                            return self.raise(raise);
+                        }
+                    }
+                };
+            }
+
             loop {
                 // The emitter ends every function with a return, so there is an operation.
-                let op = code.ops[pc];
+                let op = ops[pc];
                 pc += 1;
                 match op {
-                    Op::Const(i) => self.fiber.stack.push(code.constants[i as usize].clone()),
+                    Op::Const(i) => code.constants[i as usize].push_copy(&mut self.fiber.stack),
                     Op::Nil => self.fiber.stack.push(Value::NIL),
                     Op::Int(n) => self.fiber.stack.push(Value::Int(i64::from(n))),
 
@@ -78,7 +114,7 @@ impl Machine<'_> {
                     Op::SetLocal(i) => self.set_local(base + i as usize),
                     Op::SetLocalBox(i) => self.set_local_box(base + i as usize),
                     Op::MakeBox(i) => self.make_box(base + i as usize),
-                    Op::Free(i) => self.fiber.stack.push(captured[i as usize].clone()),
+                    Op::Free(i) => captured[i as usize].push_copy(&mut self.fiber.stack),
                     Op::FreeBox(i) => self.fiber.stack.push(unbox(&captured[i as usize])),
                     Op::SetFreeBox(i) => self.set_free_box(&captured[i as usize]),
                     Op::Global(sym) => check!(self.global(sym)),
@@ -91,9 +127,7 @@ impl Machine<'_> {
                         self.fiber.stack.push(Value::bool(supplied));
                     }
 
-                    Op::Pop => {
-                        self.fiber.stack.pop();
-                    }
+                    Op::Pop => self.drop_top(),
                     Op::Drop(n) => self.drop_values(n),
                     Op::Slide(n) => self.slide(n),
                     Op::Dup => self.duplicate(),
@@ -115,14 +149,10 @@ impl Machine<'_> {
                         pc = target;
                     }
                     Op::JumpIfNil(target) => {
-                        if self.pop().is_nil() {
-                            pc = target as usize;
-                        }
+                        branch!(self.test_top(Value::is_nil), true, target);
                     }
                     Op::JumpIfTrue(target) => {
-                        if self.pop().is_true() {
-                            pc = target as usize;
-                        }
+                        branch!(self.test_top(Value::is_true), true, target);
                     }
                     Op::JumpIfTrueOrPop(target) => {
                         if self.fiber.stack.last().is_some_and(Value::is_true) {
@@ -132,27 +162,96 @@ impl Machine<'_> {
                         }
                     }
                     Op::JumpIfSupplied(i, target) => {
-                        if self.is_supplied(base + i as usize) {
-                            pc = target as usize;
-                        }
+                        branch!(self.is_supplied(base + i as usize), true, target);
+                    }
+                    Op::JumpIfLocal { slot, when, target } => {
+                        let local = &self.fiber.stack[base + slot as usize];
+                        branch!(local.is_true(), when, target);
+                    }
+                    Op::JumpIfConsp { when, target } => {
+                        branch!(
+                            self.test_top(|value| matches!(value, Value::Cons(_))),
+                            when,
+                            target
+                        );
+                    }
+                    Op::JumpIfLocalConsp { slot, when, target } => {
+                        let local = &self.fiber.stack[base + slot as usize];
+                        branch!(matches!(local, Value::Cons(_)), when, target);
+                    }
+                    Op::JumpIfEq { when, target } => {
+                        branch!(self.are_eq(), when, target);
+                    }
+                    Op::JumpIfEqConst {
+                        constant,
+                        when,
+                        target,
+                    } => {
+                        let constant = &code.constants[constant as usize];
+                        branch!(self.test_top(|value| value.is_eq(constant)), when, target);
+                    }
+                    Op::JumpIfCompare {
+                        comparison,
+                        when,
+                        target,
+                    } => {
+                        branch_or_skip!(self.compare(comparison), when, target);
+                    }
+                    Op::JumpIfCompareInt {
+                        comparison,
+                        when,
+                        n,
+                        target,
+                    } => {
+                        branch_or_skip!(self.compare_int(comparison, n), when, target);
+                    }
+                    Op::JumpIfCompareLocals {
+                        comparison,
+                        when,
+                        a,
+                        b,
+                        target,
+                    } => {
+                        let stack = &self.fiber.stack;
+                        let (a, b) = (&stack[base + usize::from(a)], &stack[base + usize::from(b)]);
+                        branch_or_skip!(number::compare_like(comparison, a, b), when, target);
+                    }
+                    Op::JumpIfCompareLocalInt {
+                        comparison,
+                        when,
+                        slot,
+                        n,
+                        target,
+                    } => {
+                        let a = &self.fiber.stack[base + usize::from(slot)];
+                        branch_or_skip!(number::compare_int(comparison, a, n), when, target);
                     }
 
                     Op::Call(sym, count) | Op::CallMulti(sym, count) => {
                         let multi = matches!(op, Op::CallMulti(..));
-                        match self.call_symbol(sym, usize::from(count), multi, pc, budget) {
-                            Called::Here => {}
-                            Called::Frame => break,
-                            Called::Elsewhere(next) => return next,
+                        called!(self.call_symbol(sym, usize::from(count), multi, pc, budget));
+                    }
+                    Op::CallSelf(sym, count) => {
+                        let count = usize::from(count);
+                        if self.is_function_of(&function, sym) {
+                            self.take_arguments_again(base, count);
+                            pc = 0;
+                            *budget -= 1;
+                            if *budget == 0 {
+                                *budget = INTERRUPT_INTERVAL;
+                                self.save_pc(pc);
+                                if let Some(next) = self.pause() {
+                                    return next;
+                                }
+                            }
+                        } else {
+                            called!(self.call_symbol(sym, count, true, pc, budget));
                         }
                     }
                     Op::CallValue(count) | Op::CallValueMulti(count) => {
                         let multi = matches!(op, Op::CallValueMulti(_));
                         self.save_pc(pc);
-                        match self.call_top(usize::from(count), multi, budget) {
-                            Called::Here => {}
-                            Called::Frame => break,
-                            Called::Elsewhere(next) => return next,
-                        }
+                        called!(self.call_top(usize::from(count), multi, budget));
                     }
                     Op::MultipleValueCall(count, multi) => {
                         self.save_pc(pc);
@@ -162,21 +261,59 @@ impl Machine<'_> {
 
                     Op::Car => check!(self.car()),
                     Op::Cdr => check!(self.cdr()),
-                    Op::Cons => self.join_top(Value::cons),
-                    Op::Eq => self.join_top(|a, b| Value::bool(a.is_eq(&b))),
-                    Op::Not => self.map_top(|a| Value::bool(a.is_nil())),
-                    Op::Consp => self.map_top(|a| Value::bool(matches!(a, Value::Cons(_)))),
-                    Op::Add => check!(self.arithmetic(number::add)),
-                    Op::Sub => check!(self.arithmetic(number::sub)),
-                    Op::Mul => check!(self.arithmetic(number::mul)),
-                    Op::AddInt(n) => check!(self.add_int(n)),
-                    Op::Less => check!(self.compare(i64::lt, number::less)),
-                    Op::Greater => check!(self.compare(i64::gt, |a, b| number::less(b, a))),
-                    Op::LessEqual => check!(self.compare(i64::le, number::less_equal)),
-                    Op::GreaterEqual => {
-                        check!(self.compare(i64::ge, |a, b| number::less_equal(b, a)));
+                    Op::Path(path) => check!(self.path(path)),
+                    Op::LocalCar(i) => check!(self.local_car(base + i as usize)),
+                    Op::LocalCdr(i) => check!(self.local_cdr(base + i as usize)),
+                    Op::LocalToCdr(i) => {
+                        check!(self.local_to_cdr(base + i as usize));
+                        pc += 1;
                     }
-                    Op::NumEqual => check!(self.compare(i64::eq, number::number_equal)),
+                    Op::LocalPath(i, path) => {
+                        self.local(base + i as usize);
+                        check!(self.path(path));
+                    }
+                    Op::SetCar => check!(self.set_car()),
+                    Op::SetCdr => check!(self.set_cdr()),
+                    Op::Cons => self.join_top(Value::cons),
+                    Op::Eq => {
+                        let result = self.are_eq();
+                        self.fiber.stack.push(Value::bool(result));
+                    }
+                    Op::Not => {
+                        let result = self.test_top(Value::is_nil);
+                        self.fiber.stack.push(Value::bool(result));
+                    }
+                    Op::Consp => {
+                        let result = self.test_top(|value| matches!(value, Value::Cons(_)));
+                        self.fiber.stack.push(Value::bool(result));
+                    }
+                    Op::Add => check!(self.arithmetic(i64::checked_add, number::add)),
+                    Op::Sub => check!(self.arithmetic(i64::checked_sub, number::sub)),
+                    Op::Mul => check!(self.arithmetic(i64::checked_mul, number::mul)),
+                    Op::AddInt(n) => check!(self.add_int(n)),
+                    Op::LocalAddInt(i, n) => check!(self.local_add_int(base + i as usize, n)),
+                    Op::AddToLocal(i, n) => {
+                        check!(self.add_to_local(base + i as usize, n));
+                        pc += 1;
+                    }
+                    Op::Compare(comparison) => match self.compare(comparison) {
+                        Ok(holds) => self.fiber.stack.push(Value::bool(holds)),
+                        Err(raise) => {
+                            self.save_pc(pc);
+                            return self.raise(raise);
+                        }
+                    },
+                    Op::Element(sym) => {
+                        if !self.element(sym) {
+                            called!(self.call_symbol(sym, 2, false, pc, budget));
+                        }
+                    }
+                    Op::SetElement(sym) => {
+                        if !self.set_element() {
+                            self.save_pc(pc);
+                            called!(self.call_setf_function(sym, 3, budget));
+                        }
+                    }
 
                     Op::BindSpecial(sym) => {
                         let value = self.pop();
@@ -234,39 +371,32 @@ impl Machine<'_> {
     ) -> Called {
         let cut = self.fiber.stack.len() - count;
         let FunctionCell::Function(called) = &self.image.symbols.get(sym).function else {
-            self.fiber.stack.truncate(cut);
-            self.save_pc(pc);
-            return Called::Elsewhere(self.raise(Raise::undefined_function(sym.into())));
+            return self.call_undefined(sym.into(), cut, pc);
         };
+        match &called.body {
+            Body::Native(native) if native.accepts(count) => {
+                if let Some(f) = self.image.pure_call(native) {
+                    let result = f(self.image, &self.fiber.stack[cut..]);
+                    return self.returned(result, cut, multi, pc);
+                }
+            }
+            Body::Closure { code, .. }
+                if code.exact_count.map(usize::from) == Some(count) && self.has_room() =>
+            {
+                let called = called.clone();
+                self.save_pc(pc);
+                self.push_frame(called, cut, cut, multi);
+                *budget -= 1;
+                if *budget > 0 {
+                    return Called::Frame;
+                }
+                return Called::Elsewhere(self.or_interrupt(Next::Run, budget));
+            }
+            _ => {}
+        }
         let called = called.clone();
-        if let Body::Native(native) = &called.body
-            && native.accepts(count)
-            && let Some(f) = self.image.pure_call(native)
-        {
-            let result = f(self.image, &self.fiber.stack[cut..]);
-            self.fiber.stack.truncate(cut);
-            return match result {
-                Ok(value) => {
-                    let value = if multi { value } else { value.primary() };
-                    self.fiber.stack.push(value);
-                    if self.image.output.is_due() {
-                        self.save_pc(pc);
-                        return Called::Elsewhere(Next::Stop(Event::Output));
-                    }
-                    Called::Here
-                }
-                Err(raise) => {
-                    self.save_pc(pc);
-                    Called::Elsewhere(self.raise(raise))
-                }
-            };
-        }
         self.save_pc(pc);
-        *budget -= 1;
-        match self.call_on_stack(called, count, cut, multi) {
-            Next::Run if *budget > 0 => Called::Frame,
-            next => Called::Elsewhere(self.or_interrupt(next, budget)),
-        }
+        self.call_any(called, count, cut, multi, budget)
     }
 
     /// Calls the function below the topmost arguments.
@@ -283,6 +413,42 @@ impl Machine<'_> {
                 }
             },
         };
+        if let Body::Closure { code, .. } = &called.body
+            && code.exact_count.map(usize::from) == Some(count)
+            && self.has_room()
+        {
+            self.push_frame(called, cut + 1, cut, multi);
+            *budget -= 1;
+            if *budget > 0 {
+                return Called::Frame;
+            }
+            return Called::Elsewhere(self.or_interrupt(Next::Run, budget));
+        }
+        self.call_any(called, count, cut, multi, budget)
+    }
+
+    /// Calls the function of `(setf symbol)` with the topmost arguments.
+    fn call_setf_function(&mut self, sym: Sym, count: usize, budget: &mut u32) -> Called {
+        let cut = self.fiber.stack.len() - count;
+        match self.image.symbols.get(sym).setf_function.clone() {
+            Some(called) => self.call_any(called, count, cut, false, budget),
+            None => {
+                let name = Value::list([known::SETF.into(), sym.into()]);
+                self.fiber.stack.truncate(cut);
+                Called::Elsewhere(self.raise(Raise::undefined_function(name)))
+            }
+        }
+    }
+
+    /// Calls any function with the topmost arguments; its value replaces everything from `cut` up.
+    fn call_any(
+        &mut self,
+        called: Rc<Function>,
+        count: usize,
+        cut: usize,
+        multi: bool,
+        budget: &mut u32,
+    ) -> Called {
         *budget -= 1;
         match self.call_on_stack(called, count, cut, multi) {
             Next::Run if *budget > 0 => Called::Frame,
@@ -290,11 +456,70 @@ impl Machine<'_> {
         }
     }
 
+    #[cold]
+    fn call_undefined(&mut self, name: Value, cut: usize, pc: usize) -> Called {
+        self.fiber.stack.truncate(cut);
+        self.save_pc(pc);
+        Called::Elsewhere(self.raise(Raise::undefined_function(name)))
+    }
+
+    /// Replaces the arguments of a pure builtin by what it has returned.
+    #[inline(always)]
+    fn returned(
+        &mut self,
+        result: Result<Value, Box<Raise>>,
+        cut: usize,
+        multi: bool,
+        pc: usize,
+    ) -> Called {
+        self.cut_stack(cut);
+        match result {
+            Ok(value) => {
+                let value = if multi { value } else { value.primary() };
+                self.fiber.stack.push(value);
+                if self.image.output.is_due() {
+                    self.save_pc(pc);
+                    return Called::Elsewhere(Next::Stop(Event::Output));
+                }
+                Called::Here
+            }
+            Err(raise) => {
+                self.save_pc(pc);
+                Called::Elsewhere(self.raise(raise))
+            }
+        }
+    }
+
+    /// Is this the function of a symbol?
+    #[inline(always)]
+    fn is_function_of(&self, function: &Rc<Function>, sym: Sym) -> bool {
+        match &self.image.symbols.get(sym).function {
+            FunctionCell::Function(other) => Rc::ptr_eq(function, other),
+            _ => false,
+        }
+    }
+
+    /// Makes the topmost values the arguments of the frame whose slots begin at `base`.
+    #[inline(always)]
+    fn take_arguments_again(&mut self, base: usize, count: usize) {
+        let stack = &mut self.fiber.stack;
+        let start = stack.len() - count;
+        for i in 0..count {
+            stack.swap(base + i, start + i);
+        }
+        self.cut_stack(base + count);
+    }
+
     /// Calls the function below the topmost `count` results with all their values.
     fn call_with_values(&mut self, count: usize, multi: bool) -> Next {
         let start = self.fiber.stack.len() - count;
-        let results = self.fiber.stack.drain(start..);
-        let args: Vec<Value> = results.flat_map(Value::into_values).collect();
+        let mut args = Vec::with_capacity(count);
+        for result in self.fiber.stack.drain(start..) {
+            match result {
+                Value::Multiple(values) => args.extend(values.iter().cloned()),
+                single => args.push(single),
+            }
+        }
         let called = self.pop();
         self.call_value(called, args, multi)
     }
@@ -302,24 +527,40 @@ impl Machine<'_> {
     /// Returns the top value from the topmost frame.
     #[inline(always)]
     fn return_value(&mut self) -> Next {
-        let value = self.pop();
         let Some(frame) = self.fiber.frames.pop() else {
-            return Next::Deliver(value);
+            return Next::Deliver(self.pop());
         };
         if self.fiber.dynamic.len() > frame.dynamic {
             self.drop_dynamic(frame.dynamic);
         }
-        self.fiber.stack.truncate(frame.cut);
-        let value = if frame.multi { value } else { value.primary() };
-        match self.fiber.frames.last() {
+        let to_code = matches!(
+            self.fiber.frames.last(),
             Some(Frame {
                 kind: FrameKind::Code { .. },
                 ..
-            }) => {
-                self.fiber.stack.push(value);
-                Next::Run
+            })
+        );
+        // The most frequent values are not moved but made again in their new place.
+        match self.fiber.stack.last() {
+            Some(&Value::Int(n)) if to_code => {
+                self.cut_stack(frame.cut);
+                self.fiber.stack.push(Value::Int(n));
+                return Next::Run;
             }
-            _ => Next::Deliver(value),
+            Some(&Value::Symbol(sym, ref hold)) if to_code && hold.is_none() => {
+                self.cut_stack(frame.cut);
+                self.fiber.stack.push(Value::symbol(sym));
+                return Next::Run;
+            }
+            _ => {}
         }
+        let value = self.pop();
+        self.cut_stack(frame.cut);
+        let value = if frame.multi { value } else { value.primary() };
+        if !to_code {
+            return Next::Deliver(value);
+        }
+        self.fiber.stack.push(value);
+        Next::Run
     }
 }

@@ -169,3 +169,160 @@ fn a_tail_recursion_of_a_hundred_thousand_calls_is_fine() {
     let got = evaluate("(labels ((down (n) (if (= n 0) :done (down (- n 1))))) (down 100000))");
     assert_eq!(got, ":DONE");
 }
+
+/// Evaluates a form whose first error is answered by a value in place of the call that failed.
+fn evaluate_with_answer(text: &str, answer: Value) -> String {
+    let mut image = Image::new();
+    let source = image.sources.add("test", text);
+    let forms = reader::read_all(&mut image, source).unwrap_or_else(|e| panic!("{e}"));
+    let mut fiber = Fiber::default();
+    let mut machine = Machine::new(&mut image, &mut fiber);
+    let event = machine.start(known::EVAL.into(), vec![forms[0].0.clone()]);
+    assert!(matches!(event, Event::Unhandled(_)), "{text}");
+    match machine.resume(answer) {
+        Event::Done(value) => print::to_string(&image, &value, true),
+        _ => panic!("{text} does not end"),
+    }
+}
+
+#[test]
+fn a_value_in_place_of_a_failed_comparison_decides_where_to_go_on() {
+    for test in [
+        "(< x y)",
+        "(< x 1)",
+        "(> (car (list x)) 1)",
+        "(= (car (list x)) (car (list y)))",
+        "(and y (<= x y))",
+        "(or (null y) (>= x y))",
+        "(not (not (< x 1)))",
+    ] {
+        let text = format!("(let ((x 'a) (y 1)) (list (if {test} 'yes 'no) x y))");
+        assert_eq!(evaluate_with_answer(&text, Value::T), "(YES A 1)", "{test}");
+        assert_eq!(
+            evaluate_with_answer(&text, Value::NIL),
+            "(NO A 1)",
+            "{test}"
+        );
+    }
+}
+
+#[test]
+fn a_value_in_place_of_a_failed_addition_is_assigned() {
+    let text = "(let ((x 'a) (y 1)) (setq x (+ x 1)) (list x y))";
+    assert_eq!(evaluate_with_answer(text, Value::Int(7)), "(7 1)");
+    let text = "(let ((x 'a) (y 1)) (setq x (cdr x)) (list x y))";
+    assert_eq!(evaluate_with_answer(text, Value::Int(7)), "(7 1)");
+}
+
+#[test]
+fn a_value_in_place_of_a_failed_path_is_the_value_of_all_of_it() {
+    let text = "(let ((x '(1 . 2))) (list (cadr x) (cdr x)))";
+    assert_eq!(evaluate_with_answer(text, Value::Int(7)), "(7 2)");
+}
+
+#[test]
+fn a_function_that_ends_by_calling_itself_needs_no_stack() {
+    for (form, expected) in [
+        (
+            "(progn (defun f (n) (if (= n 0) 'done (f (- n 1)))) (f 2000000))",
+            "DONE",
+        ),
+        (
+            "(progn (defun f (n sum) (let* ((next (- n 1)) (more (+ sum n))) (if (= n 0) sum (f next more)))) (f 1000 0))",
+            "500500",
+        ),
+        (
+            "(progn (defun f (n) (if (= n 0) (values 1 2) (f (- n 1)))) (f 4))",
+            "1 ; 2",
+        ),
+        (
+            "(progn (defun f (a b) (if (= a 0) (list a b) (f (- a 1) (cons a b)))) (f 3 nil))",
+            "(0 (1 2 3))",
+        ),
+    ] {
+        assert_eq!(evaluate(form), expected, "{form}");
+    }
+}
+
+#[test]
+fn a_function_that_calls_itself_has_variables_of_its_own_each_time() {
+    let form = "(progn
+        (defun f (n made)
+          (if (= n 0) (mapcar #'funcall made) (f (- n 1) (cons (lambda () (incf n 10)) made))))
+        (f 3 nil))";
+    assert_eq!(evaluate(form), "(11 12 13)");
+}
+
+#[test]
+fn a_function_that_is_redefined_while_it_runs_calls_the_new_one() {
+    let form = "(progn
+        (defun f (n)
+          (when (= n 3) (defun f (n) (list 'new n)))
+          (if (= n 0) 'old (f (- n 1))))
+        (f 5))";
+    assert_eq!(evaluate(form), "(NEW 2)");
+}
+
+#[test]
+fn what_a_function_that_calls_itself_has_bound_is_undone() {
+    for (form, expected) in [
+        (
+            "(progn (defvar *d* 0) (defun f (*d* n) (if (= n 0) *d* (f (+ *d* 1) (- n 1)))) (list (f 1 5) *d*))",
+            "(6 0)",
+        ),
+        (
+            "(progn (defvar *e* 0) (defun f (n) (let ((*e* (+ *e* 1))) (if (= n 0) *e* (f (- n 1))))) (list (f 5) *e*))",
+            "(6 0)",
+        ),
+        (
+            "(progn (defvar *l* nil) (defun f (n) (unwind-protect (if (= n 0) 'end (f (- n 1))) (push n *l*))) (list (f 2) *l*))",
+            "(END (2 1 0))",
+        ),
+        (
+            "(progn (defun f (n) (catch 'out (if (= n 0) (throw 'out 'end) (f (- n 1))))) (f 3))",
+            "END",
+        ),
+    ] {
+        assert_eq!(evaluate(form), expected, "{form}");
+    }
+}
+
+#[test]
+fn a_function_that_calls_itself_wrongly_is_told_so() {
+    let form = "(progn (defun f (n) (if (= n 0) 'done (f (- n 1) 2))) (f 1))";
+    assert_eq!(evaluate(form), "!! invalid number of arguments: 2");
+}
+
+#[test]
+fn elements_of_every_kind_of_vector_are_read_and_set() {
+    for (form, expected) in [
+        (
+            "(let ((v (make-array 3 :fill-pointer 1 :initial-element 7))) (setf (aref v 1) 5) (list (aref v 1) (aref v 2) v))",
+            "(5 7 #(7))",
+        ),
+        (
+            "(let* ((v (vector 1 2 3)) (w (make-array 2 :displaced-to v :displaced-index-offset 1))) (setf (aref w 0) 9) (list (aref w 1) v))",
+            "(3 #(1 9 3))",
+        ),
+        (
+            "(let ((s (copy-seq \"abc\"))) (setf (aref s 1) #\\x) (list (aref s 0) s))",
+            "(#\\a \"axc\")",
+        ),
+        (
+            "(let ((v (vector 1 2))) (list (setf (svref v 0) 5) (svref v 0)))",
+            "(5 5)",
+        ),
+    ] {
+        assert_eq!(evaluate(form), expected, "{form}");
+    }
+    for form in [
+        "(aref (vector 1 2) 2)",
+        "(aref (vector 1 2) -1)",
+        "(svref (make-array 1 :fill-pointer 1) 0)",
+        "(setf (svref (vector 1 2) 2) 0)",
+        "(setf (aref (make-array 1 :element-type 'bit) 0) 2)",
+        "(aref 'a 0)",
+    ] {
+        assert!(evaluate(form).starts_with("!!"), "{form}");
+    }
+}

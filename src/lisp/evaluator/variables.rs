@@ -16,8 +16,18 @@ impl Machine<'_> {
     /// Pushes a local.
     #[inline(always)]
     pub(super) fn local(&mut self, at: usize) {
-        let value = self.fiber.stack[at].clone();
-        self.fiber.stack.push(value);
+        // As `Value::push_copy`, from a place in the stack itself.
+        match &self.fiber.stack[at] {
+            &Value::Int(n) => self.fiber.stack.push(Value::Int(n)),
+            Value::Cons(cons) => {
+                let cons = cons.clone();
+                self.fiber.stack.push(Value::Cons(cons));
+            }
+            other => {
+                let value = other.clone();
+                self.fiber.stack.push(value);
+            }
+        }
     }
 
     /// Pushes what a local's box holds.
@@ -71,11 +81,11 @@ impl Machine<'_> {
     /// Pushes the value of a global or special variable.
     #[inline(always)]
     pub(super) fn global(&mut self, sym: Sym) -> Result<(), Box<Raise>> {
-        let value = self.image.symbols.get(sym).value.clone();
+        let value = &self.image.symbols.get(sym).value;
         if value.is_unbound() {
             return Err(Raise::unbound_variable(sym));
         }
-        self.fiber.stack.push(value);
+        value.push_copy(&mut self.fiber.stack);
         Ok(())
     }
 

@@ -54,9 +54,15 @@ impl Vector {
         self.items.copied(self.len())
     }
 
+    /// Is it simple and its element type `T`, so that it takes any value?
+    #[inline]
+    pub(crate) fn is_general_simple(&self) -> bool {
+        self.element_type == known::T && self.is_simple()
+    }
+
     /// Is the vector neither adjustable nor displaced, and without fill pointer?
     pub(crate) fn is_simple(&self) -> bool {
-        self.fill_pointer.get().is_none() && !self.adjustable && self.items.displacement().is_none()
+        self.fill_pointer.get().is_none() && !self.adjustable && !self.items.is_displaced()
     }
 }
 
@@ -85,6 +91,6 @@ impl Array {
 
     /// Is the array neither adjustable nor displaced?
     pub(crate) fn is_simple(&self) -> bool {
-        !self.adjustable && self.items.displacement().is_none()
+        !self.adjustable && !self.items.is_displaced()
     }
 }

@@ -10,148 +10,9 @@ use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::cons::Cons;
 use crate::lisp::value::copy::{Copied, Copier, is_fixed};
+use crate::lisp::value::operation::Op;
 use crate::lisp::value::string::LispString;
 use crate::lisp::value::symbol::Sym;
-
-/// One operation. "Push" and "pop" refer to the value stack.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Op {
-    /// Push a constant.
-    Const(u32),
-    /// Push `NIL`.
-    Nil,
-    /// Push a small integer.
-    Int(i32),
-    /// Push a local.
-    Local(u32),
-    /// Push what a local's box holds.
-    LocalBox(u32),
-    /// Pop into a local.
-    SetLocal(u32),
-    /// Pop into a local's box.
-    SetLocalBox(u32),
-    /// Put a local into a fresh box.
-    MakeBox(u32),
-    /// Push a free variable.
-    Free(u32),
-    /// Push what a free variable's box holds.
-    FreeBox(u32),
-    /// Pop into a free variable's box.
-    SetFreeBox(u32),
-    /// Push the value of a global or special variable.
-    Global(Sym),
-    /// Pop into a global or special variable.
-    SetGlobal(Sym),
-    /// Push a symbol's global function.
-    Function(Sym),
-    /// Push the function of `(setf symbol)`.
-    SetfFunction(Sym),
-    /// Push a closure of the inner code.
-    Closure(u32),
-    /// Drop the top.
-    Pop,
-    /// Drop this many values from the top.
-    Drop(u32),
-    /// Drop this many values below the top.
-    Slide(u32),
-    /// Push the top again.
-    Dup,
-    /// Continue at the operation with this index.
-    Jump(u32),
-    /// Pop; jump if it was `NIL`.
-    JumpIfNil(u32),
-    /// Pop; jump unless it was `NIL`.
-    JumpIfTrue(u32),
-    /// Jump if the top is true, else pop it.
-    JumpIfTrueOrPop(u32),
-    /// Jump if a parameter was supplied.
-    JumpIfSupplied(u32, u32),
-    /// Push whether a parameter was supplied.
-    Supplied(u32),
-    /// Call a symbol's function with this many arguments for one value.
-    Call(Sym, u16),
-    /// Call a symbol's function with this many arguments for all values.
-    CallMulti(Sym, u16),
-    /// Call the function below this many arguments for one value.
-    CallValue(u16),
-    /// Call the function below this many arguments for all values.
-    CallValueMulti(u16),
-    /// Call the function below this many results with all their values.
-    MultipleValueCall(u16, bool),
-    /// Return the top.
-    Return,
-    /// Pop the values of a call and push exactly this many of them.
-    Spread(u32),
-    /// Car of the top.
-    Car,
-    /// Cdr of the top.
-    Cdr,
-    /// A pair of the two topmost.
-    Cons,
-    /// Are the two topmost `eq`?
-    Eq,
-    /// Is the top `NIL`?
-    Not,
-    /// Sum of the two topmost.
-    Add,
-    /// Difference of the two topmost.
-    Sub,
-    /// Product of the two topmost.
-    Mul,
-    /// Top plus a small integer.
-    AddInt(i32),
-    /// Are the two topmost in ascending order?
-    Less,
-    /// Are the two topmost in descending order?
-    Greater,
-    /// Not descending?
-    LessEqual,
-    /// Not ascending?
-    GreaterEqual,
-    /// Equal numbers?
-    NumEqual,
-    /// Is the top a pair?
-    Consp,
-    /// Pop a value and bind a special variable to it.
-    BindSpecial(Sym),
-    /// Pop a list of values and a list of symbols, and bind the symbols; pushes nothing.
-    Progv,
-    /// Undo this many dynamic entries.
-    PopDynamic(u32),
-    /// Undo the dynamic entries beyond the innermost `progv` mark, and the mark.
-    EndProgv,
-    /// Enter a block that closures may leave: push its identity as a local.
-    EnterBlock {
-        /// Where execution continues after a return.
-        target: u32,
-        /// Does the block want all values?
-        multi: bool,
-    },
-    /// Pop a value and an identity, and leave that block with the value.
-    ReturnFrom,
-    /// Enter a tagbody that closures may jump into: push its identity as a local. The
-    /// operand is the number of its table of tags.
-    EnterTagbody(u32),
-    /// Pop an identity and go to a tag of that tagbody.
-    Go(u32),
-    /// Pop a tag and establish a catch.
-    EnterCatch {
-        /// Where execution continues after a throw.
-        target: u32,
-        /// Does the catch want all values?
-        multi: bool,
-    },
-    /// Protect what follows: on any exit, run the code at the target.
-    EnterUnwind(u32),
-    /// Leave the protected form normally: its value is on top.
-    LeaveUnwind,
-    /// End of cleanup code: continue the exit that ran it, or continue with the value.
-    EndCleanup,
-    /// Pop this many handler functions and establish them with the types in a constant.
-    EnterHandlers(u32, u16),
-    /// Pop a list of restarts and establish them.
-    EnterRestarts,
-}
 
 /// How a closure gets the value of a free variable of its code.
 #[derive(Clone, Copy, Debug)]
@@ -186,9 +47,10 @@ impl Parameters {
         positional + usize::from(self.rest) + self.keys.len()
     }
 
-    /// Is every parameter required?
-    pub(crate) fn is_simple(&self) -> bool {
-        self.optional == 0 && !self.rest && !self.has_keys
+    /// The number of arguments that fill the slots as they are, if there is one.
+    pub(crate) fn exact_count(&self) -> Option<u16> {
+        let is_simple = self.optional == 0 && !self.rest && !self.has_keys;
+        is_simple.then_some(self.required)
     }
 }
 
@@ -279,6 +141,8 @@ pub(crate) struct Code {
     /// Name: a symbol, `(setf name)`, `(lambda …)` or `NIL`.
     pub(crate) name: Signature,
     pub(crate) parameters: Parameters,
+    /// The number of arguments that fill the parameters' slots as they are, if there is one.
+    pub(crate) exact_count: Option<u16>,
     /// The operations.
     pub(crate) ops: Rc<[Op]>,
     pub(crate) constants: Vec<Value>,

@@ -48,6 +48,24 @@ impl Cons {
         self.cdr.with(look)
     }
 
+    /// Pushes the first half onto a stack.
+    #[inline(always)]
+    pub(crate) fn push_car(&self, stack: &mut Vec<Value>) {
+        self.car.with(|value| value.push_copy(stack));
+    }
+
+    /// Pushes the second half onto a stack.
+    #[inline(always)]
+    pub(crate) fn push_cdr(&self, stack: &mut Vec<Value>) {
+        self.cdr.with(|value| value.push_copy(stack));
+    }
+
+    /// Puts the second half into a place.
+    #[inline(always)]
+    pub(crate) fn copy_cdr_to(&self, place: &mut Value) {
+        self.cdr.with(|value| value.copy_to(place));
+    }
+
     /// Replaces the first half.
     #[inline]
     pub(crate) fn set_car(&self, value: Value) {

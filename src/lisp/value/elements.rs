@@ -118,6 +118,12 @@ impl Elements {
         }
     }
 
+    /// Are they a part of another array's elements?
+    #[inline]
+    pub(crate) fn is_displaced(&self) -> bool {
+        matches!(&*self.0.borrow(), Place::Displaced(_))
+    }
+
     /// Number of elements.
     #[inline]
     pub(crate) fn len(&self) -> usize {

@@ -21,6 +21,12 @@ pub(crate) fn equalp(a: &Value, b: &Value) -> bool {
 }
 
 fn same(a: &Value, b: &Value, loosely: bool) -> bool {
+    match (a, b) {
+        // The most frequent values need no list of what is still to be compared.
+        (Value::Symbol(..), _) | (Value::Int(_), Value::Int(_)) => return a.is_eq(b),
+        (Value::Str(x), Value::Str(y)) if !loosely => return *x.borrow() == *y.borrow(),
+        _ => {}
+    }
     let mut pending = vec![(a.clone(), b.clone())];
     let mut pace = Pace::default();
     while let Some((a, b)) = pending.pop() {
@@ -120,17 +126,34 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
 pub(crate) fn hash<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
     // Deep keys are distinguished by their first few leaves only.
     let mut budget = 64;
-    let mut pending = vec![value.clone()];
-    while let Some(value) = pending.pop() {
-        budget -= 1;
-        if budget == 0 {
-            return;
-        }
-        hash_one(&value, test, state, &mut pending);
+    let structural = matches!(test, HashTest::Equal | HashTest::Equalp);
+    hash_within(value, test, structural, state, &mut budget);
+}
+
+/// The budget limits the depth of the recursion, too.
+fn hash_within<H: Hasher>(
+    value: &Value,
+    test: HashTest,
+    structural: bool,
+    state: &mut H,
+    budget: &mut u32,
+) {
+    let mut rest = match value {
+        Value::Cons(pair) if structural => pair.clone(),
+        atom => return hash_one(atom, test, state),
+    };
+    while *budget > 0 {
+        *budget -= 1;
+        1u8.hash(state);
+        hash_within(&rest.car(), test, structural, state, budget);
+        rest = match rest.cdr() {
+            Value::Cons(next) => next,
+            end => return hash_one(&end, test, state),
+        };
     }
 }
 
-fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H, pending: &mut Vec<Value>) {
+fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
     let structural = matches!(test, HashTest::Equal | HashTest::Equalp);
     let loosely = test == HashTest::Equalp;
     match value {
@@ -159,11 +182,6 @@ fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H, pending: &m
             .flat_map(char::to_lowercase)
             .for_each(|c| c.hash(state)),
         Value::Str(s) if structural => s.borrow().hash(state),
-        Value::Cons(c) if structural => {
-            1u8.hash(state);
-            pending.push(c.cdr());
-            pending.push(c.car());
-        }
         Value::Vector(v) if loosely => hash_vector(v, state),
         Value::Vector(v) if structural && v.element_type == known::BIT => {
             for bit in v.to_vec() {

@@ -3,10 +3,11 @@
 
 use std::cell::{Cell, Ref, RefCell};
 use std::collections::HashMap;
-use std::hash::{Hash, Hasher};
+use std::hash::{BuildHasherDefault, Hash, Hasher};
 
 use super::Value;
 use super::equality;
+use super::key_hasher::KeyHasher;
 use super::release::release_values;
 
 /// The equality by which a table finds its keys.
@@ -57,7 +58,7 @@ pub(crate) struct HashTable {
     /// How keys are compared.
     pub(crate) test: HashTest,
     /// The position of each key's entry.
-    index: RefCell<HashMap<HashKey, usize>>,
+    index: RefCell<HashMap<HashKey, usize, BuildHasherDefault<KeyHasher>>>,
     entries: RefCell<Entries>,
     /// The size that the table was made for.
     pub(crate) size: Cell<usize>,

@@ -20,7 +20,8 @@ impl Slot {
     pub(crate) fn get(&self) -> Value {
         let value = self.0.take();
         let copy = value.clone();
-        self.0.set(value);
+        // What is replaced is "no value", which needs not be freed.
+        std::mem::forget(self.0.replace(value));
         copy
     }
 
@@ -29,7 +30,7 @@ impl Slot {
     pub(crate) fn with<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
         let value = self.0.take();
         let result = look(&value);
-        self.0.set(value);
+        std::mem::forget(self.0.replace(value));
         result
     }
 

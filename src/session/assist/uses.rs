@@ -8,9 +8,10 @@ use crate::lisp::compile;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::source::Place;
-use crate::lisp::value::code::{Code, Op};
+use crate::lisp::value::code::Code;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::generic::Specializer;
+use crate::lisp::value::operation::Op;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 use crate::session::Session;
 use crate::session::dialogue::{Relation, Unrecorded, Use};
@@ -187,7 +188,9 @@ fn walk(code: &Code, each: &mut dyn FnMut(Op, Place)) {
 /// The function that an operation calls or refers to by name.
 fn called(op: Op) -> Option<Sym> {
     match op {
-        Op::Call(sym, _) | Op::CallMulti(sym, _) | Op::Function(sym) => Some(sym),
+        Op::Call(sym, _) | Op::CallMulti(sym, _) | Op::CallSelf(sym, _) | Op::Function(sym) => {
+            Some(sym)
+        }
         _ => None,
     }
 }

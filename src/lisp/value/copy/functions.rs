@@ -97,6 +97,7 @@ impl Copier {
         let copy = Rc::new(Code {
             name: code.name.copied(self),
             parameters: code.parameters.clone(),
+            exact_count: code.exact_count,
             ops: code.ops.clone(),
             constants: self.all(&code.constants),
             inner,

@@ -9,6 +9,7 @@ use super::complex::is_complex;
 use super::convert::{exact, fraction_of, is_number, is_rational, is_real};
 use super::error::{NumberResult, not_a_number, not_an_integer, not_real};
 use crate::lisp::value::Value;
+use crate::lisp::value::operation::Comparison;
 use crate::lisp::value::raise::Raise;
 
 /// Integers up to this magnitude are exact as double floats.
@@ -133,6 +134,40 @@ pub(crate) fn greater_equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
         (Value::Int(x), Value::Int(y)) => Ok(x >= y),
         (Value::Double(x), Value::Double(y)) => Ok(x >= y),
         _ => Ok(compare(a, b)?.is_some_and(Ordering::is_ge)),
+    }
+}
+
+/// Do two numbers compare like that?
+#[inline(always)]
+pub(crate) fn compare_like(
+    comparison: Comparison,
+    a: &Value,
+    b: &Value,
+) -> Result<bool, Box<Raise>> {
+    match (a, b) {
+        (Value::Int(x), Value::Int(y)) => Ok(comparison.holds(*x, *y)),
+        _ => compare_any(comparison, a, b),
+    }
+}
+
+/// Does a number compare like that with a small integer?
+#[inline(always)]
+pub(crate) fn compare_int(comparison: Comparison, a: &Value, n: i32) -> Result<bool, Box<Raise>> {
+    let n = i64::from(n);
+    match a {
+        Value::Int(x) => Ok(comparison.holds(*x, n)),
+        _ => compare_any(comparison, a, &Value::Int(n)),
+    }
+}
+
+#[inline(never)]
+fn compare_any(comparison: Comparison, a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
+    match comparison {
+        Comparison::Less => less(a, b),
+        Comparison::Equal => number_equal(a, b),
+        Comparison::LessEqual => less_equal(a, b),
+        Comparison::Greater => greater(a, b),
+        Comparison::GreaterEqual => greater_equal(a, b),
     }
 }
 

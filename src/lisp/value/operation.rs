@@ -1,0 +1,246 @@
+//! The operations of compiled code.
+
+use super::symbol::Sym;
+
+/// A comparison of two numbers. The bits of its number say for which orders of two integers it holds:
+/// the lowest one for ascending, the next one for equal, the highest one for descending numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(u8)]
+pub(crate) enum Comparison {
+    /// `<`
+    Less = 0b001,
+    /// `=`
+    Equal = 0b010,
+    /// `<=`
+    LessEqual = 0b011,
+    /// `>`
+    Greater = 0b100,
+    /// `>=`
+    GreaterEqual = 0b110,
+}
+
+impl Comparison {
+    /// Does it hold for two integers?
+    #[inline(always)]
+    pub(crate) fn holds(self, a: i64, b: i64) -> bool {
+        let order = (a > b) as u8 * 2 + (a == b) as u8;
+        (self as u8 >> order) & 1 != 0
+    }
+}
+
+/// One operation. "Push" and "pop" refer to the value stack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Op {
+    /// Push a constant.
+    Const(u32),
+    /// Push `NIL`.
+    Nil,
+    /// Push a small integer.
+    Int(i32),
+    /// Push a local.
+    Local(u32),
+    /// Push what a local's box holds.
+    LocalBox(u32),
+    /// Pop into a local.
+    SetLocal(u32),
+    /// Pop into a local's box.
+    SetLocalBox(u32),
+    /// Put a local into a fresh box.
+    MakeBox(u32),
+    /// Push a free variable.
+    Free(u32),
+    /// Push what a free variable's box holds.
+    FreeBox(u32),
+    /// Pop into a free variable's box.
+    SetFreeBox(u32),
+    /// Push the value of a global or special variable.
+    Global(Sym),
+    /// Pop into a global or special variable.
+    SetGlobal(Sym),
+    /// Push a symbol's global function.
+    Function(Sym),
+    /// Push the function of `(setf symbol)`.
+    SetfFunction(Sym),
+    /// Push a closure of the inner code.
+    Closure(u32),
+    /// Drop the top.
+    Pop,
+    /// Drop this many values from the top.
+    Drop(u32),
+    /// Drop this many values below the top.
+    Slide(u32),
+    /// Push the top again.
+    Dup,
+    /// Continue at the operation with this index.
+    Jump(u32),
+    /// Pop; jump if it was `NIL`.
+    JumpIfNil(u32),
+    /// Pop; jump unless it was `NIL`.
+    JumpIfTrue(u32),
+    /// Jump if the top is true, else pop it.
+    JumpIfTrueOrPop(u32),
+    /// Jump if a parameter was supplied.
+    JumpIfSupplied(u32, u32),
+    /// Jump if a local is true (when that is wanted) or `NIL` (when it is not). So do the following
+    /// operations, according to the result of a test.
+    JumpIfLocal { slot: u32, when: bool, target: u32 },
+    /// Pop; is it a pair?
+    JumpIfConsp { when: bool, target: u32 },
+    /// Is a local a pair?
+    JumpIfLocalConsp { slot: u32, when: bool, target: u32 },
+    /// Pop two; are they `eq`?
+    JumpIfEq { when: bool, target: u32 },
+    /// Pop; is it `eq` to a constant?
+    JumpIfEqConst {
+        constant: u32,
+        when: bool,
+        target: u32,
+    },
+    /// Pop two numbers; do they compare like that? This and the following operations skip the next
+    /// one if they do not jump.
+    JumpIfCompare {
+        comparison: Comparison,
+        when: bool,
+        target: u32,
+    },
+    /// Pop a number; does it compare like that with an integer?
+    JumpIfCompareInt {
+        comparison: Comparison,
+        when: bool,
+        n: i32,
+        target: u32,
+    },
+    /// Do two locals compare like that?
+    JumpIfCompareLocals {
+        comparison: Comparison,
+        when: bool,
+        a: u16,
+        b: u16,
+        target: u32,
+    },
+    /// Does a local compare like that with an integer?
+    JumpIfCompareLocalInt {
+        comparison: Comparison,
+        when: bool,
+        slot: u8,
+        n: i32,
+        target: u32,
+    },
+    /// Push whether a parameter was supplied.
+    Supplied(u32),
+    /// Call a symbol's function with this many arguments for one value.
+    Call(Sym, u16),
+    /// Call a symbol's function with this many arguments for all values.
+    CallMulti(Sym, u16),
+    /// Call a symbol's function with this many arguments for all values, and return them. If it is
+    /// the running function itself, its frame is used again.
+    CallSelf(Sym, u16),
+    /// Call the function below this many arguments for one value.
+    CallValue(u16),
+    /// Call the function below this many arguments for all values.
+    CallValueMulti(u16),
+    /// Call the function below this many results with all their values.
+    MultipleValueCall(u16, bool),
+    /// Return the top.
+    Return,
+    /// Pop the values of a call and push exactly this many of them.
+    Spread(u32),
+    /// Car of the top.
+    Car,
+    /// Cdr of the top.
+    Cdr,
+    /// What a path of car and cdr leads to from the top, written as the builtins `cadr` and so on
+    /// write it: after the leading one, a bit for each, one for cdr, the last of which comes first.
+    Path(u8),
+    /// Push what a path leads to from a local.
+    LocalPath(u32, u8),
+    /// Push the car of a local.
+    LocalCar(u32),
+    /// Push the cdr of a local.
+    LocalCdr(u32),
+    /// Replace a local by its cdr and skip the next operation.
+    LocalToCdr(u32),
+    /// A pair of the two topmost.
+    Cons,
+    /// Are the two topmost `eq`?
+    Eq,
+    /// Is the top `NIL`?
+    Not,
+    /// Sum of the two topmost.
+    Add,
+    /// Difference of the two topmost.
+    Sub,
+    /// Product of the two topmost.
+    Mul,
+    /// Top plus a small integer.
+    AddInt(i32),
+    /// Push a local plus a small integer.
+    LocalAddInt(u32, i32),
+    /// Add a small integer to a local and skip the next operation.
+    AddToLocal(u32, i32),
+    /// Do the two topmost numbers compare like that?
+    Compare(Comparison),
+    /// Is the top a pair?
+    Consp,
+    /// Element of a vector: `aref` or `svref`, whichever the symbol is, of the two topmost.
+    Element(Sym),
+    /// Pop an index, a vector and a value, and make this the element: `(setf aref)` or `(setf
+    /// svref)`.
+    SetElement(Sym),
+    /// `rplaca` of the two topmost.
+    SetCar,
+    /// `rplacd` of the two topmost.
+    SetCdr,
+    /// Pop a value and bind a special variable to it.
+    BindSpecial(Sym),
+    /// Pop a list of values and a list of symbols, and bind the symbols; pushes nothing.
+    Progv,
+    /// Undo this many dynamic entries.
+    PopDynamic(u32),
+    /// Undo the dynamic entries beyond the innermost `progv` mark, and the mark.
+    EndProgv,
+    /// Enter a block that closures may leave: push its identity as a local.
+    EnterBlock {
+        /// Where execution continues after a return.
+        target: u32,
+        /// Does the block want all values?
+        multi: bool,
+    },
+    /// Pop a value and an identity, and leave that block with the value.
+    ReturnFrom,
+    /// Enter a tagbody that closures may jump into: push its identity as a local. The
+    /// operand is the number of its table of tags.
+    EnterTagbody(u32),
+    /// Pop an identity and go to a tag of that tagbody.
+    Go(u32),
+    /// Pop a tag and establish a catch.
+    EnterCatch {
+        /// Where execution continues after a throw.
+        target: u32,
+        /// Does the catch want all values?
+        multi: bool,
+    },
+    /// Protect what follows: on any exit, run the code at the target.
+    EnterUnwind(u32),
+    /// Leave the protected form normally: its value is on top.
+    LeaveUnwind,
+    /// End of cleanup code: continue the exit that ran it, or continue with the value.
+    EndCleanup,
+    /// Pop this many handler functions and establish them with the types in a constant.
+    EnterHandlers(u32, u16),
+    /// Pop a list of restarts and establish them.
+    EnterRestarts,
+}
+
+impl Op {
+    /// Is it a jump that compares numbers, and so may find that they are none?
+    pub(crate) fn may_fail_instead_of_jump(self) -> bool {
+        matches!(
+            self,
+            Op::JumpIfCompare { .. }
+                | Op::JumpIfCompareInt { .. }
+                | Op::JumpIfCompareLocals { .. }
+                | Op::JumpIfCompareLocalInt { .. }
+        )
+    }
+}
