@@ -72,6 +72,15 @@
        :translation (0 0 0) :rotation top-across-x
        :pregrasp (0 0 0.2) :second-pregrasp (0 0 0.2)
        :lift (0 0 0.2) :second-lift (0 0 0.2))
+; Nearer to the ends, for where something is in the way of the hand in the middle.
+(grasp top-back :types (cutlery spoon) :arms (left right)
+       :translation (-0.06 0 0) :rotation top-across-x
+       :pregrasp (0 0 0.2) :second-pregrasp (0 0 0.2)
+       :lift (0 0 0.2) :second-lift (0 0 0.2))
+(grasp top-front :types (cutlery spoon) :arms (left right)
+       :translation (0.035 0 0) :rotation top-across-x
+       :pregrasp (0 0 0.2) :second-pregrasp (0 0 0.2)
+       :lift (0 0 0.2) :second-lift (0 0 0.2))
 ; CRAM's forks and knives lie along x, these along y.
 (grasp top :types (fork knife) :arms (left right)
        :translation (0 0 0) :rotation top-across-y

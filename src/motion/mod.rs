@@ -83,6 +83,6 @@ pub(crate) use move_torso::MoveTorso;
 pub(crate) use no_handle_grasp::HandleObstacle;
 pub(crate) use pull::{Pull, StoppedPart};
 pub(crate) use put::Put;
-pub(crate) use put_reach::{HeldGrip, PutReach};
+pub(crate) use put_reach::{HeldGrip, PutReach, releasing_opening};
 pub(crate) use reach::{can_reach, can_stand, touching_at};
 pub(crate) use unreachable::{UnreachablePose, UnreachableReason};

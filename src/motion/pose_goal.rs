@@ -19,6 +19,7 @@ use super::joint_follower::{JointFollower, with_joints};
 use super::joint_path::{JointPathEffort, blocked_between};
 use super::joint_trajectory::{plan_joint_trajectory, smooth};
 use super::planning_group::PlanningGroup;
+use super::put_reach::releasing_opening;
 use super::speeds;
 use super::trajectory::Trajectory;
 use super::unreachable::{UnreachablePose, UnreachableReason};
@@ -39,7 +40,7 @@ const SHORT_LIST: usize = 10;
 const ROOM: f64 = 0.05;
 /// Cost of a configuration without any clearance, in radians of joint motion.
 const NO_ROOM_COST: f64 = 2.0;
-/// Cost of a configuration in which the empty hand could not open, in radians of joint motion.
+/// Cost of a configuration in which the hand could not open, in radians of joint motion.
 const SHUT_COST: f64 = 4.0;
 /// Distance (rad) from a joint's limit below which configurations cost more, and how much more.
 const LIMIT_MARGIN: (f64, f64) = (0.2, 1.0);
@@ -157,14 +158,18 @@ impl PoseGoalTask<'_> {
         all
     }
 
-    /// The finger joints of the moving empty hands, wide open.
+    /// The finger joints of the moving hands: wide open, or, if they hold something, as far as they
+    /// open to let it go.
     fn open_hands(&self) -> Vec<(JointId, f64)> {
-        let empty = self.sides().into_iter();
-        let empty = empty.filter(|side| held_objects(self.world, *side).is_empty());
-        let gripper = |side| &self.body().arm(side).gripper;
-        empty
-            .map(|side| (gripper(side).joint, gripper(side).limits.upper))
-            .collect()
+        let open = |side| {
+            let gripper = &self.body().arm(side).gripper;
+            let fingers = match held_objects(self.world, side).is_empty() {
+                true => gripper.limits.upper,
+                false => gripper.position_for_opening(releasing_opening(self.world, side)),
+            };
+            (gripper.joint, fingers)
+        };
+        self.sides().into_iter().map(open).collect()
     }
 
     /// The collision-free configurations at the height, the best one first; or else how many

@@ -20,6 +20,18 @@ const UP: [f64; 3] = [0.0, 0.0, 0.15];
 /// what it holds has moved a little in the hand, or comes to stand a little higher.
 const SLACK: f64 = 0.005;
 
+/// How much farther (m) than on an object the fingers open to let it go: enough to withdraw beside it,
+/// and no more, since other things may stand close to it.
+const RELEASE: f64 = 0.03;
+
+/// How far (m) a hand opens to let go of what it holds.
+pub(crate) fn releasing_opening(world: &World, side: Side) -> f64 {
+    let gripper = &world.models().description.arm(side).gripper;
+    let now = world.robot_configuration().joints.get(gripper.joint) / gripper.joint_per_metre;
+    let most = gripper.limits.upper / gripper.joint_per_metre;
+    (now + RELEASE).min(most)
+}
+
 /// How a hand holds an object, as far as it matters for putting it down.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct HeldGrip {
@@ -36,6 +48,8 @@ pub(crate) struct HeldGrip {
     /// The angle (rad) by which the grasp is turned about the axis of a round object.
     turn: f64,
     is_round: bool,
+    /// How far (m) the fingers are apart when they have let go of the object.
+    pub(crate) opening: f64,
 }
 
 impl HeldGrip {
@@ -62,17 +76,20 @@ impl HeldGrip {
             pregrasp: grasp.map_or(UP, |grasp| grasp.pregrasp),
             turn,
             is_round: kind.is_some_and(|kind| kind.is_round),
+            opening: releasing_opening(world, side),
         })
     }
 
     /// The grip that a hand has after picking an object up by a grasp, turned (rad) about the axis of
-    /// a round object.
+    /// a round object. How far the fingers will be apart on it is not known: they open as far (m) to let
+    /// go as to grasp.
     pub(crate) fn by(
         models: &Models,
         side: Side,
         (object, kind): (&str, &str),
         grasp: &GraspDefinition,
         turn: f64,
+        opening: f64,
     ) -> Result<Self, NotARotation> {
         let axes = &models.description.arm(side).tool_axes;
         let upright = Pose::identity() * about_z(turn);
@@ -86,6 +103,7 @@ impl HeldGrip {
             pregrasp: grasp.pregrasp,
             turn,
             is_round: kind.is_some_and(|kind| kind.is_round),
+            opening,
         })
     }
 
@@ -130,7 +148,7 @@ pub(crate) struct PutReach<'w> {
 }
 
 impl<'w> PutReach<'w> {
-    /// In a world in which the object stands at the place already, and the hand is open.
+    /// In a world in which the object stands at the place already, and the hand has let it go.
     pub(crate) fn new(world: &'w World, grip: &'w HeldGrip) -> Result<Self, WorldError> {
         let arm = world.models().description.arm(grip.side);
         let wrist = arm.wrist_for_tool(&grip.tool_in_object);
@@ -138,7 +156,7 @@ impl<'w> PutReach<'w> {
             span: wrist.translation.vector.norm(),
             grip,
             target: world.object_pose(&grip.object)?,
-            reach: GraspReach::new(world, Some(&grip.object), f64::INFINITY, true),
+            reach: GraspReach::new(world, Some(&grip.object), grip.opening, true),
             shoulder: Shoulder::of(world, grip.side, true),
         })
     }

@@ -395,6 +395,11 @@ mod tests {
             library.grasps_from_above("cup"),
             ["top", "top-around", "top-around-left"]
         );
+        assert_eq!(
+            library.grasps_from_above("spoon"),
+            ["top", "top-back", "top-front"]
+        );
+        assert_eq!(library.grasps("spoon"), ["top"]);
         assert_eq!(library.grasps_from_above("bowl"), ["top"]);
         assert!(library.grasps_from_above("milk").is_empty());
     }

@@ -380,6 +380,28 @@ fn somewhere(cook: &Cook, rng: &mut Pcg64) -> [f64; 3] {
     }
 }
 
+/// In the middle, the fingers would touch the front of the drawer.
+#[test]
+fn a_spoon_across_a_drawer_close_to_its_front_is_taken_nearer_to_its_end() {
+    let mut cook = cook();
+    cook.done(
+        "(btr-utils:spawn-object 'spoon-1 :spoon
+           :pose '((1.34157 0.89745 0.737) (0 0 0.80027 0.59962)))
+         (with-simulated-robot
+           (let ((?pose (make-pose \"map\" '((-0.9 1.66 0.865) (0 0 0 1))))
+                 (?drawer (an object (urdf-name sink-area-left-upper-drawer-main)
+                             (part-of kitchen))))
+             (perform (an action (type transporting)
+                          (object (an object (type spoon) (name spoon-1)))
+                          (location (a location (in ?drawer)))
+                          (target (a location (pose ?pose)))))))",
+    );
+    let t = cook.pose("SPOON-1").translation;
+    assert!((t.x + 0.9).hypot(t.y - 1.66) < 0.02, "{t}");
+    assert!(cook.joint("sink_area_left_upper_drawer_main_joint").abs() < 0.01);
+    cook.assert_no_overlap();
+}
+
 /// A run of opening and closing.
 struct Run {
     opened: f64,

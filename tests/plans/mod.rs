@@ -18,6 +18,7 @@ mod noise;
 mod occasions;
 pub(crate) mod overlaps;
 mod packages;
+mod parking;
 pub(crate) mod prompt;
 mod properties;
 mod putting_down;

@@ -88,3 +88,32 @@ fn a_round_object_that_is_put_down_with_another_heading_is_logged() {
         ),
     }
 }
+
+/// Hands used to open as far as they go, which takes 4 cm on both sides.
+#[test]
+fn a_spoon_is_put_down_closer_to_a_bowl_than_a_wide_open_hand_would_fit() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(init-projection)
+         (btr-utils:spawn-object 'bowl-1 :bowl :pose '((-0.9 1.5 0.9) (0 0 0 1)))
+         (btr-utils:spawn-object 'spoon-1 :spoon :pose '((1.4 0.6 0.87) (0 0 0 1)))",
+    );
+    let bowl = cook.pose("BOWL-1");
+    cook.done(
+        "(with-simulated-robot
+           (let ((?pose (make-pose \"map\" '((-0.9 1.66 0.865) (0 0 0 1))))
+                 (?counter (an object (urdf-name sink-area-surface) (part-of kitchen))))
+             (perform (an action (type transporting)
+                          (object (an object (type spoon) (name spoon-1)))
+                          (location (a location (on ?counter)))
+                          (target (a location (pose ?pose)))))))",
+    );
+    let t = cook.pose("SPOON-1").translation;
+    assert!((t.x + 0.9).hypot(t.y - 1.66) < 0.02, "{t}");
+    assert!(cook.distance("BOWL-1", &bowl) < 0.001);
+    assert_eq!(
+        cook.done("(every (lambda (arm) (< (rob-int::hand-opening arm) 0.06)) '(:left :right))"),
+        "T\n"
+    );
+    cook.assert_no_overlap();
+}

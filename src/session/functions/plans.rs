@@ -10,7 +10,7 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
-use crate::motion::{Effort, HeldGrip, LetGo, PutReach, about_z, take_hold};
+use crate::motion::{Effort, HeldGrip, LetGo, PutReach, about_z, releasing_opening, take_hold};
 use crate::plan::Reply;
 use crate::plan::pose::value::{as_placement, frame_of, pose_stamped};
 use crate::robot::Side;
@@ -72,6 +72,13 @@ pub(crate) static TABLE: &[Builtin] = &[
         "How wide a hand opens (m) to grasp an object.",
         &[],
         host!(gripper_opening),
+    ),
+    control(
+        "RELEASING-OPENING",
+        "arm",
+        "How far (m) a hand opens to let go of what it holds: no farther than it needs to withdraw.",
+        &["(pp-plans::releasing-opening :left) => 0.03"],
+        host!(hand_releasing_opening),
     ),
     control(
         "GRIPPING-EFFORT",
@@ -277,7 +284,7 @@ impl Simulation {
             object_pose: Some(self.base() * target),
             base_pose: None,
             side: grip.side,
-            opening: f64::INFINITY,
+            opening: grip.opening,
         };
         let mut world = imagined.world(&self.world).ok()??;
         world.teleport_robot(self.world.robot_configuration());
@@ -368,6 +375,15 @@ fn gripper_opening(
 ) -> Result<Reply> {
     let object = simulation.perceived(image, &args[0])?;
     done(simulation.grip(&object.kind).opening)
+}
+
+fn hand_releasing_opening(
+    simulation: &mut Simulation,
+    image: &mut Image,
+    args: &[Value],
+) -> Result<Reply> {
+    let side = side(image, &args[0])?;
+    done(releasing_opening(&simulation.world, side))
 }
 
 fn gripping_effort(

@@ -133,7 +133,9 @@ impl TargetChecks {
             return Err(nowhere);
         };
         let object = (question.object.as_str(), kind.as_str());
-        let grip = HeldGrip::by(&simulation.models, choice.side, object, &grasp, choice.turn);
+        let opening = simulation.grip(kind).opening;
+        let (models, turn) = (&simulation.models, choice.turn);
+        let grip = HeldGrip::by(models, choice.side, object, &grasp, turn, opening);
         let Ok(grip) = grip else {
             return Err(nowhere);
         };
