@@ -256,6 +256,14 @@ fn the_table_is_set_from_random_places() {
     assert_eq!(achieved.is_tidy, [true; 3]);
 }
 
+/// A hand that grasps a cup presses on it in this world, gives up, and used to take the cup along then.
+#[test]
+fn a_cup_on_which_a_hand_has_pressed_is_not_dragged_along() {
+    let achieved = random_demo(21);
+    assert_eq!(achieved.things, [true; 5], "{:?}", achieved.failures);
+    assert_eq!(achieved.is_tidy, [true; 3]);
+}
+
 /// Prints a table of what demos achieve, and the sums.
 fn table(runs: impl Iterator<Item = (u64, Achieved)>) {
     let mark = |done: bool| if done { "yes" } else { "NO" };
