@@ -77,7 +77,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "RELEASING-OPENING",
         "arm",
         "How far (m) a hand opens to let go of what it holds: no farther than it needs to withdraw.",
-        &["(pp-plans::releasing-opening :left) => 0.03"],
+        &["(progn (pp-tut:init-projection) (< (pp-plans::releasing-opening :left) 0.04)) => T"],
         host!(hand_releasing_opening),
     ),
     control(
