@@ -1,11 +1,14 @@
 //! A new image: standard packages, classes, variables, functions and macros.
 
+use std::rc::Rc;
+
 use super::builtins::{implementation, number_theory, numbers, reading, registry};
 use super::condition;
 use super::image::Image;
 use super::library;
 use super::stream;
 use super::value::Value;
+use super::value::hash_table::{HashTable, HashTest};
 use super::value::known;
 use super::value::package::PackageTable;
 use super::value::symbol::Sym;
@@ -79,6 +82,11 @@ fn define_variables(image: &mut Image) {
         (known::V_PRINT_LINES, Value::NIL),
         (known::V_PRINT_RIGHT_MARGIN, Value::NIL),
         (known::V_PRINT_MISER_WIDTH, Value::NIL),
+        (
+            known::V_PRINT_PPRINT_DISPATCH,
+            Value::Hash(Rc::new(HashTable::new(HashTest::Equal))),
+        ),
+        (known::V_PRINT_DEPTH, Value::Int(0)),
         (known::V_READ_BASE, Value::Int(10)),
         (
             known::V_READ_DEFAULT_FLOAT_FORMAT,

@@ -5,5 +5,6 @@ mod cram_utilities;
 mod examples;
 mod library;
 mod limits;
+mod pretty_printer;
 mod reader_round_trip;
 mod standard;

@@ -8,8 +8,9 @@ use crate::lisp::image::Image;
 use crate::lisp::print::{self, Call};
 use crate::lisp::stream::Stream;
 use crate::lisp::value::Value;
-use crate::lisp::value::known;
+use crate::lisp::value::document::Document;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::{Calls, run};
 use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::machine::Machine;
@@ -17,11 +18,11 @@ use crate::lisp::vm::step::Step;
 
 /// Composes a text, making the calls that it needs, and passes it on. `compose` receives the texts
 /// of calls and records those that are missing.
-pub(super) fn compose(
+pub(super) fn compose<Text: 'static>(
     machine: &mut Machine<'_>,
     name: &'static str,
-    compose: impl Fn(&Image, &mut print::Calls) -> Result<String, Box<Raise>> + 'static,
-    finish: impl FnOnce(&mut Machine<'_>, String) -> Result<Step, Box<Raise>> + 'static,
+    compose: impl Fn(&Image, &mut print::Calls) -> Result<Text, Box<Raise>> + 'static,
+    finish: impl FnOnce(&mut Machine<'_>, Text) -> Result<Step, Box<Raise>> + 'static,
 ) -> Result<Step, Box<Raise>> {
     let mut texts = print::Calls::with_texts([]);
     let text = compose(machine.image, &mut texts)?;
@@ -53,34 +54,35 @@ pub(super) fn compose(
 }
 
 /// Makes a call; returns the text that it writes.
-async fn text_of(calls: &Calls, call: Call) -> String {
-    let stream = Rc::new(Stream::to_text());
-    if let Some(escape) = call.escape {
-        calls
-            .with(move |machine| bind_escape(machine, escape))
-            .await;
-    }
+async fn text_of(calls: &Calls, call: Call) -> Document {
+    let stream = Rc::new(Stream::to_document(call.is_pretty, 0));
+    let bound = call.bindings.len();
+    let bindings = call.bindings;
+    calls.with(move |machine| bind(machine, bindings)).await;
     let mut args = call.before;
     args.push(Value::Stream(stream.clone()));
     args.extend(call.after);
     calls.call_in_frame(&call.function, args).await;
-    if call.escape.is_some() {
-        calls.with(unbind_escape).await;
+    calls.with(move |machine| unbind(machine, bound)).await;
+    stream
+        .take_document()
+        .unwrap_or_else(|| Document::new(false))
+}
+
+/// Binds variables until the call returns. If the call is left by a non-local exit, the machine
+/// undoes the bindings.
+fn bind(machine: &mut Machine<'_>, bindings: Vec<(Sym, Value)>) {
+    for (sym, value) in bindings {
+        let place = &mut machine.image.symbols.get_mut(sym).value;
+        let outside = std::mem::replace(place, value);
+        machine.fiber.dynamic.push(Dynamic::Bind(sym, outside));
     }
-    stream.take_text().unwrap_or_default()
 }
 
-/// Binds `*print-escape*` until the call returns. If the call is left by a non-local exit, the
-/// machine undoes the binding.
-fn bind_escape(machine: &mut Machine<'_>, escape: bool) {
-    let place = &mut machine.image.symbols.get_mut(known::V_PRINT_ESCAPE).value;
-    let outside = std::mem::replace(place, Value::bool(escape));
-    let binding = Dynamic::Bind(known::V_PRINT_ESCAPE, outside);
-    machine.fiber.dynamic.push(binding);
-}
-
-fn unbind_escape(machine: &mut Machine<'_>) {
-    if let Some(Dynamic::Bind(sym, outside)) = machine.fiber.dynamic.pop() {
-        machine.image.symbols.get_mut(sym).value = outside;
+fn unbind(machine: &mut Machine<'_>, count: usize) {
+    for _ in 0..count {
+        if let Some(Dynamic::Bind(sym, outside)) = machine.fiber.dynamic.pop() {
+            machine.image.symbols.get_mut(sym).value = outside;
+        }
     }
 }

@@ -93,6 +93,22 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
         Value::Str(control) => {
             let control = Control::parse(&control.borrow())?;
             let column = destination.column(machine.image)?;
+            if let Destination::Stream(target) = &destination
+                && let Some(stream) = stream::pretty(machine.image, target)
+            {
+                return compose(
+                    machine,
+                    "FORMAT",
+                    move |image, calls| {
+                        let arguments = args.get(2..).unwrap_or(&[]);
+                        control.run_in_document(image, arguments, column, calls)
+                    },
+                    move |_, text| {
+                        stream.with_document(|document| document.append(&text));
+                        Ok(Step::Return(Value::NIL))
+                    },
+                );
+            }
             compose(
                 machine,
                 "FORMAT",
@@ -101,6 +117,16 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
             )
         }
         function @ Value::Function(_) => {
+            if let Destination::Stream(target) = &destination {
+                let stream = stream::output_stream(machine.image, target)?;
+                let mut call = vec![Value::Stream(stream)];
+                call.extend(args.iter().skip(2).cloned());
+                let function = function.clone();
+                return run(machine, "FORMAT", |calls| async move {
+                    calls.call(&function, Args::Many(call)).await;
+                    Ok(Value::NIL)
+                });
+            }
             let target = std::rc::Rc::new(stream::Stream::to_text());
             let mut call = vec![Value::Stream(target.clone())];
             call.extend(args.iter().skip(2).cloned());

@@ -33,6 +33,7 @@ pub(crate) mod package_symbols;
 pub(crate) mod packages;
 pub(crate) mod pairs;
 pub(crate) mod pathnames;
+pub(crate) mod pretty_printing;
 pub(crate) mod printing;
 pub(crate) mod property_lists;
 pub(crate) mod reading;

@@ -8,6 +8,7 @@ use crate::lisp::print::{self, Case, Settings};
 use crate::lisp::stream;
 use crate::lisp::value::Value;
 use crate::lisp::value::known;
+use crate::lisp::value::package::PackageTable;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{Bounds, Sequence};
 use crate::lisp::value::symbol::Sym;
@@ -168,6 +169,28 @@ fn write_object(
     }
     settings.pretty |= manner == Manner::Pprint;
     let printed = object.clone();
+    if let Some(stream) = stream::pretty(machine.image, &target) {
+        return compose(
+            machine,
+            "PRINT",
+            move |image, calls| Ok(print::document(image, &printed, &settings, calls)),
+            move |_, text| {
+                stream.with_document(|document| {
+                    if matches!(manner, Manner::Print | Manner::Pprint) {
+                        document.text("\n");
+                    }
+                    document.append(&text);
+                    if manner == Manner::Print {
+                        document.text(" ");
+                    }
+                });
+                Ok(Step::Return(match manner {
+                    Manner::Pprint => Value::values(Vec::new()),
+                    _ => object,
+                }))
+            },
+        );
+    }
     compose(
         machine,
         "PRINT",
@@ -285,11 +308,43 @@ fn count(place: &mut Option<usize>, value: Option<Value>) -> Result<(), Box<Rais
     Ok(())
 }
 
+/// A call with another dispatch table binds the variable; `None` if that is not wanted.
+fn with_dispatch(image: &Image, args: &[Value], writer: &str) -> Option<Step> {
+    let (object, options) = args.split_first()?;
+    let mut pairs = options.chunks_exact(2);
+    let table = pairs.find(|pair| pair[0].as_symbol() == Some(known::K_PPRINT_DISPATCH))?;
+    let writer = image.packages.find_symbol(PackageTable::CL, writer)?.0;
+    let arguments = [
+        writer.into(),
+        object.clone(),
+        table[1].clone(),
+        Value::list(options.iter().cloned()),
+    ];
+    Some(Step::tail_call(
+        known::SYS_WRITE_DISPATCHED,
+        arguments.to_vec(),
+    ))
+}
+
 fn write(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    if let Some(step) = with_dispatch(machine.image, &args, "WRITE") {
+        return Ok(step);
+    }
     let object = args[0].clone();
     let (settings, target) = write_settings(machine.image, args.get(1..).unwrap_or(&[]))?;
     let start = column(machine.image, &target)?;
     let printed = object.clone();
+    if let Some(stream) = stream::pretty(machine.image, &target) {
+        return compose(
+            machine,
+            "WRITE",
+            move |image, calls| Ok(print::document(image, &printed, &settings, calls)),
+            move |_, text| {
+                stream.with_document(|document| document.append(&text));
+                Ok(Step::Return(object))
+            },
+        );
+    }
     compose(
         machine,
         "WRITE",
@@ -306,6 +361,11 @@ fn to_string(
     args: Vec<Value>,
     escape: Option<bool>,
 ) -> Result<Step, Box<Raise>> {
+    if escape.is_none()
+        && let Some(step) = with_dispatch(machine.image, &args, "WRITE-TO-STRING")
+    {
+        return Ok(step);
+    }
     let settings = match escape {
         Some(escape) => Settings::of(machine.image).with_escape(escape),
         None => write_settings(machine.image, args.get(1..).unwrap_or(&[]))?.0,
@@ -324,6 +384,17 @@ fn print_object(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
     let target = args[1].clone();
     let start = column(machine.image, &target)?;
     let object = args[0].clone();
+    if let Some(stream) = stream::pretty(machine.image, &target) {
+        return compose(
+            machine,
+            "PRINT-OBJECT",
+            move |image, calls| Ok(print::document_default(image, &args[0], &settings, calls)),
+            move |_, text| {
+                stream.with_document(|document| document.append(&text));
+                Ok(Step::Return(object))
+            },
+        );
+    }
     compose(
         machine,
         "PRINT-OBJECT",

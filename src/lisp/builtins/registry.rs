@@ -77,6 +77,7 @@ pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     pathnames::SYSTEM_TABLE,
     structures::SYSTEM_TABLE,
     printing::SYSTEM_TABLE,
+    pretty_printing::SYSTEM_TABLE,
 ];
 
 /// What `setf` calls for places of package `COMMON-LISP`.

@@ -83,6 +83,7 @@ static FILES: &[File] = &[
     library_file!("src/lisp/library", "sets.lisp"),
     library_file!("src/lisp/library", "streams.lisp"),
     library_file!("src/lisp/library", "printer.lisp"),
+    library_file!("src/lisp/library", "pretty-printer.lisp"),
     library_file!("src/lisp/library", "alexandria-symbols.lisp"),
     library_file!("src/lisp/library", "alexandria-macros.lisp"),
     library_file!("src/lisp/library", "alexandria-lambda-lists.lisp"),

@@ -58,7 +58,9 @@ pub(super) fn atom(image: &Image, value: &Value, settings: &Settings) -> String 
         }
         Value::Stream(stream) => {
             let kind = match &*stream.kind.borrow() {
-                StreamKind::StringOutput { .. } => "STRING-OUTPUT-STREAM",
+                StreamKind::StringOutput { .. } | StreamKind::Pretty { .. } => {
+                    "STRING-OUTPUT-STREAM"
+                }
                 StreamKind::StringInput { .. } if stream.file.is_none() => "STRING-INPUT-STREAM",
                 StreamKind::StringTarget { .. } => "FILL-POINTER-OUTPUT-STREAM",
                 StreamKind::Broadcast { .. } => "BROADCAST-STREAM",

@@ -6,6 +6,8 @@
 use std::collections::VecDeque;
 
 use crate::lisp::value::Value;
+use crate::lisp::value::document::Document;
+use crate::lisp::value::symbol::Sym;
 
 /// A call that writes a text to a stream.
 #[derive(Clone)]
@@ -15,14 +17,16 @@ pub(crate) struct Call {
     pub(crate) before: Vec<Value>,
     /// Arguments after the stream.
     pub(crate) after: Vec<Value>,
-    /// `*print-escape*` during the call; unchanged if none.
-    pub(crate) escape: Option<bool>,
+    /// Variables that are bound during the call.
+    pub(crate) bindings: Vec<(Sym, Value)>,
+    /// Does what it writes have places where lines may break?
+    pub(crate) is_pretty: bool,
 }
 
 /// Calls that are needed, or their texts.
 pub(crate) struct Calls {
     /// Texts of calls made, in the order in which they are needed.
-    texts: VecDeque<String>,
+    texts: VecDeque<Document>,
     /// Calls without a text.
     needed: Vec<Call>,
     /// Are calls made at all?
@@ -40,7 +44,7 @@ impl Calls {
     }
 
     /// Calls are possible, and these are the texts of the first ones.
-    pub(crate) fn with_texts(texts: impl IntoIterator<Item = String>) -> Calls {
+    pub(crate) fn with_texts(texts: impl IntoIterator<Item = Document>) -> Calls {
         Calls {
             texts: texts.into_iter().collect(),
             needed: Vec::new(),
@@ -50,7 +54,7 @@ impl Calls {
 
     /// The text of the next call; if that is missing, the call is recorded and the text is empty.
     /// `None` if calls are not possible.
-    pub(crate) fn text(&mut self, call: impl FnOnce() -> Call) -> Option<String> {
+    pub(crate) fn text(&mut self, call: impl FnOnce() -> Call) -> Option<Document> {
         if self.is_pure {
             return None;
         }
@@ -58,7 +62,7 @@ impl Calls {
             return Some(text);
         }
         self.needed.push(call());
-        Some(String::new())
+        Some(Document::new(false))
     }
 
     /// The calls whose texts were missing.

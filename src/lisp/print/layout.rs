@@ -1,7 +1,9 @@
 //! Where the lines of a document break: the rules of the Common Lisp pretty printer.
 
-use super::document::{Document, Kind, Newline, Op};
+use std::borrow::Cow;
+
 use super::settings::Settings;
+use crate::lisp::value::document::{Document, Kind, Newline, Op, Tab};
 
 /// A block that does not fit on one line.
 struct Block {
@@ -9,7 +11,16 @@ struct Block {
     indent: usize,
     /// The line on which its current section starts.
     section_line: usize,
+    /// The column at which its current section starts.
+    section_column: usize,
+    /// What begins its lines: that of the blocks around it and its own.
+    line_prefix: String,
+    /// What follows it.
+    suffix: Cow<'static, str>,
 }
+
+/// The most blanks of one tab.
+const MOST_BLANKS: usize = 10_000;
 
 struct Layout<'d> {
     document: &'d Document,
@@ -23,11 +34,14 @@ struct Layout<'d> {
     blocks: Vec<Block>,
     /// For each instruction, the index of the next unconditional newline after it.
     next_forced: Vec<usize>,
+    /// Newlines before this instruction are in a block that fits on a line.
+    flat_end: usize,
 }
 
 /// Breaks a document into lines; the first line already has `column` characters.
 pub(super) fn lay_out(document: Document, settings: &Settings, column: usize) -> String {
-    let is_flat = column + document.characters() <= settings.right_margin
+    let is_flat = !document.has_tabs
+        && column + document.characters() <= settings.right_margin
         && !document
             .ops
             .iter()
@@ -56,8 +70,12 @@ pub(super) fn lay_out(document: Document, settings: &Settings, column: usize) ->
             start_column: 0,
             indent: 0,
             section_line: 0,
+            section_column: column,
+            line_prefix: String::new(),
+            suffix: "".into(),
         }],
         next_forced,
+        flat_end: 0,
     };
     layout.run()
 }
@@ -74,17 +92,16 @@ impl Layout<'_> {
             i += 1;
             match op.kind {
                 Kind::Start => {
-                    if self.fits(i - 1, op) {
+                    let is_flat = self.flat_end <= i && self.fits(i - 1, op);
+                    if is_flat && !self.document.has_tabs {
                         // The whole block is on one line: nothing in it matters.
                         i = i.max(op.block_end + 1);
-                    } else {
-                        let column = self.column(op.position);
-                        self.blocks.push(Block {
-                            start_column: column,
-                            indent: column,
-                            section_line: self.line,
-                        });
+                        continue;
                     }
+                    if is_flat {
+                        self.flat_end = op.block_end;
+                    }
+                    self.start(op);
                 }
                 Kind::End => {
                     // The outermost block is not ended by any instruction.
@@ -104,15 +121,85 @@ impl Layout<'_> {
                     }
                 }
                 Kind::IndentBlock(_) | Kind::IndentCurrent(_) => {}
+                Kind::Tab(tab) => {
+                    let column = self.column(op.position);
+                    let blanks = self.blanks(tab, column, self.section_column());
+                    self.write_up_to(op.byte);
+                    self.out.extend(std::iter::repeat_n(' ', blanks));
+                    self.shift += signed(blanks);
+                }
+                Kind::Newline(_) if i <= self.flat_end => {
+                    let column = self.column(op.position);
+                    if let Some(block) = self.blocks.last_mut() {
+                        block.section_column = column;
+                    }
+                }
                 Kind::Newline(newline) => {
                     if self.breaks(i - 1, op, newline) && !self.break_line(op, newline) {
                         return self.out;
+                    }
+                    let column = self.column(op.position);
+                    if let Some(block) = self.blocks.last_mut() {
+                        block.section_column = column;
                     }
                 }
             }
         }
         self.write_up_to(self.document.text.len());
         self.out
+    }
+
+    fn start(&mut self, op: &Op) {
+        let column = self.column(op.position);
+        let mut line_prefix = match self.blocks.last() {
+            Some(block) => block.line_prefix.clone(),
+            None => String::new(),
+        };
+        if !op.line_prefix.is_empty() {
+            let own = column.saturating_sub(op.line_prefix.chars().count());
+            let blanks = own.saturating_sub(line_prefix.chars().count());
+            line_prefix.extend(std::iter::repeat_n(' ', blanks));
+            line_prefix.push_str(&op.line_prefix);
+        }
+        self.blocks.push(Block {
+            start_column: column,
+            indent: column,
+            section_line: self.line,
+            section_column: column,
+            line_prefix,
+            suffix: op.suffix.clone(),
+        });
+    }
+
+    fn section_column(&self) -> usize {
+        self.blocks.last().map_or(0, |block| block.section_column)
+    }
+
+    /// The blanks of a tab at a column.
+    fn blanks(&self, tab: Tab, column: usize, section_column: usize) -> usize {
+        let origin = if tab.by_section { section_column } else { 0 };
+        // No line is longer than what fits into it but for its last word.
+        tab.blanks(column.saturating_sub(origin)).min(MOST_BLANKS)
+    }
+
+    /// How much longer the text from an instruction to a position gets by its tabs.
+    fn width_of_tabs(&self, from: usize, end: usize) -> usize {
+        if !self.document.has_tabs {
+            return 0;
+        }
+        let mut added = 0;
+        let mut section = self.section_column();
+        let ops = self.document.ops.iter().skip(from);
+        // Blanks that end a section would be removed at the end of a line.
+        for op in ops.take_while(|op| op.position < end) {
+            let column = self.column(op.position) + added;
+            match op.kind {
+                Kind::Tab(tab) => added += self.blanks(tab, column, section),
+                Kind::Newline(_) | Kind::Start => section = column,
+                _ => {}
+            }
+        }
+        added
     }
 
     fn column(&self, position: usize) -> usize {
@@ -129,7 +216,8 @@ impl Layout<'_> {
         let position = end
             .and_then(|end| self.document.ops.get(end))
             .map_or(self.document.characters(), |end| end.position);
-        self.column(position) <= self.settings.right_margin
+        let tabs = self.width_of_tabs(index, position);
+        self.column(position) + tabs <= self.settings.right_margin
     }
 
     /// Is the innermost block so near the right margin that it is printed in miser style?
@@ -174,20 +262,24 @@ impl Layout<'_> {
         self.line += 1;
         if self.settings.lines.is_some_and(|most| self.line >= most) {
             self.out.push_str(" ..");
-            let open = self.blocks.len() - 1;
-            self.out.push_str(&")".repeat(open));
+            for block in self.blocks.iter().rev() {
+                self.out.push_str(&block.suffix);
+            }
             return false;
         }
         self.out.push('\n');
-        let mut indent = 0;
-        if newline != Newline::Literal
-            && let Some(block) = self.blocks.last_mut()
-        {
-            indent = block.indent;
-            block.section_line = self.line;
+        let mut column = 0;
+        if let Some(block) = self.blocks.last_mut() {
+            self.out.push_str(&block.line_prefix);
+            column = block.line_prefix.chars().count();
+            if newline != Newline::Literal {
+                let blanks = block.indent.saturating_sub(column);
+                self.out.extend(std::iter::repeat_n(' ', blanks));
+                column += blanks;
+                block.section_line = self.line;
+            }
         }
-        self.out.extend(std::iter::repeat_n(' ', indent));
-        self.shift = signed(indent) - signed(op.position);
+        self.shift = signed(column) - signed(op.position);
         true
     }
 }

@@ -8,7 +8,7 @@
 mod atom;
 mod calls;
 mod circle;
-mod document;
+pub(crate) mod dispatch;
 mod float;
 pub(crate) mod format;
 mod layout;
@@ -31,6 +31,7 @@ pub(crate) use settings::{Case, Settings};
 
 use super::image::Image;
 use super::value::Value;
+use super::value::document::Document;
 use super::value::foreign::PrintContext;
 use super::value::symbol::Sym;
 
@@ -50,6 +51,37 @@ pub(crate) fn write(
     calls: &mut Calls,
 ) -> String {
     printer::Printer::new(image, settings, calls).print(value, column)
+}
+
+/// A value under given settings, as a part of a document in which lines will break.
+pub(crate) fn document(
+    image: &Image,
+    value: &Value,
+    settings: &Settings,
+    calls: &mut Calls,
+) -> Document {
+    let mut document = Document::new(settings.pretty);
+    printer::Printer::new(image, settings, calls).print_into(&mut document, value);
+    document
+}
+
+/// Like [`document()`], but ignores the program's own way to print the value itself.
+pub(crate) fn document_default(
+    image: &Image,
+    value: &Value,
+    settings: &Settings,
+    calls: &mut Calls,
+) -> Document {
+    let mut document = Document::new(settings.pretty);
+    printer::Printer::new(image, settings, calls)
+        .without_own_method()
+        .print_into(&mut document, value);
+    document
+}
+
+/// The text of a document whose lines break, where the first line already has `column` characters.
+pub(crate) fn laid_out(document: Document, settings: &Settings, column: usize) -> String {
+    layout::lay_out(document, settings, column)
 }
 
 /// Like [`write()`], but ignores a method of `print-object` for the value itself, as the default

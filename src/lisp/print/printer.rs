@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::atom;
 use super::calls::{Call, Calls};
 use super::circle::{Label, Labels};
-use super::document::{Document, Newline};
+use super::dispatch;
 use super::layout::lay_out;
 use super::report;
 use super::settings::Settings;
@@ -17,9 +17,8 @@ use crate::lisp::image::identity::identity;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::class::{ClassKind, Instance};
-use crate::lisp::value::generic::Specializer;
+use crate::lisp::value::document::{Document, Newline};
 use crate::lisp::value::known;
-use crate::lisp::value::symbol::FunctionCell;
 
 /// Prints one value.
 pub(super) struct Printer<'a> {
@@ -158,6 +157,7 @@ impl<'a> Printer<'a> {
     }
 
     fn value(&mut self, value: Value, style: Style, depth: usize) {
+        let is_dispatched = !self.skips_method && self.settings.pretty;
         self.skips_method &= matches!(value, Value::Instance(_));
         match self.labels.next(&value) {
             Label::None => {}
@@ -166,6 +166,19 @@ impl<'a> Printer<'a> {
                 self.document.text(&format!("#{number}#"));
                 return;
             }
+        }
+        if is_dispatched
+            && let Some(function) = dispatch::function_for(self.image, &value)
+            && let Some(text) = self.calls.text(|| Call {
+                function,
+                before: Vec::new(),
+                after: vec![value.clone()],
+                bindings: self.settings.bindings(self.image, depth),
+                is_pretty: true,
+            })
+        {
+            self.document.append(&text);
+            return;
         }
         match &value {
             Value::Cons(_) => self.list(value, style, depth),
@@ -184,6 +197,7 @@ impl<'a> Printer<'a> {
 
     /// Is something at this depth left out? Then `#` is printed in its place.
     fn is_too_deep(&mut self, depth: usize) -> bool {
+        let depth = self.settings.depth + depth;
         let is_too_deep = self.settings.level.is_some_and(|level| depth >= level);
         if is_too_deep {
             self.document.text("#");
@@ -226,8 +240,7 @@ impl<'a> Printer<'a> {
         if self.is_too_deep(depth) {
             return;
         }
-        self.document.text("(");
-        self.document.start();
+        self.document.open("(", ")");
         self.tasks.push(Task::Rest(Rest {
             list,
             index: 0,
@@ -382,8 +395,7 @@ impl<'a> Printer<'a> {
         if self.is_too_deep(depth) {
             return;
         }
-        self.document.text("#(");
-        self.document.start();
+        self.document.open("#(", ")");
         self.tasks.push(Task::Close(")"));
         self.tasks.push(Task::Elements {
             end: items.len(),
@@ -451,8 +463,7 @@ impl<'a> Printer<'a> {
             return;
         };
         if next == 0 {
-            self.document.text("(");
-            self.document.start();
+            self.document.open("(", ")");
         }
         let is_cut = next < length && self.is_cut(next);
         if next > 0 && next < length {
@@ -495,8 +506,8 @@ impl<'a> Printer<'a> {
     }
 
     fn instance(&mut self, value: &Value, instance: &Rc<Instance>, depth: usize) {
-        if let Some(text) = self.text_by_program(value, instance) {
-            self.document.text(&text);
+        if let Some(text) = self.text_by_program(value, instance, depth) {
+            self.document.append(&text);
             return;
         }
         match instance.class().kind {
@@ -504,8 +515,7 @@ impl<'a> Printer<'a> {
                 if self.is_too_deep(depth) {
                     return;
                 }
-                self.document.text("#S(");
-                self.document.start();
+                self.document.open("#S(", ")");
                 let settings = self.settings.clone().with_escape(true);
                 let name = symbol::symbol(self.image, instance.class().name, &settings);
                 self.document.text(&name);
@@ -528,16 +538,22 @@ impl<'a> Printer<'a> {
     }
 
     /// The text that the program's own printing function makes of an instance, if it has one.
-    fn text_by_program(&mut self, value: &Value, instance: &Instance) -> Option<String> {
+    fn text_by_program(
+        &mut self,
+        value: &Value,
+        instance: &Instance,
+        depth: usize,
+    ) -> Option<Document> {
         let escape = self.settings.escape;
         let call = |function: Value| Call {
             function,
             before: vec![value.clone()],
             after: Vec::new(),
-            escape: Some(escape),
+            bindings: self.settings.bindings(self.image, depth),
+            is_pretty: self.settings.pretty,
         };
         let skips_method = std::mem::take(&mut self.skips_method);
-        if !skips_method && has_print_method(self.image, instance) {
+        if !skips_method && dispatch::has_print_method(self.image, instance) {
             return self.calls.text(|| call(known::PRINT_OBJECT.into()));
         }
         if escape {
@@ -570,22 +586,4 @@ impl<'a> Printer<'a> {
         let value = value.unwrap_or(Value::Unbound);
         self.tasks.push(Task::Value(value, Style::Auto, depth + 1));
     }
-}
-
-/// Does the program define how the instance is printed?
-fn has_print_method(image: &Image, instance: &Instance) -> bool {
-    let FunctionCell::Function(function) = &image.symbol(known::PRINT_OBJECT).function else {
-        return false;
-    };
-    let Some(generic) = function.as_generic() else {
-        return false;
-    };
-    let class = instance.class();
-    generic.methods.borrow().iter().any(|method| {
-        !method.is_builtin
-            && match method.specializers.first() {
-                Some(Specializer::Class(specializer)) => class.is_subclass_of(specializer.name),
-                _ => false,
-            }
-    })
 }

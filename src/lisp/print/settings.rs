@@ -36,6 +36,8 @@ pub(crate) struct Settings {
     pub(crate) length: Option<usize>,
     /// `*print-level*`: deepest nesting.
     pub(crate) level: Option<usize>,
+    /// The number of logical blocks around what is printed, which count for `*print-level*`.
+    pub(crate) depth: usize,
     /// `*print-circle*`: shared parts as `#1#`?
     pub(crate) circle: bool,
     /// `readtable-case`: what the reader does with letters.
@@ -85,6 +87,7 @@ impl Settings {
             letters: LetterCase::current(image),
             length: count(image, known::V_PRINT_LENGTH),
             level: count(image, known::V_PRINT_LEVEL),
+            depth: count(image, known::V_PRINT_DEPTH).unwrap_or(0),
             circle: flag(known::V_PRINT_CIRCLE),
             gensym: flag(known::V_PRINT_GENSYM),
             array: flag(known::V_PRINT_ARRAY),
@@ -96,6 +99,65 @@ impl Settings {
                 .as_symbol()
                 .unwrap_or(known::SINGLE_FLOAT),
         }
+    }
+
+    /// The printer variables whose values have to change for a call of Lisp code to print like
+    /// this, so many levels deep.
+    pub(crate) fn bindings(&self, image: &Image, depth: usize) -> Vec<(Sym, Value)> {
+        let current = Settings::of(image);
+        let count = |n: Option<usize>| match n {
+            Some(n) => Value::from(n),
+            None => Value::NIL,
+        };
+        let case = match self.case {
+            Case::Up => known::K_UPCASE,
+            Case::Down => known::K_DOWNCASE,
+            Case::Capitalize => known::K_CAPITALIZE,
+        };
+        let flags = [
+            (known::V_PRINT_ESCAPE, self.escape, current.escape),
+            (known::V_PRINT_READABLY, self.readably, current.readably),
+            (known::V_PRINT_PRETTY, self.pretty, current.pretty),
+            (known::V_PRINT_RADIX, self.radix, current.radix),
+            (known::V_PRINT_CIRCLE, self.circle, current.circle),
+            (known::V_PRINT_GENSYM, self.gensym, current.gensym),
+            (known::V_PRINT_ARRAY, self.array, current.array),
+        ];
+        let counts = [
+            (known::V_PRINT_LENGTH, self.length, current.length),
+            (known::V_PRINT_LEVEL, self.level, current.level),
+            (known::V_PRINT_LINES, self.lines, current.lines),
+            (
+                known::V_PRINT_MISER_WIDTH,
+                self.miser_width,
+                current.miser_width,
+            ),
+        ];
+        let mut bindings = Vec::new();
+        for (variable, wanted, is) in flags {
+            if wanted != is {
+                bindings.push((variable, Value::bool(wanted)));
+            }
+        }
+        for (variable, wanted, is) in counts {
+            if wanted != is {
+                bindings.push((variable, count(wanted)));
+            }
+        }
+        if self.right_margin != current.right_margin {
+            bindings.push((known::V_PRINT_RIGHT_MARGIN, self.right_margin.into()));
+        }
+        if self.base != current.base {
+            bindings.push((known::V_PRINT_BASE, Value::Int(self.base.into())));
+        }
+        if self.case != current.case {
+            bindings.push((known::V_PRINT_CASE, case.into()));
+        }
+        let depth = self.depth + depth;
+        if depth != current.depth {
+            bindings.push((known::V_PRINT_DEPTH, depth.into()));
+        }
+        bindings
     }
 
     /// The settings of `prin1` (true) or `princ`.

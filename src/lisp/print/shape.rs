@@ -1,8 +1,8 @@
 //! How lists are laid out: data as filled lines, code with the indentation of its operator.
 
-use super::document::Newline;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::document::Newline;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
 use crate::lisp::value::symbol::{FunctionCell, Sym};

@@ -88,6 +88,12 @@ pub(crate) fn followed(image: &Image, stream: &Rc<Stream>) -> Result<Rc<Stream>,
     designated(image, &Value::Stream(stream.clone()), known::NIL)
 }
 
+/// The stream that a designator denotes, if lines may break in what is written to it.
+pub(crate) fn pretty(image: &Image, designator: &Value) -> Option<Rc<Stream>> {
+    let stream = output_stream(image, designator).ok()?;
+    stream.is_pretty().then_some(stream)
+}
+
 /// Writes a text to the stream that a designator denotes.
 pub(crate) fn write(image: &mut Image, designator: &Value, text: &str) -> Result<(), Box<Raise>> {
     let stream = output_stream(image, designator)?;
@@ -111,6 +117,10 @@ fn write_to(
         }
         StreamKind::StringOutput { text: collected } => {
             collected.push_str(text);
+            return Ok(());
+        }
+        StreamKind::Pretty { document, .. } => {
+            document.text(text);
             return Ok(());
         }
         StreamKind::StringTarget { string } => {
@@ -176,6 +186,7 @@ pub(crate) fn column(image: &Image, designator: &Value) -> Result<Option<usize>,
         let next = match &*stream.kind.borrow() {
             StreamKind::StandardOutput => return Ok(Some(image.output.column())),
             StreamKind::StringOutput { text } => return Ok(Some(column_after(text, 0))),
+            StreamKind::Pretty { document, start } => return Ok(Some(document.column(*start))),
             StreamKind::StringTarget { string } => {
                 return Ok(Some(column_after(&string.borrow(), 0)));
             }

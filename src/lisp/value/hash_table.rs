@@ -90,7 +90,6 @@ impl HashTable {
     }
 
     /// Is there no entry?
-    #[cfg(test)]
     pub(crate) fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -10,6 +10,7 @@ pub(crate) mod cons;
 pub(crate) mod copy;
 pub(crate) mod cycles;
 pub(crate) mod dispatch;
+pub(crate) mod document;
 pub(crate) mod elements;
 pub(crate) mod equality;
 pub(crate) mod foreign;

@@ -6,6 +6,7 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::rc::Rc;
 
+use super::document::Document;
 use super::known;
 use super::raise::Raise;
 use super::string::LispString;
@@ -53,6 +54,13 @@ pub(crate) enum StreamKind {
     StringOutput {
         /// Text written so far.
         text: String,
+    },
+    /// Collects what is written with places where lines may break.
+    Pretty {
+        /// What has been written so far.
+        document: Document,
+        /// The column where it begins.
+        start: usize,
     },
     /// Appends what is written to a string with a fill pointer.
     StringTarget {
@@ -121,7 +129,8 @@ impl StreamKind {
         match self {
             StreamKind::StringOutput { .. }
             | StreamKind::StringInput { .. }
-            | StreamKind::StringTarget { .. } => known::STRING_STREAM,
+            | StreamKind::StringTarget { .. }
+            | StreamKind::Pretty { .. } => known::STRING_STREAM,
             StreamKind::FileOutput { .. } | StreamKind::FileContents { .. } => known::FILE_STREAM,
             StreamKind::Broadcast { .. } => known::BROADCAST_STREAM,
             StreamKind::Concatenated { .. } => known::CONCATENATED_STREAM,
@@ -188,6 +197,37 @@ impl Stream {
         })
     }
 
+    /// A stream that collects a document, which begins at a column.
+    pub(crate) fn to_document(is_pretty: bool, start: usize) -> Stream {
+        Stream::new(StreamKind::Pretty {
+            document: Document::new(is_pretty),
+            start,
+        })
+    }
+
+    /// Takes the document that such a stream has collected; `None` for other kinds.
+    pub(crate) fn take_document(&self) -> Option<Document> {
+        match &mut *self.kind.borrow_mut() {
+            StreamKind::Pretty { document, .. } => {
+                let empty = Document::new(document.is_pretty());
+                Some(std::mem::replace(document, empty))
+            }
+            _ => None,
+        }
+    }
+
+    /// Is it a stream that collects a document with places where lines may break?
+    pub(crate) fn is_pretty(&self) -> bool {
+        matches!(&*self.kind.borrow(), StreamKind::Pretty { document, .. } if document.is_pretty())
+    }
+
+    /// Changes the document that the stream collects, if it does so.
+    pub(crate) fn with_document(&self, change: impl FnOnce(&mut Document)) {
+        if let StreamKind::Pretty { document, .. } = &mut *self.kind.borrow_mut() {
+            change(document);
+        }
+    }
+
     /// Takes the text that a string output stream has collected; `None` for other kinds.
     pub(crate) fn take_text(&self) -> Option<String> {
         match &mut *self.kind.borrow_mut() {
@@ -223,6 +263,7 @@ impl Stream {
             &*self.kind.borrow(),
             StreamKind::StandardOutput
                 | StreamKind::StringOutput { .. }
+                | StreamKind::Pretty { .. }
                 | StreamKind::StringTarget { .. }
                 | StreamKind::FileOutput { .. }
                 | StreamKind::FileContents {

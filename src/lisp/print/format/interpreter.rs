@@ -2,12 +2,13 @@
 //!
 //! Nested directives recurse, as deep as the parser allows; `~?` has a limit of its own.
 
+mod block;
+
 use std::rc::Rc;
 
 use num_bigint::BigInt;
 
 use super::super::calls::{Call, Calls};
-use super::super::document::Newline;
 use super::super::printer::Printer;
 use super::super::settings::Settings;
 use super::Control;
@@ -21,6 +22,7 @@ use super::output::Output;
 use crate::lisp::image::Image;
 use crate::lisp::reader::char_name::char_name;
 use crate::lisp::value::Value;
+use crate::lisp::value::document::{Newline, Tab};
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::raise::Raise;
@@ -52,6 +54,10 @@ struct Arguments {
     next: usize,
     /// In `~:{`, are there further sublists?
     has_more_lists: bool,
+    /// Are they the elements of a list that a logical block prints?
+    of_block: bool,
+    /// What the list ends with in place of `NIL`.
+    tail: Option<Value>,
 }
 
 impl Arguments {
@@ -60,6 +66,8 @@ impl Arguments {
             items: items.into(),
             next: 0,
             has_more_lists: false,
+            of_block: false,
+            tail: None,
         }
     }
 
@@ -111,11 +119,22 @@ pub(super) fn run(
     column: usize,
     calls: &mut Calls,
 ) -> Result<String> {
+    run_into(control, image, args, Output::new(column), calls).map(Output::into_text)
+}
+
+/// Like [`run()`], for an output that may be a document.
+pub(super) fn run_into(
+    control: &Control,
+    image: &Image,
+    args: &[Value],
+    output: Output,
+    calls: &mut Calls,
+) -> Result<Output> {
     let mut interpreter = Interpreter {
         image,
         calls,
         settings: Settings::of(image),
-        output: Output::new(column),
+        output,
         controls: 0,
     };
     let mut arguments = Arguments::new(args);
@@ -123,7 +142,7 @@ pub(super) fn run(
         control: &control.text,
     };
     interpreter.pieces(context, &control.pieces, &mut arguments)?;
-    Ok(interpreter.output.into_text())
+    Ok(interpreter.output)
 }
 
 impl Interpreter<'_> {
@@ -186,6 +205,9 @@ impl Interpreter<'_> {
     }
 
     fn directive(&mut self, c: Context<'_>, d: &Directive, args: &mut Arguments) -> Result<Flow> {
+        if args.of_block && self.ends_block(d, args) {
+            return Ok(Flow::Exit);
+        }
         match d.letter {
             'A' | 'S' => self.object(c, d, args)?,
             'W' => {
@@ -496,21 +518,23 @@ impl Interpreter<'_> {
         let given = self.parameters(c, d, args)?;
         let target = width_of(&given, 0)?.unwrap_or(1);
         let step = width_of(&given, 1)?.unwrap_or(1);
-        let column = self.output.column();
-        let blanks = if d.at {
-            // This many blanks, then up to a multiple of the step.
-            let after = column + target;
-            let missing = match step {
-                0 | 1 => 0,
-                step => after.next_multiple_of(step) - after,
-            };
-            target + missing
-        } else if column < target {
-            target - column
-        } else if step == 0 {
+        let tab = Tab {
+            by_section: d.colon,
+            is_relative: d.at,
+            column: target,
+            step,
+        };
+        if let Some(document) = self.output.document()
+            && document.is_pretty()
+        {
+            document.tab(tab);
+            return Ok(());
+        }
+        // Sections are only known to the pretty printer.
+        let blanks = if d.colon {
             0
         } else {
-            step - (column - target) % step
+            tab.blanks(self.output.column())
         };
         self.output.repeat(' ', blanks);
         Ok(())
@@ -760,113 +784,6 @@ impl Interpreter<'_> {
         Ok(Flow::Through)
     }
 
-    fn logical_block(
-        &mut self,
-        c: Context<'_>,
-        d: &Directive,
-        args: &mut Arguments,
-    ) -> Result<Flow> {
-        let fixed_text = |clause: Option<&Clause>| -> Result<String> {
-            match clause.map(|clause| clause.pieces.as_slice()) {
-                None | Some([]) => Ok(String::new()),
-                Some([Piece::Text(text)]) => Ok(text.clone()),
-                Some(_) => Err(c.error(
-                    d,
-                    Problem::Clauses("The prefix and suffix of a block hold no directives."),
-                )),
-            }
-        };
-        let (prefix, body, suffix) = match d.clauses.as_slice() {
-            [body] if d.colon => ("(".to_owned(), body, ")".to_owned()),
-            [body] => (String::new(), body, String::new()),
-            [prefix, body] => (
-                fixed_text(Some(prefix))?,
-                body,
-                if d.colon {
-                    ")".to_owned()
-                } else {
-                    String::new()
-                },
-            ),
-            [prefix, body, suffix] => (fixed_text(Some(prefix))?, body, fixed_text(Some(suffix))?),
-            _ => return Err(c.error(d, Problem::Clauses("Too many segments for ~<...~:>."))),
-        };
-        let begins = self.output.begin_document(self.settings.pretty);
-        let result = self.block_contents(c, d, args, &prefix, body, &suffix);
-        if begins {
-            self.output.end_document(&self.settings);
-        }
-        result
-    }
-
-    fn block_contents(
-        &mut self,
-        c: Context<'_>,
-        d: &Directive,
-        args: &mut Arguments,
-        prefix: &str,
-        body: &Clause,
-        suffix: &str,
-    ) -> Result<Flow> {
-        let mut inner = if d.at {
-            let rest = Arguments::new(args.rest());
-            args.next = args.items.len();
-            rest
-        } else {
-            let value = self.next(c, d, args)?;
-            if !value.is_list() {
-                // A value that is not a list prints as it is.
-                let settings = self.settings.clone();
-                self.write(&value, &settings);
-                return Ok(Flow::Through);
-            }
-            Arguments::new(list_items(&value)?)
-        };
-        self.output.push(prefix);
-        if let Some(document) = self.output.document() {
-            document.start();
-        }
-        let fills = d.close.is_some_and(|close| close.at);
-        if fills {
-            self.filled_pieces(c, &body.pieces, &mut inner)?;
-        } else {
-            self.pieces(c, &body.pieces, &mut inner)?;
-        }
-        if let Some(document) = self.output.document() {
-            document.end();
-        }
-        self.output.push(suffix);
-        Ok(Flow::Through)
-    }
-
-    /// Pieces with a fill newline after each group of blanks, as `~:@>` wants.
-    fn filled_pieces(
-        &mut self,
-        c: Context<'_>,
-        pieces: &[Piece],
-        args: &mut Arguments,
-    ) -> Result<Flow> {
-        for piece in pieces {
-            match piece {
-                Piece::Text(text) => {
-                    for part in text.split_inclusive(' ') {
-                        self.output.push(part);
-                        if part.ends_with(' ')
-                            && let Some(document) = self.output.document()
-                        {
-                            document.newline(Newline::Fill);
-                        }
-                    }
-                }
-                Piece::Directive(directive) => match self.directive(c, directive, args)? {
-                    Flow::Through => {}
-                    exit => return Ok(exit),
-                },
-            }
-        }
-        Ok(Flow::Through)
-    }
-
     fn escape(&mut self, c: Context<'_>, d: &Directive, args: &mut Arguments) -> Result<Flow> {
         let given = self.parameters(c, d, args)?;
         let order = |given: &Option<Given>| match given {
@@ -877,7 +794,7 @@ impl Interpreter<'_> {
         let values: Vec<i64> = given.iter().map(order).collect();
         let leaves = match values.as_slice() {
             [] if d.colon => !args.has_more_lists,
-            [] => args.left() == 0,
+            [] => args.left() == 0 && args.tail.is_none(),
             [a] => *a == 0,
             [a, b] => a == b,
             [a, b, c, ..] => a <= b && b <= c,
@@ -909,10 +826,11 @@ impl Interpreter<'_> {
             function,
             before: Vec::new(),
             after,
-            escape: None,
+            bindings: Vec::new(),
+            is_pretty: self.settings.pretty,
         };
         if let Some(text) = self.calls.text(call) {
-            self.output.push(&text);
+            self.output.append(&text, &self.settings);
         }
     }
 

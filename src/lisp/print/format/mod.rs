@@ -23,6 +23,7 @@ use std::rc::Rc;
 use super::calls::Calls;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
+use crate::lisp::value::document::Document;
 use crate::lisp::value::raise::Raise;
 
 /// A parsed control string.
@@ -52,6 +53,18 @@ impl Control {
         calls: &mut Calls,
     ) -> Result<String, Box<Raise>> {
         interpreter::run(self, image, args, column, calls)
+    }
+
+    /// The same as a part of a document, whose lines will break.
+    pub(crate) fn run_in_document(
+        &self,
+        image: &Image,
+        args: &[Value],
+        column: usize,
+        calls: &mut Calls,
+    ) -> Result<Document, Box<Raise>> {
+        let output = output::Output::in_document(column, true);
+        interpreter::run_into(self, image, args, output, calls).map(output::Output::into_document)
     }
 }
 

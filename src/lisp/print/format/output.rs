@@ -1,10 +1,10 @@
 //! What has been formatted so far: plain text, and within `~<…~:>` a document whose lines
 //! are broken at the end of the outermost block.
 
-use super::super::document::Document;
 use super::super::layout::lay_out;
 use super::super::settings::Settings;
 use crate::lisp::guard::reserve;
+use crate::lisp::value::document::Document;
 
 /// Text under construction.
 pub(super) struct Output {
@@ -20,6 +20,29 @@ impl Output {
             text: String::new(),
             start,
             document: None,
+        }
+    }
+
+    /// All of the text becomes part of a document.
+    pub(super) fn in_document(start: usize, is_pretty: bool) -> Output {
+        Output {
+            document: Some(Document::new(is_pretty)),
+            ..Output::new(start)
+        }
+    }
+
+    pub(super) fn into_document(self) -> Document {
+        self.document.unwrap_or_else(|| Document::new(false))
+    }
+
+    /// Appends what a call has written.
+    pub(super) fn append(&mut self, text: &Document, settings: &Settings) {
+        match &mut self.document {
+            Some(document) => document.append(text),
+            None => {
+                let laid_out = lay_out(text.clone(), settings, self.column());
+                self.push(&laid_out);
+            }
         }
     }
 
@@ -43,7 +66,10 @@ impl Output {
             Some((_, last)) => last.chars().count(),
             None => self.start + self.text.chars().count(),
         };
-        before + self.document.as_ref().map_or(0, Document::characters)
+        match &self.document {
+            Some(document) => document.column(before),
+            None => before,
+        }
     }
 
     /// The document, inside a logical block.

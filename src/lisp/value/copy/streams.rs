@@ -34,6 +34,10 @@ impl Copier {
             StreamKind::StandardOutput => StreamKind::StandardOutput,
             StreamKind::StandardInput => StreamKind::StandardInput,
             StreamKind::StringOutput { text } => StreamKind::StringOutput { text: text.clone() },
+            StreamKind::Pretty { document, start } => StreamKind::Pretty {
+                document: document.clone(),
+                start: *start,
+            },
             StreamKind::StringTarget { string } => StreamKind::StringTarget {
                 string: self.string(string),
             },

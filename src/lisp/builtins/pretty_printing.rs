@@ -1,0 +1,208 @@
+//! What the pretty printer's macros and functions, which are written in Lisp, need of streams.
+
+use std::rc::Rc;
+
+use super::composing::compose;
+use super::streams::stream_of;
+use super::strings::string;
+use crate::lisp::builtin::{Builtin, control, pure};
+use crate::lisp::image::Image;
+use crate::lisp::print::{self, Settings, dispatch};
+use crate::lisp::stream::{self, Stream};
+use crate::lisp::value::Value;
+use crate::lisp::value::document::{Document, Newline, Tab};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "%OUTPUT-STREAM",
+        "designator",
+        "The output stream that a designator denotes.",
+        &[],
+        |image, args| stream::output_stream(image, &args[0]).map(Value::Stream),
+    ),
+    pure(
+        "%PRETTY-STREAM-P",
+        "stream",
+        "May lines break in what is written to the stream?",
+        &[],
+        |image, args| Ok(Value::bool(stream::pretty(image, &args[0]).is_some())),
+    ),
+    pure(
+        "%MAKE-PRETTY-STREAM",
+        "target",
+        "A stream that collects what will be laid out and written to the target.",
+        &[],
+        |image, args| {
+            let start = stream::column(image, &args[0])?.unwrap_or(0);
+            Ok(Value::Stream(Rc::new(Stream::to_document(true, start))))
+        },
+    ),
+    pure(
+        "%LAY-OUT",
+        "stream target",
+        "Breaks the lines of what the stream has collected, and writes them to the target.",
+        &[],
+        lay_out,
+    ),
+    pure(
+        "%START-BLOCK",
+        "stream prefix per-line suffix",
+        "Writes the prefix and starts a block, whose lines begin with it if so wanted.",
+        &[],
+        start_block,
+    ),
+    pure(
+        "%END-BLOCK",
+        "stream suffix",
+        "Ends a block and writes the suffix.",
+        &[],
+        |image, args| {
+            if let Some(stream) = stream::pretty(image, &args[0]) {
+                stream.with_document(Document::end);
+            }
+            stream::write(image, &args[0], &string(&args[1])?.text())?;
+            Ok(Value::NIL)
+        },
+    ),
+    pure(
+        "%NEWLINE",
+        "kind stream",
+        "A place where a line may break.",
+        &[],
+        newline,
+    ),
+    pure(
+        "%INDENT",
+        "current columns stream",
+        "Indents the next lines from the current column, or from where the block started.",
+        &[],
+        |image, args| {
+            let Value::Int(columns) = args[1] else {
+                return Err(Raise::type_error(&args[1], known::FIXNUM));
+            };
+            if let Some(stream) = stream::pretty(image, &args[2]) {
+                stream.with_document(|document| {
+                    if args[0].is_true() {
+                        document.indent_current(columns);
+                    } else {
+                        document.indent_block(columns);
+                    }
+                });
+            }
+            Ok(Value::NIL)
+        },
+    ),
+    pure(
+        "%TAB",
+        "section relative column step stream",
+        "Blanks up to a column.",
+        &[],
+        tab,
+    ),
+    pure(
+        "%PPRINT-FUNCTION",
+        "object table",
+        "The function that a dispatch table has for the object, or NIL.",
+        &[],
+        |image, args| Ok(dispatch::function_in(image, &args[1], &args[0]).unwrap_or(Value::NIL)),
+    ),
+    control(
+        "%WRITE-AS-STANDARD",
+        "stream object",
+        "Writes the object as if the dispatch table had no function for it.",
+        &[],
+        write_as_standard,
+    ),
+];
+
+fn lay_out(image: &mut Image, args: &[Value]) -> Outcome {
+    let Some(document) = stream_of(&args[0])?.take_document() else {
+        return Err(Raise::type_error(&args[0], known::STRING_STREAM));
+    };
+    let start = stream::column(image, &args[1])?.unwrap_or(0);
+    let text = print::laid_out(document, &Settings::of(image), start);
+    stream::write(image, &args[1], &text)?;
+    Ok(Value::NIL)
+}
+
+fn start_block(image: &mut Image, args: &[Value]) -> Outcome {
+    let prefix = string(&args[1])?.text();
+    let suffix = string(&args[3])?.text();
+    stream::write(image, &args[0], &prefix)?;
+    if let Some(stream) = stream::pretty(image, &args[0]) {
+        let prefix = if args[2].is_true() {
+            prefix
+        } else {
+            String::new()
+        };
+        stream.with_document(|document| document.start_lines(prefix.into(), suffix.into()));
+    }
+    Ok(Value::NIL)
+}
+
+fn newline(image: &mut Image, args: &[Value]) -> Outcome {
+    let newline = match args[0].as_symbol().map(|sym| image.name(sym)) {
+        Some("LINEAR") => Newline::Linear,
+        Some("FILL") => Newline::Fill,
+        Some("MISER") => Newline::Miser,
+        _ => Newline::Mandatory,
+    };
+    if let Some(stream) = stream::pretty(image, &args[1]) {
+        stream.with_document(|document| document.newline(newline));
+    }
+    Ok(Value::NIL)
+}
+
+fn tab(image: &mut Image, args: &[Value]) -> Outcome {
+    let count = |value: &Value| match value {
+        Value::Int(n) if *n >= 0 => Ok(usize::try_from(*n).unwrap_or(usize::MAX).min(10_000)),
+        other => Err(Raise::type_error(other, known::UNSIGNED_BYTE)),
+    };
+    let tab = Tab {
+        by_section: args[0].is_true(),
+        is_relative: args[1].is_true(),
+        column: count(&args[2])?,
+        step: count(&args[3])?,
+    };
+    if let Some(stream) = stream::pretty(image, &args[4]) {
+        stream.with_document(|document| document.tab(tab));
+    }
+    Ok(Value::NIL)
+}
+
+fn write_as_standard(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let settings = Settings::of(machine.image);
+    let target = args[0].clone();
+    if let Some(stream) = stream::pretty(machine.image, &target) {
+        return compose(
+            machine,
+            "WRITE",
+            move |image, calls| Ok(print::document_default(image, &args[1], &settings, calls)),
+            move |_, text| {
+                stream.with_document(|document| document.append(&text));
+                Ok(Step::Return(Value::NIL))
+            },
+        );
+    }
+    let start = stream::column(machine.image, &target)?.unwrap_or(0);
+    compose(
+        machine,
+        "WRITE",
+        move |image, calls| {
+            Ok(print::write_default(
+                image, &args[1], &settings, start, calls,
+            ))
+        },
+        move |machine, text| {
+            stream::write(machine.image, &target, &text)?;
+            Ok(Step::Return(Value::NIL))
+        },
+    )
+}

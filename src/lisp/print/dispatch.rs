@@ -1,0 +1,61 @@
+//! What a program prints in its own way: by the pretty printer's dispatch table and by methods of
+//! `print-object`.
+//!
+//! A dispatch table is a hash table from types to pairs of a function and a priority; `NIL` is the standard
+//! one, which has no functions.
+
+use crate::lisp::image::Image;
+use crate::lisp::types::{TypeCheck, typep};
+use crate::lisp::value::Value;
+use crate::lisp::value::class::Instance;
+use crate::lisp::value::generic::Specializer;
+use crate::lisp::value::known;
+use crate::lisp::value::number;
+use crate::lisp::value::symbol::FunctionCell;
+
+/// The function that prints the value by the current table, if it has one.
+pub(super) fn function_for(image: &Image, value: &Value) -> Option<Value> {
+    let table = image.special(known::V_PRINT_PPRINT_DISPATCH);
+    function_in(image, table, value)
+}
+
+/// The function of the highest priority for the value in a table; among equals, that of the type that came
+/// first.
+pub(crate) fn function_in(image: &Image, table: &Value, value: &Value) -> Option<Value> {
+    let Value::Hash(table) = table else {
+        return None;
+    };
+    if table.is_empty() {
+        return None;
+    }
+    let mut best: Option<(Value, Value)> = None;
+    for (specifier, entry) in table.pairs() {
+        let priority = entry.cdr_or_nil();
+        let is_better = best.as_ref().is_none_or(|(_, most)| {
+            number::compare(&priority, most).is_ok_and(|order| order.is_some_and(|o| o.is_gt()))
+        });
+        // What would need a call to decide, or is not a type any more, does not match.
+        if is_better && matches!(typep(image, value, &specifier), Ok(TypeCheck::Yes)) {
+            best = Some((entry.car_or_nil(), priority));
+        }
+    }
+    best.map(|(function, _)| function)
+}
+
+/// Does the program define how the instance is printed?
+pub(super) fn has_print_method(image: &Image, instance: &Instance) -> bool {
+    let FunctionCell::Function(function) = &image.symbol(known::PRINT_OBJECT).function else {
+        return false;
+    };
+    let Some(generic) = function.as_generic() else {
+        return false;
+    };
+    let class = instance.class();
+    generic.methods.borrow().iter().any(|method| {
+        !method.is_builtin
+            && match method.specializers.first() {
+                Some(Specializer::Class(specializer)) => class.is_subclass_of(specializer.name),
+                _ => false,
+            }
+    })
+}

@@ -1,0 +1,185 @@
+//! Logical blocks: `~<...~:>`.
+
+use super::{Arguments, Context, Flow, Interpreter, Result};
+use crate::lisp::guard::Pace;
+use crate::lisp::print::format::directive::{Clause, Directive, Piece};
+use crate::lisp::print::format::error::Problem;
+use crate::lisp::value::Value;
+use crate::lisp::value::document::Newline;
+
+impl Arguments {
+    /// The elements of a list that a logical block prints, which may be dotted.
+    fn of_block(list: &Value) -> Arguments {
+        let mut items = Vec::new();
+        let mut rest = list.clone();
+        let mut pace = Pace::default();
+        while let Value::Cons(cons) = &rest {
+            pace.step();
+            items.push(cons.car());
+            let next = cons.cdr();
+            rest = next;
+        }
+        Arguments {
+            of_block: true,
+            tail: (!rest.is_nil()).then_some(rest),
+            ..Arguments::new(items)
+        }
+    }
+}
+
+impl Interpreter<'_> {
+    /// In a logical block whose list is dotted or longer than `*print-length*`, what stands in place of
+    /// the next element; has the block ended with it?
+    pub(super) fn ends_block(&mut self, d: &Directive, args: &Arguments) -> bool {
+        let takes_one = match d.letter {
+            'P' => !d.colon,
+            '{' | '<' => !d.at,
+            letter => "ASWDBOXRFEG$C[?/".contains(letter),
+        };
+        if !takes_one {
+            return false;
+        }
+        if args.next >= args.items.len()
+            && let Some(tail) = &args.tail
+        {
+            self.output.push(". ");
+            let settings = self.settings.clone();
+            self.write(tail, &settings);
+            return true;
+        }
+        let is_cut = args.next < args.items.len()
+            && self.settings.length.is_some_and(|most| args.next >= most);
+        if is_cut {
+            self.output.push("...");
+        }
+        is_cut
+    }
+
+    pub(super) fn logical_block(
+        &mut self,
+        c: Context<'_>,
+        d: &Directive,
+        args: &mut Arguments,
+    ) -> Result<Flow> {
+        let fixed_text = |clause: Option<&Clause>| -> Result<String> {
+            match clause.map(|clause| clause.pieces.as_slice()) {
+                None | Some([]) => Ok(String::new()),
+                Some([Piece::Text(text)]) => Ok(text.clone()),
+                Some(_) => Err(c.error(
+                    d,
+                    Problem::Clauses("The prefix and suffix of a block hold no directives."),
+                )),
+            }
+        };
+        // The prefix before `~@;` begins every line.
+        let is_per_line = d.clauses.len() > 1
+            && d.clauses
+                .first()
+                .and_then(|clause| clause.separator.as_ref())
+                .is_some_and(|(_, at, ..)| *at);
+        let (prefix, body, suffix) = match d.clauses.as_slice() {
+            [body] if d.colon => ("(".to_owned(), body, ")".to_owned()),
+            [body] => (String::new(), body, String::new()),
+            [prefix, body] => (
+                fixed_text(Some(prefix))?,
+                body,
+                if d.colon {
+                    ")".to_owned()
+                } else {
+                    String::new()
+                },
+            ),
+            [prefix, body, suffix] => (fixed_text(Some(prefix))?, body, fixed_text(Some(suffix))?),
+            _ => return Err(c.error(d, Problem::Clauses("Too many segments for ~<...~:>."))),
+        };
+        let begins = self.output.begin_document(self.settings.pretty);
+        let result = self.block_contents(c, d, args, (&prefix, is_per_line), body, &suffix);
+        if begins {
+            self.output.end_document(&self.settings);
+        }
+        result
+    }
+
+    fn block_contents(
+        &mut self,
+        c: Context<'_>,
+        d: &Directive,
+        args: &mut Arguments,
+        (prefix, is_per_line): (&str, bool),
+        body: &Clause,
+        suffix: &str,
+    ) -> Result<Flow> {
+        let mut inner = if d.at {
+            let rest = Arguments::new(args.rest());
+            args.next = args.items.len();
+            rest
+        } else {
+            let value = self.next(c, d, args)?;
+            if !value.is_list() {
+                // A value that is not a list prints as it is.
+                let settings = self.settings.clone();
+                self.write(&value, &settings);
+                return Ok(Flow::Through);
+            }
+            if self
+                .settings
+                .level
+                .is_some_and(|level| self.settings.depth >= level)
+            {
+                self.output.push("#");
+                return Ok(Flow::Through);
+            }
+            Arguments::of_block(&value)
+        };
+        self.output.push(prefix);
+        if let Some(document) = self.output.document() {
+            let line_prefix = if is_per_line {
+                prefix.to_owned()
+            } else {
+                String::new()
+            };
+            document.start_lines(line_prefix.into(), suffix.to_owned().into());
+        }
+        self.settings.depth += 1;
+        let fills = d.close.is_some_and(|close| close.at);
+        if fills {
+            self.filled_pieces(c, &body.pieces, &mut inner)?;
+        } else {
+            self.pieces(c, &body.pieces, &mut inner)?;
+        }
+        self.settings.depth -= 1;
+        if let Some(document) = self.output.document() {
+            document.end();
+        }
+        self.output.push(suffix);
+        Ok(Flow::Through)
+    }
+
+    /// Pieces with a fill newline after each group of blanks, as `~:@>` wants.
+    fn filled_pieces(
+        &mut self,
+        c: Context<'_>,
+        pieces: &[Piece],
+        args: &mut Arguments,
+    ) -> Result<Flow> {
+        for piece in pieces {
+            match piece {
+                Piece::Text(text) => {
+                    for part in text.split_inclusive(' ') {
+                        self.output.push(part);
+                        if part.ends_with(' ')
+                            && let Some(document) = self.output.document()
+                        {
+                            document.newline(Newline::Fill);
+                        }
+                    }
+                }
+                Piece::Directive(directive) => match self.directive(c, directive, args)? {
+                    Flow::Through => {}
+                    exit => return Ok(exit),
+                },
+            }
+        }
+        Ok(Flow::Through)
+    }
+}

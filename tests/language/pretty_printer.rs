@@ -1,0 +1,115 @@
+//! Printers that programs write for the pretty printer.
+
+use super::standard::check;
+
+/// How plans are printed in these tests: the operator, then its forms below each other.
+const PLANS: &str = "(defun print-plan (stream form)
+  (pprint-logical-block (stream form :prefix \"[\" :suffix \"]\")
+    (write (pprint-pop) :stream stream)
+    (pprint-indent :block 2 stream)
+    (loop
+      (pprint-exit-if-list-exhausted)
+      (write-char #\\Space stream)
+      (pprint-newline :linear stream)
+      (write (pprint-pop) :stream stream))))";
+
+/// A form with a dispatch table for plans, whose value is shown with `|` for line breaks.
+fn printed(bindings: &str, object: &str) -> String {
+    format!(
+        "(let ((*print-pprint-dispatch* (copy-pprint-dispatch nil)) (*print-right-margin* 24) {bindings})
+           (set-pprint-dispatch '(cons (member seq par)) 'print-plan)
+           (substitute #\\| #\\Newline (write-to-string '{object} :pretty t)))"
+    )
+}
+
+#[test]
+fn plans_are_printed_by_functions_of_the_dispatch_table() {
+    let plan = "(foo (seq (move 1 2 3) (par (grasp cup) (look table)) . end))";
+    check(&[
+        (PLANS, "PRINT-PLAN"),
+        (
+            &printed("", plan),
+            "\"(FOO| [SEQ| (MOVE 1 2 3)| [PAR| (GRASP CUP)| (LOOK TABLE)]| . END])\"",
+        ),
+        (&printed("", "(seq a b)"), "\"[SEQ A B]\""),
+        (
+            &printed("(*print-level* 2)", plan),
+            "\"(FOO [SEQ # # . END])\"",
+        ),
+        (
+            &printed("(*print-length* 2)", plan),
+            "\"(FOO| [SEQ| (MOVE 1 ...)| ...])\"",
+        ),
+        (
+            "(let ((*print-pprint-dispatch* (copy-pprint-dispatch)))
+               (set-pprint-dispatch '(cons (member seq)) 'print-plan)
+               (list (write-to-string '(seq a)) (write-to-string '(seq a) :pprint-dispatch (copy-pprint-dispatch nil))
+                     (progn (set-pprint-dispatch '(cons (member seq)) nil) (write-to-string '(seq a)))))",
+            "(\"[SEQ A]\" \"(SEQ A)\" \"(SEQ A)\")",
+        ),
+    ]);
+}
+
+#[test]
+fn of_functions_for_an_object_that_of_the_highest_priority_prints() {
+    check(&[(
+        "(let ((*print-pprint-dispatch* (copy-pprint-dispatch nil)))
+           (set-pprint-dispatch 'integer (lambda (s n) (format s \"<~a>\" (evenp n))) 1)
+           (set-pprint-dispatch '(eql 5) (lambda (s n) (declare (ignore n)) (write-string \"five\" s)) 2)
+           (prin1-to-string '(4 5 a)))",
+        "\"(<T> five A)\"",
+    )]);
+}
+
+#[test]
+fn blocks_in_format_have_prefixes_per_line_tabs_and_dotted_ends() {
+    check(&[
+        (
+            "(let ((*print-right-margin* 20)) (substitute #\\| #\\Newline (format nil \"~@<;; ~@;~a ~_~a~:>\" \"first second\" \"third fourth fifth\")))",
+            "\";; first second|;; third fourth fifth\"",
+        ),
+        ("(format nil \"~:<~w~^ ~w~:>\" '(a . b))", "\"(A . B)\""),
+        (
+            "(let ((*print-length* 2)) (format nil \"~:<~@{~w~^ ~}~:>\" '(a b)))",
+            "\"(A B)\"",
+        ),
+        (
+            "(let ((*print-right-margin* 20)) (substitute #\\| #\\Newline (format nil \"~:/pprint-tabular/\" '(0 1 2 3))))",
+            "\"(0 1| 2 3)\"",
+        ),
+    ]);
+}
+
+#[test]
+fn methods_of_print_object_are_laid_out_with_what_is_around_them() {
+    check(&[
+        ("(defclass mug () ())", "#<STANDARD-CLASS COMMON-LISP-USER::MUG>"),
+        (
+            "(defmethod print-object ((mug mug) stream)
+               (pprint-logical-block (stream nil :prefix \"<\" :suffix \">\")
+                 (princ \"sizes\" stream) (write-char #\\Space stream)
+                 (pprint-newline :linear stream) (princ 2 stream)))
+             (let ((*print-right-margin* 12))
+               (substitute #\\| #\\Newline (prin1-to-string (list (make-instance 'mug) 1 (make-instance 'mug)))))",
+            "\"(<sizes 2> 1| <sizes 2>)\"",
+        ),
+    ]);
+}
+
+#[test]
+fn mistakes_in_what_is_printed_prettily_are_errors() {
+    check(&[
+        (
+            "(pprint-newline :never)",
+            "!! The value of SYSTEM::KIND is :NEVER, which is not of type (MEMBER :LINEAR :FILL :MISER :MANDATORY).",
+        ),
+        (
+            "(pprint-pop)",
+            "!! PPRINT-POP belongs inside PPRINT-LOGICAL-BLOCK.",
+        ),
+        (
+            "(let ((list (list 1 2))) (setf (cddr list) list) (let ((*print-circle* t)) (with-output-to-string (s) (pprint-fill s list))))",
+            "\"#1=(1 2 . #1#)\"",
+        ),
+    ]);
+}
