@@ -38,7 +38,7 @@ fn plans_are_printed_by_functions_of_the_dispatch_table() {
         ),
         (
             &printed("(*print-length* 2)", plan),
-            "\"(FOO| [SEQ| (MOVE 1 ...)| ...])\"",
+            "\"(FOO| [SEQ (MOVE 1 ...) ...])\"",
         ),
         (
             "(let ((*print-pprint-dispatch* (copy-pprint-dispatch)))
@@ -91,9 +91,19 @@ fn methods_of_print_object_are_laid_out_with_what_is_around_them() {
                  (pprint-newline :linear stream) (princ 2 stream)))
              (let ((*print-right-margin* 12))
                (substitute #\\| #\\Newline (prin1-to-string (list (make-instance 'mug) 1 (make-instance 'mug)))))",
-            "\"(<sizes 2> 1| <sizes 2>)\"",
+            "\"(<sizes 2>| 1| <sizes 2>)\"",
         ),
     ]);
+}
+
+#[test]
+fn a_type_of_the_dispatch_table_that_is_unknown_is_passed_over() {
+    check(&[(
+        "(let ((*print-pprint-dispatch* (copy-pprint-dispatch nil)))
+           (set-pprint-dispatch '(no-such-type) 'princ)
+           (prin1-to-string '(1 2)))",
+        "\"(1 2)\"",
+    )]);
 }
 
 #[test]

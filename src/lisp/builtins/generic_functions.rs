@@ -5,7 +5,7 @@ use std::rc::Rc;
 use crate::lisp::builtin::{Builtin, Operator, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::object::combination::{define_combination, expand_define_method_combination};
-use crate::lisp::object::combine::no_next_method;
+use crate::lisp::object::combine::{invoke_method, no_next_method};
 use crate::lisp::object::dispatch::no_applicable_method_error;
 use crate::lisp::object::effective::applicable_methods;
 use crate::lisp::object::method::{
@@ -115,7 +115,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     ),
     pure(
         "%ENSURE-GENERIC",
-        "name lambda-list combination documentation",
+        "name lambda-list combination documentation precedence",
         "Defines a generic function as DEFGENERIC describes it.",
         &[],
         defmethod::ensure_generic_function,
@@ -134,6 +134,20 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         &[],
         define_combination,
     ),
+    control(
+        "%INVOKE-METHOD",
+        "method arguments next",
+        "Calls a method with a list of arguments and the function behind CALL-NEXT-METHOD.",
+        &[],
+        |_, args| {
+            let arguments = args[1].iter_list().collect();
+            Ok(invoke_method(
+                method_argument(&args[0])?,
+                arguments,
+                args[2].clone(),
+            ))
+        },
+    ),
     pure(
         "%NO-NEXT-METHOD",
         "name",
@@ -148,7 +162,7 @@ pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "DEFGENERIC",
         lambda_list: "name lambda-list &rest options",
-        doc: "Defines a generic function. Options are (:documentation text), (:method qualifiers… lambda-list body…) and (:method-combination operator).",
+        doc: "Defines a generic function. Options are (:documentation text), (:method qualifiers… lambda-list body…) (:method-combination operator) and (:argument-precedence-order parameters…).",
         examples: &[
             "(progn (defgeneric kind (x) (:method ((x integer)) :int) (:method (x) :other)) (list (kind 1) (kind \"s\"))) => (:INT :OTHER)",
         ],
@@ -164,7 +178,7 @@ pub(crate) static OPERATORS: &[Operator] = &[
     Operator {
         name: "DEFINE-METHOD-COMBINATION",
         lambda_list: "name &key operator identity-with-one-argument documentation",
-        doc: "Defines a method combination that gives the values of all applicable methods to an operator.",
+        doc: "Defines a method combination that gives the values of all applicable methods to an operator, or, in the long form, (name lambda-list method-groups body…), one whose body returns the form that calls them.",
         examples: &["(define-method-combination join :operator append) => JOIN"],
         expand: Some(expand_define_method_combination),
     },

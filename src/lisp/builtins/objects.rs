@@ -162,6 +162,20 @@ pub(crate) static TABLE: &[Builtin] = &[
 
 /// Builtins of the package `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "%SLOT-NAMES",
+        "class",
+        "The names of the slots that instances of a class have.",
+        &[],
+        |_, args| match &args[0] {
+            Value::Class(class) => {
+                let names: Vec<Value> =
+                    class.slots.borrow().iter().map(|s| s.name.into()).collect();
+                Ok(Value::list(names))
+            }
+            other => Err(Raise::type_error(other, known::CLASS)),
+        },
+    ),
     control(
         "SET-SLOT-VALUE",
         "value object slot-name",

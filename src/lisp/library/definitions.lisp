@@ -23,11 +23,47 @@
         definition)))
 
 (defmacro define-compiler-macro (name lambda-list &body body)
-  "Has no effect: there are no compiler macros.
+  "Keeps a compiler macro for COMPILER-MACRO-FUNCTION. It is never used: calls are evaluated as they are.
   Examples:
-  (define-compiler-macro nothing (x) x) => NOTHING"
-  (declare (ignore lambda-list body))
-  `',(%name name "a function"))
+  (progn (define-compiler-macro nothing (x) (list 'quote x)) (funcall (compiler-macro-function 'nothing) '(nothing 1) nil)) => '1"
+  (let ((form (gensym "FORM"))
+        (environment (gensym "ENVIRONMENT"))
+        (bindings '())
+        (parameters '()))
+    (%name name "a function")
+    (when (eq (car lambda-list) '&whole)
+      (push (list (second lambda-list) form) bindings)
+      (setq lambda-list (cddr lambda-list)))
+    (loop while (consp lambda-list)
+          do (let ((parameter (pop lambda-list)))
+               (if (eq parameter '&environment)
+                   (push (list (pop lambda-list) environment) bindings)
+                   (push parameter parameters))))
+    `(progn
+       (setf (compiler-macro-function ',name)
+             #'(lambda (,form &optional ,environment)
+                 (declare (ignorable ,environment))
+                 (let ,bindings
+                   (destructuring-bind ,(revappend parameters lambda-list)
+                       (if (eq (car ,form) 'funcall) (cddr ,form) (cdr ,form))
+                     (block ,(if (consp name) (second name) name) ,@body)))))
+       ',name)))
+
+(defun compiler-macro-function (name &optional environment)
+  "The function of a compiler macro, or NIL. What it would make faster is evaluated as it is.
+  Examples:
+  (compiler-macro-function 'car) => NIL"
+  (declare (ignore environment))
+  (check-type name (or symbol (cons (eql setf) (cons symbol null))))
+  (get (if (consp name) (second name) name) (if (consp name) 'setf-compiler-macro 'compiler-macro)))
+
+(defun (setf compiler-macro-function) (function name &optional environment)
+  "Keeps the function of a compiler macro.
+  Examples:
+  (progn (setf (compiler-macro-function 'kept) #'list) (funcall (compiler-macro-function 'kept) 1 2)) => (1 2)"
+  (declare (ignore environment))
+  (setf (get (if (consp name) (second name) name) (if (consp name) 'setf-compiler-macro 'compiler-macro))
+        function))
 
 (defmacro define-symbol-macro (name expansion)
   "Lets a symbol stand for a form everywhere.

@@ -74,6 +74,7 @@ pub(crate) use library_file;
 static FILES: &[File] = &[
     library_file!("src/lisp/library", "definitions.lisp"),
     library_file!("src/lisp/library", "objects.lisp"),
+    library_file!("src/lisp/library", "method-combinations.lisp"),
     library_file!("src/lisp/library", "control.lisp"),
     library_file!("src/lisp/library", "places.lisp"),
     library_file!("src/lisp/library", "conditions.lisp"),

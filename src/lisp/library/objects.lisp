@@ -72,3 +72,24 @@
                            `((:argument-precedence-order ,@argument-precedence-order)))
                     ,@(and documentation `((:documentation ,documentation)))))
            (fdefinition name))))
+
+(defun make-load-form (object &optional environment)
+  "Forms that make an object like this one and initialize it. Programs add methods.
+  Examples:
+  (make-load-form (find-class 'integer)) => (FIND-CLASS 'INTEGER)"
+  (declare (ignore environment))
+  (typecase object
+    (class (list 'find-class (list 'quote (class-name object))))
+    (t (error "There is no MAKE-LOAD-FORM method for ~s." object))))
+
+(defun make-load-form-saving-slots (object &key (slot-names nil slot-names-p) environment)
+  "Forms that make an object of the same class and set its slots.
+  Examples:
+  (progn (defstruct spot x) (spot-x (let ((spot (make-spot :x 3))) (multiple-value-bind (make set) (make-load-form-saving-slots spot) (let ((made (eval make))) (eval (subst made spot set)) made))))) => 3"
+  (declare (ignore environment))
+  (values `(allocate-instance (find-class ',(class-name (class-of object))))
+          `(progn
+             ,@(loop for name in (if slot-names-p slot-names (%slot-names (class-of object)))
+                     collect (if (slot-boundp object name)
+                                 `(setf (slot-value ,object ',name) ',(slot-value object name))
+                                 `(slot-makunbound ,object ',name))))))

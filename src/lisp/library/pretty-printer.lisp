@@ -8,8 +8,7 @@
   "Evaluates the body, which prints the list's elements, as a block of lines that breaks as a whole. An object that is no list is printed as it is.
   Examples:
   (with-output-to-string (s) (pprint-logical-block (s '(1 2) :prefix \"<\" :suffix \">\") (prin1 (pprint-pop) s))) => \"<1>\"
-  (with-output-to-string (s) (let ((*print-right-margin* 9)) (pprint-logical-block (s nil :per-line-prefix \"; \") (dolist (word '(take the cup)) (princ word s) (write-char #\\Space s) (pprint-newline :fill s))))) => \"; TAKE
-; THE CUP \""
+  (substitute #\\| #\\Newline (with-output-to-string (s) (let ((*print-right-margin* 9)) (pprint-logical-block (s nil :per-line-prefix \"; \") (dolist (word '(take the cup)) (princ word s) (write-char #\\Space s) (pprint-newline :fill s)))))) => \"; TAKE|; THE|; CUP \""
   (if (and prefix-p per-line-p)
       (error 'simple-program-error :format-control "A logical block has a prefix or a prefix per line, not both."))
   (let ((variable (case stream ((nil) '*standard-output*) ((t) '*terminal-io*) (t stream)))
@@ -62,11 +61,13 @@
     nil))
 
 (defun %print-block-to (stream object prefix per-line suffix function)
+  "The block itself, on a stream that takes it."
   (%start-block stream prefix per-line suffix)
   (funcall function stream object)
   (%end-block stream suffix))
 
 (defun %circular-list-p (list)
+  "Has the list no end?"
   (handler-case (null (list-length list))
     (type-error () nil)))
 
@@ -84,16 +85,14 @@
 (defun pprint-newline (kind &optional stream)
   "A place where the pretty printer may break the line: :LINEAR breaks if the block does not fit on a line, :FILL if what follows does not, :MISER like :LINEAR near the right margin, :MANDATORY always.
   Examples:
-  (with-output-to-string (s) (pprint-logical-block (s nil) (princ 1 s) (pprint-newline :mandatory s) (princ 2 s))) => \"1
-2\""
+  (substitute #\\| #\\Newline (with-output-to-string (s) (pprint-logical-block (s nil) (princ 1 s) (pprint-newline :mandatory s) (princ 2 s)))) => \"1|2\""
   (check-type kind (member :linear :fill :miser :mandatory))
   (if *print-pretty* (%newline kind stream)))
 
 (defun pprint-indent (relative-to columns &optional stream)
   "Indents the next lines of the logical block, relative to where it starts (:BLOCK) or to the current column (:CURRENT).
   Examples:
-  (with-output-to-string (s) (pprint-logical-block (s nil) (princ 1 s) (pprint-indent :block 2 s) (pprint-newline :mandatory s) (princ 2 s))) => \"1
-  2\""
+  (substitute #\\| #\\Newline (with-output-to-string (s) (pprint-logical-block (s nil) (princ 1 s) (pprint-indent :block 2 s) (pprint-newline :mandatory s) (princ 2 s)))) => \"1|  2\""
   (check-type relative-to (member :block :current))
   (check-type columns real)
   (if *print-pretty* (%indent (eq relative-to :current) (round columns) stream)))
@@ -111,6 +110,7 @@
             (min column 10000) (min step 10000) stream)))
 
 (defun %print-elements (stream list parentheses separate)
+  "Prints the list's elements, with what a function writes between them."
   (pprint-logical-block (stream list :prefix (if parentheses "(" "") :suffix (if parentheses ")" ""))
     (pprint-exit-if-list-exhausted)
     (loop
@@ -121,8 +121,7 @@
 (defun pprint-fill (stream list &optional (colon t) at)
   "Prints the list's elements, as many on a line as fit.
   Examples:
-  (with-output-to-string (s) (let ((*print-right-margin* 8)) (pprint-fill s '(1 2 3 4 5)))) => \"(1 2 3 4
- 5)\""
+  (substitute #\\| #\\Newline (with-output-to-string (s) (let ((*print-right-margin* 8)) (pprint-fill s '(1 2 3 4 5))))) => \"(1 2 3| 4 5)\""
   (declare (ignore at))
   (%print-elements stream list colon
                    (lambda (stream) (write-char #\Space stream) (pprint-newline :fill stream))))
@@ -130,9 +129,7 @@
 (defun pprint-linear (stream list &optional (colon t) at)
   "Prints the list's elements on one line, or each on a line of its own.
   Examples:
-  (with-output-to-string (s) (let ((*print-right-margin* 5)) (pprint-linear s '(1 2 3)))) => \"(1
- 2
- 3)\""
+  (substitute #\\| #\\Newline (with-output-to-string (s) (let ((*print-right-margin* 5)) (pprint-linear s '(1 2 3))))) => \"(1| 2| 3)\""
   (declare (ignore at))
   (%print-elements stream list colon
                    (lambda (stream) (write-char #\Space stream) (pprint-newline :linear stream))))
@@ -140,8 +137,7 @@
 (defun pprint-tabular (stream list &optional (colon t) at (tabsize 16))
   "Prints the list's elements as a table with columns of a width.
   Examples:
-  (with-output-to-string (s) (let ((*print-right-margin* 9)) (pprint-tabular s '(1 2 3 4) t nil 4))) => \"(1   2
- 3   4)\""
+  (substitute #\\| #\\Newline (with-output-to-string (s) (let ((*print-right-margin* 9)) (pprint-tabular s '(1 2 3 4) t nil 4)))) => \"(1   2| 3   4)\""
   (declare (ignore at))
   (%print-elements stream list colon
                    (lambda (stream)

@@ -55,7 +55,7 @@ pub(crate) fn combination_named(image: &Image, name: &Value) -> Result<Combinati
 
 /// `(define-method-combination name :operator operator :identity-with-one-argument flag)`.
 pub(crate) fn expand_define_method_combination(
-    image: &mut Image,
+    _: &mut Image,
     whole: &Value,
 ) -> Result<Value, Box<Raise>> {
     let parts = whole.list_to_vec().unwrap_or_default();
@@ -65,10 +65,9 @@ pub(crate) fn expand_define_method_combination(
         ));
     };
     if options.first().is_some_and(Value::is_list) {
-        return Err(Raise::program(format!(
-            "The long form of DEFINE-METHOD-COMBINATION, used for {}, is not supported; the short form with :OPERATOR is.",
-            super::text(image, name)
-        )));
+        return Ok(
+            form![known::SYS_DEFINE_LONG_COMBINATION, name.clone(); Value::list(options.iter().cloned())],
+        );
     }
     let option = |keyword| {
         options

@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::method::method_value;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::dispatch::{Effective, Shape};
@@ -24,6 +25,18 @@ pub(crate) enum Stage {
 
 /// The start of a call.
 pub(crate) const START: Stage = Stage::Around(0);
+
+/// The call of a method by a program's own combination; `next` is the function that
+/// `call-next-method` calls, or `NIL`.
+pub(crate) fn invoke_method(method: &Method, mut args: Vec<Value>, next: Value) -> Step {
+    if method.takes_next {
+        args.insert(0, next);
+    }
+    Step::TailCall {
+        function: Value::Function(method.function.clone()),
+        args,
+    }
+}
 
 /// Runs a call from the given stage.
 pub(crate) fn run(
@@ -165,6 +178,11 @@ fn operate(
     methods: &[Rc<Method>],
     args: Vec<Value>,
 ) -> Result<Step, Box<Raise>> {
+    if combination.is_long() {
+        let methods = Value::list(methods.iter().map(method_value));
+        let arguments = vec![combination.name.into(), methods, Value::list(args)];
+        return Ok(Step::tail_call(combination.operator, arguments));
+    }
     if let [only] = methods
         && combination.is_identity
     {

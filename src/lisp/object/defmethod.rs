@@ -249,6 +249,7 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
     let mut doc = Value::NIL;
     let mut combination = Value::list([known::STANDARD.into()]);
     let mut methods = Vec::new();
+    let mut order = Value::NIL;
     for option in options {
         let rest = option.cdr_or_nil();
         match option.car_or_nil().as_symbol() {
@@ -258,12 +259,8 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
                 known::SYS_OWN_METHOD,
                 form![known::DEFMETHOD, name.clone(); rest],
             ]),
-            Some(
-                known::DECLARE
-                | known::K_GENERIC_FUNCTION_CLASS
-                | known::K_METHOD_CLASS
-                | known::K_ARGUMENT_PRECEDENCE_ORDER,
-            ) => {}
+            Some(known::K_ARGUMENT_PRECEDENCE_ORDER) => order = rest,
+            Some(known::DECLARE | known::K_GENERIC_FUNCTION_CLASS | known::K_METHOD_CLASS) => {}
             _ => {
                 return Err(Raise::program(format!(
                     "Invalid option {} of DEFGENERIC.",
@@ -278,6 +275,7 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
         quote(lambda_list.clone()),
         quote(combination),
         doc,
+        quote(order),
     ];
     if methods.is_empty() {
         return Ok(ensure);
@@ -291,11 +289,18 @@ pub(crate) fn ensure_generic_function(
     image: &mut Image,
     args: &[Value],
 ) -> Result<Value, Box<Raise>> {
-    let [name, lambda_list, combination, doc] = args else {
+    let [name, lambda_list, combination, doc, order] = args else {
         return Err(Raise::program("invalid number of arguments: 0"));
     };
     let parameters = Parameters::parse(image, lambda_list)?;
     let found = combination_named(image, &combination.car_or_nil())?;
+    if found.is_long() && combination.cdr_or_nil().is_true() {
+        return Err(Raise::program(format!(
+            "The method combination {} takes no options.",
+            super::text(image, &combination.car_or_nil())
+        )));
+    }
+    let precedence = precedence_order(image, lambda_list, order, parameters.required)?;
     let function = ensure_generic(image, name, &parameters)?;
     if let Some(generic) = function.as_generic() {
         let own = generic.own_methods.take();
@@ -317,6 +322,7 @@ pub(crate) fn ensure_generic_function(
         *generic.parameters.borrow_mut() = parameters;
         generic.is_declared.set(true);
         generic.combination.set(found);
+        *generic.precedence.borrow_mut() = precedence;
         let order = combination.cdr_or_nil().car_or_nil().as_symbol();
         generic
             .most_specific_last
@@ -327,6 +333,34 @@ pub(crate) fn ensure_generic_function(
         changed(generic);
     }
     Ok(Value::Function(function))
+}
+
+/// The order of required parameters that an option names, as indices; none for their own order.
+fn precedence_order(
+    image: &Image,
+    lambda_list: &Value,
+    order: &Value,
+    required: usize,
+) -> Result<Vec<usize>, Box<Raise>> {
+    if order.is_nil() {
+        return Ok(Vec::new());
+    }
+    let names: Vec<Value> = lambda_list.iter_list().take(required).collect();
+    let place = |name: Value| names.iter().position(|n| n.is_eql(&name));
+    let indices: Option<Vec<usize>> = order.iter_list().map(place).collect();
+    indices
+        .filter(|indices| {
+            let mut sorted = indices.clone();
+            sorted.sort_unstable();
+            sorted.into_iter().eq(0..required)
+        })
+        .ok_or_else(|| {
+            Raise::program(format!(
+                "The order {} does not name each of the required parameters {} once.",
+                super::text(image, order),
+                super::text(image, &Value::list(names.clone()))
+            ))
+        })
 }
 
 /// Records that a method was made by the `defgeneric` of its own generic function.

@@ -48,7 +48,8 @@ pub(crate) fn applicable_methods(
         .filter(|m| applies(m, args, &classes))
         .cloned()
         .collect();
-    methods.sort_by(|a, b| compare(a, b, &classes));
+    let precedence = generic.precedence.borrow();
+    methods.sort_by(|a, b| compare(a, b, &classes, &precedence));
     methods
 }
 
@@ -70,8 +71,21 @@ fn applies(method: &Method, args: &[Value], classes: &[Rc<Class>]) -> bool {
         })
 }
 
-/// Which of two applicable methods is more specific, the leftmost argument deciding first.
-fn compare(a: &Method, b: &Method, classes: &[Rc<Class>]) -> Ordering {
+/// Which of two applicable methods is more specific, the leftmost argument deciding first unless
+/// the generic function has another order.
+fn compare(a: &Method, b: &Method, classes: &[Rc<Class>], precedence: &[usize]) -> Ordering {
+    let by_argument = |i: &usize| {
+        let (a, b) = (a.specializers.get(*i)?, b.specializers.get(*i)?);
+        let class = classes.get(*i)?;
+        Some(rank(a, class).cmp(&rank(b, class)))
+    };
+    if !precedence.is_empty() {
+        return precedence
+            .iter()
+            .filter_map(by_argument)
+            .find(|order| order.is_ne())
+            .unwrap_or(Ordering::Equal);
+    }
     a.specializers
         .iter()
         .zip(&b.specializers)
@@ -122,6 +136,15 @@ fn shape(
 ) -> Result<Shape, Box<Raise>> {
     let combination = generic.combination.get();
     let is_standard = combination.is_standard();
+    if combination.is_long() && !methods.is_empty() {
+        return Ok(Shape::Combined {
+            around: Vec::new(),
+            before: Vec::new(),
+            primary: methods,
+            after: Vec::new(),
+            combination,
+        });
+    }
     let mut around = Vec::new();
     let mut before = Vec::new();
     let mut primary = Vec::new();

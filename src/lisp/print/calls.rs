@@ -52,6 +52,11 @@ impl Calls {
         }
     }
 
+    /// Are calls possible?
+    pub(crate) fn are_possible(&self) -> bool {
+        !self.is_pure
+    }
+
     /// The text of the next call; if that is missing, the call is recorded and the text is empty.
     /// `None` if calls are not possible.
     pub(crate) fn text(&mut self, call: impl FnOnce() -> Call) -> Option<Document> {

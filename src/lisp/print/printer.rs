@@ -157,7 +157,7 @@ impl<'a> Printer<'a> {
     }
 
     fn value(&mut self, value: Value, style: Style, depth: usize) {
-        let is_dispatched = !self.skips_method && self.settings.pretty;
+        let is_dispatched = !self.skips_method && self.settings.pretty && self.calls.are_possible();
         self.skips_method &= matches!(value, Value::Instance(_));
         match self.labels.next(&value) {
             Label::None => {}

@@ -50,6 +50,11 @@ impl Combination {
         is_identity: true,
     };
 
+    /// Does a function of the program make the effective method of all that apply?
+    pub(crate) fn is_long(self) -> bool {
+        self.operator == known::SYS_CALL_COMBINED
+    }
+
     /// Is this the standard one?
     pub(crate) fn is_standard(self) -> bool {
         self.name == known::STANDARD
@@ -106,6 +111,9 @@ pub(crate) struct GenericFunction {
     pub(crate) combination: Cell<Combination>,
     /// Does the combination run the most specific method last?
     pub(crate) most_specific_last: Cell<bool>,
+    /// The required arguments in the order in which they rank methods; empty for that from left to
+    /// right.
+    pub(crate) precedence: RefCell<Vec<usize>>,
     /// Which arguments decide, and the effective methods found so far.
     pub(crate) dispatch: RefCell<Dispatch>,
 }
@@ -122,6 +130,7 @@ impl GenericFunction {
             doc: RefCell::default(),
             combination: Cell::new(Combination::STANDARD),
             most_specific_last: Cell::new(false),
+            precedence: RefCell::default(),
             dispatch: RefCell::default(),
         }
     }

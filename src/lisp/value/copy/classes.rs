@@ -138,6 +138,7 @@ impl Copier {
         copy.own_methods.replace(own);
         copy.doc.replace(original.doc.borrow().clone());
         copy.combination.set(original.combination.get());
+        *copy.precedence.borrow_mut() = original.precedence.borrow().clone();
         copy.most_specific_last
             .set(original.most_specific_last.get());
     }
