@@ -4,7 +4,8 @@
 ; A grasp gives the pose of a gripper frame (z forward, x across the palm) in the object's
 ; frame: :translation, and :rotation as the rows of a matrix or the name of one. The hand
 ; approaches through two pregrasps and leaves through two lifts, with the same rotation and
-; with these offsets added to :translation, along the object's axes.
+; with these offsets added to :translation, along the object's axes. :opening is how wide (m) the
+; hand opens beforehand, if not as for other grasps of the type.
 
 ; The tool point is 0.2 m beyond the wrist, where the pads of closed fingers end. The fingers
 ; move on arcs: the pads lie 0 to 37 mm behind the tool point around something thin, and 10 to
@@ -302,7 +303,8 @@
        :translation (0 0 0.06) :rotation top-across-y
        :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
        :lift (0 0 0.1) :second-lift (0 0 0.1))
-; Around the mug, its handle away from the hand; by the handle; by the rim.
+; Around the mug, its handle away from the hand; by the handle; by the rim. The tips of the fingers
+; come forward as they close, and would push the rim down if they had been opened wide.
 (grasp back :types (mug) :arms (left right)
        :translation (0.02 0 0.01) :rotation back
        :pregrasp (-0.15 0 0.15) :second-pregrasp (-0.15 0 0)
@@ -314,15 +316,15 @@
 (grasp top :types (mug) :arms (left right)
        :translation (-0.0383 0 0.015) :rotation top-across-y
        :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
-       :lift (0 0 0.1) :second-lift (0 0 0.1))
+       :lift (0 0 0.1) :second-lift (0 0 0.1) :opening 0.04)
 (grasp top-left :types (mug) :arms (left right)
        :translation (0 0.0383 0.015) :rotation top-across-x
        :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
-       :lift (0 0 0.1) :second-lift (0 0 0.1))
+       :lift (0 0 0.1) :second-lift (0 0 0.1) :opening 0.04)
 (grasp top-right :types (mug) :arms (left right)
        :translation (0 -0.0383 0.015) :rotation top-across-x
        :pregrasp (0 0 0.1) :second-pregrasp (0 0 0.1)
-       :lift (0 0 0.1) :second-lift (0 0 0.1))
+       :lift (0 0 0.1) :second-lift (0 0 0.1) :opening 0.04)
 (grasp back :types (mondamin) :arms (left right)
        :translation (0 0 0) :rotation back
        :pregrasp (-0.15 0 0.15) :second-pregrasp (-0.15 0 0)

@@ -128,15 +128,11 @@ pub(super) enum Reach<'a> {
 
 impl<'a> Reach<'a> {
     /// Prepares tests in an imagined world.
-    pub(super) fn new(
-        goal: &'a Goal,
-        scene: Scene<'_>,
-        imagined: &'a World,
-    ) -> Result<Self, WorldError> {
+    pub(super) fn new(goal: &'a Goal, imagined: &'a World) -> Result<Self, WorldError> {
         Ok(match goal {
             Goal::Grasp(grasp) => {
                 let (question, candidates) = &**grasp;
-                let chooser = GraspChooser::new(imagined, scene.grasps, question, candidates);
+                let chooser = GraspChooser::new(imagined, question, candidates);
                 Self::Grasp(Box::new(chooser), candidates)
             }
             Goal::Put(grip) => Self::Put(Box::new(PutReach::new(imagined, grip)?)),
@@ -146,7 +142,7 @@ impl<'a> Reach<'a> {
                 Effort::QUICK,
             ))),
             Goal::Point(point, arms) => {
-                let reach = GraspReach::new(imagined, None, f64::INFINITY, true);
+                let reach = GraspReach::new(imagined, None, true);
                 Self::Point(Box::new(reach), *point, arms)
             }
             Goal::Nothing => Self::Nothing,
@@ -233,7 +229,7 @@ fn test_point(
                 part: GraspPart::Approach,
                 tool: pose::from_xyz_rpy([p.x, p.y, p.z + OVER], rpy),
             };
-            match from.check(*side, &[station]) {
+            match from.check(*side, f64::INFINITY, &[station]) {
                 Ok(_) => return Ok(()),
                 Err(obstacle) if is_far(&obstacle) => {}
                 Err(_) => worst = NoReach::InTheWay,

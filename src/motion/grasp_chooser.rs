@@ -62,6 +62,8 @@ pub(crate) struct GraspChoice {
     pub(crate) turn: f64,
     /// The poses of the tool in the frame of the base.
     pub(crate) poses: ToolPoses,
+    /// How wide (m) the hand opens before.
+    pub(crate) opening: f64,
     /// Height (m) of the torso.
     pub(crate) torso: f64,
     /// Distance (m) of the wrist from the shoulder, mostly: less is better.
@@ -74,6 +76,8 @@ struct Candidate {
     grasp: String,
     turn: f64,
     definition: GraspDefinition,
+    /// How wide (m) the hand opens for it.
+    opening: f64,
     /// Place in the list of grasps.
     place: usize,
     has_failed: bool,
@@ -117,11 +121,9 @@ impl<'w> GraspChooser<'w> {
     /// For an object that stands in the world, by some of the candidates.
     pub(crate) fn new(
         world: &'w World,
-        grasps: &GraspLibrary,
         question: &'w GraspQuestion,
         candidates: &'w Candidates,
     ) -> Self {
-        let opening = grasps.grip(&question.kind).opening;
         let description = &world.models().description;
         let held = |side| {
             let mut held = held_objects(world, side).into_iter();
@@ -137,7 +139,7 @@ impl<'w> GraspChooser<'w> {
         Self {
             world,
             question,
-            reach: GraspReach::new(world, Some(&question.object), opening, question.torso_moves),
+            reach: GraspReach::new(world, Some(&question.object), question.torso_moves),
             candidates,
             shoulders: Side::BOTH.map(|side| Shoulder::of(world, side, question.torso_moves)),
             held: Side::BOTH.map(held),
@@ -202,7 +204,7 @@ impl<'w> GraspChooser<'w> {
         let (mut later, mut met, mut is_nearest) = (Vec::new(), Vec::new(), true);
         let mut check = |from: &mut GraspReachFrom<'_>, (cost, index, poses): Free| {
             let candidate = &self.candidates.all[index];
-            let checked = from.check(candidate.side, &needed(&poses));
+            let checked = from.check(candidate.side, candidate.opening, &needed(&poses));
             let checked = checked.map_err(|obstacle| self.bar(index, obstacle));
             let checked = checked.and_then(|torso| {
                 let choice = candidate.chosen(poses, torso, cost);
@@ -327,6 +329,7 @@ impl Candidate {
             grasp: self.grasp.clone(),
             turn: self.turn,
             poses,
+            opening: self.opening,
             torso,
             cost,
         }
@@ -409,6 +412,7 @@ fn candidates(models: &Models, grasps: &GraspLibrary, question: &GraspQuestion) 
                     grasp: (*name).clone(),
                     turn,
                     definition: (*definition).clone(),
+                    opening: grasps.opening(&question.kind, definition),
                     place,
                 });
             }

@@ -130,12 +130,9 @@ pub(crate) struct GraspReach<'w> {
     heights: Vec<f64>,
 }
 
-/// One hand, open.
+/// One hand.
 struct Hand<'w> {
-    side: Side,
     torso: TorsoSearch<'w>,
-    /// Position of the finger joint (rad).
-    fingers: f64,
     links: Vec<BodyName>,
     /// All links of the arm, those of the hand among them.
     arm: Vec<BodyName>,
@@ -144,23 +141,15 @@ struct Hand<'w> {
 }
 
 impl<'w> GraspReach<'w> {
-    /// For an object of the world, if it is about one, and hands that open as far as given (m). The torso stays as it
-    /// is, unless it may move.
-    pub(crate) fn new(
-        world: &'w World,
-        object: Option<&'w str>,
-        opening: f64,
-        torso_moves: bool,
-    ) -> Self {
+    /// For an object of the world, if it is about one. The torso stays as it is, unless it may move.
+    pub(crate) fn new(world: &'w World, object: Option<&'w str>, torso_moves: bool) -> Self {
         let description = &world.models().description;
         let hands = Side::BOTH.map(|side| {
             let contacts = |mode| ExpectedContacts::of(world, [side].into_iter(), mode, object);
             let models = world.models();
             let joints = &world.robot_configuration().joints;
             Hand {
-                side,
                 torso: description.torso_search(&models.robot, joints, side),
-                fingers: description.arm(side).gripper.position_for_opening(opening),
                 links: hand_names(world, side),
                 arm: arm_names(world, side),
                 careful: contacts(CollisionMode::AvoidAll),
@@ -199,9 +188,19 @@ impl<'w> GraspReach<'w> {
             robot,
             effort,
             checks: 0,
-            checkers: [const { None }; 4],
+            checkers: Vec::new(),
         }
     }
+}
+
+/// A hand during a check.
+#[derive(Clone, Copy, PartialEq)]
+struct OpenHand {
+    side: Side,
+    /// Its opening (m).
+    opening: f64,
+    /// Whether it may touch the object.
+    touches: bool,
 }
 
 /// The robot with its base at some pose.
@@ -211,8 +210,8 @@ pub(crate) struct GraspReachFrom<'w> {
     effort: Effort,
     /// Number of postures that have been checked for collisions.
     checks: usize,
-    /// For each hand, one that touches nothing, then one that may touch its object.
-    checkers: [Option<ConfigurationChecker<'w>>; 4],
+    /// Those that have been needed.
+    checkers: Vec<(OpenHand, ConfigurationChecker<'w>)>,
 }
 
 impl<'w> GraspReachFrom<'w> {
@@ -265,9 +264,14 @@ impl<'w> GraspReachFrom<'w> {
         (0..count).map(|i| all[i * all.len() / count]).collect()
     }
 
-    /// Whether the hand can be at all stations, with the torso at one of its heights, without
-    /// touching anything else. The value is the height (m).
-    pub(crate) fn check(&mut self, side: Side, stations: &[Station]) -> Result<f64, GraspObstacle> {
+    /// Whether the hand, opened as far as given (m), can be at all stations, with the torso at one of
+    /// its heights, without touching anything else. The value is the height (m).
+    pub(crate) fn check(
+        &mut self,
+        side: Side,
+        opening: f64,
+        stations: &[Station],
+    ) -> Result<f64, GraspObstacle> {
         let mut first = 0;
         let mut met = None;
         let mut heights = 0;
@@ -280,7 +284,8 @@ impl<'w> GraspReachFrom<'w> {
                 Ok(found) => found,
                 Err(lost) => return Err(met.unwrap_or(lost)),
             };
-            match self.check_at(side, stations, height) {
+            let mut all = stations.iter();
+            match all.try_for_each(|station| self.check_station(side, opening, station, height)) {
                 Ok(()) => return Ok(height),
                 // Another height does not move the hand.
                 Err(Met::Hand(obstacle)) => return Err(obstacle),
@@ -290,17 +295,20 @@ impl<'w> GraspReachFrom<'w> {
         }
     }
 
-    fn check_at(&mut self, side: Side, stations: &[Station], height: f64) -> Result<(), Met> {
-        for station in stations {
-            self.check_station(side, station, height)?;
-        }
-        Ok(())
-    }
-
-    fn check_station(&mut self, side: Side, station: &Station, height: f64) -> Result<(), Met> {
+    fn check_station(
+        &mut self,
+        side: Side,
+        opening: f64,
+        station: &Station,
+        height: f64,
+    ) -> Result<(), Met> {
         let object = self.reach.object;
         let hand = &self.reach.hands[side.index()];
-        let touches = station.part != GraspPart::Approach;
+        let open = OpenHand {
+            side,
+            opening,
+            touches: station.part != GraspPart::Approach,
+        };
         let mut first_hit = None;
         for posture in self.postures(side, &station.tool, height) {
             if self.checks == self.effort.checks {
@@ -308,7 +316,7 @@ impl<'w> GraspReachFrom<'w> {
             }
             self.checks += 1;
             let positions: Vec<f64> = std::iter::once(height).chain(posture).collect();
-            let checker = self.checker(side, touches);
+            let checker = self.checker(open);
             let Some(hit) = checker.blocked(&positions) else {
                 if station.part != GraspPart::Grasp {
                     return Ok(());
@@ -339,27 +347,33 @@ impl<'w> GraspReachFrom<'w> {
         }))
     }
 
-    fn checker(&mut self, side: Side, touches: bool) -> &mut ConfigurationChecker<'w> {
+    fn checker(&mut self, open: OpenHand) -> &mut ConfigurationChecker<'w> {
+        let known = self.checkers.iter().position(|(hand, _)| *hand == open);
+        let place = known.unwrap_or_else(|| {
+            let checker = self.new_checker(open);
+            self.checkers.push((open, checker));
+            self.checkers.len() - 1
+        });
+        &mut self.checkers[place].1
+    }
+
+    fn new_checker(&self, open: OpenHand) -> ConfigurationChecker<'w> {
         let reach = self.reach;
-        let robot = &self.robot;
-        let place = 2 * side.index() + usize::from(touches);
-        self.checkers[place].get_or_insert_with(|| {
-            let hand = &reach.hands[side.index()];
-            let description = &reach.world.models().description;
-            let arm = description.arm(hand.side);
-            let contacts = if touches {
-                &hand.touching
-            } else {
-                &hand.careful
-            };
-            let joints: Vec<JointId> = std::iter::once(description.torso.joint)
-                .chain(*arm.joints())
-                .collect();
-            let mut robot = robot.clone();
-            robot.joints.set(arm.gripper.joint, hand.fingers);
-            let world = reach.world;
-            ConfigurationChecker::away_from_start(world, robot, joints, contacts, &hand.arm)
-        })
+        let hand = &reach.hands[open.side.index()];
+        let description = &reach.world.models().description;
+        let arm = description.arm(open.side);
+        let contacts = if open.touches {
+            &hand.touching
+        } else {
+            &hand.careful
+        };
+        let joints: Vec<JointId> = std::iter::once(description.torso.joint)
+            .chain(*arm.joints())
+            .collect();
+        let mut robot = self.robot.clone();
+        let fingers = arm.gripper.position_for_opening(open.opening);
+        robot.joints.set(arm.gripper.joint, fingers);
+        ConfigurationChecker::away_from_start(reach.world, robot, joints, contacts, &hand.arm)
     }
 }
 

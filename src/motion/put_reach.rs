@@ -156,7 +156,7 @@ impl<'w> PutReach<'w> {
             span: wrist.translation.vector.norm(),
             grip,
             target: world.object_pose(&grip.object)?,
-            reach: GraspReach::new(world, Some(&grip.object), grip.opening, true),
+            reach: GraspReach::new(world, Some(&grip.object), true),
             shoulder: Shoulder::of(world, grip.side, true),
         })
     }
@@ -180,7 +180,7 @@ impl<'w> PutReach<'w> {
             // The hand may touch the object all the time.
             let part = GraspPart::Lift;
             let stations: Vec<Station> = poses.map(|tool| Station { part, tool }).collect();
-            match from.check(self.grip.side, &stations) {
+            match from.check(self.grip.side, self.grip.opening, &stations) {
                 Ok(_) => return Ok(heading),
                 Err(GraspObstacle::OutOfReach { part }) => {
                     nearest = nearest.or(Some(GraspObstacle::OutOfReach { part }));

@@ -36,6 +36,8 @@ pub(crate) struct GraspDefinition {
     pub(crate) lift: Lift,
     /// Second lift.
     pub(crate) second_lift: Lift,
+    /// How wide (m) the hand opens beforehand, if not as for other grasps of the type.
+    pub(crate) opening: Option<f64>,
 }
 
 /// How the hand lifts what it has grasped. CRAM has had two notations for this; if both are
@@ -163,6 +165,7 @@ const RECORDS: &[(&str, &[&str])] = &[
             "second-pregrasp",
             "lift",
             "second-lift",
+            "opening",
         ],
     ),
 ];
@@ -238,6 +241,11 @@ impl GraspLibrary {
         grip.unwrap_or(self.default_grip)
     }
 
+    /// How wide (m) the hand opens for a grasp of a type.
+    pub(crate) fn opening(&self, object_type: &str, grasp: &GraspDefinition) -> f64 {
+        grasp.opening.unwrap_or(self.grip(object_type).opening)
+    }
+
     /// The rows of the rotation with that name.
     pub(crate) fn rotation(&self, name: &str) -> Option<[[f64; 3]; 3]> {
         self.rotations.get(name).copied()
@@ -300,6 +308,10 @@ impl GraspLibrary {
             second_pregrasp: numbers("second-pregrasp")?,
             lift: Lift::along_object(numbers("lift")?),
             second_lift: Lift::along_object(numbers("second-lift")?),
+            opening: record
+                .optional("opening")
+                .map(|n| n.positive())
+                .transpose()?,
         };
         let types = record.required("types")?.symbols()?;
         for arm in record.required("arms")?.list()? {
@@ -336,6 +348,7 @@ fn rotation_rows(node: Node<'_>) -> Result<[[f64; 3]; 3], DataError> {
         second_pregrasp: [0.0; 3],
         lift: Lift::along_object([0.0; 3]),
         second_lift: Lift::along_object([0.0; 3]),
+        opening: None,
     };
     let sound = probe.orientation();
     sound.map_err(|e| node.error(DataProblem::Invalid(e.to_string())))?;
@@ -359,6 +372,7 @@ mod tests {
             second_pregrasp: [0.0; 3],
             lift: Lift::along_object([0.0; 3]),
             second_lift: Lift::along_object([0.0; 3]),
+            opening: None,
         }
     }
 

@@ -223,3 +223,34 @@ fn a_plate_is_grasped_from_where_it_can_be_so_that_it_can_also_be_put_down() {
     );
     assert!(cook.pose("PLATE-1").translation.z > 0.85);
 }
+
+#[test]
+fn a_mug_that_only_its_rim_can_be_taken_by_is_not_pressed_down() {
+    let mut cook = Cook::new();
+    cook.done("(spawn-object '((1.6526 1.2023 0.9116) (0 0 0.98696 0.16099)) :mug 'mug-1)");
+    let said = cook.done(&from_the_counter("mug"));
+    assert!(!said.contains("pressed"), "{said}");
+    assert!(cook.pose("MUG-1").translation.x < -0.6, "{said}");
+}
+
+#[test]
+fn a_mug_in_the_corner_is_fetched_from_one_of_the_few_places_that_let_an_arm_reach_it() {
+    let mut cook = Cook::new();
+    cook.done("(spawn-object '((1.7477 0.8731 0.9116) (0 0 0.67312 -0.73953)) :mug 'mug-1)");
+    let said = cook.done(&from_the_counter("mug"));
+    assert!(cook.pose("MUG-1").translation.x < -0.6, "{said}");
+}
+
+/// Transports an object of a type from anywhere on the counter to the island.
+fn from_the_counter(kind: &str) -> String {
+    format!(
+        "(with-simulated-robot
+           (perform (an action (type transporting)
+                      (object (an object (type {kind})))
+                      (location (a location (on (an object (urdf-name sink-area-surface)
+                                                           (part-of kitchen)))))
+                      (target (a location (on (an object (urdf-name kitchen-island-surface)
+                                                         (part-of kitchen)))
+                                          (for (an object (type {kind}))))))))"
+    )
+}

@@ -124,6 +124,7 @@ fn define_grasp(simulation: &mut Simulation, image: &mut Image, args: &[Value]) 
         second_pregrasp: offsets(image, second_pregrasp, "pregrasp offset")?,
         lift: lift_of(image, offset, in_base, turn)?,
         second_lift: lift_of(image, second_offset, second_in_base, second_turn)?,
+        opening: None,
     };
     if let Some(location) = location.filter(Value::is_true) {
         let [grasp, location] =

@@ -68,7 +68,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     ),
     control(
         "GRIPPER-OPENING",
-        "object",
+        "object arm grasp",
         "How wide a hand opens (m) to grasp an object.",
         &[],
         host!(gripper_opening),
@@ -374,7 +374,9 @@ fn gripper_opening(
     args: &[Value],
 ) -> Result<Reply> {
     let object = simulation.perceived(image, &args[0])?;
-    done(simulation.grip(&object.kind).opening)
+    let side = side(image, &args[1])?;
+    let grasp = simulation.grasp(image, &object.kind, side, &args[2])?;
+    done(simulation.grasps.opening(&object.kind, &grasp))
 }
 
 fn hand_releasing_opening(

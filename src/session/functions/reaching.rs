@@ -68,13 +68,6 @@ fn grasp_reachable(
     let base_pose = base_pose.map(|pose| simulation.pose_as_given(image, &pose));
     let raise = |error: WorldError| Raise::simple(format!("{error}."));
     let kind = simulation.world.object(&name).map_err(raise)?;
-    let imagined = Imagined {
-        object: &name,
-        object_pose: object_pose.transpose()?,
-        base_pose: base_pose.transpose()?,
-        side,
-        opening: simulation.grasps.grip(kind.type_name()).opening,
-    };
     let kind = kind.type_name().to_owned();
     let definition = match simulation.grasp(image, &kind, side, &args[2]) {
         Ok(definition) => definition,
@@ -87,6 +80,13 @@ fn grasp_reachable(
             return done(Value::NIL);
         }
         Err(unknown) => return Err(unknown),
+    };
+    let imagined = Imagined {
+        object: &name,
+        object_pose: object_pose.transpose()?,
+        base_pose: base_pose.transpose()?,
+        side,
+        opening: simulation.grasps.opening(&kind, &definition),
     };
     done(simulation.lets_grasp(&imagined, &definition)?)
 }

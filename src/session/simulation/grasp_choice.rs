@@ -37,9 +37,8 @@ impl Simulation {
         target: Option<&PlacingTarget>,
         base: Option<&Pose>,
     ) -> Result<GraspChoice, MotionFailure> {
-        let opening = self.grasps.grip(&question.kind).opening;
         let candidates = Candidates::new(&self.models, &self.grasps, question);
-        let chooser = GraspChooser::new(&self.world, &self.grasps, question, &candidates);
+        let chooser = GraspChooser::new(&self.world, question, &candidates);
         let mut paths = 0;
         let here = self.base();
         let mut targets = TargetChecks::default();
@@ -60,7 +59,7 @@ impl Simulation {
                 &self.world,
                 choice.side,
                 &question.object,
-                opening,
+                choice.opening,
                 &choice.poses.pregrasp,
                 &stations,
             )
@@ -133,7 +132,7 @@ impl TargetChecks {
             return Err(nowhere);
         };
         let object = (question.object.as_str(), kind.as_str());
-        let opening = simulation.grip(kind).opening;
+        let opening = simulation.grasps.opening(kind, &grasp);
         let (models, turn) = (&simulation.models, choice.turn);
         let grip = HeldGrip::by(models, choice.side, object, &grasp, turn, opening);
         let Ok(grip) = grip else {

@@ -88,7 +88,7 @@ impl Simulation {
             object_pose: None,
             base_pose: Some(*base),
             side: arm,
-            opening: self.grasps.grip(&wanted.kind).opening,
+            opening: self.grasps.opening(&wanted.kind, &definition),
         };
         self.lets_grasp(&imagined, &definition).unwrap_or(false)
     }
@@ -215,7 +215,7 @@ impl Simulation {
                 failed: Vec::new(),
             };
             let candidates = Candidates::new(&self.models, &self.grasps, &question);
-            let chooser = GraspChooser::new(&self.world, &self.grasps, &question, &candidates);
+            let chooser = GraspChooser::new(&self.world, &question, &candidates);
             for base in &places {
                 let Ok(choice) = chooser.with_base_at(base, Effort::QUICK) else {
                     continue;
