@@ -142,6 +142,7 @@ fn diagonal() -> GraspDefinition {
         second_pregrasp: [0.0; 3],
         lift: Lift::along_object([0.0, 0.0, 0.15]),
         second_lift: Lift::along_object([0.0; 3]),
+        opening: None,
     }
 }
 
