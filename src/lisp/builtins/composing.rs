@@ -7,6 +7,7 @@ use std::rc::Rc;
 use crate::lisp::image::Image;
 use crate::lisp::print::{self, Call};
 use crate::lisp::stream::Stream;
+use crate::lisp::types::{TypeCheck, typep};
 use crate::lisp::value::Value;
 use crate::lisp::value::document::Document;
 use crate::lisp::value::raise::Raise;
@@ -24,7 +25,7 @@ pub(super) fn compose<Text: 'static>(
     compose: impl Fn(&Image, &mut print::Calls) -> Result<Text, Box<Raise>> + 'static,
     finish: impl FnOnce(&mut Machine<'_>, Text) -> Result<Step, Box<Raise>> + 'static,
 ) -> Result<Step, Box<Raise>> {
-    let mut texts = print::Calls::with_texts([]);
+    let mut texts = print::Calls::with_texts([], has_type);
     let text = compose(machine.image, &mut texts)?;
     let mut needed = texts.into_needed();
     if needed.is_empty() {
@@ -39,7 +40,7 @@ pub(super) fn compose<Text: 'static>(
             }
             let (compose, known) = (compose.clone(), texts.clone());
             let composed = calls.with(move |machine| {
-                let mut texts = print::Calls::with_texts(known);
+                let mut texts = print::Calls::with_texts(known, has_type);
                 let text = compose(machine.image, &mut texts)?;
                 Ok::<_, Box<Raise>>((text, texts.into_needed()))
             });
@@ -51,6 +52,11 @@ pub(super) fn compose<Text: 'static>(
             }
         }
     })
+}
+
+/// Is the value of the type? What would need a call to decide, or is no type, does not match.
+pub(super) fn has_type(image: &Image, value: &Value, specifier: &Value) -> bool {
+    matches!(typep(image, value, specifier), Ok(TypeCheck::Yes))
 }
 
 /// Makes a call; returns the text that it writes.

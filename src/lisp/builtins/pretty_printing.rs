@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::composing::compose;
+use super::composing::{compose, has_type};
 use super::streams::stream_of;
 use super::strings::string;
 use crate::lisp::builtin::{Builtin, control, pure};
@@ -111,7 +111,9 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         "object table",
         "The function that a dispatch table has for the object, or NIL.",
         &[],
-        |image, args| Ok(dispatch::function_in(image, &args[1], &args[0]).unwrap_or(Value::NIL)),
+        |image, args| {
+            Ok(dispatch::function_in(image, &args[1], &args[0], has_type).unwrap_or(Value::NIL))
+        },
     ),
     control(
         "%WRITE-AS-STANDARD",

@@ -5,6 +5,7 @@
 
 use std::collections::VecDeque;
 
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::document::Document;
 use crate::lisp::value::symbol::Sym;
@@ -29,9 +30,14 @@ pub(crate) struct Calls {
     texts: VecDeque<Document>,
     /// Calls without a text.
     needed: Vec<Call>,
-    /// Are calls made at all?
-    is_pure: bool,
+    /// Does a value belong to a type, as far as the printer has to know? None if calls are not made at
+    /// all.
+    has_type: Option<TypeTest>,
 }
+
+/// Whether a value is of the type that a specifier names. The types are a room above this one, so
+/// those who make calls bring the test along.
+pub(crate) type TypeTest = fn(&Image, &Value, &Value) -> bool;
 
 impl Calls {
     /// No calls are possible: objects print in their default form.
@@ -39,30 +45,31 @@ impl Calls {
         Calls {
             texts: VecDeque::new(),
             needed: Vec::new(),
-            is_pure: true,
+            has_type: None,
         }
     }
 
     /// Calls are possible, and these are the texts of the first ones.
-    pub(crate) fn with_texts(texts: impl IntoIterator<Item = Document>) -> Calls {
+    pub(crate) fn with_texts(
+        texts: impl IntoIterator<Item = Document>,
+        has_type: TypeTest,
+    ) -> Calls {
         Calls {
             texts: texts.into_iter().collect(),
             needed: Vec::new(),
-            is_pure: false,
+            has_type: Some(has_type),
         }
     }
 
-    /// Are calls possible?
-    pub(crate) fn are_possible(&self) -> bool {
-        !self.is_pure
+    /// The test for types; `None` if calls are not possible.
+    pub(crate) fn type_test(&self) -> Option<TypeTest> {
+        self.has_type
     }
 
     /// The text of the next call; if that is missing, the call is recorded and the text is empty.
     /// `None` if calls are not possible.
     pub(crate) fn text(&mut self, call: impl FnOnce() -> Call) -> Option<Document> {
-        if self.is_pure {
-            return None;
-        }
+        self.has_type?;
         if let Some(text) = self.texts.pop_front() {
             return Some(text);
         }

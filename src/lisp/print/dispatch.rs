@@ -4,8 +4,8 @@
 //! A dispatch table is a hash table from types to pairs of a function and a priority; `NIL` is the standard
 //! one, which has no functions.
 
+use super::calls::TypeTest;
 use crate::lisp::image::Image;
-use crate::lisp::types::{TypeCheck, typep};
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Instance;
 use crate::lisp::value::generic::Specializer;
@@ -14,14 +14,19 @@ use crate::lisp::value::number;
 use crate::lisp::value::symbol::FunctionCell;
 
 /// The function that prints the value by the current table, if it has one.
-pub(super) fn function_for(image: &Image, value: &Value) -> Option<Value> {
+pub(super) fn function_for(image: &Image, value: &Value, has_type: TypeTest) -> Option<Value> {
     let table = image.special(known::V_PRINT_PPRINT_DISPATCH);
-    function_in(image, table, value)
+    function_in(image, table, value, has_type)
 }
 
 /// The function of the highest priority for the value in a table; among equals, that of the type that came
 /// first.
-pub(crate) fn function_in(image: &Image, table: &Value, value: &Value) -> Option<Value> {
+pub(crate) fn function_in(
+    image: &Image,
+    table: &Value,
+    value: &Value,
+    has_type: TypeTest,
+) -> Option<Value> {
     let Value::Hash(table) = table else {
         return None;
     };
@@ -34,8 +39,7 @@ pub(crate) fn function_in(image: &Image, table: &Value, value: &Value) -> Option
         let is_better = best.as_ref().is_none_or(|(_, most)| {
             number::compare(&priority, most).is_ok_and(|order| order.is_some_and(|o| o.is_gt()))
         });
-        // What would need a call to decide, or is not a type any more, does not match.
-        if is_better && matches!(typep(image, value, &specifier), Ok(TypeCheck::Yes)) {
+        if is_better && has_type(image, value, &specifier) {
             best = Some((entry.car_or_nil(), priority));
         }
     }

@@ -157,7 +157,7 @@ impl<'a> Printer<'a> {
     }
 
     fn value(&mut self, value: Value, style: Style, depth: usize) {
-        let is_dispatched = !self.skips_method && self.settings.pretty && self.calls.are_possible();
+        let is_dispatched = !self.skips_method && self.settings.pretty;
         self.skips_method &= matches!(value, Value::Instance(_));
         match self.labels.next(&value) {
             Label::None => {}
@@ -168,7 +168,10 @@ impl<'a> Printer<'a> {
             }
         }
         if is_dispatched
-            && let Some(function) = dispatch::function_for(self.image, &value)
+            && let Some(function) = self
+                .calls
+                .type_test()
+                .and_then(|test| dispatch::function_for(self.image, &value, test))
             && let Some(text) = self.calls.text(|| Call {
                 function,
                 before: Vec::new(),
