@@ -262,7 +262,7 @@ fn some_tables_end_as_they_are_said_to_end() {
 #[test]
 fn a_finger_does_not_press_a_thing_into_the_table() {
     assert_eq!(
-        judged(21)
+        judged(131)
             .as_deref()
             .map(|end| end.contains("pressed onto table_area_main")),
         Ok(true)
