@@ -83,11 +83,8 @@ impl<'w> BaseChecker<'w> {
         let near = self
             .checker
             .first_hit_around(&self.in_map, self.touching.relaxed(), margin);
-        if near.is_some() || self.touching.is_empty() {
-            return near;
-        }
-        self.touching
-            .first_hit(&mut self.checker, &self.robot, margin)
+        // Within the robot, nothing changes.
+        near.or_else(|| self.touching.first_deep(&mut self.checker, &self.robot))
     }
 
     /// A pose at which the robot, which touches something at the start, no longer does; the

@@ -6,7 +6,9 @@
 //! it ends. Cells are checked when the search reaches them, edges when a path uses them.
 //!
 //! To find out soon that the goal is enclosed, everything from which it can be reached is explored
-//! at the same time: if that comes to an end before the two meet, there is no path.
+//! at the same time: if that comes to an end before the two meet, there is no path. What a search
+//! has found out about the first grid, which parts of it are cut off from the start included, is kept
+//! for searches from the same start to other goals.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeSet, BinaryHeap, VecDeque};
@@ -14,6 +16,7 @@ use std::f64::consts::FRAC_PI_8;
 
 use super::base_path::{BasePlace, Search, TURN_COST};
 use crate::spatial::trig;
+use crate::world::{ExploredGrid, Known};
 
 /// Number of headings, and the angle (rad) between neighbouring ones.
 const HEADINGS: i32 = 16;
@@ -100,14 +103,6 @@ impl Grid {
     }
 }
 
-/// What is known of a cell.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Known {
-    Nothing,
-    Free,
-    Occupied,
-}
-
 /// The two grids, and what is known of their cells.
 pub(super) struct Lattice<'s, 'a, 'c, P> {
     search: &'s mut Search<'a, 'c, P>,
@@ -116,6 +111,8 @@ pub(super) struct Lattice<'s, 'a, 'c, P> {
     /// Whether the path may pass through collisions, at extra cost.
     through: bool,
     known: Vec<Known>,
+    /// What is kept of the first grid.
+    explored: &'s mut ExploredGrid,
     bad_edges: BTreeSet<(Cell, Cell)>,
 }
 
@@ -124,24 +121,33 @@ struct Backwards {
     queue: VecDeque<Cell>,
     reached: Vec<bool>,
     is_over: bool,
+    /// Whether all cells of the first grid are known that can be reached from the start.
+    is_last_word: bool,
 }
 
 impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
     /// A lattice with the spacing (m); a path that may go `through` obstacles avoids them if it
     /// can.
-    pub(super) fn new(search: &'s mut Search<'a, 'c, P>, spacing: f64, through: bool) -> Self {
+    pub(super) fn new(
+        search: &'s mut Search<'a, 'c, P>,
+        spacing: f64,
+        through: bool,
+        explored: &'s mut ExploredGrid,
+    ) -> Self {
         let (area, goal) = (search.area, search.goal);
         let floor = Grid::new(search.start, spacing, area.min, area.max, 0);
         let min = [0, 1].map(|i| area.min[i].max(goal[i] - AROUND_GOAL));
         let max = [0, 1].map(|i| area.max[i].min(goal[i] + AROUND_GOAL));
         let around_goal = Grid::new(goal, spacing, min, max, floor.size());
         let size = (floor.size() + around_goal.size()) as usize;
+        explored.cells.resize(floor.size() as usize, Known::Nothing);
         Self {
             search,
             floor,
             around_goal,
             through,
             known: vec![Known::Nothing; size],
+            explored,
             bad_edges: BTreeSet::new(),
         }
     }
@@ -198,13 +204,47 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
     fn is_free(&mut self, cell: Cell) -> bool {
         let index = cell as usize;
         if self.known[index] == Known::Nothing {
-            let place = self.place(cell);
-            self.known[index] = match self.search.place(&place) {
-                None => Known::Free,
-                Some(_) => Known::Occupied,
-            };
+            self.known[index] = self.look_up(cell);
         }
         self.known[index] == Known::Free
+    }
+
+    fn look_up(&mut self, cell: Cell) -> Known {
+        let place = self.place(cell);
+        let kept = match self.search.depends_on_goal(&place) {
+            true => None,
+            false => self.explored.cells.get_mut(cell as usize),
+        };
+        if let Some(known) = kept.as_deref().copied()
+            && known != Known::Nothing
+        {
+            return known;
+        }
+        let known = match self.search.place(&place) {
+            None => Known::Free,
+            Some(_) => Known::Occupied,
+        };
+        if let Some(kept) = kept {
+            *kept = known;
+        }
+        known
+    }
+
+    /// Whether it is kept what can be reached: not if that depends on the goal.
+    fn keeps_reached(&self) -> bool {
+        !self.through && !self.search.keeps_margin()
+    }
+
+    /// Keeps that cells of the first grid cannot be reached from the start.
+    fn cut_off(&mut self, cells: &[bool]) {
+        if !self.keeps_reached() {
+            return;
+        }
+        let floor = self.explored.cells.len();
+        self.explored.cut_off.resize(floor, false);
+        for (kept, cell) in self.explored.cut_off.iter_mut().zip(cells) {
+            *kept |= cell;
+        }
     }
 
     /// Least cost from the pose to the goal if nothing were in the way.
@@ -269,7 +309,15 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
             queue: VecDeque::from([goal]),
             reached: vec![false; size],
             is_over: self.through,
+            is_last_word: self.explored.reached.is_some(),
         };
+        if let Some(reached) = self.explored.reached.take() {
+            while !backwards.is_over && self.explore(&mut backwards, &reached) {}
+            self.explored.reached = Some(reached);
+            if !backwards.is_over {
+                return None;
+            }
+        }
         costs[start as usize] = 0.0;
         let mut open = BinaryHeap::from([Candidate {
             total: 0.0,
@@ -310,6 +358,13 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
                 }
             }
         }
+        if self.keeps_reached() && self.bad_edges.is_empty() {
+            if !backwards.is_over {
+                self.cut_off(&backwards.reached);
+            }
+            done.truncate(self.explored.cells.len());
+            self.explored.reached = Some(done);
+        }
         None
     }
 
@@ -320,10 +375,18 @@ impl<'s, 'a, 'c, P: Clone + PartialEq> Lattice<'s, 'a, 'c, P> {
             return true;
         }
         let Some(cell) = backwards.queue.pop_front() else {
+            self.cut_off(&backwards.reached);
             return false;
         };
-        if done[cell as usize] {
+        if done.get(cell as usize) == Some(&true) {
             backwards.is_over = true;
+            return true;
+        }
+        // What is beside a cell that is cut off is cut off, too.
+        let is_on_floor = cell < self.around_goal.first;
+        let is_cut_off =
+            backwards.is_last_word || self.explored.cut_off.get(cell as usize) == Some(&true);
+        if is_on_floor && is_cut_off {
             return true;
         }
         let before: Vec<Cell> = self.beside(cell).map(|(next, _)| next).collect();

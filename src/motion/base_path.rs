@@ -9,6 +9,7 @@
 use super::base_lattice::Lattice;
 use super::interruption;
 use crate::spatial::trig;
+use crate::world::ExploredGrid;
 
 /// A pose of the base: x (m), y (m), heading (rad, not wrapped) in the map frame.
 pub(crate) type BasePlace = [f64; 3];
@@ -54,11 +55,14 @@ type Check<'a, P> = dyn FnMut(&BasePlace, f64) -> Option<P> + 'a;
 ///
 /// `blocked` returns what the robot touches at a pose, or what is closer than the margin
 /// (m). `reach` (m) is the largest distance of any part of the robot from the base's axis.
+/// `explored` is what earlier searches from the same start, with the same obstacles, have found
+/// out, or empty.
 pub(crate) fn find_base_path<P: Clone + PartialEq>(
     start: BasePlace,
     goal: BasePlace,
     area: FloorArea,
     reach: f64,
+    explored: &mut Vec<ExploredGrid>,
     blocked: &mut Check<'_, P>,
 ) -> Result<Vec<BasePlace>, BasePathFailure<P>> {
     let goal = [goal[0], goal[1], start[2] + trig::wrap(goal[2] - start[2])];
@@ -79,13 +83,22 @@ pub(crate) fn find_base_path<P: Clone + PartialEq>(
     if search.edge(&start, &goal).is_none() {
         return Ok(vec![start, goal]);
     }
-    for (spacing, margin) in SPACINGS {
+    explored.resize_with(SPACINGS.len() + 1, ExploredGrid::default);
+    let (through, grids) = match explored.split_last_mut() {
+        Some(split) => split,
+        None => {
+            return Err(BasePathFailure::Enclosed {
+                blockers: Vec::new(),
+            });
+        }
+    };
+    for ((spacing, margin), grid) in SPACINGS.into_iter().zip(grids) {
         search.margin = margin;
-        if let Some(path) = Lattice::new(&mut search, spacing, false).path() {
+        if let Some(path) = Lattice::new(&mut search, spacing, false, grid).path() {
             return Ok(search.shorten(path));
         }
     }
-    let blockers = match Lattice::new(&mut search, SPACINGS[0].0, true).path() {
+    let blockers = match Lattice::new(&mut search, SPACINGS[0].0, true, through).path() {
         Some(path) => search.blockers(&path),
         None => Vec::new(),
     };
@@ -106,13 +119,22 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
     /// What blocks the pose.
     pub(super) fn place(&mut self, p: &BasePlace) -> Option<P> {
         interruption::look();
-        let near = |q: &BasePlace| libm::hypot(p[0] - q[0], p[1] - q[1]) < NO_MARGIN_WITHIN;
-        let margin = if near(&self.start) || near(&self.goal) {
+        let margin = if is_near(p, &self.start) || is_near(p, &self.goal) {
             0.0
         } else {
             self.margin
         };
         (self.blocked)(p, margin)
+    }
+
+    /// Whether a margin is kept where there is room.
+    pub(super) fn keeps_margin(&self) -> bool {
+        self.margin > 0.0
+    }
+
+    /// Whether it depends on the goal what blocks the pose.
+    pub(super) fn depends_on_goal(&self, p: &BasePlace) -> bool {
+        self.keeps_margin() && is_near(p, &self.goal)
     }
 
     /// What blocks the straight leg, coarse steps first; the ends are assumed to be free.
@@ -179,6 +201,11 @@ impl<P: Clone + PartialEq> Search<'_, '_, P> {
     }
 }
 
+/// Whether a pose is so near to another one, start or goal, that no margin is kept.
+fn is_near(p: &BasePlace, end: &BasePlace) -> bool {
+    libm::hypot(p[0] - end[0], p[1] - end[1]) < NO_MARGIN_WITHIN
+}
+
 /// Adds the midpoint of every leg that is longer than 20 cm or turns more than 20 degrees.
 fn halve(path: &[BasePlace]) -> Vec<BasePlace> {
     let mut fine: Vec<BasePlace> = path.first().copied().into_iter().collect();
@@ -228,7 +255,8 @@ mod tests {
         wall: impl Fn(f64, f64, f64) -> bool,
     ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
         let mut blocked = |p: &BasePlace, m: f64| touches(p, m, &wall).then_some("wall");
-        find_base_path([-2.0, 0.0, 0.0], goal, ROOM, 0.7, &mut blocked)
+        let explored = &mut Vec::new();
+        find_base_path([-2.0, 0.0, 0.0], goal, ROOM, 0.7, explored, &mut blocked)
     }
 
     #[test]
@@ -267,6 +295,47 @@ mod tests {
     fn an_occupied_goal_names_what_is_there() {
         let result = find([2.0, 0.0, 0.0], |x, _, _| x > 1.5);
         assert_eq!(result, Err(BasePathFailure::GoalOccupied("wall")));
+    }
+
+    /// Walls at x = -1 and y = -1 with gaps of many widths at many places, by number.
+    fn maze(number: u32) -> impl Fn(f64, f64, f64) -> bool {
+        let (width, at) = (f64::from(number % 5) * 0.3, f64::from(number % 7) * 0.4);
+        move |x, y, r| {
+            let gap = |z: f64| (z - at).abs() < width - r;
+            ((x + 1.0).abs() < r && !gap(y)) || ((y + 1.0).abs() < r && !gap(x))
+        }
+    }
+
+    #[test]
+    fn what_earlier_searches_have_found_out_changes_no_path() {
+        let (mut checks, mut enclosed) = ([0, 0], 0);
+        for number in 0..12 {
+            let wall = maze(number);
+            let mut explored = Vec::new();
+            for goal in [
+                [2.0, 1.0, 0.0],
+                [1.8, 1.1, 0.4],
+                [2.0, -2.0, 1.0],
+                [2.1, 0.8, 0.1],
+            ] {
+                let find = |explored: &mut Vec<ExploredGrid>, checks: &mut u32| {
+                    let mut blocked = |p: &BasePlace, m: f64| {
+                        *checks += 1;
+                        touches(p, m, &wall).then_some("wall")
+                    };
+                    find_base_path([-2.0, 0.0, 0.0], goal, ROOM, 0.7, explored, &mut blocked)
+                };
+                let found = find(&mut explored, &mut checks[0]);
+                assert_eq!(
+                    found,
+                    find(&mut Vec::new(), &mut checks[1]),
+                    "{number} {goal:?}"
+                );
+                enclosed += u32::from(found.is_err());
+            }
+        }
+        assert!(enclosed > 10, "{enclosed} goals are enclosed");
+        assert!(2 * checks[0] < checks[1], "{checks:?} checks");
     }
 
     #[test]

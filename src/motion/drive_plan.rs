@@ -25,8 +25,10 @@ pub(crate) fn plan_drive(world: &World, goal: BasePlace) -> Result<Vec<BasePlace
     let reach = checker.reach();
     let away = checker.way_out(&start);
     let from = away.unwrap_or(start);
-    let found = find_base_path(from, goal, area, reach, &mut |place, margin| {
-        checker.blocked(place, margin).map(Obstacle)
+    let found = world.with_explored_floor(|explored| {
+        find_base_path(from, goal, area, reach, explored, &mut |place, margin| {
+            checker.blocked(place, margin).map(Obstacle)
+        })
     });
     let found = found.map(|path| away.map(|_| start).into_iter().chain(path).collect());
     found.map_err(|failure| match failure {

@@ -94,10 +94,19 @@ impl TouchingPairs {
         margin: f64,
     ) -> Option<CollisionHit> {
         let near = checker.first_hit(robot, &self.relaxed, margin);
-        if near.is_some() || self.is_empty() {
-            return near;
-        }
         // No others are that close.
+        near.or_else(|| self.first_deep(checker, robot))
+    }
+
+    /// A pair that was close at the start and overlaps more than allowed in the configuration.
+    pub(super) fn first_deep(
+        &self,
+        checker: &mut CollisionChecker<'_>,
+        robot: &RobotConfiguration,
+    ) -> Option<CollisionHit> {
+        if self.is_empty() {
+            return None;
+        }
         let deep = checker.hits_among(robot, &self.relaxed, &self.allowed, -self.depth);
         deep.into_iter().find(|hit| {
             let mut before = self.hits.iter();

@@ -18,6 +18,7 @@ use parry3d_f64::bounding_volume::Aabb;
 use super::collision::CollisionChecker;
 use super::collision_search::{HeldObject, ObjectAt, Surroundings};
 use super::error::WorldError;
+use super::explored_floor::ExploredFloor;
 use super::handle_hold::{HandleHold, HandleSlip};
 use super::hash::Hasher;
 use super::holding::Slip;
@@ -44,6 +45,7 @@ pub(crate) struct World {
     pub(super) state: State,
     pub(super) robot_bodies: Arc<[BodyHandle]>,
     pub(super) kitchen_bodies: Arc<[Option<BodyHandle>]>,
+    pub(super) explored: ExploredFloor,
 }
 
 /// The state of a world besides that of the physics engine.
@@ -139,6 +141,7 @@ impl World {
             },
             robot_bodies,
             kitchen_bodies,
+            explored: ExploredFloor::default(),
         };
         world.place_robot_bodies();
         world
