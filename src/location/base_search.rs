@@ -26,7 +26,7 @@ const NEAR: f64 = 0.8;
 /// Number of headings that are tried at a place, besides the one to the target.
 const HEADINGS: u32 = 24;
 /// A search ends when so many base poses in a row, free and near enough, have been checked in vain.
-const MOST_CHECKS: u32 = 3000;
+const MOST_CHECKS: u32 = 5000;
 /// How many base poses at which something is in the way of a few postures are examined again, with
 /// more postures, when all others have been tried.
 const MOST_AGAIN: usize = 100;
