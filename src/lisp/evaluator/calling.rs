@@ -11,6 +11,7 @@ use crate::lisp::value::Value;
 use crate::lisp::value::code::Code;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
+use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::fiber::{Dynamic, Frame, FrameKind};
 use crate::lisp::vm::machine::Machine;
@@ -112,11 +113,12 @@ impl Machine<'_> {
         cut: usize,
         multi: bool,
     ) {
-        self.fiber.frames.push(Frame {
+        let dynamic = self.fiber.dynamic.len();
+        push_made(&mut self.fiber.frames, || Frame {
             kind: FrameKind::Code { function, pc: 0 },
             base,
             cut,
-            dynamic: self.fiber.dynamic.len(),
+            dynamic,
             multi,
         });
     }

@@ -5,6 +5,7 @@ use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::operation::Comparison;
+use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::machine::Machine;
@@ -17,6 +18,25 @@ impl Machine<'_> {
     #[inline(always)]
     pub(super) fn pop(&mut self) -> Value {
         self.fiber.stack.pop().unwrap_or_default()
+    }
+
+    /// Pushes `NIL`.
+    #[inline(always)]
+    pub(super) fn push_nil(&mut self) {
+        push_made(&mut self.fiber.stack, || Value::NIL);
+    }
+
+    /// Pushes an integer.
+    #[inline(always)]
+    pub(super) fn push_int(&mut self, n: i64) {
+        push_made(&mut self.fiber.stack, || Value::Int(n));
+    }
+
+    /// Pushes `T` or `NIL`.
+    #[inline(always)]
+    pub(super) fn push_bool(&mut self, truth: bool) {
+        let sym = if truth { known::T } else { known::NIL };
+        push_made(&mut self.fiber.stack, || Value::symbol(sym));
     }
 
     /// Drops the topmost `count` values.
@@ -74,7 +94,7 @@ impl Machine<'_> {
                     self.fiber.stack.push(single);
                 }
                 for _ in 1..count {
-                    self.fiber.stack.push(Value::NIL);
+                    self.push_nil();
                 }
             }
         }
@@ -93,7 +113,7 @@ impl Machine<'_> {
     pub(super) fn car(&mut self) -> Result<(), Box<Raise>> {
         match self.pop() {
             Value::Cons(cons) => cons.push_car(&mut self.fiber.stack),
-            Value::Symbol(known::NIL, ..) => self.fiber.stack.push(Value::NIL),
+            Value::Symbol(known::NIL, ..) => self.push_nil(),
             other => return Err(Raise::type_error(&other, known::LIST)),
         }
         Ok(())
@@ -104,7 +124,7 @@ impl Machine<'_> {
     pub(super) fn cdr(&mut self) -> Result<(), Box<Raise>> {
         match self.pop() {
             Value::Cons(cons) => cons.push_cdr(&mut self.fiber.stack),
-            Value::Symbol(known::NIL, ..) => self.fiber.stack.push(Value::NIL),
+            Value::Symbol(known::NIL, ..) => self.push_nil(),
             other => return Err(Raise::type_error(&other, known::LIST)),
         }
         Ok(())
@@ -119,7 +139,7 @@ impl Machine<'_> {
                 let cons = cons.clone();
                 cons.push_car(&mut self.fiber.stack);
             }
-            Value::Symbol(known::NIL, ..) => self.fiber.stack.push(Value::NIL),
+            Value::Symbol(known::NIL, ..) => self.push_nil(),
             other => return Err(Raise::type_error(other, known::LIST)),
         }
         Ok(())
@@ -133,7 +153,7 @@ impl Machine<'_> {
                 let cons = cons.clone();
                 cons.push_cdr(&mut self.fiber.stack);
             }
-            Value::Symbol(known::NIL, ..) => self.fiber.stack.push(Value::NIL),
+            Value::Symbol(known::NIL, ..) => self.push_nil(),
             other => return Err(Raise::type_error(other, known::LIST)),
         }
         Ok(())
@@ -282,7 +302,7 @@ impl Machine<'_> {
         if let Value::Int(x) = local
             && let Some(sum) = x.checked_add(n)
         {
-            self.fiber.stack.push(Value::Int(sum));
+            self.push_int(sum);
             return Ok(());
         }
         let value = number::add(local, &Value::Int(n))?;

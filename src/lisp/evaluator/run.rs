@@ -7,12 +7,13 @@
 use std::rc::Rc;
 
 use super::entry::{INTERRUPT_INTERVAL, Next};
-use super::variables::unbox;
+use super::variables::push_unboxed;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::operation::Op;
+use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 use crate::lisp::vm::fiber::{Frame, FrameKind};
@@ -106,8 +107,8 @@ impl Machine<'_> {
                 pc += 1;
                 match op {
                     Op::Const(i) => code.constants[i as usize].push_copy(&mut self.fiber.stack),
-                    Op::Nil => self.fiber.stack.push(Value::NIL),
-                    Op::Int(n) => self.fiber.stack.push(Value::Int(i64::from(n))),
+                    Op::Nil => self.push_nil(),
+                    Op::Int(n) => self.push_int(i64::from(n)),
 
                     Op::Local(i) => self.local(base + i as usize),
                     Op::LocalBox(i) => self.local_box(base + i as usize),
@@ -115,7 +116,7 @@ impl Machine<'_> {
                     Op::SetLocalBox(i) => self.set_local_box(base + i as usize),
                     Op::MakeBox(i) => self.make_box(base + i as usize),
                     Op::Free(i) => captured[i as usize].push_copy(&mut self.fiber.stack),
-                    Op::FreeBox(i) => self.fiber.stack.push(unbox(&captured[i as usize])),
+                    Op::FreeBox(i) => push_unboxed(&captured[i as usize], &mut self.fiber.stack),
                     Op::SetFreeBox(i) => self.set_free_box(&captured[i as usize]),
                     Op::Global(sym) => check!(self.global(sym)),
                     Op::SetGlobal(sym) => self.set_global(sym),
@@ -124,7 +125,7 @@ impl Machine<'_> {
                     Op::Closure(i) => self.closure(code, i as usize, base, captured),
                     Op::Supplied(i) => {
                         let supplied = self.is_supplied(base + i as usize);
-                        self.fiber.stack.push(Value::bool(supplied));
+                        self.push_bool(supplied);
                     }
 
                     Op::Pop => self.drop_top(),
@@ -277,15 +278,15 @@ impl Machine<'_> {
                     Op::Cons => self.join_top(Value::cons),
                     Op::Eq => {
                         let result = self.are_eq();
-                        self.fiber.stack.push(Value::bool(result));
+                        self.push_bool(result);
                     }
                     Op::Not => {
                         let result = self.test_top(Value::is_nil);
-                        self.fiber.stack.push(Value::bool(result));
+                        self.push_bool(result);
                     }
                     Op::Consp => {
                         let result = self.test_top(|value| matches!(value, Value::Cons(_)));
-                        self.fiber.stack.push(Value::bool(result));
+                        self.push_bool(result);
                     }
                     Op::Add => check!(self.arithmetic(i64::checked_add, number::add)),
                     Op::Sub => check!(self.arithmetic(i64::checked_sub, number::sub)),
@@ -297,7 +298,7 @@ impl Machine<'_> {
                         pc += 1;
                     }
                     Op::Compare(comparison) => match self.compare(comparison) {
-                        Ok(holds) => self.fiber.stack.push(Value::bool(holds)),
+                        Ok(holds) => self.push_bool(holds),
                         Err(raise) => {
                             self.save_pc(pc);
                             return self.raise(raise);
@@ -527,11 +528,19 @@ impl Machine<'_> {
     /// Returns the top value from the topmost frame.
     #[inline(always)]
     fn return_value(&mut self) -> Next {
-        let Some(frame) = self.fiber.frames.pop() else {
+        let Some(&Frame {
+            cut,
+            dynamic,
+            multi,
+            ..
+        }) = self.fiber.frames.last()
+        else {
             return Next::Deliver(self.pop());
         };
-        if self.fiber.dynamic.len() > frame.dynamic {
-            self.drop_dynamic(frame.dynamic);
+        // Dropped in its place: it need not be moved out first.
+        self.fiber.frames.truncate(self.fiber.frames.len() - 1);
+        if self.fiber.dynamic.len() > dynamic {
+            self.drop_dynamic(dynamic);
         }
         let to_code = matches!(
             self.fiber.frames.last(),
@@ -543,20 +552,20 @@ impl Machine<'_> {
         // The most frequent values are not moved but made again in their new place.
         match self.fiber.stack.last() {
             Some(&Value::Int(n)) if to_code => {
-                self.cut_stack(frame.cut);
-                self.fiber.stack.push(Value::Int(n));
+                self.cut_stack(cut);
+                self.push_int(n);
                 return Next::Run;
             }
             Some(&Value::Symbol(sym, ref hold)) if to_code && hold.is_none() => {
-                self.cut_stack(frame.cut);
-                self.fiber.stack.push(Value::symbol(sym));
+                self.cut_stack(cut);
+                push_made(&mut self.fiber.stack, || Value::symbol(sym));
                 return Next::Run;
             }
             _ => {}
         }
         let value = self.pop();
-        self.cut_stack(frame.cut);
-        let value = if frame.multi { value } else { value.primary() };
+        self.cut_stack(cut);
+        let value = if multi { value } else { value.primary() };
         if !to_code {
             return Next::Deliver(value);
         }

@@ -7,6 +7,7 @@ use crate::lisp::value::code::{Capture, Code};
 use crate::lisp::value::cycles;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
+use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
@@ -17,24 +18,37 @@ impl Machine<'_> {
     #[inline(always)]
     pub(super) fn local(&mut self, at: usize) {
         // As `Value::push_copy`, from a place in the stack itself.
-        match &self.fiber.stack[at] {
-            &Value::Int(n) => self.fiber.stack.push(Value::Int(n)),
+        let stack = &mut self.fiber.stack;
+        match &stack[at] {
+            &Value::Int(n) => push_made(stack, || Value::Int(n)),
             Value::Cons(cons) => {
                 let cons = cons.clone();
-                self.fiber.stack.push(Value::Cons(cons));
+                push_made(stack, || Value::Cons(cons));
             }
-            other => {
-                let value = other.clone();
-                self.fiber.stack.push(value);
+            &Value::Symbol(sym, ref hold) if hold.is_none() => {
+                push_made(stack, || Value::symbol(sym));
             }
+            _ => self.local_of_other_kind(at),
         }
+    }
+
+    #[inline(never)]
+    fn local_of_other_kind(&mut self, at: usize) {
+        let value = self.fiber.stack[at].clone();
+        self.fiber.stack.push(value);
     }
 
     /// Pushes what a local's box holds.
     #[inline(always)]
     pub(super) fn local_box(&mut self, at: usize) {
-        let value = unbox(&self.fiber.stack[at]);
-        self.fiber.stack.push(value);
+        match &self.fiber.stack[at] {
+            Value::Cell(cell) => {
+                // Another reference to the box, since the stack that it stands in is pushed on.
+                let cell = cell.clone();
+                cell.push_copy(&mut self.fiber.stack);
+            }
+            _ => self.local(at),
+        }
     }
 
     /// Pops into a local.
@@ -136,11 +150,11 @@ impl Machine<'_> {
     }
 }
 
-/// The contents of a box; any other value is returned unchanged.
+/// Pushes the contents of a box; any other value as it is.
 #[inline(always)]
-pub(super) fn unbox(value: &Value) -> Value {
+pub(super) fn push_unboxed(value: &Value, stack: &mut Vec<Value>) {
     match value {
-        Value::Cell(cell) => cell.get(),
-        other => other.clone(),
+        Value::Cell(cell) => cell.push_copy(stack),
+        other => other.push_copy(stack),
     }
 }

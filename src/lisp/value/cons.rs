@@ -51,13 +51,13 @@ impl Cons {
     /// Pushes the first half onto a stack.
     #[inline(always)]
     pub(crate) fn push_car(&self, stack: &mut Vec<Value>) {
-        self.car.with(|value| value.push_copy(stack));
+        self.car.push_copy(stack);
     }
 
     /// Pushes the second half onto a stack.
     #[inline(always)]
     pub(crate) fn push_cdr(&self, stack: &mut Vec<Value>) {
-        self.cdr.with(|value| value.push_copy(stack));
+        self.cdr.push_copy(stack);
     }
 
     /// Puts the second half into a place.

@@ -25,6 +25,7 @@ pub(crate) mod operation;
 pub(crate) mod package;
 pub(crate) mod parameters;
 pub(crate) mod pathname;
+pub(crate) mod placing;
 pub(crate) mod raise;
 pub(crate) mod release;
 pub(crate) mod sequence;
@@ -138,29 +139,6 @@ impl Value {
             Value::Cell(cell) => Value::Cell(cell.clone()),
             Value::Multiple(values) => Value::Multiple(values.clone()),
             Value::Unbound => Value::Unbound,
-        }
-    }
-
-    /// Pushes a copy onto a stack. Each of the most frequent kinds is written straight into its
-    /// place: were it put together elsewhere first, the processor would have to wait for it.
-    #[inline(always)]
-    pub(crate) fn push_copy(&self, stack: &mut Vec<Value>) {
-        match self {
-            Value::Int(n) => stack.push(Value::Int(*n)),
-            Value::Cons(cons) => stack.push(Value::Cons(cons.clone())),
-            Value::Symbol(sym, hold) if hold.is_none() => stack.push(Value::symbol(*sym)),
-            Value::Vector(vector) => stack.push(Value::Vector(vector.clone())),
-            other => stack.push(other.clone_other()),
-        }
-    }
-
-    /// Puts a copy into a place, in the same manner.
-    #[inline(always)]
-    pub(crate) fn copy_to(&self, place: &mut Value) {
-        match self {
-            Value::Cons(cons) => *place = Value::Cons(cons.clone()),
-            Value::Symbol(sym, hold) if hold.is_none() => *place = Value::symbol(*sym),
-            other => *place = other.clone_other(),
         }
     }
 

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use super::Value;
+use super::placing::push_made;
 
 /// A mutable place for one value.
 #[derive(Default)]
@@ -18,11 +19,56 @@ impl Slot {
     /// The value.
     #[inline]
     pub(crate) fn get(&self) -> Value {
-        let value = self.0.take();
-        let copy = value.clone();
-        // What is replaced is "no value", which needs not be freed.
+        match self.0.take() {
+            Value::Int(n) => {
+                self.put_back(Value::Int(n));
+                Value::Int(n)
+            }
+            Value::Cons(cons) => {
+                let copy = cons.clone();
+                self.put_back(Value::Cons(cons));
+                Value::Cons(copy)
+            }
+            other => {
+                self.put_back(other);
+                self.with(Value::clone_other)
+            }
+        }
+    }
+
+    /// Pushes a copy of the value onto a stack.
+    #[inline(always)]
+    pub(crate) fn push_copy(&self, stack: &mut Vec<Value>) {
+        match self.0.take() {
+            Value::Int(n) => {
+                self.put_back(Value::Int(n));
+                push_made(stack, || Value::Int(n));
+            }
+            Value::Cons(cons) => {
+                let copy = cons.clone();
+                self.put_back(Value::Cons(cons));
+                push_made(stack, || Value::Cons(copy));
+            }
+            Value::Symbol(sym, hold) if hold.is_none() => {
+                self.put_back(Value::symbol(sym));
+                push_made(stack, || Value::symbol(sym));
+            }
+            other => {
+                self.put_back(other);
+                self.push_other(stack);
+            }
+        }
+    }
+
+    #[inline(never)]
+    fn push_other(&self, stack: &mut Vec<Value>) {
+        stack.push(self.with(Value::clone_other));
+    }
+
+    /// Stores what was just taken. So what is replaced is "no value", which needs not be freed.
+    #[inline(always)]
+    fn put_back(&self, value: Value) {
         std::mem::forget(self.0.replace(value));
-        copy
     }
 
     /// Looks at the value without counting a reference. `look` must not touch this slot.
@@ -30,7 +76,7 @@ impl Slot {
     pub(crate) fn with<R>(&self, look: impl FnOnce(&Value) -> R) -> R {
         let value = self.0.take();
         let result = look(&value);
-        std::mem::forget(self.0.replace(value));
+        self.put_back(value);
         result
     }
 
