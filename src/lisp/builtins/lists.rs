@@ -149,7 +149,7 @@ impl PairCount {
 fn copy_tree(_: &mut Image, args: &[Value]) -> Outcome {
     let copy_of = |value: &Value, pending: &mut Vec<Rc<Cons>>| match value {
         Value::Cons(cons) => {
-            let copy = Rc::new(Cons::new(cons.car(), cons.cdr()));
+            let copy = Cons::shared(cons.car(), cons.cdr());
             pending.push(copy.clone());
             Value::Cons(copy)
         }

@@ -71,10 +71,14 @@ fn set_cxr<const PATH: u32>(_: &mut Image, args: &[Value]) -> Outcome {
 fn nth_cdr(count: usize, list: &Value) -> Outcome {
     let mut rest = list.clone();
     for _ in 0..count {
-        if rest.is_nil() {
-            break;
+        match &rest {
+            Value::Cons(cons) => {
+                let cons = cons.clone();
+                cons.copy_cdr_to(&mut rest);
+            }
+            Value::Symbol(known::NIL, ..) => break,
+            _ => rest = cdr_of(&rest)?,
         }
-        rest = cdr_of(&rest)?;
     }
     Ok(rest)
 }
@@ -151,7 +155,7 @@ fn last(_: &mut Image, args: &[Value]) -> Outcome {
     let mut lead = 0;
     let mut rounds = Rounds::default();
     while let Value::Cons(cons) = &front {
-        if rounds.is_closed_by(&front) {
+        if rounds.is_closed_by(cons) {
             return Err(sequence::circular(list));
         }
         let next = cons.cdr();

@@ -59,7 +59,7 @@ fn remove(plist: &Value, indicator: &Value) -> Result<(Value, bool), Box<Raise>>
     let mut rest = plist.clone();
     let mut rounds = Rounds::default();
     while let Value::Cons(cons) = &rest {
-        if rounds.is_closed_by(&rest) {
+        if rounds.is_closed_by(cons) {
             return Err(circular(plist));
         }
         let after = match cons.cdr() {

@@ -1,6 +1,7 @@
 //! Operations that compute a value from the topmost ones: pairs, tests, arithmetic.
 
 use crate::lisp::value::Value;
+use crate::lisp::value::cons::{self, Cons};
 use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
@@ -57,26 +58,32 @@ impl Machine<'_> {
     #[inline(always)]
     pub(super) fn drop_top(&mut self) {
         let stack = &mut self.fiber.stack;
-        if stack.last().is_some_and(Value::is_plain) {
-            std::mem::forget(stack.pop());
-        } else {
-            stack.truncate(stack.len().saturating_sub(1));
+        match stack.last_mut() {
+            Some(value) if value.is_plain() => std::mem::forget(stack.pop()),
+            Some(value @ Value::Cons(_)) => {
+                let pair = value.take_pair();
+                std::mem::forget(stack.pop());
+                pair.map(cons::release);
+            }
+            _ => stack.truncate(stack.len().saturating_sub(1)),
         }
     }
 
     /// Drops `count` values below the top.
     #[inline(always)]
     pub(super) fn slide(&mut self, count: u32) {
-        let top = self.pop();
-        self.drop_values(count);
-        self.fiber.stack.push(top);
+        let stack = &mut self.fiber.stack;
+        let height = stack.len() - count as usize;
+        if let ([.., place], [.., top]) = stack.split_at_mut(height) {
+            top.move_to(place);
+        }
+        self.cut_stack(height);
     }
 
     /// Pushes the top again.
     #[inline(always)]
     pub(super) fn duplicate(&mut self) {
-        let top = self.fiber.stack.last().cloned().unwrap_or_default();
-        self.fiber.stack.push(top);
+        self.local(self.fiber.stack.len() - 1);
     }
 
     /// Pops the values of a call and pushes exactly `count` of them.
@@ -100,21 +107,30 @@ impl Machine<'_> {
         }
     }
 
-    /// Replaces the two topmost values with the result of a function.
+    /// Replaces the two topmost values with a pair of them.
     #[inline(always)]
-    pub(super) fn join_top(&mut self, function: impl FnOnce(Value, Value) -> Value) {
-        let b = self.pop();
-        let a = self.pop();
-        self.fiber.stack.push(function(a, b));
+    pub(super) fn join_top(&mut self) {
+        let stack = &mut self.fiber.stack;
+        if let [.., car, cdr] = stack.as_mut_slice() {
+            let mut pair = Value::Cons(Cons::of_places(car, cdr));
+            pair.move_to(car);
+        }
+        self.drop_top();
     }
 
     /// Replaces the top with its car.
     #[inline(always)]
     pub(super) fn car(&mut self) -> Result<(), Box<Raise>> {
-        match self.pop() {
-            Value::Cons(cons) => cons.push_car(&mut self.fiber.stack),
-            Value::Symbol(known::NIL, ..) => self.push_nil(),
-            other => return Err(Raise::type_error(&other, known::LIST)),
+        match self.fiber.stack.last_mut() {
+            Some(value @ Value::Cons(_)) => {
+                if let Some(cons) = value.take_pair() {
+                    std::mem::forget(self.fiber.stack.pop());
+                    cons.push_car(&mut self.fiber.stack);
+                    cons::release(cons);
+                }
+            }
+            Some(Value::Symbol(known::NIL, ..)) => {}
+            _ => return Err(Raise::type_error(&self.pop(), known::LIST)),
         }
         Ok(())
     }
@@ -122,10 +138,16 @@ impl Machine<'_> {
     /// Replaces the top with its cdr.
     #[inline(always)]
     pub(super) fn cdr(&mut self) -> Result<(), Box<Raise>> {
-        match self.pop() {
-            Value::Cons(cons) => cons.push_cdr(&mut self.fiber.stack),
-            Value::Symbol(known::NIL, ..) => self.push_nil(),
-            other => return Err(Raise::type_error(&other, known::LIST)),
+        match self.fiber.stack.last_mut() {
+            Some(value @ Value::Cons(_)) => {
+                if let Some(cons) = value.take_pair() {
+                    std::mem::forget(self.fiber.stack.pop());
+                    cons.push_cdr(&mut self.fiber.stack);
+                    cons::release(cons);
+                }
+            }
+            Some(Value::Symbol(known::NIL, ..)) => {}
+            _ => return Err(Raise::type_error(&self.pop(), known::LIST)),
         }
         Ok(())
     }
@@ -175,42 +197,82 @@ impl Machine<'_> {
     }
 
     /// Replaces the top with what a path leads to from it.
-    pub(super) fn path(&mut self, mut path: u8) -> Result<(), Box<Raise>> {
-        let mut value = self.pop();
-        while path > 1 {
-            value = match path & 1 {
-                0 => car_of(&value)?,
-                _ => cdr_of(&value)?,
+    pub(super) fn path(&mut self, path: u8) -> Result<(), Box<Raise>> {
+        let value = self.pop();
+        self.push_path(value, path)
+    }
+
+    /// Pushes what a path leads to from a local.
+    pub(super) fn local_path(&mut self, at: usize, path: u8) -> Result<(), Box<Raise>> {
+        self.push_path(self.fiber.stack[at].clone(), path)
+    }
+
+    #[inline(always)]
+    fn push_path(&mut self, start: Value, mut path: u8) -> Result<(), Box<Raise>> {
+        let Value::Cons(mut pair) = start else {
+            return self.push_half_of_nil(&start);
+        };
+        // The halves before the last one have to be pairs.
+        while path > 0b11 {
+            let next = match path & 1 {
+                0 => pair.car_cons(),
+                _ => pair.cdr_cons(),
             };
+            let Some(next) = next else {
+                let end = match path & 1 {
+                    0 => pair.car(),
+                    _ => pair.cdr(),
+                };
+                return self.push_half_of_nil(&end);
+            };
+            pair = next;
             path >>= 1;
         }
-        self.fiber.stack.push(value);
+        match path & 1 {
+            0 => pair.push_car(&mut self.fiber.stack),
+            _ => pair.push_cdr(&mut self.fiber.stack),
+        }
+        Ok(())
+    }
+
+    /// Pushes `NIL`, which is half of `NIL`; what else is no pair has none.
+    fn push_half_of_nil(&mut self, value: &Value) -> Result<(), Box<Raise>> {
+        if !value.is_nil() {
+            return Err(Raise::type_error(value, known::LIST));
+        }
+        self.push_nil();
         Ok(())
     }
 
     /// `rplaca` of the two topmost values.
     pub(super) fn set_car(&mut self) -> Result<(), Box<Raise>> {
-        let value = self.pop();
-        let list = self.pop();
-        let Value::Cons(cons) = &list else {
-            return Err(Raise::type_error(&list, known::CONS));
-        };
-        cycles::note(cons, &value);
-        cons.set_car(value);
-        self.fiber.stack.push(list);
+        match self.fiber.stack.as_mut_slice() {
+            [.., Value::Cons(cons), value] => {
+                cycles::note(cons, value);
+                cons.exchange_car(value);
+                self.drop_top();
+            }
+            _ => {
+                self.drop_top();
+                return Err(Raise::type_error(&self.pop(), known::CONS));
+            }
+        }
         Ok(())
     }
 
     /// `rplacd` of the two topmost values.
     pub(super) fn set_cdr(&mut self) -> Result<(), Box<Raise>> {
-        let value = self.pop();
-        let list = self.pop();
-        let Value::Cons(cons) = &list else {
-            return Err(Raise::type_error(&list, known::CONS));
-        };
-        cycles::note(cons, &value);
-        cons.set_cdr(value);
-        self.fiber.stack.push(list);
+        match self.fiber.stack.as_mut_slice() {
+            [.., Value::Cons(cons), value] => {
+                cycles::note(cons, value);
+                cons.exchange_cdr(value);
+                self.drop_top();
+            }
+            _ => {
+                self.drop_top();
+                return Err(Raise::type_error(&self.pop(), known::CONS));
+            }
+        }
         Ok(())
     }
 
@@ -369,25 +431,5 @@ impl Machine<'_> {
         self.drop_top();
         self.drop_top();
         result
-    }
-}
-
-/// The car of a list.
-#[inline(always)]
-fn car_of(list: &Value) -> Result<Value, Box<Raise>> {
-    match list {
-        Value::Cons(cons) => Ok(cons.car()),
-        Value::Symbol(known::NIL, ..) => Ok(Value::NIL),
-        other => Err(Raise::type_error(other, known::LIST)),
-    }
-}
-
-/// The cdr of a list.
-#[inline(always)]
-fn cdr_of(list: &Value) -> Result<Value, Box<Raise>> {
-    match list {
-        Value::Cons(cons) => Ok(cons.cdr()),
-        Value::Symbol(known::NIL, ..) => Ok(Value::NIL),
-        other => Err(Raise::type_error(other, known::LIST)),
     }
 }

@@ -159,7 +159,7 @@ impl Machine<'_> {
                         if self.fiber.stack.last().is_some_and(Value::is_true) {
                             pc = target as usize;
                         } else {
-                            self.fiber.stack.pop();
+                            self.drop_top();
                         }
                     }
                     Op::JumpIfSupplied(i, target) => {
@@ -269,13 +269,10 @@ impl Machine<'_> {
                         check!(self.local_to_cdr(base + i as usize));
                         pc += 1;
                     }
-                    Op::LocalPath(i, path) => {
-                        self.local(base + i as usize);
-                        check!(self.path(path));
-                    }
+                    Op::LocalPath(i, path) => check!(self.local_path(base + i as usize, path)),
                     Op::SetCar => check!(self.set_car()),
                     Op::SetCdr => check!(self.set_cdr()),
-                    Op::Cons => self.join_top(Value::cons),
+                    Op::Cons => self.join_top(),
                     Op::Eq => {
                         let result = self.are_eq();
                         self.push_bool(result);
@@ -505,8 +502,9 @@ impl Machine<'_> {
     fn take_arguments_again(&mut self, base: usize, count: usize) {
         let stack = &mut self.fiber.stack;
         let start = stack.len() - count;
-        for i in 0..count {
-            stack.swap(base + i, start + i);
+        let (below, arguments) = stack.split_at_mut(start);
+        for (place, argument) in below[base..].iter_mut().zip(arguments) {
+            argument.move_to(place);
         }
         self.cut_stack(base + count);
     }

@@ -54,8 +54,10 @@ impl Machine<'_> {
     /// Pops into a local.
     #[inline(always)]
     pub(super) fn set_local(&mut self, at: usize) {
-        let value = self.pop();
-        self.fiber.stack[at] = value;
+        if let Some((top, below)) = self.fiber.stack.split_last_mut() {
+            top.move_to(&mut below[at]);
+        }
+        self.drop_top();
     }
 
     /// Pops into a local's box.

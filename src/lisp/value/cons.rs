@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::Value;
 use super::release;
 use super::slot::Slot;
+use super::spare;
 use crate::lisp::source::Place;
 
 /// A pair of two values, and where the reader found it.
@@ -24,6 +25,21 @@ impl Cons {
             cdr: Slot::new(cdr),
             place: Cell::new(Place::NONE),
         }
+    }
+
+    /// A pair that is shared, without a place in a source.
+    #[inline]
+    pub(crate) fn shared(mut car: Value, mut cdr: Value) -> Rc<Cons> {
+        Cons::of_places(&mut car, &mut cdr)
+    }
+
+    /// The same of values that are moved out of their places.
+    #[inline(always)]
+    pub(crate) fn of_places(car: &mut Value, cdr: &mut Value) -> Rc<Cons> {
+        let cons = spare::take();
+        cons.car.fill_from(car);
+        cons.cdr.fill_from(cdr);
+        cons
     }
 
     /// The first half.
@@ -63,7 +79,31 @@ impl Cons {
     /// Puts the second half into a place.
     #[inline(always)]
     pub(crate) fn copy_cdr_to(&self, place: &mut Value) {
-        self.cdr.with(|value| value.copy_to(place));
+        self.cdr.copy_to(place);
+    }
+
+    /// The first half, if it is a pair.
+    #[inline(always)]
+    pub(crate) fn car_cons(&self) -> Option<Rc<Cons>> {
+        self.car.get_cons()
+    }
+
+    /// The second half, if it is a pair.
+    #[inline(always)]
+    pub(crate) fn cdr_cons(&self) -> Option<Rc<Cons>> {
+        self.cdr.get_cons()
+    }
+
+    /// Exchanges the first half for the value in a place.
+    #[inline(always)]
+    pub(crate) fn exchange_car(&self, place: &mut Value) {
+        self.car.exchange(place);
+    }
+
+    /// Exchanges the second half for the value in a place.
+    #[inline(always)]
+    pub(crate) fn exchange_cdr(&self, place: &mut Value) {
+        self.cdr.exchange(place);
     }
 
     /// Replaces the first half.
@@ -105,10 +145,10 @@ impl Drop for Cons {
     /// Frees long lists and deep trees with a loop: one level of the Rust stack, whatever the
     /// structure's depth.
     fn drop(&mut self) {
-        let mut pending = Vec::new();
-        collect_unshared(self, &mut pending);
-        if !pending.is_empty() {
-            free(pending, AT_ONCE);
+        let mut pending = Pending::default();
+        pending.add_halves(self);
+        if pending.next.is_some() {
+            free_pending(pending, AT_ONCE);
         }
     }
 }
@@ -116,31 +156,75 @@ impl Drop for Cons {
 /// Pairs that are freed in one go; longer lists are freed in parts.
 const AT_ONCE: usize = 100_000;
 
+/// Drops a reference to a pair.
+#[inline(always)]
+pub(crate) fn release(cons: Rc<Cons>) {
+    if Rc::strong_count(&cons) == 1 {
+        release_last(cons);
+    }
+}
+
+#[inline(never)]
+fn release_last(cons: Rc<Cons>) {
+    let pending = Pending {
+        next: Some(cons),
+        others: Vec::new(),
+    };
+    free_pending(pending, AT_ONCE);
+}
+
 /// Frees pairs that nobody else holds, and what only they hold; the rest is put off after so
 /// many. Returns their number.
-pub(super) fn free(mut pending: Vec<Rc<Cons>>, most: usize) -> usize {
-    let mut count = 0;
-    while let Some(cons) = pending.pop() {
-        if let Ok(inner) = Rc::try_unwrap(cons) {
-            collect_unshared(&inner, &mut pending);
+pub(super) fn free(conses: Vec<Rc<Cons>>, most: usize) -> usize {
+    let pending = Pending {
+        next: None,
+        others: conses,
+    };
+    free_pending(pending, most)
+}
+
+/// Pairs that nobody else holds.
+#[derive(Default)]
+struct Pending {
+    next: Option<Rc<Cons>>,
+    others: Vec<Rc<Cons>>,
+}
+
+impl Pending {
+    /// Takes the halves out of a pair that is being freed.
+    #[inline(always)]
+    fn add_halves(&mut self, cons: &Cons) {
+        for half in [&cons.car, &cons.cdr] {
+            match half.take() {
+                Value::Cons(inner) if Rc::strong_count(&inner) == 1 => {
+                    if let Some(other) = self.next.replace(inner) {
+                        self.others.push(other);
+                    }
+                }
+                other => {
+                    if !other.is_plain() {
+                        drop(other);
+                    }
+                }
+            }
         }
+    }
+}
+
+fn free_pending(mut pending: Pending, most: usize) -> usize {
+    let mut count = 0;
+    while let Some(cons) = pending.next.take().or_else(|| pending.others.pop()) {
+        pending.add_halves(&cons);
+        spare::keep(cons);
         count += 1;
-        if count == most && !pending.is_empty() {
-            release::put_off(std::mem::take(&mut pending));
+        if count == most {
+            pending.others.extend(pending.next.take());
+            if !pending.others.is_empty() {
+                release::put_off(std::mem::take(&mut pending.others));
+            }
         }
     }
     count
-}
-
-fn collect_unshared(cons: &Cons, pending: &mut Vec<Rc<Cons>>) {
-    for slot in [&cons.car, &cons.cdr] {
-        if slot.with(|v| matches!(v, Value::Cons(_)))
-            && let Value::Cons(inner) = slot.take()
-            && Rc::strong_count(&inner) == 1
-        {
-            pending.push(inner);
-        }
-    }
 }
 
 #[cfg(test)]

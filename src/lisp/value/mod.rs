@@ -30,6 +30,7 @@ pub(crate) mod raise;
 pub(crate) mod release;
 pub(crate) mod sequence;
 pub(crate) mod slot;
+mod spare;
 pub(crate) mod stream;
 pub(crate) mod string;
 pub(crate) mod symbol;
@@ -146,7 +147,7 @@ impl Value {
     #[inline(always)]
     pub(crate) fn is_plain(&self) -> bool {
         match self {
-            Value::Int(_) => true,
+            Value::Int(_) | Value::Unbound => true,
             Value::Symbol(_, hold) => hold.is_none(),
             _ => false,
         }
@@ -195,7 +196,7 @@ impl Value {
     /// A fresh pair.
     #[inline]
     pub(crate) fn cons(car: Value, cdr: Value) -> Value {
-        Value::Cons(Rc::new(Cons::new(car, cdr)))
+        Value::Cons(Cons::shared(car, cdr))
     }
 
     /// A fresh list of the items.
@@ -389,7 +390,7 @@ impl Value {
 /// algorithm).
 pub(crate) struct Rounds {
     /// A pair visited before: the list is circular if it is met again.
-    mark: Option<Value>,
+    mark: Option<Rc<Cons>>,
     steps: usize,
     next_mark: usize,
     pace: Pace,
@@ -408,8 +409,13 @@ impl Default for Rounds {
 
 impl Rounds {
     /// Is the list circular? Must be called for each pair of the list in turn.
-    pub(crate) fn is_closed_by(&mut self, pair: &Value) -> bool {
-        if self.mark.as_ref().is_some_and(|mark| mark.is_eq(pair)) {
+    #[inline]
+    pub(crate) fn is_closed_by(&mut self, pair: &Rc<Cons>) -> bool {
+        if self
+            .mark
+            .as_ref()
+            .is_some_and(|mark| Rc::ptr_eq(mark, pair))
+        {
             return true;
         }
         self.pace.step();
@@ -434,15 +440,12 @@ impl Iterator for ListIter {
     type Item = Value;
 
     fn next(&mut self) -> Option<Value> {
-        let (car, cdr) = match &self.rest {
-            Value::Cons(c) => (c.car(), c.cdr()),
-            _ => return None,
-        };
-        if self.rounds.is_closed_by(&self.rest) {
+        let cons = self.rest.as_cons()?.clone();
+        if self.rounds.is_closed_by(&cons) {
             return None;
         }
-        self.rest = cdr;
-        Some(car)
+        cons.copy_cdr_to(&mut self.rest);
+        Some(cons.car())
     }
 }
 

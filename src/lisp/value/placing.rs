@@ -5,7 +5,10 @@
 //! load as a whole what it has just stored in parts waits until all of that has left for the cache,
 //! which takes longer than most operations. What is made once its place is there is only stored.
 
+use std::rc::Rc;
+
 use super::Value;
+use super::cons::{self, Cons};
 
 /// Pushes what a function makes once there is room for it.
 #[inline(always)]
@@ -32,13 +35,59 @@ impl Value {
         stack.push(self.clone_other());
     }
 
-    /// Puts a copy into a place.
+    /// Moves the value to another place, and leaves behind what needs not be freed.
     #[inline(always)]
-    pub(crate) fn copy_to(&self, place: &mut Value) {
+    pub(crate) fn move_to(&mut self, place: &mut Value) {
         match self {
-            Value::Cons(cons) => *place = Value::Cons(cons.clone()),
-            Value::Symbol(sym, hold) if hold.is_none() => *place = Value::symbol(*sym),
-            other => *place = other.clone_other(),
+            Value::Int(n) => place.become_plain(Value::Int(*n)),
+            Value::Symbol(sym, hold) if hold.is_none() => place.become_plain(Value::symbol(*sym)),
+            Value::Cons(_) => {
+                if let Some(cons) = self.take_pair() {
+                    place.become_cons(cons);
+                }
+            }
+            _ => self.move_other_to(place),
+        }
+    }
+
+    #[inline(never)]
+    fn move_other_to(&mut self, place: &mut Value) {
+        *place = std::mem::take(self);
+    }
+
+    /// Takes out the pair, if the value is one, and leaves "no value" behind; a value of another kind
+    /// must be one that needs not be freed.
+    #[inline(always)]
+    pub(crate) fn take_pair(&mut self) -> Option<Rc<Cons>> {
+        match std::mem::take(self) {
+            Value::Cons(cons) => Some(cons),
+            other => {
+                // Were it dropped, it would have to be put together in memory.
+                std::mem::forget(other);
+                None
+            }
+        }
+    }
+
+    /// Puts a value of which there is nothing to free into this place.
+    #[inline(always)]
+    fn become_plain(&mut self, value: Value) {
+        if self.is_plain() {
+            std::mem::forget(std::mem::replace(self, value));
+        } else {
+            *self = value;
+        }
+    }
+
+    /// Puts a pair into this place, where there is often one.
+    #[inline(always)]
+    pub(super) fn become_cons(&mut self, cons: Rc<Cons>) {
+        match self {
+            Value::Cons(old) => cons::release(std::mem::replace(old, cons)),
+            _ if self.is_plain() => {
+                std::mem::forget(std::mem::replace(self, Value::Cons(cons)));
+            }
+            _ => *self = Value::Cons(cons),
         }
     }
 }

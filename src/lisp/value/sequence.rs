@@ -432,10 +432,10 @@ impl ListWalk {
             Value::Symbol(known::NIL, ..) => return Ok(None),
             other => return Err(Raise::type_error(other, known::LIST)),
         };
-        if self.rounds.is_closed_by(&self.rest) {
+        if self.rounds.is_closed_by(&cons) {
             return Err(circular(&self.rest));
         }
-        self.rest = cons.cdr();
+        cons.copy_cdr_to(&mut self.rest);
         Ok(Some(cons))
     }
 
@@ -507,7 +507,7 @@ impl ListBuilder {
 
     /// Adds an element at the end.
     pub(crate) fn push(&mut self, item: Value) {
-        let cons = Rc::new(Cons::new(item, Value::NIL));
+        let cons = Cons::shared(item, Value::NIL);
         match self.last.replace(cons.clone()) {
             Some(last) => last.set_cdr(Value::Cons(cons)),
             None => self.head = Some(Value::Cons(cons)),
@@ -534,14 +534,15 @@ impl ListBuilder {
 /// The last pair of a list that may be dotted.
 pub(crate) fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
     let mut rounds = Rounds::default();
-    let mut rest = list.clone();
-    let mut last = None;
-    while let Value::Cons(cons) = rest {
-        rest = cons.cdr();
-        if rounds.is_closed_by(&rest) {
+    let Value::Cons(first) = list else {
+        return Ok(None);
+    };
+    let mut last = first.clone();
+    while let Some(next) = last.cdr_cons() {
+        if rounds.is_closed_by(&next) {
             return Err(circular(list));
         }
-        last = Some(cons);
+        last = next;
     }
-    Ok(last)
+    Ok(Some(last))
 }
