@@ -49,19 +49,6 @@ pub(crate) static TABLE: &[Builtin] = &[
 /// Builtins of package `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     control(
-        "THROW-VALUES",
-        "tag &rest values",
-        "Leaves the innermost CATCH of the tag with the values.",
-        &["(catch 'x (system:throw-values 'x 1 2)) => 1 ; 2"],
-        |m, mut args| match args.as_slice() {
-            [tag, value] => m.throw(tag, value.clone()),
-            _ => {
-                let tag = args.remove(0);
-                m.throw(&tag, Value::values(args))
-            }
-        },
-    ),
-    control(
         "CASE-FAILED",
         "key operator wanted",
         "The error of ECASE and its kin.",

@@ -119,6 +119,8 @@ pub(crate) enum Node {
     /// A jump by unwinding.
     DynamicGo(Rc<Tagbody>, usize),
     Catch(Box<Node>, Box<Node>),
+    /// An exit to a catch, with values.
+    Throw(Box<Node>, Box<Node>, Place),
     UnwindProtect(Box<Node>, Box<Node>),
     MultipleValueCall(Box<Node>, Vec<Node>, Place),
     /// `multiple-value-prog1`; the flag distinguishes it from `prog1`, which returns one value.

@@ -134,6 +134,12 @@ pub(crate) static SPECIAL_FORMS: &[Operator] = &[
         &["(catch 'x (throw 'x 1) 2) => 1"],
     ),
     special(
+        "THROW",
+        "tag form",
+        "Leaves the innermost CATCH of the tag with the values of the form.",
+        &["(catch 'x (throw 'x 1)) => 1"],
+    ),
+    special(
         "UNWIND-PROTECT",
         "form &rest cleanup",
         "Evaluates the cleanup forms however the form is left.",

@@ -35,6 +35,7 @@ pub(super) fn lookup(name: Sym) -> Option<SpecialForm> {
         known::TAGBODY => tagbody,
         known::GO => go,
         known::CATCH => catch,
+        known::THROW => throw,
         known::UNWIND_PROTECT => unwind_protect,
         known::MULTIPLE_VALUE_CALL => multiple_value_call,
         known::MULTIPLE_VALUE_PROG1 => |c, rest, scope| prog1(c, rest, scope, true),
@@ -352,6 +353,12 @@ fn catch(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
         c.analyze_progn(&rest.cdr_or_nil(), scope)
     })?;
     Ok(Node::Catch(Box::new(tag), Box::new(body)))
+}
+
+fn throw(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
+    let tag = c.analyze(&rest.car_or_nil(), scope)?;
+    let value = c.analyze(&rest.cdr_or_nil().car_or_nil(), scope)?;
+    Ok(Node::Throw(Box::new(tag), Box::new(value), c.place))
 }
 
 fn unwind_protect(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {

@@ -32,10 +32,10 @@ enum Called {
 impl Machine<'_> {
     /// `budget`: how many calls and jumps backwards there may be before the next pause.
     pub(super) fn run_code(&mut self, budget: &mut u32) -> Next {
+        if self.image.output.is_due() {
+            return Next::Stop(Event::Output);
+        }
         loop {
-            if self.image.output.is_due() {
-                return Next::Stop(Event::Output);
-            }
             // Registers of the topmost frame.
             let Some(frame) = self.fiber.frames.last() else {
                 return Next::Run;
@@ -333,6 +333,21 @@ impl Machine<'_> {
                         self.save_pc(pc);
                         leave!(self.return_from(&id, value));
                     }
+                    Op::Throw => {
+                        let value = self.pop();
+                        let tag = self.pop();
+                        self.save_pc(pc);
+                        let next = match self.catch_of(&tag) {
+                            Ok(target) => self.unwind(target, value),
+                            Err(raise) => self.raise(raise),
+                        };
+                        // As after a jump through closures.
+                        *budget -= 1;
+                        if *budget == 0 {
+                            return self.or_interrupt(next, budget);
+                        }
+                        leave!(next);
+                    }
                     Op::Go(tag) => {
                         let id = self.pop();
                         self.save_pc(pc);
@@ -449,7 +464,7 @@ impl Machine<'_> {
     ) -> Called {
         *budget -= 1;
         match self.call_on_stack(called, count, cut, multi) {
-            Next::Run if *budget > 0 => Called::Frame,
+            Next::Run if *budget > 0 && !self.image.output.is_due() => Called::Frame,
             next => Called::Elsewhere(self.or_interrupt(next, budget)),
         }
     }
@@ -526,17 +541,21 @@ impl Machine<'_> {
     /// Returns the top value from the topmost frame.
     #[inline(always)]
     fn return_value(&mut self) -> Next {
-        let Some(&Frame {
-            cut,
-            dynamic,
-            multi,
-            ..
-        }) = self.fiber.frames.last()
-        else {
-            return Next::Deliver(self.pop());
+        let (function, cut, dynamic, multi) = match self.fiber.frames.pop() {
+            Some(Frame {
+                kind: FrameKind::Code { function, .. },
+                cut,
+                dynamic,
+                multi,
+                ..
+            }) => (function, cut, dynamic, multi),
+            // Not reached, since a function runs only in a frame of code.
+            other => {
+                std::mem::forget(other);
+                return Next::Deliver(self.pop());
+            }
         };
-        // Dropped in its place: it need not be moved out first.
-        self.fiber.frames.truncate(self.fiber.frames.len() - 1);
+        drop(function);
         if self.fiber.dynamic.len() > dynamic {
             self.drop_dynamic(dynamic);
         }
@@ -548,15 +567,23 @@ impl Machine<'_> {
             })
         );
         // The most frequent values are not moved but made again in their new place.
-        match self.fiber.stack.last() {
-            Some(&Value::Int(n)) if to_code => {
+        match self.fiber.stack.last_mut() {
+            Some(&mut Value::Int(n)) if to_code => {
                 self.cut_stack(cut);
                 self.push_int(n);
                 return Next::Run;
             }
-            Some(&Value::Symbol(sym, ref hold)) if to_code && hold.is_none() => {
+            Some(&mut Value::Symbol(sym, ref hold)) if to_code && hold.is_none() => {
                 self.cut_stack(cut);
                 push_made(&mut self.fiber.stack, || Value::symbol(sym));
+                return Next::Run;
+            }
+            Some(value @ Value::Cons(_)) if to_code => {
+                let pair = value.take_pair();
+                self.cut_stack(cut);
+                if let Some(pair) = pair {
+                    push_made(&mut self.fiber.stack, || Value::Cons(pair));
+                }
                 return Next::Run;
             }
             _ => {}

@@ -33,20 +33,23 @@ impl Machine<'_> {
 
     /// `throw`: the step that leaves the innermost catch with this tag, with a value.
     pub(crate) fn throw(&mut self, tag: &Value, value: Value) -> Result<Step, Box<Raise>> {
+        let target = self.catch_of(tag)?;
+        Ok(Step::Unwind(target, value))
+    }
+
+    /// The innermost catch with this tag.
+    pub(super) fn catch_of(&self, tag: &Value) -> Result<Target, Box<Raise>> {
         let found = self
             .fiber
             .dynamic
             .iter()
             .rposition(|d| matches!(d, Dynamic::Catch { tag: other, .. } if other.is_eq(tag)));
-        match found {
-            Some(i) => Ok(Step::Unwind(Target::Exit(i), value)),
-            None => {
-                let shown = print::to_string(self.image, tag, true);
-                Err(Raise::control(format!(
-                    "attempt to THROW to a tag that does not exist: {shown}"
-                )))
-            }
-        }
+        found.map(Target::Exit).ok_or_else(|| {
+            let shown = print::to_string(self.image, tag, true);
+            Raise::control(format!(
+                "attempt to THROW to a tag that does not exist: {shown}"
+            ))
+        })
     }
 
     /// Leaves everything inside the target, running cleanup code on the way.
@@ -180,8 +183,11 @@ impl Machine<'_> {
 
     /// Drops the innermost frames, down to so many, because of a condition, if there is one.
     fn cut(&mut self, count: usize, cause: Option<&Value>) {
+        let Some(cause) = cause else {
+            return self.fiber.cut_frames(count);
+        };
         let leaving = self.image.leaving();
-        leaving.set(cause.cloned());
+        leaving.set(Some(cause.clone()));
         self.fiber.cut_frames(count);
         leaving.set(None);
     }

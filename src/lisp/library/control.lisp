@@ -20,12 +20,6 @@
       (car forms)
       (cons 'progn forms)))
 
-(defmacro throw (tag form)
-  "Leaves the innermost CATCH of the tag with the values of the form.
-  Examples:
-  (catch 'x (throw 'x 1)) => 1"
-  `(multiple-value-call #'throw-values (values ,tag) ,form))
-
 (defmacro return (&optional value)
   "Leaves the block NIL: the innermost loop.
   Examples:

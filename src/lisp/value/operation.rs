@@ -220,6 +220,8 @@ pub(crate) enum Op {
         /// Does the catch want all values?
         multi: bool,
     },
+    /// Pop values and a tag, and leave the innermost catch of the tag with the values.
+    Throw,
     /// Protect what follows: on any exit, run the code at the target.
     EnterUnwind(u32),
     /// Leave the protected form normally: its value is on top.
@@ -242,5 +244,29 @@ impl Op {
                 | Op::JumpIfCompareLocals { .. }
                 | Op::JumpIfCompareLocalInt { .. }
         )
+    }
+
+    /// Where execution may continue instead of at the next operation, if the operation says that.
+    pub(crate) fn target_mut(&mut self) -> Option<&mut u32> {
+        match self {
+            Op::Jump(target)
+            | Op::JumpIfNil(target)
+            | Op::JumpIfTrue(target)
+            | Op::JumpIfTrueOrPop(target)
+            | Op::JumpIfSupplied(_, target)
+            | Op::JumpIfLocal { target, .. }
+            | Op::JumpIfConsp { target, .. }
+            | Op::JumpIfLocalConsp { target, .. }
+            | Op::JumpIfEq { target, .. }
+            | Op::JumpIfEqConst { target, .. }
+            | Op::JumpIfCompare { target, .. }
+            | Op::JumpIfCompareInt { target, .. }
+            | Op::JumpIfCompareLocals { target, .. }
+            | Op::JumpIfCompareLocalInt { target, .. }
+            | Op::EnterUnwind(target)
+            | Op::EnterBlock { target, .. }
+            | Op::EnterCatch { target, .. } => Some(target),
+            _ => None,
+        }
     }
 }

@@ -6,6 +6,7 @@
 mod branches;
 mod calls;
 mod exits;
+mod jumps;
 mod tail_calls;
 mod variables;
 
@@ -84,6 +85,7 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
     emitter.emit_prologue(lambda)?;
     emitter.emit(&lambda.body, Want::All)?;
     emitter.op(Op::Return);
+    jumps::shorten(&mut emitter.ops);
     // Special parameters are bound as long as the frame is there.
     if emitter.dynamic == 0 {
         let name = lambda.name.as_symbol();
@@ -139,28 +141,9 @@ impl Emitter<'_> {
     }
 
     fn patch(&mut self, at: usize) {
-        let target = self.here();
-        if let Some(
-            Op::Jump(t)
-            | Op::JumpIfNil(t)
-            | Op::JumpIfTrue(t)
-            | Op::JumpIfTrueOrPop(t)
-            | Op::JumpIfLocal { target: t, .. }
-            | Op::JumpIfConsp { target: t, .. }
-            | Op::JumpIfLocalConsp { target: t, .. }
-            | Op::JumpIfEq { target: t, .. }
-            | Op::JumpIfEqConst { target: t, .. }
-            | Op::JumpIfCompare { target: t, .. }
-            | Op::JumpIfCompareInt { target: t, .. }
-            | Op::JumpIfCompareLocals { target: t, .. }
-            | Op::JumpIfCompareLocalInt { target: t, .. }
-            | Op::JumpIfSupplied(_, t)
-            | Op::EnterUnwind(t)
-            | Op::EnterBlock { target: t, .. }
-            | Op::EnterCatch { target: t, .. },
-        ) = self.ops.get_mut(at)
-        {
-            *t = target;
+        let here = self.here();
+        if let Some(target) = self.ops.get_mut(at).and_then(Op::target_mut) {
+            *target = here;
         }
     }
 
@@ -268,6 +251,15 @@ impl Emitter<'_> {
                 self.patch(enter);
                 self.emit(cleanup, Want::Effect)?;
                 self.op(Op::EndCleanup);
+                self.height -= 1;
+                self.discard_unless(want);
+            }
+            Node::Throw(tag, value, place) => {
+                self.emit(tag, Want::One)?;
+                self.emit(value, Want::All)?;
+                self.at(*place);
+                self.op(Op::Throw);
+                // Where execution continues with a value in place of an exit that there is not.
                 self.height -= 1;
                 self.discard_unless(want);
             }
