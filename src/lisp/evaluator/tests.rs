@@ -326,3 +326,147 @@ fn elements_of_every_kind_of_vector_are_read_and_set() {
         assert!(evaluate(form).starts_with("!!"), "{form}");
     }
 }
+
+#[test]
+fn throw_leaves_the_innermost_catch_of_its_tag_with_all_values() {
+    for (form, expected) in [
+        ("(catch 'x (list 1 (throw 'x (values 2 3))))", "2 ; 3"),
+        ("(list (catch 'x (throw 'x (values 2 3))))", "(2)"),
+        ("(list (catch 'x (throw 'x (values))))", "(NIL)"),
+        ("(catch 'x (catch 'y (throw 'x 1)) 2)", "1"),
+        ("(catch 'x (catch 'x (throw 'x 1)) 2)", "2"),
+        (
+            "(let ((tag 'x)) (catch 'y (catch tag (throw (prog1 'y (setq tag 'z)) tag))))",
+            "Z",
+        ),
+        (
+            "(let ((l nil)) (catch 'x (unwind-protect (throw 'x (push 1 l)) (push 2 l))) l)",
+            "(2 1)",
+        ),
+        ("(catch 'x (throw 'x (throw 'x 1)))", "1"),
+        ("(special-operator-p 'throw)", "T"),
+        (
+            "(throw 'nowhere 1)",
+            "!! attempt to THROW to a tag that does not exist: NOWHERE",
+        ),
+    ] {
+        assert_eq!(evaluate(form), expected, "{form}");
+    }
+}
+
+/// A value of every kind, and of every form in which one is stored.
+const VALUES: &str = "(list nil t 'a 7 -1 (expt 2 70) 1/3 1.5 2.5d0 #c(1 2) #\\x \"text\" (gensym)
+    (list 1 2) (cons 1 2) (vector 1 2) (make-array '(2 2)) #'car (lambda (x) x) (make-hash-table)
+    (find-class 'integer) *package* *standard-output* (make-condition 'error))";
+
+#[test]
+fn values_of_every_kind_stay_what_they_are_wherever_they_are_moved() {
+    let moves = [
+        "(defun f (x) x)",
+        "(defun f (x) (let ((y x)) (setq x nil) y))",
+        "(defun f (x) (let* ((a 1) (b x)) (setq a b) (setq b a) a))",
+        "(defun f (x) (car (cons x nil)))",
+        "(defun f (x) (cdr (cons nil x)))",
+        "(defun f (x) (let ((c (cons 1 2))) (rplaca c x) (rplaca c (car c)) (car c)))",
+        "(defun f (x) (let ((c (cons (list 1) (list 2)))) (rplacd c x) (cdr c)))",
+        "(defun f (x) (let ((c (list 1 x 2))) (cadr c)))",
+        "(defun f (x) (let ((c (list (list 1 x)))) (cadr (car c))))",
+        "(defun f (x &optional (n 3)) (if (= n 0) x (f x (- n 1))))",
+        "(defun f (x) (g x nil 3)) (defun g (x y n) (if (= n 0) (or y x) (g (or y x) (or x y) (- n 1))))",
+        "(defun f (x) (funcall (lambda () x)))",
+        "(defun f (x) (let ((y 1)) (funcall (lambda () (setq y x))) y))",
+        "(defun f (x) (catch 'f (throw 'f x)))",
+        "(defun f (x) (block nil (funcall (lambda () (return x)))))",
+        "(defvar *s* 0) (defun f (x) (let ((*s* x)) (h))) (defun h () *s*)",
+        "(defun f (x) (aref (vector x) 0))",
+        "(defun f (x) (let ((v (vector 1))) (setf (aref v 0) x)))",
+        "(defun f (x) (do ((l (list 1 2 x) (cdr l))) ((null (cdr l)) (car l))))",
+        "(defun f (x) (values (multiple-value-prog1 (values x 2) 3)))",
+        "(defun f (x) (car (last (append (list 1) (list x)))))",
+    ];
+    for definitions in moves {
+        let form = format!("{definitions} (loop for x in {VALUES} always (eql x (f x)))");
+        assert_eq!(evaluate(&form), "T", "{definitions}");
+    }
+}
+
+#[test]
+fn pairs_that_are_used_again_are_new_pairs() {
+    let form = "(let ((kept (list 1 2 3)))
+        (dotimes (i 1000) (let ((l (list i i i))) (rplacd (cddr l) l)))
+        (dotimes (i 1000) (make-list 20))
+        (let ((new (loop repeat 50 collect (list 'a 'b))))
+          (list kept (remove-duplicates new :test #'equal) (eq (first new) (second new)))))";
+    assert_eq!(evaluate(form), "((1 2 3) ((A B)) NIL)");
+}
+
+/// Evaluates a form, interrupted at one of its polls and continued; and the number of its polls. There
+/// is no value if it was interrupted within a builtin, such as the compiler.
+fn evaluate_interrupted(text: &str, at: Option<u64>) -> (Option<String>, u64) {
+    let mut image = Image::new();
+    let source = image.sources.add("test", text);
+    let forms = reader::read_all(&mut image, source).unwrap_or_else(|e| panic!("{e}"));
+    let form = forms
+        .into_iter()
+        .next()
+        .map_or(Value::NIL, |(form, _)| form);
+    image.limits.polls.begin(at);
+    let mut fiber = Fiber::default();
+    let mut machine = Machine::new(&mut image, &mut fiber);
+    let mut event = machine.start(known::EVAL.into(), vec![form]);
+    loop {
+        match event {
+            Event::Interrupted => {
+                // What stands still can be looked at.
+                assert!(!machine.calls().is_empty());
+                event = machine.run();
+            }
+            Event::Done(value) => {
+                let polls = machine.image.limits.polls.count();
+                return (Some(print::to_string(&image, &value, true)), polls);
+            }
+            Event::Unhandled(condition) => {
+                assert_eq!(print::to_string(&image, &condition, false), "Interrupted.");
+                return (None, 0);
+            }
+            _ => panic!("{text} has stopped"),
+        }
+    }
+}
+
+#[test]
+fn code_that_is_interrupted_at_any_poll_goes_on_as_if_it_had_not_been() {
+    for form in [
+        "(labels ((tak (x y z) (if (< y x) (tak (tak (1- x) y z) (tak (1- y) z x) (tak (1- z) x y)) z)))
+           (tak 12 8 4))",
+        "(progn
+           (defun ctak (x y z)
+             (if (< y x)
+                 (ctak (catch 'v (ctak (1- x) y z)) (catch 'v (ctak (1- y) z x))
+                       (catch 'v (ctak (1- z) x y)))
+                 (throw 'v z)))
+           (catch 'v (ctak 12 8 4)))",
+        "(let ((l nil) (sum 0))
+           (dotimes (i 300) (push i l))
+           (dotimes (i 10)
+             (do ((rest l (cdr rest))) ((null rest)) (rplaca rest (+ (car rest) i)))
+             (setq l (nreverse l))
+             (dolist (x l) (setq sum (+ sum x))))
+           (list sum (length l) (car l)))",
+        "(progn
+           (defvar *depth* 0)
+           (defun down (n) (let ((*depth* (1+ *depth*))) (if (= n 0) *depth* (+ (down (- n 1)) (down (- n 1))))))
+           (list (down 11) *depth*))",
+    ] {
+        let (expected, polls) = evaluate_interrupted(form, None);
+        let mut continued = 0;
+        for at in 1..=polls {
+            let (value, _) = evaluate_interrupted(form, Some(at));
+            if value.is_some() {
+                assert_eq!(value, expected, "{form} at {at}");
+                continued += 1;
+            }
+        }
+        assert!(continued > 3, "{form}");
+    }
+}
