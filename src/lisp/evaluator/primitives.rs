@@ -63,7 +63,9 @@ impl Machine<'_> {
             Some(value @ Value::Cons(_)) => {
                 let pair = value.take_pair();
                 std::mem::forget(stack.pop());
-                pair.map(cons::release);
+                if let Some(pair) = pair {
+                    cons::release(pair);
+                }
             }
             _ => stack.truncate(stack.len().saturating_sub(1)),
         }
