@@ -86,6 +86,8 @@ fn define_variables(image: &mut Image) {
             known::V_PRINT_PPRINT_DISPATCH,
             Value::Hash(Rc::new(HashTable::new(HashTest::Equal))),
         ),
+        (known::V_DEBUGGER_HOOK, Value::NIL),
+        (known::V_READ_SUPPRESS, Value::NIL),
         (known::V_PRINT_DEPTH, Value::Int(0)),
         (known::V_READ_BASE, Value::Int(10)),
         (

@@ -62,12 +62,9 @@ fn mistakes_in_method_combinations_are_errors() {
             ":REFUSED",
         ),
         (
-            "(define-method-combination with-options (a) ((primary ())) a)",
-            "!! The method combination WITH-OPTIONS has parameters; only those without are supported.",
-        ),
-        (
-            "(defgeneric drop (x) (:method-combination picky 1))",
-            "!! The method combination PICKY takes no options.",
+            "(defgeneric drop (x) (:method-combination picky 1) (:method (x) x))
+             (handler-case (drop 1) (error () :refused))",
+            ":REFUSED",
         ),
     ]);
 }
@@ -94,5 +91,39 @@ fn base_strings_are_strings() {
     check(&[
         ("(typep \"abc\" 'simple-base-string)", "T"),
         ("(coerce '(#\\a #\\b) 'base-string)", "\"ab\""),
+    ]);
+}
+
+#[test]
+fn combinations_have_parameters_and_see_arguments() {
+    check(&[
+        (
+            "(define-method-combination announced (label &optional (order :most-specific-first))
+               ((all () :order order))
+               (:arguments item &optional (count 1 counted))
+               (:generic-function function)
+               `(list ,label ,item ,count ,counted ',(functionp function)
+                      ,@(mapcar (lambda (m) `(call-method ,m)) all)))",
+            "ANNOUNCED",
+        ),
+        (
+            "(defgeneric pour (x &optional y z) (:method-combination announced \"pouring\")
+               (:method ((x integer) &optional y z) (list :integer x y z))
+               (:method ((x number) &optional y z) (declare (ignore y z)) :number))
+             (list (pour 1) (pour 1 5))",
+            "((\"pouring\" 1 1 NIL T (:INTEGER 1 NIL NIL) :NUMBER) (\"pouring\" 1 5 T T (:INTEGER 1 5 NIL) :NUMBER))",
+        ),
+        (
+            "(defgeneric serve (x) (:method-combination announced :serving :most-specific-last)
+               (:method ((x integer)) :integer)
+               (:method ((x number)) :number))
+             (serve 2)",
+            "(:SERVING 2 1 NIL T :NUMBER :INTEGER)",
+        ),
+        (
+            "(define-method-combination announced (label) ((all ())) `(list ,label ,(length all)))
+             (list (pour 1) (handler-case (serve 2) (error () :refused)))",
+            "((\"pouring\" 2) :REFUSED)",
+        ),
     ]);
 }

@@ -123,3 +123,33 @@ fn mistakes_in_what_is_printed_prettily_are_errors() {
         ),
     ]);
 }
+
+#[test]
+fn types_that_a_call_decides_are_found_in_the_dispatch_table() {
+    check(&[
+        (
+            "(let ((*print-pprint-dispatch* (copy-pprint-dispatch nil)) (*print-pretty* t))
+               (set-pprint-dispatch '(and integer (satisfies evenp)) (lambda (stream n) (declare (ignore n)) (write-string \"even\" stream)))
+               (prin1-to-string '(1 2 (3 4) #(5 6))))",
+            "\"(1 even (3 even) #(5 even))\"",
+        ),
+    ]);
+}
+
+#[test]
+fn each_dimension_of_an_array_is_a_level() {
+    check(&[
+        (
+            "(let ((*print-level* 2)) (prin1-to-string (make-array '(2 2 2) :initial-element 0)))",
+            "\"#3A((# #) (# #))\"",
+        ),
+        (
+            "(let ((*print-level* 0)) (prin1-to-string (make-array '(1 1) :initial-element 0)))",
+            "\"#2A#\"",
+        ),
+        (
+            "(let ((*print-level* 2)) (prin1-to-string (make-array '(1 1) :initial-element '(1))))",
+            "\"#2A((#))\"",
+        ),
+    ]);
+}

@@ -98,7 +98,7 @@ fn names_are_completed_and_explained() {
         ),
         (
             "(swank:fuzzy-completions \"mvbin\" \"CL-USER\" :limit 1 :time-limit-in-msec 1500)",
-            "(:ok (((\"multiple-value-bind\" \"3.51\" ((0 \"m\") (9 \"v\") (15 \"bin\")) \"-f----s-\")) nil))",
+            "(:ok (((\"multiple-value-bind\" \"3.51\" ((0 \"m\") (9 \"v\") (15 \"bin\")) \"-f---m--\")) nil))",
         ),
         (
             "(swank:documentation-symbol \"add\")",
@@ -140,7 +140,7 @@ fn names_are_completed_and_explained() {
     assert!(described.contains("Adds two numbers."), "{described}");
     let apropos = client.call("(swank:apropos-list-for-emacs \"multiple-value-b\" t nil nil)");
     assert!(
-        apropos.contains(":designator \"CL:MULTIPLE-VALUE-BIND\" :special-operator"),
+        apropos.contains(":designator \"CL:MULTIPLE-VALUE-BIND\" :macro"),
         "{apropos}"
     );
 }
@@ -154,7 +154,7 @@ fn later_versions_are_told_completions_otherwise() {
     let mut client = served.client();
     assert_eq!(
         client.call("(swank:completions \"multiple-value-b\" '\"CL-USER\")"),
-        "(:ok ((\"multiple-value-bind\" \"-f----s--\" \"CL:MULTIPLE-VALUE-BIND\")))"
+        "(:ok ((\"multiple-value-bind\" \"-f---m---\" \"CL:MULTIPLE-VALUE-BIND\")))"
     );
 }
 

@@ -27,6 +27,7 @@ pub(super) fn compose<Text: 'static>(
 ) -> Result<Step, Box<Raise>> {
     let mut texts = print::Calls::with_texts([], has_type);
     let text = compose(machine.image, &mut texts)?;
+    texts.readable()?;
     let mut needed = texts.into_needed();
     if needed.is_empty() {
         return finish(machine, text);
@@ -42,6 +43,7 @@ pub(super) fn compose<Text: 'static>(
             let composed = calls.with(move |machine| {
                 let mut texts = print::Calls::with_texts(known, has_type);
                 let text = compose(machine.image, &mut texts)?;
+                texts.readable()?;
                 Ok::<_, Box<Raise>>((text, texts.into_needed()))
             });
             let text;
@@ -54,9 +56,12 @@ pub(super) fn compose<Text: 'static>(
     })
 }
 
-/// Is the value of the type? What would need a call to decide, or is no type, does not match.
-pub(super) fn has_type(image: &Image, value: &Value, specifier: &Value) -> bool {
-    matches!(typep(image, value, specifier), Ok(TypeCheck::Yes))
+/// Is the value of the type? What is no type does not match; none if a call decides.
+fn has_type(image: &Image, value: &Value, specifier: &Value) -> Option<bool> {
+    match typep(image, value, specifier) {
+        Ok(TypeCheck::NeedsCall) => None,
+        answer => Some(matches!(answer, Ok(TypeCheck::Yes))),
+    }
 }
 
 /// Makes a call; returns the text that it writes.

@@ -302,7 +302,9 @@ fn special_operator_p(image: &mut Image, args: &[Value]) -> Result<Value> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
     };
-    let is_special = image.operator(name).is_some_and(|o| o.expand.is_none());
+    // A declaration is no form.
+    let is_special =
+        name != known::DECLARE && image.operator(name).is_some_and(|o| o.expand.is_none());
     Ok(is_special.into())
 }
 
@@ -310,6 +312,12 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
     let Some(name) = args[0].as_symbol() else {
         return Err(Raise::type_error(&args[0], known::SYMBOL));
     };
+    if let Some(local) = args
+        .get(1)
+        .and_then(|scope| compile::local_macro(scope, name))
+    {
+        return Ok(local);
+    }
     Ok(match &image.symbol(name).function {
         FunctionCell::Macro(f) => Value::Function(f.clone()),
         FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {

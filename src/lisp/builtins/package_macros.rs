@@ -1,7 +1,10 @@
 //! What `defpackage`, `do-symbols` and related macros call.
 
 use super::package_symbols::{import_one, shadow_one};
-use super::packages::{accessible, designated, make, one_or_more, package_error, status, use_one};
+use super::packages::{
+    accessible, delete_package, designated, make, make_package, one_or_more, package_error, status,
+    use_one,
+};
 use super::shown::shown;
 use super::strings;
 use crate::lisp::builtin::{Builtin, pure};
@@ -247,6 +250,20 @@ fn package_iterator(image: &mut Image, args: &[Value]) -> Outcome {
 
 /// What the expansions call; in `SYSTEM`.
 pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "%MAKE-PACKAGE",
+        "name &key nicknames use",
+        "A new package.",
+        &["(package-name (system::%make-package :made-below)) => \"MADE-BELOW\""],
+        make_package,
+    ),
+    pure(
+        "%DELETE-PACKAGE",
+        "package",
+        "Deletes a package.",
+        &["(progn (make-package :short) (system::%delete-package :short)) => T"],
+        delete_package,
+    ),
     pure(
         "%DEFINE-PACKAGE",
         "name options",

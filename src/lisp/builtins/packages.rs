@@ -193,7 +193,7 @@ pub(crate) fn make(
     })
 }
 
-fn make_package(image: &mut Image, args: &[Value]) -> Outcome {
+pub(super) fn make_package(image: &mut Image, args: &[Value]) -> Outcome {
     let [nicknames, used, _] = keywords::parse(
         image,
         &args[1..],
@@ -230,7 +230,7 @@ fn rename_package(image: &mut Image, args: &[Value]) -> Outcome {
     }
 }
 
-fn delete_package(image: &mut Image, args: &[Value]) -> Outcome {
+pub(super) fn delete_package(image: &mut Image, args: &[Value]) -> Outcome {
     if let Value::Package(id) = &args[0]
         && image.packages.is_deleted(*id)
     {
@@ -382,13 +382,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         find_all_symbols,
     ),
     pure(
-        "MAKE-PACKAGE",
-        "name &key nicknames use",
-        "A new package.",
-        &["(package-name (make-package :made-as-example)) => \"MADE-AS-EXAMPLE\""],
-        make_package,
-    ),
-    pure(
         "RENAME-PACKAGE",
         "package name &optional nicknames",
         "Gives a package another name.",
@@ -396,13 +389,6 @@ pub(crate) static TABLE: &[Builtin] = &[
             "(progn (make-package :old-name) (package-name (rename-package :old-name :new-name))) => \"NEW-NAME\"",
         ],
         rename_package,
-    ),
-    pure(
-        "DELETE-PACKAGE",
-        "package",
-        "Deletes a package.",
-        &["(progn (make-package :short-lived) (delete-package :short-lived)) => T"],
-        delete_package,
     ),
     pure(
         "USE-PACKAGE",

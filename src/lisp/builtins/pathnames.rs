@@ -21,6 +21,7 @@ fn parse(_: &mut Image, args: &[Value]) -> Outcome {
 
 fn assemble(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::foreign(Pathname {
+        host: args.get(4).cloned().unwrap_or(Value::NIL),
         directory: args[0].clone(),
         name: args[1].clone(),
         kind: args[2].clone(),
@@ -35,6 +36,7 @@ fn parts(_: &mut Image, args: &[Value]) -> Outcome {
             pathname.name.clone(),
             pathname.kind.clone(),
             pathname.version.clone(),
+            pathname.host.clone(),
         ])),
         None => Err(Raise::type_error(&args[0], known::PATHNAME)),
     }
@@ -70,7 +72,7 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     ),
     pure(
         "%PATHNAME-OF-PARTS",
-        "directory name type version",
+        "directory name type version &optional host",
         "The pathname with these parts.",
         &["(system::%pathname-of-parts '(:relative \"plans\") \"a\" nil nil) => #P\"plans/a\""],
         assemble,
@@ -78,9 +80,9 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
         "%PATHNAME-PARTS",
         "pathname",
-        "Directory, name, type and version of a pathname.",
+        "Directory, name, type, version and host of a pathname.",
         &[
-            "(system::%pathname-parts #P\"plans/a.lisp\") => (:RELATIVE \"plans\") ; \"a\" ; \"lisp\" ; NIL",
+            "(system::%pathname-parts #P\"plans/a.lisp\") => (:RELATIVE \"plans\") ; \"a\" ; \"lisp\" ; NIL ; NIL",
         ],
         parts,
     ),

@@ -2,12 +2,12 @@
 
 use std::rc::Rc;
 
-use super::composing::{compose, has_type};
+use super::composing::compose;
 use super::streams::stream_of;
 use super::strings::string;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::print::{self, Settings, dispatch};
+use crate::lisp::print::{self, Settings};
 use crate::lisp::stream::{self, Stream};
 use crate::lisp::value::Value;
 use crate::lisp::value::document::{Document, Newline, Tab};
@@ -105,15 +105,6 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
         "Blanks up to a column.",
         &[],
         tab,
-    ),
-    pure(
-        "%PPRINT-FUNCTION",
-        "object table",
-        "The function that a dispatch table has for the object, or NIL.",
-        &[],
-        |image, args| {
-            Ok(dispatch::function_in(image, &args[1], &args[0], has_type).unwrap_or(Value::NIL))
-        },
     ),
     control(
         "%WRITE-AS-STANDARD",

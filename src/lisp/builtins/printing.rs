@@ -442,6 +442,9 @@ fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
         )));
     };
     let image = &mut *machine.image;
+    if image.special(known::V_PRINT_READABLY).is_true() {
+        return Err(print::not_readable(object));
+    }
     let mut start = String::from("#<");
     if with_type.is_true() {
         let name = crate::lisp::object::class_of(image, object).name;

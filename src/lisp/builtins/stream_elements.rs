@@ -68,7 +68,11 @@ fn write_byte(image: &mut Image, args: &[Value]) -> Outcome {
 
 /// How many bytes a character or a string takes in a file.
 fn file_string_length(image: &mut Image, args: &[Value]) -> Outcome {
-    stream::output_stream(image, &args[0])?;
+    let stream = stream::output_stream(image, &args[0])?;
+    // A stream that writes nowhere takes no more than one element.
+    if matches!(&*stream.kind.borrow(), StreamKind::Broadcast { targets } if targets.is_empty()) {
+        return Ok(Value::Int(1));
+    }
     Ok(match &args[1] {
         Value::Char(c) => c.len_utf8(),
         other => string(other)?.borrow().len(),
@@ -148,8 +152,9 @@ fn measured(stream: &Rc<Stream>) -> Option<Rc<Stream>> {
     Some(stream)
 }
 
-fn file_length(_: &mut Image, args: &[Value]) -> Outcome {
-    let Some(stream) = measured(stream_of(&args[0])?) else {
+fn file_length(image: &mut Image, args: &[Value]) -> Outcome {
+    let stream = stream::followed(image, stream_of(&args[0])?)?;
+    let Some(stream) = measured(&stream) else {
         return Ok(Value::Int(0));
     };
     let bytes = match &*stream.kind.borrow() {

@@ -21,12 +21,22 @@ impl Environment {
 
 impl Foreign for Environment {
     fn type_symbol(&self) -> Sym {
-        known::L_ENVIRONMENT
+        known::ENVIRONMENT
     }
 
     fn print(&self, _: &dyn PrintContext, _: bool) -> String {
         "#<ENVIRONMENT>".to_owned()
     }
+}
+
+/// What a name of a function means in an environment: a local macro's function, `NIL` for a local
+/// function, `None` if the environment does not know the name.
+pub(crate) fn local_macro(environment: &Value, name: Sym) -> Option<Value> {
+    let Environment(scope) = environment.as_foreign::<Environment>()?;
+    scope.function(name, false).map(|meaning| match meaning {
+        FunctionMeaning::Macro(function) => Value::Function(function.clone()),
+        FunctionMeaning::Local(_) => Value::NIL,
+    })
 }
 
 /// Expands a form with the local definitions of an environment: the expansion for a local macro,

@@ -112,7 +112,7 @@ impl LambdaList {
             }
             match section {
                 Section::Required => parsed.required.push(item),
-                Section::Optional => parsed.optional.push(optional(&item)),
+                Section::Optional => parsed.optional.push(optional(image, &item)?),
                 Section::Rest => {
                     parsed.rest = Some(item);
                     section = Section::AfterRest;
@@ -168,10 +168,17 @@ fn malformed(image: &Image, what: &str, list: &Value) -> Box<Raise> {
     Raise::program(format!("{what}: {shown} is not a valid lambda list"))
 }
 
-fn optional(item: &Value) -> Optional {
-    match item {
+fn optional(image: &Image, item: &Value) -> Result<Optional, Box<Raise>> {
+    Ok(match item {
         Value::Cons(c) => {
             let rest = c.cdr();
+            if rest.iter_list().count() > 2 {
+                return Err(malformed(
+                    image,
+                    "more than three parts of a parameter",
+                    item,
+                ));
+            }
             Optional {
                 pattern: c.car(),
                 default: rest.car_or_nil(),
@@ -186,11 +193,11 @@ fn optional(item: &Value) -> Optional {
             default: Value::NIL,
             supplied: None,
         },
-    }
+    })
 }
 
 fn key(image: &mut Image, item: &Value) -> Result<Key, Box<Raise>> {
-    let mut parameter = optional(item);
+    let mut parameter = optional(image, item)?;
     let keyword = match &parameter.pattern {
         // ((:keyword pattern) default supplied)
         Value::Cons(c) => {

@@ -6,6 +6,7 @@
 
 mod analyze;
 mod body;
+mod compiled_macros;
 mod control_macros;
 mod define_macros;
 pub(crate) mod destructure;
@@ -30,6 +31,7 @@ use super::value::raise::Raise;
 
 pub(crate) use analyze::keep_place;
 pub(crate) use emit::is_inlined;
+pub(crate) use environment::local_macro;
 pub(crate) use expand::{macroexpand, macroexpand_1, macroexpand_1_in, macroexpand_in};
 pub(crate) use operators::{OPERATORS, SPECIAL_FORMS, SYSTEM_FORMS, SYSTEM_OPERATORS};
 

@@ -1,7 +1,7 @@
 //! The macros of the language that have no file of their own, and the manual's entries for the
 //! special operators.
 
-use super::{control_macros, define_macros, destructure, quasiquote, setf};
+use super::{compiled_macros, control_macros, define_macros, destructure, quasiquote, setf};
 use crate::lisp::builtin::{Expander, Operator};
 
 const fn special(
@@ -50,12 +50,6 @@ pub(crate) static SPECIAL_FORMS: &[Operator] = &[
         &["(funcall (function car) '(1 2)) => 1"],
     ),
     special(
-        "LAMBDA",
-        "lambda-list &body body",
-        "An anonymous function.",
-        &["((lambda (x) (* x x)) 3) => 9"],
-    ),
-    special(
         "PROGN",
         "&body forms",
         "Evaluates the forms in order; the values are those of the last.",
@@ -72,18 +66,6 @@ pub(crate) static SPECIAL_FORMS: &[Operator] = &[
         "test then &optional else",
         "Evaluates one of two forms.",
         &["(if (> 2 1) :yes :no) => :YES"],
-    ),
-    special(
-        "OR",
-        "&rest forms",
-        "The first value that is not NIL.",
-        &["(or nil 2 3) => 2"],
-    ),
-    special(
-        "AND",
-        "&rest forms",
-        "NIL as soon as a form gives NIL, else the values of the last.",
-        &["(and 1 2) => 2"],
     ),
     special(
         "LET",
@@ -158,18 +140,6 @@ pub(crate) static SPECIAL_FORMS: &[Operator] = &[
         &["(multiple-value-prog1 (values 1 2) 3) => 1 ; 2"],
     ),
     special(
-        "PROG1",
-        "form &rest forms",
-        "The value of the first form, after the others are evaluated.",
-        &["(prog1 1 2) => 1"],
-    ),
-    special(
-        "MULTIPLE-VALUE-BIND",
-        "variables form &body body",
-        "Binds variables to the values of a form.",
-        &["(multiple-value-bind (q r) (floor 7 2) (list q r)) => (3 1)"],
-    ),
-    special(
         "FLET",
         "functions &body body",
         "Local functions.",
@@ -223,12 +193,6 @@ pub(crate) static SPECIAL_FORMS: &[Operator] = &[
         "Declarations at the start of a body; SPECIAL has an effect.",
         &["(let ((x 1)) (declare (ignorable x)) 2) => 2"],
     ),
-    special(
-        "HANDLER-BIND",
-        "bindings &body body",
-        "Handlers that run where a condition is signalled, before anything is unwound.",
-        &["(handler-bind ((warning #'muffle-warning)) (warn \"x\") 1) => 1"],
-    ),
 ];
 
 /// Special operators of package `SYSTEM`.
@@ -238,6 +202,12 @@ pub(crate) static SYSTEM_FORMS: &[Operator] = &[
         "name lambda-list &body body",
         "A function with a name, whose body stands in a block of that name.",
         &["(funcall (system:named-lambda f (x) (return-from f x)) 1) => 1"],
+    ),
+    special(
+        "WITH-HANDLERS",
+        "bindings &body body",
+        "What HANDLER-BIND expands into.",
+        &["(system:with-handlers ((warning #'muffle-warning)) (warn \"x\") 1) => 1"],
     ),
     special(
         "WITH-RESTARTS",
@@ -258,6 +228,48 @@ pub(crate) static SYSTEM_OPERATORS: &[Operator] = &[macro_(
 
 /// Macros of package `COMMON-LISP`.
 pub(crate) static OPERATORS: &[Operator] = &[
+    macro_(
+        "LAMBDA",
+        "lambda-list &body body",
+        "An anonymous function.",
+        &["((lambda (x) (* x x)) 3) => 9"],
+        compiled_macros::lambda,
+    ),
+    macro_(
+        "OR",
+        "&rest forms",
+        "The first value that is not NIL.",
+        &["(or nil 2 3) => 2"],
+        compiled_macros::or,
+    ),
+    macro_(
+        "AND",
+        "&rest forms",
+        "NIL as soon as a form gives NIL, else the values of the last.",
+        &["(and 1 2) => 2"],
+        compiled_macros::and,
+    ),
+    macro_(
+        "PROG1",
+        "form &rest forms",
+        "The value of the first form, after the others are evaluated.",
+        &["(prog1 1 2) => 1"],
+        compiled_macros::prog1,
+    ),
+    macro_(
+        "MULTIPLE-VALUE-BIND",
+        "variables form &body body",
+        "Binds variables to the values of a form.",
+        &["(multiple-value-bind (q r) (floor 7 2) (list q r)) => (3 1)"],
+        compiled_macros::multiple_value_bind,
+    ),
+    macro_(
+        "HANDLER-BIND",
+        "bindings &body body",
+        "Handlers that run where a condition is signalled, before anything is unwound.",
+        &["(handler-bind ((warning #'muffle-warning)) (warn \"x\") 1) => 1"],
+        compiled_macros::handler_bind,
+    ),
     macro_(
         "COND",
         "&rest clauses",

@@ -54,7 +54,7 @@ pub(super) fn lookup(name: Sym) -> Option<SpecialForm> {
                 "There is no function named DECLARE: declarations stand at the start of a body.",
             ))
         },
-        known::HANDLER_BIND => handler_bind,
+        known::HANDLER_BIND | known::WITH_HANDLERS => handler_bind,
         known::WITH_RESTARTS => restarts,
         _ => return None,
     })
@@ -356,6 +356,9 @@ fn catch(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
 }
 
 fn throw(c: &mut Compiler<'_>, rest: &Value, scope: &Scope) -> Compiled<Node> {
+    if rest.iter_list().count() != 2 {
+        return Err(c.program_error("THROW takes a tag and a form."));
+    }
     let tag = c.analyze(&rest.car_or_nil(), scope)?;
     let value = c.analyze(&rest.cdr_or_nil().car_or_nil(), scope)?;
     Ok(Node::Throw(Box::new(tag), Box::new(value), c.place))

@@ -6,7 +6,8 @@ use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::cycles;
 use crate::lisp::value::function::Body;
-use crate::lisp::value::raise::Raise;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::{Raise, is_interrupt};
 use crate::lisp::value::release;
 use crate::lisp::vm::calls::Suspended;
 use crate::lisp::vm::fiber::{Frame, FrameKind, Target};
@@ -209,11 +210,20 @@ impl Machine<'_> {
                 Next::Stop(Event::Request(request))
             }
             Step::Unwind(target, value) => self.unwind(target, value),
+            Step::Unhandled(condition) if self.has_debugger_hook(&condition) => {
+                let call = Step::tail_call(known::SYS_CALL_DEBUGGER_HOOK, vec![condition]);
+                self.take_step(call, multi)
+            }
             Step::Unhandled(condition) => {
                 self.fiber.wants_all = multi;
                 Next::Stop(Event::Unhandled(condition))
             }
         }
+    }
+
+    /// Is there a function to call instead of stopping? An interruption stops in any case.
+    fn has_debugger_hook(&self, condition: &Value) -> bool {
+        self.image.special(known::V_DEBUGGER_HOOK).is_true() && !is_interrupt(condition)
     }
 
     fn push_native(&mut self, then: Box<Suspended>, all: bool, multi: bool) {

@@ -35,6 +35,7 @@ use super::value::Value;
 use super::value::class::Class;
 use super::value::function::{Body, Function};
 use super::value::known;
+use super::value::number;
 use super::value::package::{Access, PackageId, PackageTable};
 use super::value::raise::Raise;
 use super::value::symbol::{FunctionCell, Sym, SymbolData, SymbolTable, VariableKind};
@@ -303,10 +304,19 @@ impl Image {
     /// A name with a fresh number: `G123`.
     pub(crate) fn fresh_name(&mut self, prefix: &str) -> String {
         let counter = match self.special(known::V_GENSYM_COUNTER) {
+            Value::Big(n) => {
+                let (name, next) = (format!("{prefix}{n}"), n.as_ref() + 1_u8);
+                self.set_special(known::V_GENSYM_COUNTER, number::from_big(next));
+                return name;
+            }
             Value::Int(n) => *n,
             _ => 0,
         };
-        self.set_special(known::V_GENSYM_COUNTER, Value::Int(counter.wrapping_add(1)));
+        let next = match counter.checked_add(1) {
+            Some(next) => Value::Int(next),
+            None => number::from_big(num_bigint::BigInt::from(counter) + 1_u8),
+        };
+        self.set_special(known::V_GENSYM_COUNTER, next);
         format!("{prefix}{counter}")
     }
 

@@ -313,3 +313,11 @@
   "Invokes the innermost restart of a name that applies to the condition, if there is one."
   (let ((restart (find-restart name condition)))
     (and restart (apply #'invoke-restart restart arguments))))
+
+(defun %call-debugger-hook (condition)
+  "What happens instead of stopping at a condition that nobody handles while there is a *DEBUGGER-HOOK*: that
+  function is called. If it returns, the condition stops the program after all."
+  (let ((hook *debugger-hook*)
+        (*debugger-hook* nil))
+    (funcall hook condition hook)
+    (invoke-debugger condition)))

@@ -39,15 +39,17 @@
                (if (eq parameter '&environment)
                    (push (list (pop lambda-list) environment) bindings)
                    (push parameter parameters))))
-    `(progn
+    (multiple-value-bind (declarations forms) (%split-body body)
+     `(progn
        (setf (compiler-macro-function ',name)
              #'(lambda (,form &optional ,environment)
                  (declare (ignorable ,environment))
                  (let ,bindings
                    (destructuring-bind ,(revappend parameters lambda-list)
                        (if (eq (car ,form) 'funcall) (cddr ,form) (cdr ,form))
-                     (block ,(if (consp name) (second name) name) ,@body)))))
-       ',name)))
+                     ,@declarations
+                     (block ,(if (consp name) (second name) name) ,@forms)))))
+       ',name))))
 
 (defun compiler-macro-function (name &optional environment)
   "The function of a compiler macro, or NIL. What it would make faster is evaluated as it is.

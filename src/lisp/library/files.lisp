@@ -22,7 +22,7 @@
 
 (defun %native (file)
   "The name by which the machine knows a file."
-  (namestring (merge-pathnames file)))
+  (%namestring (translate-logical-pathname (merge-pathnames file))))
 
 (defun open (file &rest options
              &key direction element-type if-exists if-does-not-exist external-format)

@@ -17,8 +17,12 @@
   `'(,@(multiple-value-list (macroexpand-1 form environment))))
 
 (defun %expand-within (form environment)
-  "MACROEXPAND-1 in an environment."
-  (cond ((and (consp form) (or (not (symbolp (first form))) (special-operator-p (first form))))
+  "MACROEXPAND-1 in an environment. Macros that people know better than what they stand for are kept."
+  (cond ((and (consp form)
+              (or (not (symbolp (first form)))
+                  (special-operator-p (first form))
+                  (member (first form)
+                          '(and or prog1 lambda multiple-value-bind handler-bind))))
          (values form nil))
         ((null environment) (macroexpand-1 form))
         (t (let ((place `(%expansion-here ,form)))

@@ -101,8 +101,10 @@ static FILES: &[File] = &[
     library_file!("src/lisp/library", "alexandria-files.lisp"),
     library_file!("src/lisp/library", "alexandria-2.lisp"),
     library_file!("src/lisp/library", "pathnames.lisp"),
+    library_file!("src/lisp/library", "logical-pathnames.lisp"),
     library_file!("src/lisp/library", "files.lisp"),
     library_file!("src/lisp/library", "time.lisp"),
+    library_file!("src/lisp/library", "environment.lisp"),
     library_file!("src/lisp/library", "tracing.lisp"),
     library_file!("src/lisp/library", "macroexpand-all.lisp"),
 ];

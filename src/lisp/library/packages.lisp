@@ -6,7 +6,58 @@
   "Defines a package; options are :use, :export, :nicknames, :import-from, :shadow, :shadowing-import-from, :intern and :documentation.
   Examples:
   (defpackage :example-package (:use :cl) (:export #:thing)) => #<PACKAGE \"EXAMPLE-PACKAGE\">"
-  `(%define-package ',name ',options))
+  `(%define-package-checked ',name ',options))
+
+(defun %define-package-checked (name options)
+  "Carries out a DEFPACKAGE. Symbols that it imports and that there are not can be made."
+  (dolist (option options)
+    (if (and (consp option)
+             (member (first option) '(:import-from :shadowing-import-from))
+             (rest option))
+        (let ((package (find-package (second option))))
+          (dolist (symbol (and package (listp (cddr option)) (cddr option)))
+            (let ((text (string symbol)))
+              (unless (nth-value 1 (find-symbol text package))
+                (cerror "Make the symbol."
+                        'simple-package-error
+                        :package package
+                        :format-control "No symbol named ~s in the package ~a."
+                        :format-arguments (list text (package-name package)))
+                (intern text package)))))))
+  (%define-package name options))
+
+(defun make-package (name &key nicknames (use '()) size)
+  "A new package.
+  Examples:
+  (package-name (make-package :made-as-example)) => \"MADE-AS-EXAMPLE\""
+  (declare (ignore size))
+  (flet ((taken (name report)
+           (let ((package (find-package name)))
+             (when package
+               (cerror report
+                       'simple-package-error
+                       :package package
+                       :format-control "A package named ~s already exists."
+                       :format-arguments (list (string name)))
+               package))))
+    (or (taken name "Use the package that there is.")
+        (%make-package name
+                       :use use
+                       :nicknames (remove-if (lambda (nickname)
+                                               (taken nickname "Leave the nickname out."))
+                                             (if (listp nicknames) nicknames (list nicknames)))))))
+
+(defun delete-package (package)
+  "Deletes a package.
+  Examples:
+  (progn (make-package :short-lived) (delete-package :short-lived)) => T"
+  (if (or (packagep package) (find-package package))
+      (%delete-package package)
+      (cerror "Do nothing."
+              'simple-package-error
+              :package package
+              :format-control "The name ~s does not designate any package."
+              :format-arguments (list (string package)))))
 
 (defmacro do-symbols ((variable &optional package result) &body body)
   "Evaluates the body for each symbol accessible in a package.
@@ -35,6 +86,10 @@
   "Evaluates the body; in it `(name)` returns `T` and the next symbol, how it is accessible, and its package, or `NIL`.
   Examples:
   (with-package-iterator (next :cl :internal) (next)) => NIL"
+  (unless (and kinds (subsetp kinds '(:internal :external :inherited)))
+    (error 'simple-program-error
+           :format-control "WITH-PACKAGE-ITERATOR takes kinds of symbols, :INTERNAL, :EXTERNAL or :INHERITED, not ~s."
+           :format-arguments (list kinds)))
   (%with-iterator name `(%package-iterator ,packages ',kinds) body))
 
 (defmacro with-hash-table-iterator ((name table) &body body)

@@ -1,5 +1,5 @@
-;;; Pathnames: chapter 19 of the standard. There are neither hosts nor devices, and no logical
-;;; pathnames.
+;;; Pathnames: chapter 19 of the standard. There are no devices; only logical pathnames have hosts
+;;; (logical-pathnames.lisp).
 
 (in-package :common-lisp)
 
@@ -11,7 +11,8 @@
   Examples:
   (pathname \"plans/a.lisp\") => #P\"plans/a.lisp\""
   (cond ((pathnamep file) file)
-        ((stringp file) (%parse-pathname file))
+        ((stringp file) (%parse-name file))
+        ((typep file 'synonym-stream) (pathname (symbol-value (synonym-stream-symbol file))))
         ((and (streamp file) (%stream-file file)) (%parse-pathname (%stream-file file)))
         (t (error 'type-error :datum file :expected-type '(or string pathname file-stream)))))
 
@@ -26,39 +27,55 @@
   "The pathname of a part of a string, and the index after it; other files as by PATHNAME.
   Examples:
   (parse-namestring \"see a.lisp\" nil nil :start 4) => #P\"a.lisp\" ; 10"
-  (declare (ignore host defaults junk-allowed))
+  (declare (ignore junk-allowed))
   (if (stringp thing)
-      (values (%parse-pathname (subseq thing start end)) (or end (length thing)))
-      (values (pathname thing) start)))
+      (let* ((text (subseq thing start end))
+             (logical (cond (host (%logical-host host))
+                            ((%host-of-name text))
+                            (defaults (pathname-host defaults)))))
+        (values (if logical
+                    (%parse-logical (%without-host text logical) logical)
+                    (%parse-pathname text))
+                (or end (length thing))))
+      (let ((pathname (pathname thing)))
+        (if (and host (not (equal (pathname-host pathname) (%logical-host host))))
+            (error "The host of ~s is not ~a." pathname host))
+        (values pathname start))))
+
+(defun %parse-name (name)
+  "The pathname of a name: a logical one if it begins with a logical host and a colon."
+  (let ((host (%host-of-name name)))
+    (if host
+        (%parse-logical (%without-host name host) host)
+        (%parse-pathname name))))
 
 (defun directory-namestring (file)
   "The part of a file's name that is its directory, with the slash at its end.
   Examples:
   (directory-namestring \"plans/a.lisp\") => \"plans/\""
-  (%namestring (%pathname-of-parts (pathname-directory file) nil nil nil)))
+  (let ((name (%namestring (%pathname-of-parts (pathname-directory file) nil nil nil
+                                               (pathname-host file)))))
+    (%without-host name (pathname-host file))))
 
 (defun file-namestring (file)
   "A file's name without its directory.
   Examples:
   (file-namestring \"plans/a.lisp\") => \"a.lisp\""
-  (multiple-value-bind (directory name type) (%pathname-parts (pathname file))
+  (multiple-value-bind (directory name type version host) (%pathname-parts (pathname file))
     (declare (ignore directory))
-    (%namestring (%pathname-of-parts nil name type nil))))
+    (%without-host (%namestring (%pathname-of-parts nil name type version host)) host)))
 
 (defun host-namestring (file)
-  "The name of a file's host: there are none.
+  "The name of a file's host: that of a logical pathname, else nothing.
   Examples:
   (host-namestring \"a.lisp\") => \"\""
-  (pathname file)
-  "")
+  (or (pathname-host file) ""))
 
 (defun pathname-host (file &key (case :local))
-  "The host of a file: NIL, since there are none.
+  "The host of a logical pathname, a string; NIL for other files.
   Examples:
   (pathname-host \"a.lisp\") => NIL"
-  (declare (ignore case))
-  (pathname file)
-  nil)
+  (%in-case (nth-value 4 (%pathname-parts (pathname file))) case))
 
 (defun pathname-device (file &key (case :local))
   "The device of a file: NIL, since there are none.
@@ -107,21 +124,25 @@
         (t part)))
 
 (defun make-pathname (&key (directory nil directory-p) (name nil name-p) (type nil type-p)
-                           (version nil version-p) (defaults nil defaults-p) host device
+                           (version nil version-p) (defaults nil defaults-p) (host nil host-p) device
                            (case :local))
   "A pathname, put together from its parts. A directory is a list that begins with :ABSOLUTE or
   :RELATIVE, or a string: the name of one in the root. Parts that are not given are those of the default.
   Examples:
   (make-pathname :directory '(:absolute \"home\" \"me\") :name \"a\" :type \"lisp\") => #P\"/home/me/a.lisp\""
-  (declare (ignore host device))
+  (declare (ignore device))
   (flet ((part (given given-p default)
            (if given-p (%in-case given case) (and defaults-p (funcall default defaults)))))
-    (%checked-pathname (if directory-p
-                           (%directory (%in-case directory case))
-                           (and defaults-p (pathname-directory defaults)))
-                       (part name name-p #'pathname-name)
-                       (part type type-p #'pathname-type)
-                       (part version version-p #'pathname-version))))
+    (let ((host (cond ((and host-p host) (%logical-host host))
+                      (host-p nil)
+                      (t (pathname-host (if defaults-p defaults *default-pathname-defaults*))))))
+      (%checked-pathname (if directory-p
+                             (%directory (%in-case directory case))
+                             (and defaults-p (pathname-directory defaults)))
+                         (part name name-p #'pathname-name)
+                         (part type type-p #'pathname-type)
+                         (part version version-p #'pathname-version)
+                         host))))
 
 (defun %directory (directory)
   "A directory as a list, from what MAKE-PATHNAME takes for one."
@@ -131,7 +152,7 @@
         ((consp directory) (remove "" directory :test #'equal))
         (t directory)))
 
-(defun %checked-pathname (directory name type version)
+(defun %checked-pathname (directory name type version host)
   "The pathname with these parts, if they can be parts of one."
   (unless (and (listp directory)
                (or (null directory) (member (first directory) '(:absolute :relative)))
@@ -142,10 +163,15 @@
   (dolist (part (list name type))
     (unless (typep part '(or string (member nil :wild :unspecific)))
       (error "~s is no part of a file's name; it is a string, :WILD or NIL." part)))
-  (%pathname-of-parts directory
-                      (if (equal name "*") :wild name)
-                      (if (eq type :unspecific) nil (if (equal type "*") :wild type))
-                      version))
+  (flet ((part (part)
+           (cond ((equal part "*") :wild)
+                 ((and host (stringp part)) (string-upcase part))
+                 (t part))))
+    (%pathname-of-parts (mapcar #'part directory)
+                        (part name)
+                        (if (eq type :unspecific) nil (part type))
+                        version
+                        host)))
 
 (defun merge-pathnames (file &optional (defaults *default-pathname-defaults*) (version :newest))
   "A pathname with the parts that it lacks from another one; a relative directory is one in the
@@ -153,9 +179,10 @@
   Examples:
   (merge-pathnames \"b.lisp\" \"/home/me/a.lisp\") => #P\"/home/me/b.lisp\"
   (merge-pathnames \"plans/b\" \"/home/me/a.lisp\") => #P\"/home/me/plans/b.lisp\""
-  (declare (ignore version))
-  (let ((file (pathname file))
-        (defaults (pathname defaults)))
+  (let* ((defaults (pathname defaults))
+         (file (if (and (stringp file) (pathname-host defaults) (not (%host-of-name file)))
+                   (parse-namestring file (pathname-host defaults))
+                   (pathname file))))
     (%pathname-of-parts
      (let ((directory (pathname-directory file))
            (other (pathname-directory defaults)))
@@ -165,7 +192,11 @@
              (t directory)))
      (or (pathname-name file) (pathname-name defaults))
      (or (pathname-type file) (pathname-type defaults))
-     (or (pathname-version file) (pathname-version defaults)))))
+     ;; A version belongs to a name, so that of another name does not count.
+     (or (pathname-version file)
+         (and (null (pathname-name file)) (pathname-version defaults))
+         version)
+     (or (pathname-host file) (pathname-host defaults)))))
 
 (defun %without-returns (directory)
   "A directory without names that :BACK takes away again."
@@ -215,7 +246,8 @@
         (wildcard (pathname wildcard)))
     (flet ((matches (part wanted)
              (or (null wanted) (%part-match-p part wanted))))
-      (and (or (null (pathname-directory wildcard))
+      (and (equal (pathname-host file) (pathname-host wildcard))
+           (or (null (pathname-directory wildcard))
                (%directory-match-p (pathname-directory file) (pathname-directory wildcard)))
            (matches (pathname-name file) (pathname-name wildcard))
            (matches (pathname-type file) (pathname-type wildcard))

@@ -166,6 +166,20 @@
       (remhash type table))
   nil)
 
+(defun %tell-type (value type stream)
+  "Writes something if the value is of the type: how the printer asks for types that only a call can tell."
+  (if (typep value type) (write-char #\t stream)))
+
+(defun %pprint-function (object table)
+  "The function that a dispatch table has for the object, or NIL."
+  (let ((best nil))
+    (maphash (lambda (type entry)
+               (if (and (or (null best) (> (cdr entry) (cdr best)))
+                        (typep object type))
+                   (setq best entry)))
+             table)
+    (car best)))
+
 (defun pprint-dispatch (object &optional (table *print-pprint-dispatch*))
   "The function of stream and object by which the pretty printer prints the object, and whether the table has one of its own for it.
   Examples:

@@ -6,13 +6,12 @@
   "Evaluates the body with a stream; returns the text that was written to it.
   Examples:
   (with-output-to-string (s) (princ 1 s) (princ 2 s)) => \"12\""
-  (declare (ignore element-type))
   (multiple-value-bind (declarations forms) (%split-body body)
     (if string
-        `(let ((,variable (%make-fill-pointer-stream ,string)))
+        `(let ((,variable (prog1 (%make-fill-pointer-stream ,string) ,element-type)))
            ,@declarations
            (progn ,@forms))
-        `(let ((,variable (make-string-output-stream)))
+        `(let ((,variable (prog1 (make-string-output-stream) ,element-type)))
            ,@declarations
            (progn ,@forms)
            (get-output-stream-string ,variable)))))

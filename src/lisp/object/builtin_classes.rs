@@ -70,6 +70,7 @@ const TABLE: &[(&str, ClassKind, &[&str])] = &[
     ("TWO-WAY-STREAM", Builtin, &["STREAM"]),
     ("ECHO-STREAM", Builtin, &["STREAM"]),
     ("FILE-STREAM", Builtin, &["STREAM"]),
+    ("%ENVIRONMENT", Builtin, &["T"]),
     ("PATHNAME", Builtin, &["T"]),
     ("LOGICAL-PATHNAME", Builtin, &["PATHNAME"]),
     ("RANDOM-STATE", Builtin, &["T"]),

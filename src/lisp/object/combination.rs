@@ -23,6 +23,12 @@ const BUILTIN: &[(Sym, bool)] = &[
     (known::PROGN, true),
 ];
 
+/// Is this the name of a combination of the language?
+pub(crate) fn is_builtin(name: &Value) -> bool {
+    let name = name.as_symbol();
+    BUILTIN.iter().any(|(operator, _)| Some(*operator) == name)
+}
+
 /// The combination of a name.
 pub(crate) fn combination_named(image: &Image, name: &Value) -> Result<Combination, Box<Raise>> {
     let unknown = || {

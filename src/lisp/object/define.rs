@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use super::precedence::precedence_list;
 use crate::lisp::image::Image;
-use crate::lisp::value::class::{Class, ClassKind, Initform, SlotDefinition};
+use crate::lisp::value::class::{Class, ClassKind, Initform, OldSlot, SlotDefinition};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -63,7 +63,8 @@ impl Image {
             )));
         }
         relink(&class, supers);
-        *class.direct_slots.borrow_mut() = definition.slots;
+        let slots = keep_shared(&class, definition.slots);
+        *class.direct_slots.borrow_mut() = slots;
         *class.direct_default_initargs.borrow_mut() = definition.default_initargs;
         *class.doc.borrow_mut() = definition.doc;
         class.is_defined.set(true);
@@ -134,6 +135,22 @@ fn depends_on(class: &Rc<Class>, other: &Rc<Class>) -> bool {
     false
 }
 
+/// The new slots of a class. Slots that were shared and still are keep their values; others that
+/// are shared get theirs, if it is a constant.
+fn keep_shared(class: &Class, mut slots: Vec<SlotDefinition>) -> Vec<SlotDefinition> {
+    let old_slots = class.direct_slots.borrow();
+    for slot in &mut slots {
+        let Some(new) = &slot.shared else { continue };
+        let old = old_slots.iter().find(|old| old.name == slot.name);
+        match (old.and_then(|old| old.shared.clone()), &slot.initform) {
+            (Some(old), _) => slot.shared = Some(old),
+            (None, Some(Initform::Value(value))) => new.set(value.clone()),
+            (None, _) => {}
+        }
+    }
+    slots
+}
+
 /// Links a class and its direct superclasses to each other.
 fn relink(class: &Rc<Class>, supers: Vec<Rc<Class>>) {
     for old in class.direct_superclasses.borrow().iter() {
@@ -157,7 +174,12 @@ fn finalize(class: &Rc<Class>) -> Result<(), Box<Raise>> {
         if !current.is_defined.get() {
             continue;
         }
-        let old_names: Vec<Sym> = current.slots.borrow().iter().map(|s| s.name).collect();
+        let old_slots = current.slots.borrow();
+        let old_layout = old_slots
+            .iter()
+            .map(|s| (s.name, s.shared.as_ref().map(|shared| shared.get())));
+        let old_layout: Vec<OldSlot> = old_layout.collect();
+        drop(old_slots);
         let was_complete = !current.precedence.borrow().is_empty();
         let order = precedence_list(&current)?.unwrap_or_default();
         let slots = effective_slots(&order, &current);
@@ -166,7 +188,7 @@ fn finalize(class: &Rc<Class>) -> Result<(), Box<Raise>> {
         *current.slots.borrow_mut() = slots;
         *current.default_initargs.borrow_mut() = defaults;
         if was_complete {
-            current.old_layouts.borrow_mut().push(old_names);
+            current.old_layouts.borrow_mut().push(old_layout);
             current
                 .generation
                 .set(current.generation.get().wrapping_add(1));

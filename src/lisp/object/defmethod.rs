@@ -269,11 +269,22 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
             }
         }
     }
+    // A combination of the program is adapted to the generic function.
+    let combination = if super::combination::is_builtin(&combination.car_or_nil()) {
+        quote(combination)
+    } else {
+        form![
+            known::SYS_COMBINATION_FOR,
+            quote(combination),
+            quote(name.clone()),
+            quote(lambda_list.clone()),
+        ]
+    };
     let ensure = form![
         known::SYS_ENSURE_GENERIC,
         quote(name.clone()),
         quote(lambda_list.clone()),
-        quote(combination),
+        combination,
         doc,
         quote(order),
     ];
@@ -294,12 +305,6 @@ pub(crate) fn ensure_generic_function(
     };
     let parameters = Parameters::parse(image, lambda_list)?;
     let found = combination_named(image, &combination.car_or_nil())?;
-    if found.is_long() && combination.cdr_or_nil().is_true() {
-        return Err(Raise::program(format!(
-            "The method combination {} takes no options.",
-            super::text(image, &combination.car_or_nil())
-        )));
-    }
     let precedence = precedence_order(image, lambda_list, order, parameters.required)?;
     let function = ensure_generic(image, name, &parameters)?;
     if let Some(generic) = function.as_generic() {

@@ -33,7 +33,7 @@ impl Dispatch {
         }
         let mut key = [NO_PART; MAX_PARTS];
         for (part, position) in key.iter_mut().zip(&self.positions) {
-            *part = position.part(image, args.get(position.index)?);
+            *part = position.part(image, args.get(position.index)?)?;
         }
         Some(key)
     }
@@ -53,18 +53,21 @@ impl Dispatch {
 }
 
 impl Position {
+    /// What an argument contributes; none for an instance that is named itself, since its class, too,
+    /// decides which methods apply, and may change.
     #[inline]
-    fn part(&self, image: &Image, arg: &Value) -> Part {
+    fn part(&self, image: &Image, arg: &Value) -> Option<Part> {
         if let Some(i) = self.eql_values.iter().position(|v| v.is_eql(arg)) {
-            return (i, EQL_TAG);
+            let is_instance = matches!(arg, Value::Instance(_));
+            return (!is_instance).then_some((i, EQL_TAG));
         }
-        match arg {
+        Some(match arg {
             Value::Instance(instance) => {
                 let class = instance.class.borrow();
                 (Rc::as_ptr(&class) as usize, class.generation.get())
             }
             other => (builtin_class_name(image, other).0 as usize, BUILTIN_TAG),
-        }
+        })
     }
 }
 

@@ -116,6 +116,13 @@ pub(crate) fn ensure_generic(
             (Body::Native(native), Some(sym)) if EXTENSIBLE.contains(&sym) => {
                 extended(image, name, native.min, native.max, function.clone())
             }
+            // One of the library, which is written in Lisp, takes what the program says it does.
+            (Body::Deferred(_) | Body::Closure { .. }, Some(sym)) if EXTENSIBLE.contains(&sym) => {
+                let required = u16::try_from(parameters.required).unwrap_or(1);
+                let all = required + u16::try_from(parameters.optional).unwrap_or(0);
+                let max = (!parameters.has_rest && parameters.keys.is_none()).then_some(all);
+                extended(image, name, required, max, function.clone())
+            }
             _ => return Err(names_ordinary_function(image, name)),
         },
         None => {

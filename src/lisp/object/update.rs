@@ -5,7 +5,7 @@ use std::rc::Rc;
 use super::fill::{Finish, Which, fill};
 use super::method::extended_function;
 use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Instance};
+use crate::lisp::value::class::{Class, Instance, OldSlot, SlotDefinition};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
@@ -77,20 +77,23 @@ fn migrate(instance: &Instance) -> Change {
 }
 
 /// The slot names of a class in one of its generations.
-fn old_layout(class: &Class, generation: u32) -> Vec<Sym> {
+fn old_layout(class: &Class, generation: u32) -> Vec<OldSlot> {
     let layouts = class.old_layouts.borrow();
     usize::try_from(generation)
         .ok()
         .and_then(|i| layouts.get(i).cloned())
-        .unwrap_or_else(|| class.slots.borrow().iter().map(|s| s.name).collect())
+        .unwrap_or_else(|| {
+            let slots = class.slots.borrow();
+            let value = |slot: &SlotDefinition| slot.shared.as_ref().map(|shared| shared.get());
+            slots.iter().map(|s| (s.name, value(s))).collect()
+        })
 }
 
-fn lay_out(instance: &Instance, old_names: &[Sym], class: &Class) -> Change {
-    let mut old: Vec<(Sym, Value)> = old_names
-        .iter()
-        .copied()
-        .zip(instance.slots.take())
-        .collect();
+fn lay_out(instance: &Instance, old_layout: &[OldSlot], class: &Class) -> Change {
+    let names = || old_layout.iter().map(|(name, _)| *name);
+    let values = old_layout.iter().zip(instance.slots.take());
+    let values = values.map(|((_, shared), local)| shared.clone().unwrap_or(local));
+    let mut old: Vec<(Sym, Value)> = names().zip(values).collect();
     let mut change = Change {
         added: Vec::new(),
         discarded: Vec::new(),
@@ -98,7 +101,13 @@ fn lay_out(instance: &Instance, old_names: &[Sym], class: &Class) -> Change {
     let mut slots = Vec::new();
     for slot in class.slots.borrow().iter() {
         match old.iter().position(|(name, _)| *name == slot.name) {
-            Some(i) => slots.push(old.swap_remove(i).1),
+            Some(i) => {
+                let value = old.swap_remove(i).1;
+                slots.push(match slot.shared {
+                    Some(_) => Value::Unbound,
+                    None => value,
+                });
+            }
             None => {
                 slots.push(Value::Unbound);
                 change.added.push(slot.name);
@@ -106,7 +115,7 @@ fn lay_out(instance: &Instance, old_names: &[Sym], class: &Class) -> Change {
         }
     }
     old.retain(|(_, value)| !value.is_unbound());
-    old.sort_by_key(|(name, _)| old_names.iter().position(|n| n == name));
+    old.sort_by_key(|(name, _)| names().position(|n| n == *name));
     change.discarded = old;
     *instance.slots.borrow_mut() = slots;
     change

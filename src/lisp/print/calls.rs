@@ -6,8 +6,11 @@
 use std::collections::VecDeque;
 
 use crate::lisp::image::Image;
+use crate::lisp::source::Place;
 use crate::lisp::value::Value;
 use crate::lisp::value::document::Document;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 
 /// A call that writes a text to a stream.
@@ -30,14 +33,18 @@ pub(crate) struct Calls {
     texts: VecDeque<Document>,
     /// Calls without a text.
     needed: Vec<Call>,
+    /// Does what is printed from here on depend on a call that is yet to be made?
+    is_undecided: bool,
+    /// The first object that cannot be read again where that was asked for.
+    unreadable: Option<Value>,
     /// Does a value belong to a type, as far as the printer has to know? None if calls are not made at
     /// all.
     has_type: Option<TypeTest>,
 }
 
-/// Whether a value is of the type that a specifier names. The types are a room above this one, so
+/// Whether a value is of the type that a specifier names; `None` if a call decides. The types are a room above this one, so
 /// those who make calls bring the test along.
-pub(crate) type TypeTest = fn(&Image, &Value, &Value) -> bool;
+pub(crate) type TypeTest = fn(&Image, &Value, &Value) -> Option<bool>;
 
 impl Calls {
     /// No calls are possible: objects print in their default form.
@@ -45,6 +52,8 @@ impl Calls {
         Calls {
             texts: VecDeque::new(),
             needed: Vec::new(),
+            is_undecided: false,
+            unreadable: None,
             has_type: None,
         }
     }
@@ -57,13 +66,48 @@ impl Calls {
         Calls {
             texts: texts.into_iter().collect(),
             needed: Vec::new(),
+            is_undecided: false,
+            unreadable: None,
             has_type: Some(has_type),
         }
     }
 
-    /// The test for types; `None` if calls are not possible.
-    pub(crate) fn type_test(&self) -> Option<TypeTest> {
-        self.has_type
+    /// Notes that an object cannot be printed so that it can be read again, as was asked for.
+    pub(crate) fn note_unreadable(&mut self, object: &Value) {
+        self.unreadable.get_or_insert_with(|| object.clone());
+    }
+
+    /// The error about an object that cannot be read again, if there is one.
+    pub(crate) fn readable(&self) -> Result<(), Box<Raise>> {
+        match &self.unreadable {
+            Some(object) => Err(not_readable(object)),
+            None => Ok(()),
+        }
+    }
+
+    /// Is the value of the type? Where a call decides and has not been made, it is recorded, and the answer
+    /// is no; calls after it are not recorded, since they depend on it.
+    pub(crate) fn has_type(&mut self, image: &Image, value: &Value, specifier: &Value) -> bool {
+        let Some(test) = self.has_type else {
+            return false;
+        };
+        if let Some(answer) = test(image, value, specifier) {
+            return answer;
+        }
+        if let Some(text) = self.texts.pop_front() {
+            return text.characters() > 0;
+        }
+        if !self.is_undecided {
+            self.needed.push(Call {
+                function: known::SYS_TELL_TYPE.into(),
+                before: vec![value.clone(), specifier.clone()],
+                after: Vec::new(),
+                bindings: Vec::new(),
+                is_pretty: false,
+            });
+            self.is_undecided = true;
+        }
+        false
     }
 
     /// The text of the next call; if that is missing, the call is recorded and the text is empty.
@@ -73,7 +117,9 @@ impl Calls {
         if let Some(text) = self.texts.pop_front() {
             return Some(text);
         }
-        self.needed.push(call());
+        if !self.is_undecided {
+            self.needed.push(call());
+        }
         Some(Document::new(false))
     }
 
@@ -81,4 +127,14 @@ impl Calls {
     pub(crate) fn into_needed(self) -> Vec<Call> {
         self.needed
     }
+}
+
+/// The error about an object that cannot be printed so that it can be read again.
+pub(crate) fn not_readable(object: &Value) -> Box<Raise> {
+    Box::new(Raise::Make {
+        class: known::PRINT_NOT_READABLE,
+        report: None,
+        initargs: vec![(known::K_OBJECT, object.clone())],
+        place: Place::NONE,
+    })
 }

@@ -4,7 +4,7 @@
 //! A dispatch table is a hash table from types to pairs of a function and a priority; `NIL` is the standard
 //! one, which has no functions.
 
-use super::calls::TypeTest;
+use super::calls::Calls;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Instance;
@@ -13,21 +13,10 @@ use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::symbol::FunctionCell;
 
-/// The function that prints the value by the current table, if it has one.
-pub(super) fn function_for(image: &Image, value: &Value, has_type: TypeTest) -> Option<Value> {
-    let table = image.special(known::V_PRINT_PPRINT_DISPATCH);
-    function_in(image, table, value, has_type)
-}
-
-/// The function of the highest priority for the value in a table; among equals, that of the type that came
-/// first.
-pub(crate) fn function_in(
-    image: &Image,
-    table: &Value,
-    value: &Value,
-    has_type: TypeTest,
-) -> Option<Value> {
-    let Value::Hash(table) = table else {
+/// The function that prints the value by the current table, if it has one: that of the highest priority;
+/// among equals, that of the type that came first.
+pub(super) fn function_for(image: &Image, value: &Value, calls: &mut Calls) -> Option<Value> {
+    let Value::Hash(table) = image.special(known::V_PRINT_PPRINT_DISPATCH) else {
         return None;
     };
     if table.is_empty() {
@@ -39,7 +28,7 @@ pub(crate) fn function_in(
         let is_better = best.as_ref().is_none_or(|(_, most)| {
             number::compare(&priority, most).is_ok_and(|order| order.is_some_and(|o| o.is_gt()))
         });
-        if is_better && has_type(image, value, &specifier) {
+        if is_better && calls.has_type(image, value, &specifier) {
             best = Some((entry.car_or_nil(), priority));
         }
     }

@@ -25,7 +25,7 @@ pub(crate) mod test_image;
 mod tests;
 
 pub(crate) use super::image::identity::identity;
-pub(crate) use calls::{Call, Calls};
+pub(crate) use calls::{Call, Calls, not_readable};
 pub(crate) use qualified::qualified;
 pub(crate) use settings::{Case, Settings};
 

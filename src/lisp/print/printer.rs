@@ -168,10 +168,7 @@ impl<'a> Printer<'a> {
             }
         }
         if is_dispatched
-            && let Some(function) = self
-                .calls
-                .type_test()
-                .and_then(|test| dispatch::function_for(self.image, &value, test))
+            && let Some(function) = dispatch::function_for(self.image, &value, self.calls)
             && let Some(text) = self.calls.text(|| Call {
                 function,
                 before: Vec::new(),
@@ -191,11 +188,23 @@ impl<'a> Printer<'a> {
             Value::Vector(vector) => self.vector(&value, vector, depth),
             Value::Array(array) => self.array(&value, array, depth),
             Value::Instance(instance) => self.instance(&value, instance, depth),
-            _ => {
-                let text = atom::atom(self.image, &value, self.settings);
-                self.document.text(&text);
+            _ => self.atom(&value),
+        }
+    }
+
+    /// Prints a value without parts.
+    fn atom(&mut self, value: &Value) {
+        let text = atom::atom(self.image, value, self.settings);
+        if self.settings.readably {
+            let is_readable = match value {
+                Value::Foreign(object) => object.object().is_readable(),
+                _ => true,
+            };
+            if !is_readable || text.starts_with("#<") {
+                self.calls.note_unreadable(value);
             }
         }
+        self.document.text(&text);
     }
 
     /// Is something at this depth left out? Then `#` is printed in its place.
@@ -437,9 +446,6 @@ impl<'a> Printer<'a> {
             self.document.text(&text);
             return;
         }
-        if self.is_too_deep(depth) {
-            return;
-        }
         let rank = array.dimensions.borrow().len();
         self.document.text(&format!("#{rank}A"));
         self.tasks.push(Task::Rows {
@@ -462,10 +468,13 @@ impl<'a> Printer<'a> {
         let Some(length) = array.dimensions.borrow().get(dimension).copied() else {
             let item = array.items.get(offset);
             let item = item.unwrap_or(Value::NIL);
-            self.tasks.push(Task::Value(item, Style::Auto, depth + 1));
+            self.tasks.push(Task::Value(item, Style::Auto, depth));
             return;
         };
         if next == 0 {
+            if self.is_too_deep(depth) {
+                return;
+            }
             self.document.open("(", ")");
         }
         let is_cut = next < length && self.is_cut(next);
@@ -533,10 +542,7 @@ impl<'a> Printer<'a> {
                 let text = report::report(self.image, value);
                 self.document.text(&text);
             }
-            _ => {
-                let text = atom::atom(self.image, value, self.settings);
-                self.document.text(&text);
-            }
+            _ => self.atom(value),
         }
     }
 

@@ -79,6 +79,8 @@ enum Kind {
     Feature(bool),
     /// Before a form that is left out.
     Skip,
+    /// Before a whole form that is read as `NIL`: `*read-suppress*`.
+    Suppressed,
     Evaluate,
     Array(u32),
     Structure,
@@ -98,6 +100,7 @@ impl Kind {
             Kind::Comma(_) => "the form after ,",
             Kind::Feature(true) => "the feature expression after #+",
             Kind::Feature(false) => "the feature expression after #-",
+            Kind::Suppressed => "a form that is left out",
             Kind::Skip => "the form that a feature expression leaves out",
             Kind::Evaluate => "the form after #.",
             Kind::Array(_) => "the array after #A",
@@ -221,6 +224,14 @@ impl Reader {
         let readtable = readtable.as_foreign::<Readtable>();
         let mut terminators = readtable.map(Readtable::terminators).unwrap_or_default();
         terminators.extend(self.terminator);
+        if self.frames.is_empty() && image.special(known::V_READ_SUPPRESS).is_true() {
+            self.frames.push(Frame {
+                kind: Kind::Suppressed,
+                start: self.position,
+                base: self.values.len(),
+            });
+            self.skips += 1;
+        }
         let mut lexer = Lexer::at(&text, self.position).with_terminators(&terminators);
         loop {
             if let Some(readtable) = readtable {
@@ -329,6 +340,16 @@ impl Reader {
     }
 
     fn at_end(&mut self, image: &mut Image) -> Result<Outcome, ReadError> {
+        if let [
+            Frame {
+                kind: Kind::Suppressed,
+                ..
+            },
+        ] = self.frames.as_slice()
+        {
+            self.frames.clear();
+            self.skips = 0;
+        }
         let Some(frame) = self.frames.last() else {
             return Ok(Outcome::End);
         };
@@ -399,7 +420,7 @@ impl Reader {
         match kind {
             Kind::Backquote => self.backquotes += 1,
             Kind::Comma(_) => self.backquotes = self.backquotes.saturating_sub(1),
-            Kind::Skip => self.skips += 1,
+            Kind::Skip | Kind::Suppressed => self.skips += 1,
             Kind::Feature(_) => self.features += 1,
             _ => {}
         }
@@ -616,6 +637,10 @@ impl Reader {
                     self.skips = self.skips.saturating_sub(1);
                     return Ok(None);
                 }
+                Kind::Suppressed => {
+                    self.skips = self.skips.saturating_sub(1);
+                    value = Value::NIL;
+                }
                 _ if is_skipped => value = Value::NIL,
                 Kind::Evaluate => match read_time_value(image, &value)? {
                     Some(constant) => value = constant,
@@ -631,6 +656,11 @@ impl Reader {
                 Kind::Complex => value = literal::complex(&value)?,
                 Kind::Pathname => {
                     if let Some(name) = value.as_text() {
+                        // What stands before a colon may be a logical host.
+                        if name.contains(':') {
+                            let form = Value::list([known::PATHNAME.into(), value]);
+                            return Ok(Some(Outcome::Evaluate(form)));
+                        }
                         value = Value::foreign(Pathname::parse(&name));
                     }
                 }

@@ -16,7 +16,7 @@ use crate::lisp::value::symbol::Sym;
 /// `(defstruct name-and-options [documentation] slots…)`.
 pub(crate) fn expand_defstruct(image: &mut Image, whole: &Value) -> Result<Value, Box<Raise>> {
     let definition = StructureDefinition::read(image, whole)?;
-    if definition.representation != Representation::Instance {
+    if !matches!(definition.representation, Representation::Instance) {
         return typed::expand(image, &definition);
     }
     let slots = all_slots(image, &definition)?;

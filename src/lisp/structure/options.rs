@@ -18,14 +18,14 @@ pub(crate) struct Constructor {
 }
 
 /// How the slots of a structure are stored.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone)]
 pub(crate) enum Representation {
     /// In an instance of a class of their own.
     Instance,
     /// In a list.
     List,
-    /// In a vector.
-    Vector,
+    /// In a vector for elements of a type.
+    Vector(Value),
 }
 
 pub(crate) struct StructureDefinition {
@@ -194,7 +194,10 @@ impl StructureDefinition {
                 };
                 self.representation = match kind {
                     Some(known::LIST) => Representation::List,
-                    Some(known::VECTOR) => Representation::Vector,
+                    Some(known::VECTOR) => Representation::Vector(match &first {
+                        Some(Value::Cons(cons)) => cons.cdr().car_or_nil(),
+                        _ => Value::T,
+                    }),
                     _ => return Err(bad_option(image, option)),
                 };
             }
@@ -226,7 +229,8 @@ impl StructureDefinition {
             Some(copier) => copier,
             None => Some(image.intern(package, &format!("COPY-{name}"))),
         };
-        let is_recognisable = self.representation == Representation::Instance || self.is_named;
+        let is_instance = matches!(self.representation, Representation::Instance);
+        let is_recognisable = is_instance || self.is_named;
         self.predicate = match given.predicate {
             Some(predicate) => predicate,
             None if is_recognisable => Some(image.intern(package, &format!("{name}-P"))),

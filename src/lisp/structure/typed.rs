@@ -91,6 +91,10 @@ pub(crate) fn expand(
         or_nil(definition.copier),
         or_nil(definition.predicate),
     ]];
+    let element_type = match &definition.representation {
+        Representation::Vector(element_type) => element_type.clone(),
+        _ => Value::T,
+    };
     let maker = match definition.representation {
         Representation::List => known::LIST,
         _ => known::VECTOR,
@@ -104,7 +108,18 @@ pub(crate) fn expand(
                 Element::Slot(_) => values.next().unwrap_or(Value::NIL),
             });
             let items: Vec<Value> = items.collect();
-            form![maker; Value::list(items)]
+            if element_type.as_symbol() == Some(known::T) {
+                return form![maker; Value::list(items)];
+            }
+            let contents = form![known::LIST; Value::list(items.iter().cloned())];
+            form![
+                known::MAKE_ARRAY,
+                items.len(),
+                known::K_ELEMENT_TYPE,
+                quote(element_type.clone()),
+                known::K_INITIAL_CONTENTS,
+                contents,
+            ]
         }));
     }
     forms.push(quote(definition.name));

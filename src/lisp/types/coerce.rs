@@ -22,7 +22,10 @@ pub(crate) fn coerce(
     if typep_with(image, value, specifier, answers)? {
         return Ok(value.clone());
     }
-    let specifier = expand(image, specifier, answers)?;
+    let specifier = match expand(image, specifier, answers)? {
+        Value::Class(class) => class.name.into(),
+        other => other,
+    };
     let name = match &specifier {
         Value::Class(class) => Some(class.name),
         Value::Cons(list) => list.car().as_symbol(),

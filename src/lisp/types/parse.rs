@@ -13,6 +13,8 @@ use crate::lisp::value::symbol::Sym;
 /// How deeply specifiers may be nested, expansions of `deftype` included.
 const MAX_DEPTH: usize = 200;
 
+/// More dimensions than an array has.
+const MOST_DIMENSIONS: usize = 129;
 /// Largest fixnum plus one, as in SBCL on 64-bit machines.
 const FIXNUM_LIMIT: i64 = 1 << 62;
 
@@ -363,7 +365,9 @@ fn dimensions(image: &Image, sizes: Option<&Value>) -> Result<Option<Vec<Option<
     match sizes {
         None => Ok(None),
         Some(star) if is_star(star) => Ok(None),
-        Some(Value::Int(rank)) => Ok(usize::try_from(*rank).ok().map(|r| vec![None; r.min(64)])),
+        Some(Value::Int(rank)) => Ok(usize::try_from(*rank)
+            .ok()
+            .map(|r| vec![None; r.min(MOST_DIMENSIONS)])),
         Some(list) => {
             let sizes = list.iter_list();
             let all: Result<Vec<Option<usize>>, Stop> =

@@ -81,7 +81,14 @@ impl SequenceType {
 
     /// Checks that a sequence of this type can have a length.
     pub(crate) fn check_length(&self, length: usize) -> Result<(), Box<Raise>> {
+        let is_cons = self.specifier.as_symbol() == Some(known::CONS);
         match self.length {
+            _ if is_cons && length == 0 => Err(Raise::new(
+                known::SIMPLE_TYPE_ERROR,
+                "The empty list is not of type CONS.",
+            )
+            .with(known::K_DATUM, Value::NIL)
+            .with(known::K_EXPECTED_TYPE, self.specifier.clone())),
             Some(expected) if expected != length => Err(Raise::new(
                 known::SIMPLE_TYPE_ERROR,
                 format!(
@@ -127,6 +134,7 @@ pub(crate) fn upgraded(image: &Image, element_type: &Value) -> Sym {
         }
         Value::Symbol(sym, ..) if image.name(*sym) == "EXTENDED-CHAR" => known::CHARACTER,
         Value::Symbol(known::BIT, ..) => known::BIT,
+        Value::Symbol(known::NIL, ..) => known::NIL,
         Value::Symbol(known::DOUBLE_FLOAT | known::LONG_FLOAT, ..) => known::DOUBLE_FLOAT,
         Value::Symbol(known::SINGLE_FLOAT | known::SHORT_FLOAT, ..) => known::SINGLE_FLOAT,
         Value::Symbol(known::FIXNUM, ..) => known::FIXNUM,

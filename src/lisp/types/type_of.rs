@@ -59,15 +59,18 @@ fn vector_type(vector: &Vector) -> Value {
 }
 
 fn array_type(simple: bool, element: Sym, sizes: &[usize]) -> Value {
-    if let ([size], false) = (sizes, simple) {
-        let vector = [known::VECTOR.into(), element.into(), (*size).into()];
-        let not_simple = [known::NOT.into(), known::SIMPLE_ARRAY.into()];
-        return Value::list([
-            known::AND.into(),
-            Value::list(vector),
-            Value::list(not_simple),
-        ]);
+    let all = Value::list(sizes.iter().map(|n| Value::from(*n)));
+    if simple {
+        return Value::list([known::SIMPLE_ARRAY.into(), element.into(), all]);
     }
-    let sizes = Value::list(sizes.iter().map(|n| Value::from(*n)));
-    Value::list([known::SIMPLE_ARRAY.into(), element.into(), sizes])
+    let array = match sizes {
+        [size] => [known::VECTOR.into(), element.into(), (*size).into()],
+        _ => [known::ARRAY.into(), element.into(), all],
+    };
+    let not_simple = [known::NOT.into(), known::SIMPLE_ARRAY.into()];
+    Value::list([
+        known::AND.into(),
+        Value::list(array),
+        Value::list(not_simple),
+    ])
 }

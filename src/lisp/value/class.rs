@@ -49,6 +49,9 @@ pub(crate) struct SlotDefinition {
     pub(crate) doc: Option<Rc<str>>,
 }
 
+/// A slot of an earlier definition: its name, and the value that it had if it was shared.
+pub(crate) type OldSlot = (Sym, Option<Value>);
+
 impl SlotDefinition {
     /// A slot with nothing but a name.
     pub(crate) fn new(name: Sym) -> SlotDefinition {
@@ -115,7 +118,7 @@ pub(crate) struct Class {
     /// Counts redefinitions, so that instances know when to update.
     pub(crate) generation: Cell<u32>,
     /// Names of all slots in each generation before the current one.
-    pub(crate) old_layouts: RefCell<Vec<Vec<Sym>>>,
+    pub(crate) old_layouts: RefCell<Vec<Vec<OldSlot>>>,
     /// False while the class is only named as a superclass.
     pub(crate) is_defined: Cell<bool>,
 }

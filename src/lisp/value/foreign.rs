@@ -40,6 +40,11 @@ pub(crate) trait Foreign: Any {
     /// The readable form, as `princ` (`escape` false) or `prin1` (`escape` true) print it.
     fn print(&self, context: &dyn PrintContext, escape: bool) -> String;
 
+    /// Can its printed form be read again? One that begins with `#<` cannot in any case.
+    fn is_readable(&self) -> bool {
+        true
+    }
+
     /// What `describe` adds to the printed form: lines, or nothing.
     fn describe(&self, context: &dyn PrintContext) -> String {
         let _ = context;

@@ -1,5 +1,5 @@
-//! Pathnames: names of files, taken apart. Directories are separated by slashes; there are neither
-//! hosts nor devices.
+//! Pathnames: names of files, taken apart. Directories are separated by slashes; there are no devices, and
+//! hosts only as the first part of logical pathnames, whose directories are separated by semicolons.
 
 use super::Value;
 use super::copy::Copier;
@@ -9,6 +9,8 @@ use super::symbol::Sym;
 
 /// The name of a file.
 pub(crate) struct Pathname {
+    /// The host of a logical pathname, a string; `NIL` for the name of a file of the machine.
+    pub(crate) host: Value,
     /// `NIL`, or a list that begins with `:ABSOLUTE` or `:RELATIVE`, of strings, `:UP`, `:WILD` and
     /// `:WILD-INFERIORS`.
     pub(crate) directory: Value,
@@ -38,6 +40,7 @@ impl Pathname {
             Some(text) => Value::string(text),
         };
         Pathname {
+            host: Value::NIL,
             directory: directory(folder),
             name: part(name.filter(|name| !name.is_empty())),
             kind: part(kind),
@@ -47,6 +50,9 @@ impl Pathname {
 
     /// The name of the file, put together.
     pub(crate) fn namestring(&self) -> String {
+        if let Value::Str(host) = &self.host {
+            return self.logical_namestring(&host.text());
+        }
         let mut text = String::new();
         for (index, part) in self.directory.iter_list().enumerate() {
             match (index, part) {
@@ -62,6 +68,32 @@ impl Pathname {
         if self.kind.is_true() {
             text.push('.');
             text.push_str(&shown(&self.kind));
+        }
+        text
+    }
+}
+
+impl Pathname {
+    fn logical_namestring(&self, host: &str) -> String {
+        let mut text = format!("{host}:");
+        for (index, part) in self.directory.iter_list().enumerate() {
+            match (index, part) {
+                (0, Value::Symbol(known::K_RELATIVE, ..)) => text.push(';'),
+                (0, _) => {}
+                (_, part) => {
+                    text.push_str(&shown(&part));
+                    text.push(';');
+                }
+            }
+        }
+        text.push_str(&shown(&self.name));
+        if self.kind.is_true() || self.version.is_true() {
+            text.push('.');
+            text.push_str(&shown(&self.kind));
+        }
+        if self.version.is_true() {
+            text.push('.');
+            text.push_str(&shown(&self.version));
         }
         text
     }
@@ -98,13 +130,21 @@ fn shown(part: &Value) -> String {
         Value::Symbol(known::K_WILD, ..) => "*".to_owned(),
         Value::Symbol(known::K_WILD_INFERIORS, ..) => "**".to_owned(),
         Value::Symbol(known::K_UP | known::K_BACK, ..) => "..".to_owned(),
+        Value::Symbol(known::K_NEWEST, ..) => "NEWEST".to_owned(),
+        Value::Int(number) => number.to_string(),
         _ => String::new(),
     }
+}
+
+/// No version means the newest one.
+fn is_newest(version: &Value) -> bool {
+    matches!(version, Value::Symbol(known::NIL | known::K_NEWEST, ..))
 }
 
 impl Foreign for Pathname {
     fn copied(&self, copier: &mut Copier) -> ForeignCopy {
         ForeignCopy::New(Box::new(Pathname {
+            host: copier.value(&self.host),
             directory: copier.value(&self.directory),
             name: copier.value(&self.name),
             kind: copier.value(&self.kind),
@@ -113,7 +153,10 @@ impl Foreign for Pathname {
     }
 
     fn type_symbol(&self) -> Sym {
-        known::PATHNAME
+        match self.host {
+            Value::Str(_) => known::LOGICAL_PATHNAME,
+            _ => known::PATHNAME,
+        }
     }
 
     fn print(&self, context: &dyn PrintContext, escape: bool) -> String {
@@ -125,13 +168,26 @@ impl Foreign for Pathname {
         }
     }
 
+    // A name, a type or a directory may have characters that separate such parts.
+    fn is_readable(&self) -> bool {
+        let again = Pathname::parse(&self.namestring());
+        let equal = super::equality::equal;
+        self.host.is_true()
+            || (is_newest(&self.version)
+                && equal(&self.directory, &again.directory)
+                && equal(&self.name, &again.name)
+                && equal(&self.kind, &again.kind))
+    }
+
     fn is_equal(&self, other: &Value) -> bool {
         let equal = super::equality::equal;
         other.as_foreign::<Pathname>().is_some_and(|other| {
             equal(&self.directory, &other.directory)
                 && equal(&self.name, &other.name)
                 && equal(&self.kind, &other.kind)
-                && equal(&self.version, &other.version)
+                && equal(&self.host, &other.host)
+                && (equal(&self.version, &other.version)
+                    || (is_newest(&self.version) && is_newest(&other.version)))
         })
     }
 }

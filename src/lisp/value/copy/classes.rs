@@ -5,7 +5,9 @@ use std::rc::Rc;
 
 use super::{Copier, address};
 use crate::lisp::value::Value;
-use crate::lisp::value::class::{Class, Initform, SlotDefinition, StructureLayout, StructureSlot};
+use crate::lisp::value::class::{
+    Class, Initform, OldSlot, SlotDefinition, StructureLayout, StructureSlot,
+};
 use crate::lisp::value::dispatch::Dispatch;
 use crate::lisp::value::generic::{GenericFunction, Method, Specializer};
 use crate::lisp::value::symbol::Sym;
@@ -124,6 +126,12 @@ impl Copier {
         copy.doc.replace(original.doc.borrow().clone());
         copy.generation.set(original.generation.get());
         let layouts = original.old_layouts.borrow().clone();
+        let layouts = layouts.into_iter().map(|slots| {
+            let slots = slots.into_iter();
+            let copied = |(name, value): OldSlot| (name, value.map(|v| self.value(&v)));
+            slots.map(copied).collect()
+        });
+        let layouts = layouts.collect();
         copy.old_layouts.replace(layouts);
         copy.is_defined.set(original.is_defined.get());
     }

@@ -152,14 +152,14 @@ pub(crate) fn equal(a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
 }
 
 /// Real and imaginary part as doubles, and whether a result is a double.
-fn as_doubles(value: &Value) -> Result<(f64, f64, bool), Box<Raise>> {
+pub(super) fn as_doubles(value: &Value) -> Result<(f64, f64, bool), Box<Raise>> {
     let (re, im) = parts(value)?;
     let is_double = matches!(re, Value::Double(_));
     let to = |v: &Value| to_f64(v).ok_or_else(|| not_a_number(v));
     Ok((to(&re)?, to(&im)?, is_double))
 }
 
-fn float(re: f64, im: f64, is_double: bool) -> NumberResult {
+pub(super) fn float(re: f64, im: f64, is_double: bool) -> NumberResult {
     complex(
         &finite(re, is_double, known::COMPLEX, &[])?,
         &finite(im, is_double, known::COMPLEX, &[])?,

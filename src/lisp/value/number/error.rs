@@ -64,13 +64,3 @@ pub(crate) fn overflow(operation: Sym, operands: &[&Value]) -> Box<Raise> {
 pub(crate) fn invalid(operation: Sym, operands: &[&Value]) -> Box<Raise> {
     arithmetic(known::FLOATING_POINT_INVALID_OPERATION, operation, operands)
 }
-
-/// A function applied outside the real numbers for which it is defined here.
-#[cold]
-pub(crate) fn complex_result(operation: Sym, operand: &Value) -> Box<Raise> {
-    arithmetic(
-        known::FLOATING_POINT_INVALID_OPERATION,
-        operation,
-        &[operand],
-    )
-}

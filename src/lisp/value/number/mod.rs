@@ -10,6 +10,7 @@ mod arithmetic;
 mod bits;
 mod compare;
 mod complex;
+mod complex_trigonometry;
 mod convert;
 mod division;
 pub(crate) mod error;

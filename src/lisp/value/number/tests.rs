@@ -243,5 +243,31 @@ fn negative_numbers_have_complex_roots_and_logarithms() {
     assert!(number_equal(&z("1", "2"), &z("1.0", "2.0")).ok().unwrap());
     assert!(z("1", "2").is_eql(&z("1", "2")));
     assert!(less(&z("1", "2"), &n("1")).is_err());
-    assert_eq!(ok(acos(&n("2"))), "another error");
+}
+
+#[test]
+fn trigonometric_functions_are_defined_in_the_whole_plane() {
+    let parts = |value: error::NumberResult| match value {
+        Ok(z) if is_complex(&z) => format!("{} {}", ok(real_part(&z)), ok(imaginary_part(&z))),
+        other => ok(other),
+    };
+    let z = complex(&n("1.0"), &n("2.0")).ok().unwrap();
+    assert_eq!(parts(sin(&z)), "3.1657784 1.959601");
+    assert_eq!(parts(cos(&z)), "2.032723 -3.0518978");
+    assert_eq!(parts(tan(&z)), "0.033812825 1.0147936");
+    assert_eq!(parts(asin(&z)), "0.42707857 1.5285709");
+    assert_eq!(parts(acos(&z)), "1.1437178 -1.5285709");
+    assert_eq!(parts(atan(&z)), "1.3389726 0.4023595");
+    assert_eq!(parts(sinh(&z)), "-0.48905626 1.4031192");
+    assert_eq!(parts(cosh(&z)), "-0.64214814 1.0686074");
+    assert_eq!(parts(tanh(&z)), "1.1667362 -0.2434582");
+    assert_eq!(parts(asinh(&z)), "1.4693518 1.06344");
+    assert_eq!(parts(acosh(&z)), "1.5285709 1.1437178");
+    assert_eq!(parts(atanh(&z)), "0.1732868 1.1780972");
+    assert_eq!(parts(asin(&n("2"))), "1.5707964 -1.316958");
+    assert_eq!(parts(asin(&n("-2"))), "-1.5707964 1.316958");
+    assert_eq!(parts(acos(&n("2"))), "0.0 1.316958");
+    assert_eq!(parts(acosh(&n("-2"))), "1.316958 3.1415927");
+    assert_eq!(parts(atanh(&n("3"))), "0.3465736 1.5707964");
+    assert_eq!(parts(atanh(&n("-3"))), "-0.3465736 -1.5707964");
 }

@@ -10,8 +10,9 @@ use num_traits::ToPrimitive;
 use super::arithmetic::div;
 use super::compare::{is_minus, is_zero};
 use super::complex;
+use super::complex_trigonometry;
 use super::convert::to_f64;
-use super::error::{NumberResult, complex_result, division_by_zero, not_a_number};
+use super::error::{NumberResult, division_by_zero, not_a_number};
 use super::exponential;
 use super::power::finite;
 use crate::lisp::value::Value;
@@ -22,7 +23,15 @@ fn is_double(value: &Value) -> bool {
     matches!(value, Value::Double(_))
 }
 
-fn apply(value: &Value, operation: Sym, function: fn(f64) -> f64) -> NumberResult {
+fn apply(
+    value: &Value,
+    operation: Sym,
+    function: fn(f64) -> f64,
+    of_complex: complex_trigonometry::Function,
+) -> NumberResult {
+    if complex::is_complex(value) {
+        return complex_trigonometry::apply(value, of_complex);
+    }
     let x = to_f64(value).ok_or_else(|| not_a_number(value))?;
     finite(function(x), is_double(value), operation, &[value])
 }
@@ -31,7 +40,7 @@ macro_rules! functions {
     ($($(#[$doc:meta])* $name:ident = $sym:ident;)*) => {
         $($(#[$doc])*
         pub(crate) fn $name(value: &Value) -> NumberResult {
-            apply(value, known::$sym, libm::$name)
+            apply(value, known::$sym, libm::$name, complex_trigonometry::$name)
         })*
     };
 }
@@ -60,41 +69,98 @@ pub(crate) fn exp(value: &Value) -> NumberResult {
     if complex::is_complex(value) {
         return complex::exponential(value);
     }
-    apply(value, known::EXP, exponential::exp)
+    let x = to_f64(value).ok_or_else(|| not_a_number(value))?;
+    finite(exponential::exp(x), is_double(value), known::EXP, &[value])
 }
 
-/// A function that is real only where `holds` is true.
-fn apply_within(
-    value: &Value,
+/// A function that is real only within bounds. Beyond them, reals lie on a branch cut: above the bounds,
+/// on its side where imaginary parts have the sign of `above`; below them, of `below`.
+struct Bounded {
     operation: Sym,
     function: fn(f64) -> f64,
-    holds: fn(f64) -> bool,
-) -> NumberResult {
-    let x = to_f64(value).ok_or_else(|| not_a_number(value))?;
-    if !holds(x) {
-        return Err(complex_result(operation, value));
+    of_complex: complex_trigonometry::Function,
+    least: f64,
+    most: f64,
+    above: f64,
+    below: f64,
+}
+
+impl Bounded {
+    fn apply(&self, value: &Value) -> NumberResult {
+        if complex::is_complex(value) {
+            return complex_trigonometry::apply(value, self.of_complex);
+        }
+        let x = to_f64(value).ok_or_else(|| not_a_number(value))?;
+        let side = match x {
+            _ if x > self.most => self.above,
+            _ if x < self.least => self.below,
+            _ => {
+                return finite(
+                    (self.function)(x),
+                    is_double(value),
+                    self.operation,
+                    &[value],
+                );
+            }
+        };
+        complex_trigonometry::apply_beside_cut(value, side, self.of_complex)
     }
-    finite(function(x), is_double(value), operation, &[value])
 }
 
 /// `(asin x)`, in rad.
 pub(crate) fn asin(value: &Value) -> NumberResult {
-    apply_within(value, known::ASIN, libm::asin, |x| x.abs() <= 1.0)
+    let bounded = Bounded {
+        operation: known::ASIN,
+        function: libm::asin,
+        of_complex: complex_trigonometry::asin,
+        least: -1.0,
+        most: 1.0,
+        above: -0.0,
+        below: 0.0,
+    };
+    bounded.apply(value)
 }
 
 /// `(acos x)`, in rad.
 pub(crate) fn acos(value: &Value) -> NumberResult {
-    apply_within(value, known::ACOS, libm::acos, |x| x.abs() <= 1.0)
+    let bounded = Bounded {
+        operation: known::ACOS,
+        function: libm::acos,
+        of_complex: complex_trigonometry::acos,
+        least: -1.0,
+        most: 1.0,
+        above: -0.0,
+        below: 0.0,
+    };
+    bounded.apply(value)
 }
 
 /// `(acosh x)`.
 pub(crate) fn acosh(value: &Value) -> NumberResult {
-    apply_within(value, known::ACOSH, libm::acosh, |x| x >= 1.0)
+    let bounded = Bounded {
+        operation: known::ACOSH,
+        function: libm::acosh,
+        of_complex: complex_trigonometry::acosh,
+        least: 1.0,
+        most: f64::INFINITY,
+        above: 0.0,
+        below: 0.0,
+    };
+    bounded.apply(value)
 }
 
 /// `(atanh x)`.
 pub(crate) fn atanh(value: &Value) -> NumberResult {
-    apply_within(value, known::ATANH, libm::atanh, |x| x.abs() <= 1.0)
+    let bounded = Bounded {
+        operation: known::ATANH,
+        function: libm::atanh,
+        of_complex: complex_trigonometry::atanh,
+        least: -1.0,
+        most: 1.0,
+        above: 0.0,
+        below: -0.0,
+    };
+    bounded.apply(value)
 }
 
 /// `(atan y x)`: the angle (rad) of the vector (x, y).

@@ -1,0 +1,83 @@
+//! Macros that the compiler translates itself, for speed, as if they were special operators. To programs
+//! they are macros: `macroexpand` and programs that walk code see what they stand for.
+
+use crate::lisp::image::Image;
+use crate::lisp::value::Value;
+use crate::lisp::value::form::form;
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+
+type Expansion = Result<Value, Box<Raise>>;
+
+/// `(lambda …)` is `(function (lambda …))`.
+pub(super) fn lambda(_: &mut Image, form: &Value) -> Expansion {
+    Ok(form![known::FUNCTION, form.clone()])
+}
+
+/// `(and first rest…)`: the rest if the first is true.
+pub(super) fn and(_: &mut Image, form: &Value) -> Expansion {
+    let args = form.cdr_or_nil();
+    let (first, rest) = (args.car_or_nil(), args.cdr_or_nil());
+    Ok(match (args.is_nil(), rest.is_nil()) {
+        (true, _) => Value::T,
+        (_, true) => first,
+        _ => form![known::IF, first, form![known::AND; rest]],
+    })
+}
+
+/// `(or first rest…)`: the value of the first if it is true, else the rest.
+pub(super) fn or(image: &mut Image, form: &Value) -> Expansion {
+    let args = form.cdr_or_nil();
+    let (first, rest) = (args.car_or_nil(), args.cdr_or_nil());
+    if rest.is_nil() {
+        return Ok(first);
+    }
+    let value: Value = image.gensym("VALUE").into();
+    let test = form![
+        known::IF,
+        value.clone(),
+        value.clone(),
+        form![known::OR; rest]
+    ];
+    Ok(form![known::LET, form![form![value, first]], test])
+}
+
+/// `(prog1 first rest…)`: the value of the first, kept in a variable.
+pub(super) fn prog1(image: &mut Image, form: &Value) -> Expansion {
+    let args = form.cdr_or_nil();
+    if args.is_nil() {
+        return Err(Raise::program("PROG1 takes a form whose value it returns."));
+    }
+    let value: Value = image.gensym("VALUE").into();
+    let binding = form![form![value.clone(), args.car_or_nil()]];
+    let rest = args.cdr_or_nil();
+    Ok(form![
+        known::LET,
+        binding,
+        Value::cons(known::PROGN.into(), rest),
+        value
+    ])
+}
+
+/// `(multiple-value-bind variables form body…)`: a call of a function with these parameters.
+pub(super) fn multiple_value_bind(image: &mut Image, form: &Value) -> Expansion {
+    let args = form.cdr_or_nil();
+    let (variables, rest) = (args.car_or_nil(), args.cdr_or_nil());
+    let others: Value = image.gensym("OTHERS").into();
+    let mut parameters = vec![known::L_OPTIONAL.into()];
+    parameters.extend(variables.iter_list());
+    parameters.extend([known::L_REST.into(), others.clone()]);
+    let unused = form![known::DECLARE, form![known::IGNORE, others]];
+    let lambda = form![known::LAMBDA, Value::list(parameters), unused; rest.cdr_or_nil()];
+    let function = form![known::FUNCTION, lambda];
+    Ok(form![
+        known::MULTIPLE_VALUE_CALL,
+        function,
+        rest.car_or_nil()
+    ])
+}
+
+/// `(handler-bind bindings body…)`: the special operator behind it.
+pub(super) fn handler_bind(_: &mut Image, form: &Value) -> Expansion {
+    Ok(form![known::WITH_HANDLERS; form.cdr_or_nil()])
+}
