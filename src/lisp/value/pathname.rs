@@ -53,17 +53,7 @@ impl Pathname {
         if let Value::Str(host) = &self.host {
             return self.logical_namestring(&host.text());
         }
-        let mut text = String::new();
-        for (index, part) in self.directory.iter_list().enumerate() {
-            match (index, part) {
-                (0, Value::Symbol(known::K_ABSOLUTE, ..)) => text.push('/'),
-                (0, _) => {}
-                (_, part) => {
-                    text.push_str(&shown(&part));
-                    text.push('/');
-                }
-            }
-        }
+        let mut text = self.directory_text(known::K_ABSOLUTE, '/');
         text.push_str(&shown(&self.name));
         if self.kind.is_true() {
             text.push('.');
@@ -74,18 +64,26 @@ impl Pathname {
 }
 
 impl Pathname {
-    fn logical_namestring(&self, host: &str) -> String {
-        let mut text = format!("{host}:");
+    /// The directory, each part with a separator after it, and one in front of all for one of the two
+    /// kinds of directories.
+    fn directory_text(&self, with_first: Sym, separator: char) -> String {
+        let mut text = String::new();
         for (index, part) in self.directory.iter_list().enumerate() {
             match (index, part) {
-                (0, Value::Symbol(known::K_RELATIVE, ..)) => text.push(';'),
+                (0, Value::Symbol(kind, ..)) if kind == with_first => text.push(separator),
                 (0, _) => {}
                 (_, part) => {
                     text.push_str(&shown(&part));
-                    text.push(';');
+                    text.push(separator);
                 }
             }
         }
+        text
+    }
+
+    fn logical_namestring(&self, host: &str) -> String {
+        let mut text = format!("{host}:");
+        text.push_str(&self.directory_text(known::K_RELATIVE, ';'));
         text.push_str(&shown(&self.name));
         if self.kind.is_true() || self.version.is_true() {
             text.push('.');
