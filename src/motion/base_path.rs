@@ -9,7 +9,7 @@
 use super::base_lattice::Lattice;
 use super::interruption;
 use crate::spatial::trig;
-use crate::world::ExploredGrid;
+use crate::world::ExploredGrids;
 
 /// A pose of the base: x (m), y (m), heading (rad, not wrapped) in the map frame.
 pub(crate) type BasePlace = [f64; 3];
@@ -56,13 +56,13 @@ type Check<'a, P> = dyn FnMut(&BasePlace, f64) -> Option<P> + 'a;
 /// `blocked` returns what the robot touches at a pose, or what is closer than the margin
 /// (m). `reach` (m) is the largest distance of any part of the robot from the base's axis.
 /// `explored` is what earlier searches from the same start, with the same obstacles, have found
-/// out, or empty.
+/// out, or the default.
 pub(crate) fn find_base_path<P: Clone + PartialEq>(
     start: BasePlace,
     goal: BasePlace,
     area: FloorArea,
     reach: f64,
-    explored: &mut Vec<ExploredGrid>,
+    explored: &mut ExploredGrids,
     blocked: &mut Check<'_, P>,
 ) -> Result<Vec<BasePlace>, BasePathFailure<P>> {
     let goal = [goal[0], goal[1], start[2] + trig::wrap(goal[2] - start[2])];
@@ -83,16 +83,8 @@ pub(crate) fn find_base_path<P: Clone + PartialEq>(
     if search.edge(&start, &goal).is_none() {
         return Ok(vec![start, goal]);
     }
-    explored.resize_with(SPACINGS.len() + 1, ExploredGrid::default);
-    let (through, grids) = match explored.split_last_mut() {
-        Some(split) => split,
-        None => {
-            return Err(BasePathFailure::Enclosed {
-                blockers: Vec::new(),
-            });
-        }
-    };
-    for ((spacing, margin), grid) in SPACINGS.into_iter().zip(grids) {
+    let [coarse, fine, through] = explored;
+    for ((spacing, margin), grid) in SPACINGS.into_iter().zip([coarse, fine]) {
         search.margin = margin;
         if let Some(path) = Lattice::new(&mut search, spacing, false, grid).path() {
             return Ok(search.shorten(path));
@@ -255,7 +247,7 @@ mod tests {
         wall: impl Fn(f64, f64, f64) -> bool,
     ) -> Result<Vec<BasePlace>, BasePathFailure<&'static str>> {
         let mut blocked = |p: &BasePlace, m: f64| touches(p, m, &wall).then_some("wall");
-        let explored = &mut Vec::new();
+        let explored = &mut ExploredGrids::default();
         find_base_path([-2.0, 0.0, 0.0], goal, ROOM, 0.7, explored, &mut blocked)
     }
 
@@ -311,14 +303,14 @@ mod tests {
         let (mut checks, mut enclosed) = ([0, 0], 0);
         for number in 0..12 {
             let wall = maze(number);
-            let mut explored = Vec::new();
+            let mut explored = ExploredGrids::default();
             for goal in [
                 [2.0, 1.0, 0.0],
                 [1.8, 1.1, 0.4],
                 [2.0, -2.0, 1.0],
                 [2.1, 0.8, 0.1],
             ] {
-                let find = |explored: &mut Vec<ExploredGrid>, checks: &mut u32| {
+                let find = |explored: &mut ExploredGrids, checks: &mut u32| {
                     let mut blocked = |p: &BasePlace, m: f64| {
                         *checks += 1;
                         touches(p, m, &wall).then_some("wall")
@@ -328,7 +320,7 @@ mod tests {
                 let found = find(&mut explored, &mut checks[0]);
                 assert_eq!(
                     found,
-                    find(&mut Vec::new(), &mut checks[1]),
+                    find(&mut ExploredGrids::default(), &mut checks[1]),
                     "{number} {goal:?}"
                 );
                 enclosed += u32::from(found.is_err());

@@ -34,6 +34,9 @@ pub(crate) struct ExploredGrid {
     pub(crate) cut_off: Vec<bool>,
 }
 
+/// What is known of each of the grids that a search uses, in its order.
+pub(crate) type ExploredGrids = [ExploredGrid; 3];
+
 /// Where everything is that a pose of the base depends on.
 #[derive(Clone, Debug, PartialEq)]
 struct Arrangement {
@@ -57,7 +60,7 @@ struct Arranged {
 
 /// What is known of the floor in the last arrangement that was asked for; a copy knows nothing.
 #[derive(Debug, Default)]
-pub(super) struct ExploredFloor(Mutex<Option<(Arrangement, Vec<ExploredGrid>)>>);
+pub(super) struct ExploredFloor(Mutex<Option<(Arrangement, ExploredGrids)>>);
 
 impl Clone for ExploredFloor {
     fn clone(&self) -> Self {
@@ -70,7 +73,7 @@ impl World {
     /// anything has moved since the last call.
     pub(crate) fn with_explored_floor<T>(
         &self,
-        function: impl FnOnce(&mut Vec<ExploredGrid>) -> T,
+        function: impl FnOnce(&mut ExploredGrids) -> T,
     ) -> T {
         let now = self.arrangement();
         let lock = || {

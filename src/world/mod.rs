@@ -50,7 +50,7 @@ pub(crate) use body_name::BodyName;
 pub(crate) use collision::{CollisionChecker, CollisionHit};
 pub(crate) use contacts::ContactForce;
 pub(crate) use error::WorldError;
-pub(crate) use explored_floor::{ExploredGrid, Known};
+pub(crate) use explored_floor::{ExploredGrid, ExploredGrids, Known};
 pub(crate) use extent::Extent;
 pub(crate) use handle_hold::{HandleHold, HandleSlip};
 pub(crate) use holding::Slip;
