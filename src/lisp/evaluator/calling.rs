@@ -14,7 +14,7 @@ use crate::lisp::value::known;
 use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::fiber::{Dynamic, Frame, FrameKind};
-use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::machine::{Machine, UnderWay};
 
 /// The most calls that may be open at once.
 const MOST_FRAMES: usize = 1_000_000;
@@ -212,7 +212,9 @@ impl Machine<'_> {
             && native.accepts(count)
             && let Some(f) = self.image.pure_call(native)
         {
+            self.under_way = self.pc().map(|pc| UnderWay { pc, cut });
             let result = f(self.image, &self.fiber.stack[start..]);
+            self.under_way = None;
             self.fiber.stack.truncate(cut);
             return match result {
                 Ok(value) => {

@@ -11,7 +11,7 @@ use crate::lisp::value::raise::{Raise, is_interrupt};
 use crate::lisp::value::release;
 use crate::lisp::vm::calls::Suspended;
 use crate::lisp::vm::fiber::{Frame, FrameKind, Target};
-use crate::lisp::vm::machine::{Event, Machine};
+use crate::lisp::vm::machine::{Event, Machine, UnderWay};
 use crate::lisp::vm::step::Step;
 
 /// What the machine does next.
@@ -138,6 +138,10 @@ impl Machine<'_> {
     /// What to do when a builtin was left. The call cannot go on, and no handler is asked about
     /// an interrupt.
     fn left(&mut self, reason: Stopped) -> Next {
+        if let Some(UnderWay { pc, cut }) = self.under_way.take() {
+            self.save_pc(pc);
+            self.fiber.stack.truncate(cut);
+        }
         let raise = Box::<Raise>::from(reason);
         if reason != Stopped::Interrupted {
             return self.raise(raise);
@@ -282,6 +286,14 @@ impl Machine<'_> {
         }) = self.fiber.frames.last_mut()
         {
             *pc = new;
+        }
+    }
+
+    /// The next operation of the topmost frame, if that is one of code.
+    pub(super) fn pc(&self) -> Option<usize> {
+        match self.fiber.frames.last()?.kind {
+            FrameKind::Code { pc, .. } => Some(pc),
+            FrameKind::Native { .. } => None,
         }
     }
 

@@ -9,7 +9,7 @@ use crate::lisp::value::operation::Comparison;
 use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::machine::{Machine, UnderWay};
 
 /// An operation on two numbers.
 type Binary = fn(&Value, &Value) -> Result<Value, Box<Raise>>;
@@ -321,12 +321,24 @@ impl Machine<'_> {
         done
     }
 
+    /// Computes with numbers, which may be so large that this is left on the way; `pc` is the
+    /// operation after this one, and its operands are off the stack.
+    #[inline(never)]
+    fn compute<T>(&mut self, pc: usize, work: impl FnOnce(&[Value]) -> T) -> T {
+        let cut = self.fiber.stack.len();
+        self.under_way = Some(UnderWay { pc, cut });
+        let result = work(&self.fiber.stack);
+        self.under_way = None;
+        result
+    }
+
     /// Replaces the two topmost values with the result of an operation on numbers.
     #[inline(always)]
     pub(super) fn arithmetic(
         &mut self,
         of_integers: fn(i64, i64) -> Option<i64>,
         of_numbers: Binary,
+        pc: usize,
     ) -> Result<(), Box<Raise>> {
         let stack = &mut self.fiber.stack;
         if let [.., Value::Int(x), Value::Int(y)] = stack.as_mut_slice()
@@ -338,14 +350,14 @@ impl Machine<'_> {
         }
         let b = self.pop();
         let a = self.pop();
-        let value = of_numbers(&a, &b)?;
+        let value = self.compute(pc, |_| of_numbers(&a, &b))?;
         self.fiber.stack.push(value);
         Ok(())
     }
 
     /// Adds a small integer to the top.
     #[inline(always)]
-    pub(super) fn add_int(&mut self, n: i32) -> Result<(), Box<Raise>> {
+    pub(super) fn add_int(&mut self, n: i32, pc: usize) -> Result<(), Box<Raise>> {
         if let Some(Value::Int(x)) = self.fiber.stack.last_mut()
             && let Some(sum) = x.checked_add(i64::from(n))
         {
@@ -353,38 +365,38 @@ impl Machine<'_> {
             return Ok(());
         }
         let a = self.pop();
-        let value = number::add(&a, &Value::Int(i64::from(n)))?;
+        let value = self.compute(pc, |_| number::add(&a, &Value::Int(i64::from(n))))?;
         self.fiber.stack.push(value);
         Ok(())
     }
 
     /// Pushes a local plus a small integer.
     #[inline(always)]
-    pub(super) fn local_add_int(&mut self, at: usize, n: i32) -> Result<(), Box<Raise>> {
+    pub(super) fn local_add_int(&mut self, at: usize, n: i32, pc: usize) -> Result<(), Box<Raise>> {
         let n = i64::from(n);
-        let local = &self.fiber.stack[at];
-        if let Value::Int(x) = local
+        if let Value::Int(x) = &self.fiber.stack[at]
             && let Some(sum) = x.checked_add(n)
         {
             self.push_int(sum);
             return Ok(());
         }
-        let value = number::add(local, &Value::Int(n))?;
+        let value = self.compute(pc, |stack| number::add(&stack[at], &Value::Int(n)))?;
         self.fiber.stack.push(value);
         Ok(())
     }
 
     /// Adds a small integer to a local.
     #[inline(always)]
-    pub(super) fn add_to_local(&mut self, at: usize, n: i32) -> Result<(), Box<Raise>> {
-        let local = &mut self.fiber.stack[at];
-        if let Value::Int(x) = local
-            && let Some(sum) = x.checked_add(i64::from(n))
+    pub(super) fn add_to_local(&mut self, at: usize, n: i32, pc: usize) -> Result<(), Box<Raise>> {
+        let n = i64::from(n);
+        if let Value::Int(x) = &mut self.fiber.stack[at]
+            && let Some(sum) = x.checked_add(n)
         {
             *x = sum;
             return Ok(());
         }
-        *local = number::add(local, &Value::Int(i64::from(n)))?;
+        let value = self.compute(pc, |stack| number::add(&stack[at], &Value::Int(n)))?;
+        self.fiber.stack[at] = value;
         Ok(())
     }
 

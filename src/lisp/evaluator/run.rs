@@ -17,7 +17,7 @@ use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
 use crate::lisp::vm::fiber::{Frame, FrameKind};
-use crate::lisp::vm::machine::{Event, Machine};
+use crate::lisp::vm::machine::{Event, Machine, UnderWay};
 
 /// Where execution continues after a call.
 enum Called {
@@ -285,13 +285,13 @@ impl Machine<'_> {
                         let result = self.test_top(|value| matches!(value, Value::Cons(_)));
                         self.push_bool(result);
                     }
-                    Op::Add => check!(self.arithmetic(i64::checked_add, number::add)),
-                    Op::Sub => check!(self.arithmetic(i64::checked_sub, number::sub)),
-                    Op::Mul => check!(self.arithmetic(i64::checked_mul, number::mul)),
-                    Op::AddInt(n) => check!(self.add_int(n)),
-                    Op::LocalAddInt(i, n) => check!(self.local_add_int(base + i as usize, n)),
+                    Op::Add => check!(self.arithmetic(i64::checked_add, number::add, pc)),
+                    Op::Sub => check!(self.arithmetic(i64::checked_sub, number::sub, pc)),
+                    Op::Mul => check!(self.arithmetic(i64::checked_mul, number::mul, pc)),
+                    Op::AddInt(n) => check!(self.add_int(n, pc)),
+                    Op::LocalAddInt(i, n) => check!(self.local_add_int(base + i as usize, n, pc)),
                     Op::AddToLocal(i, n) => {
-                        check!(self.add_to_local(base + i as usize, n));
+                        check!(self.add_to_local(base + i as usize, n, pc));
                         pc += 1;
                     }
                     Op::Compare(comparison) => match self.compare(comparison) {
@@ -389,7 +389,9 @@ impl Machine<'_> {
         match &called.body {
             Body::Native(native) if native.accepts(count) => {
                 if let Some(f) = self.image.pure_call(native) {
+                    self.under_way = Some(UnderWay { pc, cut });
                     let result = f(self.image, &self.fiber.stack[cut..]);
+                    self.under_way = None;
                     return self.returned(result, cut, multi, pc);
                 }
             }

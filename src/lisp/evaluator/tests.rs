@@ -1,5 +1,6 @@
 //! The machine at work: each test evaluates text and compares what is printed.
 
+use crate::lisp::compile::compile_lambda;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::reader;
@@ -468,5 +469,71 @@ fn code_that_is_interrupted_at_any_poll_goes_on_as_if_it_had_not_been() {
             }
         }
         assert!(continued > 3, "{form}");
+    }
+}
+
+/// Evaluates a form that is interrupted at one of its polls. Where that leaves a call or a computation
+/// in the middle, its value is 55. Returns the value and the number of polls.
+fn evaluate_answering(text: &str, at: Option<u64>) -> Option<(String, u64)> {
+    let mut image = Image::new();
+    let source = image.sources.add("test", text);
+    let forms = reader::read_all(&mut image, source).unwrap_or_else(|e| panic!("{e}"));
+    let (form, _) = forms.into_iter().next()?;
+    let lambda = Value::list([known::LAMBDA.into(), Value::NIL, form]);
+    let function = compile_lambda(&mut image, &lambda).unwrap_or_else(|_| panic!("{text}"));
+    image.limits.polls.begin(at);
+    let mut fiber = Fiber::default();
+    let mut machine = Machine::new(&mut image, &mut fiber);
+    let mut event = machine.start(Value::Function(function), Vec::new());
+    loop {
+        event = match event {
+            Event::Interrupted => machine.run(),
+            Event::Unhandled(condition) => {
+                if print::to_string(machine.image, &condition, false) != "Interrupted." {
+                    // 55 was not what comes next.
+                    return None;
+                }
+                machine.resume(Value::Int(55))
+            }
+            Event::Done(value) => {
+                let polls = machine.image.limits.polls.count();
+                return Some((print::to_string(&image, &value, true), polls));
+            }
+            _ => panic!("{text} has stopped"),
+        };
+    }
+}
+
+#[test]
+fn a_value_in_place_of_what_was_left_by_an_interrupt_evaluates_nothing_again() {
+    for (form, whole, answered) in [
+        (
+            "(let ((l (make-list 100000)) (n 0)) (list 10 (incf n) (length l) n 20))",
+            "(10 1 100000 1 20)",
+            "(10 1 55 1 20)",
+        ),
+        (
+            "(let ((l (make-list 100000)) (n 0)) (list 10 (incf n) (funcall #'length l) n 20))",
+            "(10 1 100000 1 20)",
+            "(10 1 55 1 20)",
+        ),
+        (
+            "(let ((x (1+ (ash 1 300000))) (n 0)) (list 10 (incf n) (eql (* x x) 55) n 20))",
+            "(10 1 NIL 1 20)",
+            "(10 1 T 1 20)",
+        ),
+    ] {
+        let polls = evaluate_answering(form, None).map_or(0, |(_, polls)| polls);
+        let values: Vec<String> = (1..=polls)
+            .filter_map(|at| evaluate_answering(form, Some(at)))
+            .map(|(value, _)| value)
+            .collect();
+        assert!(
+            values.iter().any(|value| value == answered),
+            "{form}: {polls} polls"
+        );
+        for value in values {
+            assert!(value == whole || value == answered, "{form}: {value}");
+        }
     }
 }
