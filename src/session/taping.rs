@@ -99,15 +99,16 @@ impl Taping for Session {
     }
 
     fn begin_anew(&mut self) -> bool {
+        // A tape that does not fit has set it; an interrupt from now on is heard.
+        let flag = Arc::clone(self.image.interrupt());
+        flag.store(false, std::sync::atomic::Ordering::Relaxed);
         let Ok(mut fresh) = Session::new(&self.options) else {
             return false;
         };
-        let flag = self.image.interrupt();
-        flag.store(false, std::sync::atomic::Ordering::Relaxed);
         let Some(limits) = Rc::get_mut(&mut fresh.image.limits) else {
             return false;
         };
-        limits.polls.use_flag(Arc::clone(flag));
+        limits.polls.use_flag(flag);
         std::mem::swap(&mut fresh.host.audience, &mut self.host.audience);
         fresh.host.person.can_serve = self.host.person.can_serve;
         *self = fresh;

@@ -426,6 +426,30 @@ fn what_is_typed_after_an_interrupt_of_resuming_is_kept() {
 }
 
 #[test]
+fn an_interrupt_of_resuming_is_heard_although_cleaning_up_leaves_the_tape() {
+    let state = State::new("resume-cleaning");
+    let mut terminal = Terminal::start(&state, &[]);
+    let file = state.path().join("slow");
+    let slow = format!(
+        "(setf *slow* (if (probe-file {0:?}) (unwind-protect (loop) (world-hash)) (open {0:?} :direction :output)))",
+        file.to_str().expect("a path")
+    );
+    terminal.paste(&format!(
+        "CL-USER> (defvar *slow* nil)\nCL-USER> {slow}\nCL-USER> (defvar *lost* 1)"
+    ));
+    terminal.line("");
+    terminal.wait_for("*LOST*\nCL-USER>");
+    terminal.kill();
+    let resumed = Terminal::start_resumed(&state);
+    resumed.wait_for("; Input 2 of 3");
+    resumed.keys(CTRL_C);
+    resumed.wait_for("; Interrupted at input 2 of 3.");
+    resumed.wait_for_last_line("CL-USER>");
+    resumed.evaluate("(list *slow* (boundp '*lost*))");
+    assert!(resumed.text().contains("(NIL NIL)"), "{}", resumed.text());
+}
+
+#[test]
 fn a_session_that_stood_still_is_resumed_where_it_stood() {
     let state = State::new("resume-level");
     let mut terminal = in_tutorial(&state, &[]);

@@ -1,6 +1,7 @@
 //! Evaluates standard input when it is not a terminal.
 
 use std::io::{self, BufRead, Write};
+use std::sync::atomic::AtomicBool;
 
 use super::arguments::{Options, PromptOptions, WatchArguments};
 use super::failure::{CommandError, Status};
@@ -49,6 +50,7 @@ pub(crate) fn evaluate_standard_input(
             &mut number,
             progress,
             false,
+            &AtomicBool::new(false),
         )?;
         session.set_interactive(false);
     } else {

@@ -91,11 +91,14 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
     let serving = Serving::default();
     let served = serving.clone();
     let is_evaluating = Arc::new(AtomicBool::new(false));
+    let has_interrupted = Arc::new(AtomicBool::new(false));
+    let noted = Arc::clone(&has_interrupted);
     let evaluating = Arc::clone(&is_evaluating);
     ctrlc::set_handler(move || {
         if served.stop() {
             return;
         }
+        noted.store(true, Ordering::Relaxed);
         handle.store(true, Ordering::Relaxed);
         thread::sleep(SOON);
         if handle.load(Ordering::Relaxed) && evaluating.load(Ordering::Relaxed) {
@@ -127,6 +130,7 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
     let mut repl = Repl {
         evaluator,
         interrupt,
+        has_interrupted,
         is_evaluating,
         screen,
         keeper: Keeper::new(journal),
@@ -154,6 +158,8 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
 struct Repl {
     evaluator: Shared,
     interrupt: Arc<AtomicBool>,
+    /// Whether the user has interrupted since resuming began, heard or not.
+    has_interrupted: Arc<AtomicBool>,
     is_evaluating: Arc<AtomicBool>,
     screen: Screen<io::Stdout>,
     keeper: Keeper,
@@ -308,6 +314,7 @@ impl Repl {
             &mut self.number,
             io::stdout(),
             true,
+            &self.has_interrupted,
         )?;
         let mut evaluator = self.evaluator.borrow_mut();
         evaluator.set_interactive(true);

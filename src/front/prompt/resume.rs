@@ -1,6 +1,7 @@
 //! Resuming an earlier session: its inputs are evaluated again.
 
 use std::io::{self, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::journal::{Earlier, End, Recorded};
 use super::keeper::Keeper;
@@ -37,6 +38,8 @@ pub(super) struct Progress<W> {
     out: W,
     is_shown: bool,
     count: usize,
+    /// Index of the input that is being evaluated.
+    at: usize,
 }
 
 impl<W: Write> Progress<W> {
@@ -47,6 +50,7 @@ impl<W: Write> Progress<W> {
 
     /// Tells which input is being evaluated, by its index, and what happens in it.
     fn show(&mut self, at: usize, what: &str) -> io::Result<()> {
+        self.at = at;
         if self.is_shown {
             let (erase, count) = (self.erase(), self.count);
             write!(self.out, "{erase}; Input {} of {count} … {what}", at + 1)?;
@@ -64,8 +68,8 @@ impl<W: Write> Progress<W> {
 /// becomes the number of the last one. As far as there is a tape of the session, the world's
 /// answers come from it.
 ///
-/// Where the user interrupts, the session continues without the inputs after that. With
-/// `shows_progress`, a line says how far it is.
+/// Where the user interrupts, the session continues without the inputs after that; `has_interrupted`
+/// becomes true at an interrupt. With `shows_progress`, a line says how far it is.
 pub(crate) fn resume(
     evaluator: &mut dyn Converse,
     keeper: &mut Keeper,
@@ -73,11 +77,13 @@ pub(crate) fn resume(
     number: &mut usize,
     out: impl Write,
     shows_progress: bool,
+    has_interrupted: &AtomicBool,
 ) -> io::Result<()> {
     let mut progress = Progress {
         out,
         is_shown: shows_progress,
         count: earlier.inputs.len(),
+        at: 0,
     };
     let first = *number;
     let mut quick = Quick::new(evaluator, &earlier.path, &earlier.inputs);
@@ -88,13 +94,7 @@ pub(crate) fn resume(
         match quick.run(evaluator, keeper, inputs, first, &mut progress)? {
             Played::Whole(differs) => {
                 tell_end(evaluator, inputs, differs, &mut progress)?;
-                if end < earlier.inputs.len() {
-                    let text = format!("; Interrupted at input {} of {}.", end + 1, progress.count);
-                    progress.tell(&text)?;
-                    let remark = keeper.part_of(earlier, inputs.to_vec());
-                    progress.tell(&remark)?;
-                }
-                return Ok(());
+                return tell_lost(keeper, earlier, inputs, &mut progress);
             }
             Played::Stopped(at, interrupted_at) => {
                 *number = first + at + 1;
@@ -113,6 +113,10 @@ pub(crate) fn resume(
                 progress.tell(
                     "; The tape beside the journal does not fit: every input is evaluated with the physics.",
                 )?;
+                // The input that was interrupted is not evaluated instead.
+                if has_interrupted.swap(false, Ordering::Relaxed) {
+                    end = end.min(progress.at);
+                }
                 if !evaluator.begin_anew() {
                     return progress.tell("; The session cannot begin anew.");
                 }
@@ -122,18 +126,19 @@ pub(crate) fn resume(
         }
     }
     *number = first;
-    with_physics(evaluator, keeper, earlier, number, &mut progress)
+    with_physics(evaluator, keeper, earlier, end, number, &mut progress)
 }
 
-/// Evaluates the inputs again, with the physics.
+/// Evaluates the inputs before the one with index `end` again, with the physics.
 fn with_physics(
     evaluator: &mut dyn Converse,
     keeper: &mut Keeper,
     earlier: &Earlier,
+    end: usize,
     number: &mut usize,
     progress: &mut Progress<impl Write>,
 ) -> io::Result<()> {
-    let inputs = &earlier.inputs;
+    let inputs = earlier.inputs.get(..end).unwrap_or_default();
     keeper.begin_fresh_tape(evaluator);
     let mut differs = None;
     for (at, input) in inputs.iter().enumerate() {
@@ -154,7 +159,25 @@ fn with_physics(
             differs.get_or_insert(at + 1);
         }
     }
-    tell_end(evaluator, inputs, differs, progress)
+    tell_end(evaluator, inputs, differs, progress)?;
+    tell_lost(keeper, earlier, inputs, progress)
+}
+
+/// If the user has interrupted the input after these, in a state that is not known: the session is
+/// these.
+fn tell_lost(
+    keeper: &mut Keeper,
+    earlier: &Earlier,
+    inputs: &[Recorded],
+    progress: &mut Progress<impl Write>,
+) -> io::Result<()> {
+    let (end, count) = (inputs.len(), progress.count);
+    if end == earlier.inputs.len() {
+        return Ok(());
+    }
+    progress.tell(&format!("; Interrupted at input {} of {count}.", end + 1))?;
+    let remark = keeper.part_of(earlier, inputs.to_vec());
+    progress.tell(&remark)
 }
 
 /// The user has interrupted the input with that index, at that place and with that hash of the
