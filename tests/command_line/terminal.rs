@@ -401,15 +401,17 @@ fn what_is_typed_after_an_interrupt_of_resuming_is_kept() {
     terminal.evaluate("(defvar *a* 1)");
     terminal.evaluate("(defvar *slow* nil)");
     let file = state.path().join("slow");
+    let again = state.path().join("again");
     let slow = format!(
-        "(setf *slow* (if (probe-file {0:?}) (loop) (open {0:?} :direction :output)))",
-        file.to_str().expect("a path")
+        "(setf *slow* (if (probe-file {0:?}) (progn (open {1:?} :direction :output :if-exists :supersede) (loop)) (open {0:?} :direction :output)))",
+        file.to_str().expect("a path"),
+        again.to_str().expect("a path")
     );
     terminal.evaluate(&slow);
     terminal.evaluate("(defvar *lost* 1)");
     terminal.kill();
     let mut resumed = Terminal::start_resumed(&state);
-    resumed.wait_for("; Input 3 of 4");
+    resumed.wait_until("the loop", |_| again.exists());
     resumed.keys(CTRL_C);
     resumed.wait_for("; Interrupted at input 3 of 4.");
     resumed.wait_for("this session is kept in");
@@ -423,6 +425,31 @@ fn what_is_typed_after_an_interrupt_of_resuming_is_kept() {
     again.wait_for_last_line("CL-USER>");
     again.evaluate("(list *a* *new* (boundp '*lost*))");
     assert!(again.text().contains("(1 2 NIL)"), "{}", again.text());
+}
+
+#[test]
+fn an_interrupt_of_resuming_in_the_middle_of_a_builtin_stays_within_the_tape() {
+    let state = State::new("resume-builtin");
+    let mut terminal = Terminal::start(&state, &[]);
+    terminal.evaluate("(defvar *slow* nil)");
+    let file = state.path().join("slow");
+    terminal.evaluate(&format!(
+        "(setf *slow* (prog1 (integer-length (expt 3 (if (probe-file {0:?}) 40000000 2))) (open {0:?} :direction :output)))",
+        file.to_str().expect("a path")
+    ));
+    terminal.kill();
+    let resumed = Terminal::start_resumed(&state);
+    resumed.wait_for("; Input 2 of 2");
+    // It is in the middle soon; if this comes before, the same is to happen.
+    std::thread::sleep(Duration::from_millis(100));
+    resumed.keys(CTRL_C);
+    resumed.wait_for("; Interrupted at input 2 of 2.");
+    resumed.wait_for_last_line("CL-USER 1]>");
+    assert!(
+        !resumed.text().contains("does not fit"),
+        "{}",
+        resumed.text()
+    );
 }
 
 #[test]

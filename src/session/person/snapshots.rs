@@ -202,7 +202,9 @@ impl Snapshots {
     /// Whether the world differs from before the last form at top level.
     pub(crate) fn has_changed_since_form(&self, simulation: &mut Simulation) -> bool {
         let last = self.forms.back();
-        last.is_some_and(|before| before.hash != simulation.state_hash())
+        last.is_some_and(|before| {
+            !simulation.tape.is_beyond_end_unmoved() && before.hash != simulation.state_hash()
+        })
     }
 
     /// Restores the world to before the last form at top level.

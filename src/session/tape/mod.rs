@@ -349,6 +349,15 @@ impl Tape {
         }
     }
 
+    /// Whether the input that is played goes on after the last answer, without having moved the
+    /// world: it was interrupted, which it was not when it was recorded.
+    pub(crate) fn is_beyond_end_unmoved(&self) -> bool {
+        match &self.mode {
+            Mode::Playing { entries, at, .. } => *at == entries.len() && !self.has_moved,
+            _ => false,
+        }
+    }
+
     /// Whether the world would have moved during this input.
     pub(crate) fn has_moved(&self) -> bool {
         self.has_moved
