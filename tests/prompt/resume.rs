@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
+use std::sync::atomic::AtomicBool;
 
 use proptest::prelude::*;
 
@@ -81,7 +82,8 @@ impl Sitting {
             None => keeper.begin_fresh_tape(session),
             Some(earlier) => {
                 let mut told = Vec::new();
-                resume(session, keeper, &earlier, number, &mut told, false).unwrap();
+                let never = AtomicBool::new(false);
+                resume(session, keeper, &earlier, number, &mut told, false, &never).unwrap();
                 session.set_interactive(true);
                 sitting.told = String::from_utf8(told).unwrap();
             }
