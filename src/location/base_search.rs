@@ -27,9 +27,11 @@ const NEAR: f64 = 0.8;
 const HEADINGS: u32 = 24;
 /// A search ends when so many base poses in a row, free and near enough, have been checked in vain.
 const MOST_CHECKS: u32 = 5000;
-/// How many base poses at which something is in the way of a few postures are examined again, with
-/// more postures, when all others have been tried.
-const MOST_AGAIN: usize = 100;
+/// How many base poses at which something is in the way of a few postures are examined again when all
+/// others have been tried.
+const MOST_AGAIN: usize = 1000;
+/// How many of them are examined with many postures; the others are at all heights of the torso.
+const MOST_PATIENT: usize = 100;
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
 
@@ -48,9 +50,10 @@ pub(super) struct BaseSearch {
     next: usize,
     /// Which heading is tried: 0 for the one to the target, then others, the nearest first.
     turn: u32,
-    /// Base poses that are to be examined again, and whether that is what is done now.
+    /// Base poses that are to be examined again.
     again: VecDeque<Pose>,
-    is_patient: bool,
+    /// How many of them have been; `None` while others are tried.
+    examined_again: Option<usize>,
 }
 
 /// Why a base pose is no solution.
@@ -100,7 +103,7 @@ impl BaseSearch {
             next: 0,
             turn: 0,
             again: VecDeque::new(),
-            is_patient: false,
+            examined_again: None,
         };
         search.begin_turn(0, draw);
         Ok(Ok(search))
@@ -136,24 +139,29 @@ impl BaseSearch {
             turn,
             checks,
             again,
-            is_patient,
+            examined_again,
         } = self;
         let mut test = Test::new(query, scene, goal, imagined, looking)?;
         loop {
             interruption::look();
-            if *is_patient {
+            if let Some(count) = examined_again {
                 let Some(base) = again.pop_front() else {
                     return Ok(None);
                 };
+                let effort = match *count < MOST_PATIENT {
+                    true => Effort::PATIENT,
+                    false => Effort::AT_ALL_HEIGHTS,
+                };
+                *count += 1;
                 let is_new = !offered.has(&base);
-                if is_new && test.run(&base, Effort::PATIENT, checks)?.is_ok() {
+                if is_new && test.run(&base, effort, checks)?.is_ok() {
                     return Ok(Some(base));
                 }
                 continue;
             }
             let Some(cell) = order.get(*next) else {
                 if *turn == HEADINGS {
-                    *is_patient = true;
+                    *examined_again = Some(0);
                     continue;
                 }
                 *turn += 1;
@@ -181,7 +189,7 @@ impl BaseSearch {
                 }
             }
             if *checks >= MOST_CHECKS {
-                *is_patient = true;
+                *examined_again = Some(0);
                 tally.give_up();
             }
         }

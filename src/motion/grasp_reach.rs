@@ -43,6 +43,13 @@ impl Effort {
         heights: usize::MAX,
         checks: 1000,
     };
+    /// For one of many base poses where the first postures are in the way of something: another
+    /// height of the torso helps more often than other postures.
+    pub(crate) const AT_ALL_HEIGHTS: Self = Self {
+        postures: 6,
+        heights: usize::MAX,
+        checks: 400,
+    };
     /// For where the robot stands.
     pub(crate) const THOROUGH: Self = Self {
         postures: usize::MAX,
