@@ -5,11 +5,13 @@ questions, interrupts, several clients, restarts of the kernel, and kernels that
 """
 
 import os
+import pathlib
 import random
 import signal
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 
@@ -114,9 +116,14 @@ class Conversation(unittest.TestCase):
         self.assertEqual(self.run_cell("%debugger on").status, "ok")
 
     def test_cells_that_wait_are_left_out_after_an_error(self):
-        first = self.client.send("(sleep 0.2) (loop repeat 2000000) (car 1)", stdin=False)
-        second = self.client.send("(defvar *left-out* 1)", stdin=False)
-        self.assertEqual(self.client.wait(first).status, "error")
+        with tempfile.TemporaryDirectory() as folder:
+            both_sent = pathlib.Path(folder, "both-sent")
+            waiting = f'(loop until (probe-file "{both_sent}")) (car 1)'
+            first = self.client.send(waiting, stdin=False)
+            second = self.client.send("(defvar *left-out* 1)", stdin=False)
+            time.sleep(0.5)  # It is sent by a thread of its own.
+            both_sent.touch()
+            self.assertEqual(self.client.wait(first).status, "error")
         # Both answers may have come already.
         self.assertFalse(self.client.wait(second).messages[1:-1])
         self.assertEqual(self.run_cell("(boundp '*left-out*)").value, "NIL")
