@@ -22,6 +22,7 @@ impl Image {
         image.define_constant(known::PI, Value::Double(std::f64::consts::PI));
         image.define_standard_classes();
         condition::classes::define(&mut image);
+        image.define_library_classes();
         registry::install(&mut image);
         define_variables(&mut image);
         numbers::define_constants(&mut image);

@@ -144,6 +144,7 @@ fn define_function(image: &mut Image, args: &[Value]) -> Result<Value> {
                 )));
             }
             image.set_function(name, new);
+            image.symbols.get_mut(name).function_doc = None;
         }
         None => {
             let name = symbol(&args[0].cdr_or_nil().car_or_nil())?;
@@ -156,7 +157,9 @@ fn define_function(image: &mut Image, args: &[Value]) -> Result<Value> {
 fn define_macro(image: &mut Image, args: &[Value]) -> Result<Value> {
     let name = symbol(&args[0])?;
     let expander = function(&args[1])?;
-    image.symbols.get_mut(name).function = FunctionCell::Macro(expander);
+    let data = image.symbols.get_mut(name);
+    data.function = FunctionCell::Macro(expander);
+    data.function_doc = None;
     Ok(args[0].clone())
 }
 

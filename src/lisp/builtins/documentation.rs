@@ -57,13 +57,8 @@ fn documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>>
 
 /// The documentation of what a name means as a function.
 fn of_name(image: &Image, name: Sym) -> Option<Rc<str>> {
-    let given = image.symbol(name).plist.iter_list().collect::<Vec<_>>();
-    let given = given
-        .chunks_exact(2)
-        .find(|pair| pair[0].as_symbol() == Some(known::FUNCTION_DOCUMENTATION))
-        .and_then(|pair| pair[1].as_text());
-    if let Some(text) = given {
-        return Some(text.into());
+    if let Some(text) = &image.symbol(name).function_doc {
+        return Some(text.clone());
     }
     match &image.symbol(name).function {
         FunctionCell::Function(function) | FunctionCell::Macro(function) => {
@@ -99,11 +94,7 @@ fn set_documentation(image: &mut Image, args: &[Value]) -> Result<Value, Box<Rai
             }
         }
         (Value::Symbol(name, ..), _) => {
-            let data = image.symbols.get_mut(*name);
-            data.plist = Value::list_with_tail(
-                [known::FUNCTION_DOCUMENTATION.into(), args[0].clone()],
-                data.plist.clone(),
-            );
+            image.symbols.get_mut(*name).function_doc = text;
         }
         (Value::Class(class), _) => *class.doc.borrow_mut() = text,
         (Value::Function(function), _) => {

@@ -1,6 +1,7 @@
 //! `format` and `formatter`.
 
 use super::composing::compose;
+use super::streams::or_method;
 use crate::lisp::builtin::{Builtin, Operator, control};
 use crate::lisp::image::Image;
 use crate::lisp::print::format::Control;
@@ -48,6 +49,9 @@ fn destination(value: &Value) -> Result<Destination, Box<Raise>> {
     match value {
         Value::Symbol(known::NIL, ..) => Ok(Destination::Result),
         Value::Symbol(known::T, ..) => Ok(Destination::Stream(Value::NIL)),
+        Value::Instance(instance) if instance.is_a(known::STREAM) => {
+            Ok(Destination::Stream(value.clone()))
+        }
         Value::Stream(_) => Ok(Destination::Stream(value.clone())),
         Value::Str(string) if string.has_fill_pointer.get() => {
             Ok(Destination::String(value.clone()))
@@ -92,7 +96,10 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
     match &args[1] {
         Value::Str(control) => {
             let control = Control::parse(&control.borrow())?;
-            let column = destination.column(machine.image)?;
+            let column = match destination.column(machine.image) {
+                Ok(column) => column,
+                Err(raise) => return or_method(raise, known::FORMAT, args),
+            };
             if let Destination::Stream(target) = &destination
                 && let Some(stream) = stream::pretty(machine.image, target)
             {
@@ -118,7 +125,10 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
         }
         function @ Value::Function(_) => {
             if let Destination::Stream(target) = &destination {
-                let stream = stream::output_stream(machine.image, target)?;
+                let stream = match stream::output_stream(machine.image, target) {
+                    Ok(stream) => stream,
+                    Err(raise) => return or_method(raise, known::FORMAT, args),
+                };
                 let mut call = vec![Value::Stream(stream)];
                 call.extend(args.iter().skip(2).cloned());
                 let function = function.clone();

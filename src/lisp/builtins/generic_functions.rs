@@ -184,7 +184,7 @@ pub(crate) static OPERATORS: &[Operator] = &[
     },
 ];
 
-fn generic_argument(value: &Value) -> Result<&Rc<Function>, Box<Raise>> {
+pub(super) fn generic_argument(value: &Value) -> Result<&Rc<Function>, Box<Raise>> {
     match value {
         Value::Function(function) if function.as_generic().is_some() => Ok(function),
         other => Err(Raise::type_error(
@@ -203,7 +203,7 @@ fn as_generic(function: &Rc<Function>) -> Result<&GenericFunction, Box<Raise>> {
     })
 }
 
-fn method_argument(value: &Value) -> Result<&Rc<Method>, Box<Raise>> {
+pub(super) fn method_argument(value: &Value) -> Result<&Rc<Method>, Box<Raise>> {
     value
         .as_foreign::<MethodObject>()
         .map(|object| &object.0)

@@ -24,6 +24,7 @@ pub(crate) mod list_search;
 pub(crate) mod lists;
 pub(crate) mod loading;
 pub(crate) mod mapping;
+pub(crate) mod metaobjects;
 pub(crate) mod number_theory;
 pub(crate) mod numbers;
 pub(crate) mod object_printing;

@@ -2,6 +2,7 @@
 
 use super::composing::compose;
 use super::keywords;
+use super::streams::or_method;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print::{self, Case, Settings};
@@ -146,6 +147,18 @@ enum Manner {
     Pprint,
 }
 
+impl Manner {
+    /// The function that prints so.
+    fn function(self) -> Sym {
+        match self {
+            Manner::Print => known::PRINT,
+            Manner::Prin1 => known::PRIN1,
+            Manner::Princ => known::PRINC,
+            Manner::Pprint => known::PPRINT,
+        }
+    }
+}
+
 fn stream_argument(args: &[Value], index: usize) -> Value {
     args.get(index).cloned().unwrap_or(Value::NIL)
 }
@@ -163,7 +176,10 @@ fn write_object(
     let target = stream_argument(&args, 1);
     let object = args[0].clone();
     let mut settings = Settings::of(machine.image).with_escape(manner != Manner::Princ);
-    let mut start = column(machine.image, &target)?;
+    let mut start = match column(machine.image, &target) {
+        Ok(start) => start,
+        Err(raise) => return or_method(raise, manner.function(), args),
+    };
     if matches!(manner, Manner::Print | Manner::Pprint) {
         start = 0;
     }
@@ -332,7 +348,10 @@ fn write(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>
     }
     let object = args[0].clone();
     let (settings, target) = write_settings(machine.image, args.get(1..).unwrap_or(&[]))?;
-    let start = column(machine.image, &target)?;
+    let start = match column(machine.image, &target) {
+        Ok(start) => start,
+        Err(raise) => return or_method(raise, known::WRITE, args),
+    };
     let printed = object.clone();
     if let Some(stream) = stream::pretty(machine.image, &target) {
         return compose(
@@ -382,7 +401,10 @@ fn to_string(
 fn print_object(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let settings = Settings::of(machine.image);
     let target = args[1].clone();
-    let start = column(machine.image, &target)?;
+    let start = match column(machine.image, &target) {
+        Ok(start) => start,
+        Err(raise) => return or_method(raise, known::PRINT_OBJECT, args),
+    };
     let object = args[0].clone();
     if let Some(stream) = stream::pretty(machine.image, &target) {
         return compose(
@@ -444,6 +466,9 @@ fn write_unreadable(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
     let image = &mut *machine.image;
     if image.special(known::V_PRINT_READABLY).is_true() {
         return Err(print::not_readable(object));
+    }
+    if let Err(raise) = stream::output_stream(image, target) {
+        return or_method(raise, known::WRITE_UNREADABLE, args.clone());
     }
     let mut start = String::from("#<");
     if with_type.is_true() {

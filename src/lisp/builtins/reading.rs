@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use super::keywords;
+use super::streams::or_method;
 use crate::lisp::builtin::{Builtin, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::print;
@@ -26,7 +27,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "&optional stream eof-error-p eof-value recursive-p",
         "Reads a form from a stream.",
         &["(with-input-from-string (s \"(1 2) 3\") (read s)) => (1 2)"],
-        |m, args| read(m, &args, false),
+        |m, args| read(m, args, false),
     ),
     control(
         "READ-PRESERVING-WHITESPACE",
@@ -35,7 +36,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[
             "(with-input-from-string (s \"a b\") (list (read-preserving-whitespace s) (read-char s) (read s))) => (A #\\  B)",
         ],
-        |m, args| read(m, &args, true),
+        |m, args| read(m, args, true),
     ),
     control(
         "READ-FROM-STRING",
@@ -85,34 +86,64 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[],
         set_macro_character,
     ),
+];
+
+/// Builtins of package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     pure(
-        "GET-MACRO-CHARACTER",
-        "character &optional readtable",
-        "The function of a macro character that a program has set.",
-        &["(get-macro-character #\\!) => NIL ; NIL"],
-        get_macro_character,
+        "%WHOLE-FORM-P",
+        "text",
+        "Is nothing open at the end of the text?",
+        &["(system::%whole-form-p \"(a\") => NIL"],
+        |_, args| {
+            let text = args[0].as_text().unwrap_or_default();
+            let is_open = matches!(is_complete(&text), Completeness::Incomplete { .. });
+            Ok(Value::bool(!is_open))
+        },
     ),
     pure(
-        "SET-DISPATCH-MACRO-CHARACTER",
-        "character sub-character function &optional readtable",
-        "Lets a function of stream, sub-character and number read what begins with the two characters.",
+        "%MACRO-CHARACTER",
+        "character readtable",
+        "The function that a program has set for a macro character, and whether the character may be in a symbol.",
+        &["(system::%macro-character #\\! nil) => NIL ; NIL"],
+        macro_character,
+    ),
+    pure(
+        "%RESET-MACRO-CHARACTER",
+        "character readtable",
+        "Lets a character mean what it means in the standard syntax.",
         &[],
-        set_dispatch_macro_character,
+        |image, args| {
+            let c = character(&args[0])?;
+            with_readtable(image, args.get(1), |table| {
+                table.macros.borrow_mut().remove(&c);
+                Value::T
+            })
+        },
     ),
     pure(
-        "GET-DISPATCH-MACRO-CHARACTER",
-        "character sub-character &optional readtable",
-        "The function of two characters that a program has set.",
-        &["(get-dispatch-macro-character #\\# #\\?) => NIL"],
+        "%DISPATCH-MACRO-CHARACTER",
+        "character sub-character readtable",
+        "The function that a program has set for two characters, or NIL.",
+        &["(system::%dispatch-macro-character #\\# #\\? nil) => NIL"],
         |image, args| {
             let key = (character(&args[0])?, upper(character(&args[1])?));
             with_readtable(image, args.get(2), |table| {
-                table
-                    .dispatch
-                    .borrow()
-                    .get(&key)
-                    .cloned()
-                    .unwrap_or(Value::NIL)
+                let functions = table.dispatch.borrow();
+                functions.get(&key).cloned().unwrap_or(Value::NIL)
+            })
+        },
+    ),
+    pure(
+        "%SET-DISPATCH-MACRO-CHARACTER",
+        "character sub-character function readtable",
+        "Sets the function of two characters.",
+        &[],
+        |image, args| {
+            let key = (character(&args[0])?, upper(character(&args[1])?));
+            with_readtable(image, args.get(3), |table| {
+                table.dispatch.borrow_mut().insert(key, args[2].clone());
+                Value::T
             })
         },
     ),
@@ -356,11 +387,17 @@ fn reading_of_stream(image: &Image, then: After) -> Result<Reading, Box<Raise>> 
 
 fn read(
     machine: &mut Machine<'_>,
-    args: &[Value],
+    args: Vec<Value>,
     preserve_whitespace: bool,
 ) -> Result<Step, Box<Raise>> {
     let designator = args.first().cloned().unwrap_or(Value::NIL);
-    let stream = Value::Stream(stream::input_stream(machine.image, &designator)?);
+    let stream = match stream::input_stream(machine.image, &designator) {
+        Ok(stream) => Value::Stream(stream),
+        Err(raise) if preserve_whitespace => {
+            return or_method(raise, known::READ_PRESERVING_WHITESPACE, args);
+        }
+        Err(raise) => return or_method(raise, known::READ, args),
+    };
     // In a recursive call, the blank after the form is left to the outer read.
     let is_recursive = args.get(3).is_some_and(Value::is_true);
     let then = After::Stream(FromStream {
@@ -425,7 +462,10 @@ fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
 fn read_delimited_list(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let end = character(&args[0])?;
     let designator = args.get(1).cloned().unwrap_or(Value::NIL);
-    let stream = Value::Stream(stream::input_stream(machine.image, &designator)?);
+    let stream = match stream::input_stream(machine.image, &designator) {
+        Ok(stream) => Value::Stream(stream),
+        Err(raise) => return or_method(raise, known::READ_DELIMITED_LIST, args),
+    };
     let then = After::List {
         end,
         items: Vec::new(),
@@ -480,7 +520,7 @@ fn set_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
     })
 }
 
-fn get_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
+fn macro_character(image: &mut Image, args: &[Value]) -> Outcome {
     let c = character(&args[0])?;
     with_readtable(image, args.get(1), |table| {
         let (function, inside) = match table.macros.borrow().get(&c) {
@@ -488,19 +528,5 @@ fn get_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
             None => (Value::NIL, false),
         };
         Value::values(vec![function, Value::bool(inside)])
-    })
-}
-
-fn set_dispatch_macro_character(image: &mut Image, args: &[Value]) -> Outcome {
-    let key = (character(&args[0])?, upper(character(&args[1])?));
-    if key.0 != '#' {
-        return Err(Raise::simple(format!(
-            "{} is no dispatching macro character; only # is.",
-            key.0
-        )));
-    }
-    with_readtable(image, args.get(3), |table| {
-        table.dispatch.borrow_mut().insert(key, args[2].clone());
-        Value::T
     })
 }

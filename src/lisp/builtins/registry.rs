@@ -73,6 +73,8 @@ pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     loop_macro::SYSTEM_TABLE,
     package_macros::SYSTEM_TABLE,
     stream_parts::SYSTEM_TABLE,
+    metaobjects::SYSTEM_TABLE,
+    reading::SYSTEM_TABLE,
     files::SYSTEM_TABLE,
     pathnames::SYSTEM_TABLE,
     structures::SYSTEM_TABLE,

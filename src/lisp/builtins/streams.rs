@@ -10,6 +10,8 @@ use crate::lisp::value::Value;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::character;
+use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -20,8 +22,28 @@ pub(super) fn stream_of(value: &Value) -> Result<&Rc<Stream>, Box<Raise>> {
     }
 }
 
+/// What a builtin that may call functions does after an error: if that is about an object that was
+/// given as a stream, what its methods do takes the builtin's place.
+pub(crate) fn or_method(
+    raise: Box<Raise>,
+    name: Sym,
+    args: Vec<Value>,
+) -> Result<Step, Box<Raise>> {
+    match raise.stream_object() {
+        Some(stream) => Ok(Step::tail_call(
+            known::SYS_CALL_STREAM_METHOD,
+            vec![name.into(), Value::list(args), stream.clone()],
+        )),
+        None => Err(raise),
+    }
+}
+
 fn streamp(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Stream(_))))
+    Ok(Value::bool(match &args[0] {
+        Value::Stream(_) => true,
+        Value::Instance(instance) => instance.is_a(known::STREAM),
+        _ => false,
+    }))
 }
 
 fn input_stream_p(image: &mut Image, args: &[Value]) -> Outcome {

@@ -13,6 +13,7 @@ use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
 use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
+use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::fiber::{Dynamic, Frame, FrameKind};
 use crate::lisp::vm::machine::{Machine, UnderWay};
 
@@ -37,7 +38,7 @@ impl Machine<'_> {
                 match self.image.native_call(native) {
                     NativeCall::Pure(f) => match f(self.image, &args) {
                         Ok(value) => Next::Deliver(if multi { value } else { value.primary() }),
-                        Err(raise) => self.raise(raise),
+                        Err(raise) => self.failed(native.name, args, raise, multi),
                     },
                     NativeCall::Made(f) => match f(self.image, &args) {
                         Ok(value) => Next::Deliver(if multi { value } else { value.primary() }),
@@ -215,6 +216,12 @@ impl Machine<'_> {
             self.under_way = self.pc().map(|pc| UnderWay { pc, cut });
             let result = f(self.image, &self.fiber.stack[start..]);
             self.under_way = None;
+            if let Err(raise) = &result
+                && raise.stream_object().is_some()
+            {
+                // As below, where the method of the stream is called.
+                return self.call_with_vector(function, start, cut, multi);
+            }
             self.fiber.stack.truncate(cut);
             return match result {
                 Ok(value) => {
@@ -225,6 +232,30 @@ impl Machine<'_> {
                 Err(raise) => self.raise(raise),
             };
         }
+        self.call_with_vector(function, start, cut, multi)
+    }
+
+    /// A pure builtin has failed. If an object was given to it as a stream, it has done nothing yet,
+    /// and what the methods of that object do takes its place.
+    #[cold]
+    fn failed(&mut self, name: Sym, args: Vec<Value>, raise: Box<Raise>, multi: bool) -> Next {
+        match raise.stream_object() {
+            Some(stream) => {
+                let args = vec![name.into(), Value::list(args), stream.clone()];
+                self.call_value(known::SYS_CALL_STREAM_METHOD.into(), args, multi)
+            }
+            None => self.raise(raise),
+        }
+    }
+
+    /// Calls a function with the values from `start` up; the result replaces everything from `cut` up.
+    pub(super) fn call_with_vector(
+        &mut self,
+        function: Rc<Function>,
+        start: usize,
+        cut: usize,
+        multi: bool,
+    ) -> Next {
         let args: Vec<Value> = self.fiber.stack.drain(start..).collect();
         self.fiber.stack.truncate(cut);
         match self.call_value(Value::Function(function), args, multi) {

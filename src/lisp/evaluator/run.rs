@@ -392,6 +392,11 @@ impl Machine<'_> {
                     self.under_way = Some(UnderWay { pc, cut });
                     let result = f(self.image, &self.fiber.stack[cut..]);
                     self.under_way = None;
+                    if let Err(raise) = &result
+                        && raise.stream_object().is_some()
+                    {
+                        return self.call_for_stream(sym, cut, multi, pc);
+                    }
                     return self.returned(result, cut, multi, pc);
                 }
             }
@@ -469,6 +474,18 @@ impl Machine<'_> {
             Next::Run if *budget > 0 && !self.image.output.is_due() => Called::Frame,
             next => Called::Elsewhere(self.or_interrupt(next, budget)),
         }
+    }
+
+    /// Calls a builtin again that was given an object as a stream, so that the object's methods take
+    /// its place.
+    #[cold]
+    fn call_for_stream(&mut self, sym: Sym, cut: usize, multi: bool, pc: usize) -> Called {
+        let FunctionCell::Function(called) = &self.image.symbols.get(sym).function else {
+            return self.call_undefined(sym.into(), cut, pc);
+        };
+        let called = called.clone();
+        self.save_pc(pc);
+        Called::Elsewhere(self.call_with_vector(called, cut, cut, multi))
     }
 
     #[cold]

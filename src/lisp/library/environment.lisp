@@ -44,3 +44,37 @@
   Examples:
   (long-site-name) => NIL"
   nil)
+
+(defun room (&optional (detail :default))
+  "Tells that it is not told how much memory is in use: programs print the same everywhere.
+  Examples:
+  (let ((*standard-output* (make-broadcast-stream))) (room)) => NIL"
+  (check-type detail (member t nil :default))
+  (format t "How much memory is in use is not told.~%")
+  nil)
+
+(defun disassemble (function)
+  "Tells that the code of a function is not shown; its source may be.
+  Examples:
+  (let ((*standard-output* (make-broadcast-stream))) (disassemble 'car)) => NIL"
+  (when (and (consp function) (eq (first function) 'lambda))
+    (setf function (coerce function 'function)))
+  (unless (or (functionp function) (fboundp function))
+    (error 'undefined-function :name function))
+  (format t "The code of ~s is not shown~:[~;; (describe '~:*~s) tells more~].~%"
+          function (and (symbolp function) function))
+  nil)
+
+(defun dribble (&optional file)
+  "Signals that a session cannot be written to a file from inside.
+  Examples:
+  (handler-case (dribble \"a.txt\") (error () 'cannot)) => CANNOT"
+  (declare (ignore file))
+  (error "DRIBBLE is not there: what a session prints is not written to a file from inside."))
+
+(defun compile-file (file &key output-file verbose print external-format)
+  "Signals that there are no compiled files: LOAD compiles what it reads.
+  Examples:
+  (handler-case (compile-file \"a.lisp\") (error () 'cannot)) => CANNOT"
+  (declare (ignore output-file verbose print external-format))
+  (error "There are no compiled files; (load ~s) reads the source and compiles each form." file))

@@ -36,7 +36,18 @@ const EXTENSIBLE: &[Sym] = &[
     known::UPDATE_INSTANCE_FOR_DIFFERENT_CLASS,
     known::MAKE_LOAD_FORM,
     known::DOCUMENTATION,
+    known::CLOSE,
+    known::OPEN_STREAM_P,
+    known::STREAM_ELEMENT_TYPE,
+    known::INPUT_STREAM_P,
+    known::OUTPUT_STREAM_P,
+    known::INTERACTIVE_STREAM_P,
 ];
+
+/// May a program add methods to the function of a symbol?
+fn is_extensible(image: &Image, sym: Sym) -> bool {
+    EXTENSIBLE.contains(&sym) || image.is_stream_function(sym)
+}
 
 /// A method as a value.
 pub(crate) struct MethodObject(pub(crate) Rc<Method>);
@@ -112,12 +123,12 @@ pub(crate) fn ensure_generic(
     }
     let function = match image.named_function(name) {
         Some(function) if function.as_generic().is_some() => return Ok(function),
-        Some(function) => match (&function.body, name.as_symbol()) {
-            (Body::Native(native), Some(sym)) if EXTENSIBLE.contains(&sym) => {
+        Some(function) => match (&function.body, name.as_symbol().or(name.setf_name())) {
+            (Body::Native(native), Some(sym)) if is_extensible(image, sym) => {
                 extended(image, name, native.min, native.max, function.clone())
             }
             // One of the library, which is written in Lisp, takes what the program says it does.
-            (Body::Deferred(_) | Body::Closure { .. }, Some(sym)) if EXTENSIBLE.contains(&sym) => {
+            (Body::Deferred(_) | Body::Closure { .. }, Some(sym)) if is_extensible(image, sym) => {
                 let required = u16::try_from(parameters.required).unwrap_or(1);
                 let all = required + u16::try_from(parameters.optional).unwrap_or(0);
                 let max = (!parameters.has_rest && parameters.keys.is_none()).then_some(all);

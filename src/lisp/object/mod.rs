@@ -15,6 +15,7 @@ pub(crate) mod dispatch;
 pub(crate) mod effective;
 pub(crate) mod fill;
 pub(crate) mod instance;
+pub(crate) mod library_classes;
 pub(crate) mod method;
 pub(crate) mod parameters;
 pub(crate) mod precedence;

@@ -107,6 +107,24 @@ impl Raise {
         })
     }
 
+    /// The object that was given as a stream, if that is the error and it is one by its class.
+    #[cold]
+    pub(crate) fn stream_object(&self) -> Option<&Value> {
+        let Raise::Make {
+            class: known::TYPE_ERROR,
+            initargs,
+            ..
+        } = self
+        else {
+            return None;
+        };
+        let [(_, object @ Value::Instance(instance)), (_, expected)] = initargs.as_slice() else {
+            return None;
+        };
+        let is_stream = expected.as_symbol() == Some(known::STREAM) && instance.is_a(known::STREAM);
+        is_stream.then_some(object)
+    }
+
     /// An `UNBOUND-VARIABLE` error.
     pub(crate) fn unbound_variable(name: Sym) -> Box<Raise> {
         Box::new(Raise::Make {

@@ -79,6 +79,8 @@ pub(crate) struct SymbolData {
     pub(crate) symbol_macro: Option<Value>,
     /// Documentation as a variable, if any.
     pub(crate) variable_doc: Option<Rc<str>>,
+    /// Documentation as a function that a program has given since its definition, if any.
+    pub(crate) function_doc: Option<Rc<str>>,
     /// Does something refer to it that is no value?
     is_kept: Cell<bool>,
 }
@@ -107,6 +109,7 @@ impl SymbolData {
             plist: copier.value(&self.plist),
             symbol_macro: self.symbol_macro.copied(copier),
             variable_doc: self.variable_doc.clone(),
+            function_doc: self.function_doc.clone(),
             is_kept: self.is_kept.clone(),
         }
     }
@@ -122,6 +125,7 @@ impl SymbolData {
             || !self.plist.is_nil()
             || self.symbol_macro.is_some()
             || self.variable_doc.is_some()
+            || self.function_doc.is_some()
     }
 }
 

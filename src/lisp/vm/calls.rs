@@ -411,7 +411,14 @@ fn call_directly(
         return None;
     }
     match image.native_call(native) {
-        NativeCall::Pure(call) => Some(call(image, args)),
+        NativeCall::Pure(call) => {
+            let result = call(image, args);
+            // The machine calls the method of an object that was given as a stream.
+            let is_for_method = result
+                .as_ref()
+                .is_err_and(|raise| raise.stream_object().is_some());
+            (!is_for_method).then_some(result)
+        }
         NativeCall::Made(call) => Some(call(image, args)),
         NativeCall::Control(_) | NativeCall::MadeControl(_) => None,
     }

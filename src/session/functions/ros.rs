@@ -98,11 +98,13 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
 ];
 
 /// Systems that are built in and have no package of their name.
-const OTHER_SYSTEMS: [&str; 4] = [
+const OTHER_SYSTEMS: [&str; 6] = [
     "alexandria",
+    "closer_mop",
     "cram_common_failures",
     "cram_language",
     "cram_pr2_description",
+    "trivial_gray_streams",
 ];
 
 /// Packages that stand for no system that is built in.

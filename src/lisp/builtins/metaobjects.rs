@@ -1,0 +1,183 @@
+//! What classes, generic functions and methods consist of.
+
+use std::rc::Rc;
+
+use super::generic_functions::{generic_argument, method_argument};
+use crate::lisp::builtin::{Builtin, pure};
+use crate::lisp::image::Image;
+use crate::lisp::object::method::method_value;
+use crate::lisp::value::Value;
+use crate::lisp::value::class::{Class, Initform, SlotDefinition};
+use crate::lisp::value::generic::{Accessor, Specializer};
+use crate::lisp::value::known;
+use crate::lisp::value::raise::Raise;
+
+type Outcome = Result<Value, Box<Raise>>;
+
+/// Builtins of the package `SYSTEM`.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
+    pure(
+        "%RELATED-CLASSES",
+        "class relation",
+        "The `:superclasses`, `:subclasses` or the `:precedence` list of a class.",
+        &["(length (system::%related-classes (find-class 'integer) :superclasses)) => 1"],
+        related_classes,
+    ),
+    pure(
+        "%SLOTS",
+        "class directp",
+        "Initargs for the descriptions of the slots of a class, or of those that it defines itself.",
+        &["(system::%slots (find-class 'integer) t) => NIL"],
+        slots,
+    ),
+    pure(
+        "%DEFAULT-INITARGS",
+        "class directp",
+        "Lists of key, NIL and function for the default initargs of a class.",
+        &["(system::%default-initargs (find-class 'integer) t) => NIL"],
+        default_initargs,
+    ),
+    pure(
+        "%GENERIC-FUNCTION-NAME",
+        "generic-function",
+        "The name of a generic function.",
+        &[],
+        |_, args| {
+            let generic = generic_argument(&args[0])?.as_generic();
+            Ok(generic.map_or(Value::NIL, |generic| generic.name.clone()))
+        },
+    ),
+    pure(
+        "%GENERIC-FUNCTION-METHODS",
+        "generic-function",
+        "The methods of a generic function, in order of definition.",
+        &[],
+        |_, args| {
+            let generic = generic_argument(&args[0])?.as_generic();
+            let methods = generic.map(|generic| generic.methods.borrow().clone());
+            Ok(Value::list(methods.iter().flatten().map(method_value)))
+        },
+    ),
+    pure(
+        "%METHOD-NAME",
+        "method",
+        "The name of the generic function of a method.",
+        &[],
+        |_, args| Ok(method_argument(&args[0])?.name.clone()),
+    ),
+    pure(
+        "%METHOD-SPECIALIZERS",
+        "method",
+        "The specializers of a method: classes and lists (EQL value).",
+        &[],
+        |_, args| {
+            let specializers = method_argument(&args[0])?.specializers.iter();
+            Ok(Value::list(specializers.map(
+                |specializer| match specializer {
+                    Specializer::Class(class) => Value::Class(class.clone()),
+                    Specializer::Eql(value) => Value::list([known::EQL.into(), value.clone()]),
+                },
+            )))
+        },
+    ),
+];
+
+fn class_argument(value: &Value) -> Result<&Rc<Class>, Box<Raise>> {
+    match value {
+        Value::Class(class) => Ok(class),
+        other => Err(Raise::type_error(other, known::CLASS)),
+    }
+}
+
+fn related_classes(image: &mut Image, args: &[Value]) -> Outcome {
+    let class = class_argument(&args[0])?;
+    let relation = args[1].as_symbol().map(|sym| image.name(sym));
+    let classes = match relation {
+        Some("SUPERCLASSES") => &class.direct_superclasses,
+        Some("SUBCLASSES") => &class.direct_subclasses,
+        _ => &class.precedence,
+    };
+    let classes = classes.borrow();
+    Ok(Value::list(classes.iter().cloned().map(Value::Class)))
+}
+
+fn slots(image: &mut Image, args: &[Value]) -> Outcome {
+    let class = class_argument(&args[0])?;
+    let is_direct = args[1].is_true();
+    let slots = if is_direct {
+        class.direct_slots.borrow()
+    } else {
+        class.slots.borrow()
+    };
+    let described = slots.iter().map(|slot| {
+        let mut properties = description(image, slot);
+        if is_direct {
+            for (key, kind) in [
+                ("READERS", Accessor::Reader(slot.name)),
+                ("WRITERS", Accessor::Writer(slot.name)),
+            ] {
+                let methods = class.accessors.borrow();
+                let methods = methods.iter().filter(|m| m.accessor == Some(kind));
+                properties.push(image.keyword(key).into());
+                properties.push(Value::list(methods.map(|m| m.name.clone())));
+            }
+        }
+        Value::list(properties)
+    });
+    Ok(Value::list(described.collect::<Vec<_>>()))
+}
+
+/// The initargs for the description of a slot.
+fn description(image: &mut Image, slot: &SlotDefinition) -> Vec<Value> {
+    let allocation = match slot.shared {
+        Some(_) => image.keyword("CLASS"),
+        None => image.keyword("INSTANCE"),
+    };
+    let properties = [
+        ("NAME", slot.name.into()),
+        (
+            "INITARGS",
+            Value::list(slot.initargs.iter().map(|key| Value::symbol(*key))),
+        ),
+        ("INITFUNCTION", function(image, slot.initform.as_ref())),
+        ("TYPE", slot.slot_type.clone()),
+        ("ALLOCATION", allocation.into()),
+        (
+            "DOCUMENTATION",
+            slot.doc.as_deref().map_or(Value::NIL, Value::string),
+        ),
+    ];
+    let properties = properties.into_iter();
+    properties
+        .flat_map(|(key, value)| [image.keyword(key).into(), value])
+        .collect()
+}
+
+/// A function without arguments that computes an initial value, or `NIL`.
+fn function(_: &Image, initform: Option<&Initform>) -> Value {
+    match initform {
+        None => Value::NIL,
+        Some(Initform::Function(function)) => Value::Function(function.clone()),
+        Some(Initform::Value(value)) => {
+            Value::Function(crate::lisp::value::function::Function::pure_of(
+                known::CONSTANTLY,
+                (0, None),
+                value.clone(),
+                |value, _, _| Ok(value.clone()),
+            ))
+        }
+    }
+}
+
+fn default_initargs(image: &mut Image, args: &[Value]) -> Outcome {
+    let class = class_argument(&args[0])?;
+    let initargs = if args[1].is_true() {
+        class.direct_default_initargs.borrow()
+    } else {
+        class.default_initargs.borrow()
+    };
+    let initargs = initargs
+        .iter()
+        .map(|(key, form)| Value::list([(*key).into(), Value::NIL, function(image, Some(form))]));
+    Ok(Value::list(initargs.collect::<Vec<_>>()))
+}

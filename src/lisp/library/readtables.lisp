@@ -1,0 +1,155 @@
+;;;; Readtables: what characters mean to the reader (chapter 23 of the standard).
+
+(in-package :common-lisp)
+
+(defun get-macro-character (character &optional (readtable *readtable*))
+  "The function that reads what begins with a macro character, or NIL, and whether the character may
+  appear inside a symbol.
+  Examples:
+  (get-macro-character #\\!) => NIL ; NIL
+  (let ((*readtable* (copy-readtable nil))) (set-macro-character #\\! (get-macro-character #\\')) (read-from-string \"!a\")) => 'A ; 2"
+  (check-type character character)
+  (multiple-value-bind (function non-terminating-p) (%macro-character character readtable)
+    (let ((standard (and (null function) (%standard-reader character))))
+      (values (or function standard)
+              (if standard (char= character #\#) non-terminating-p)))))
+
+(defun %standard-reader (character)
+  "The function that does what the reader does itself with a character, or NIL."
+  (case character
+    (#\' #'%read-quoted)
+    (#\" #'%read-string)
+    (#\; #'%skip-line)
+    (#\) #'%read-unmatched)
+    ((#\( #\` #\, #\#)
+     (lambda (stream read-character)
+       (declare (ignore read-character))
+       (%read-after (string character) stream)))))
+
+(defun %read-after (text stream)
+  "Reads a form that begins with a text and goes on in a stream."
+  (read (make-concatenated-stream (make-string-input-stream text) stream) t nil t))
+
+(defun %read-quoted (stream character)
+  "Reads a form and quotes it."
+  (declare (ignore character))
+  (list 'quote (read stream t nil t)))
+
+(defun %read-string (stream end)
+  "Reads the characters of a string, which ends with the character that it began with."
+  (with-output-to-string (text)
+    (loop for character = (read-char stream t nil t)
+          until (char= character end)
+          do (write-char (if (char= character #\\) (read-char stream t nil t) character) text))))
+
+(defun %skip-line (stream character)
+  "Skips a comment."
+  (declare (ignore character))
+  (read-line stream nil nil t)
+  (values))
+
+(defun %read-unmatched (stream character)
+  "Signals that a parenthesis closes nothing."
+  (error 'reader-error :stream stream
+                       :format-control "~c closes nothing."
+                       :format-arguments (list character)))
+
+(defun get-dispatch-macro-character (character sub-character &optional (readtable *readtable*))
+  "The function that reads what begins with two characters, or NIL.
+  Examples:
+  (get-dispatch-macro-character #\\# #\\?) => NIL
+  (functionp (get-dispatch-macro-character #\\# #\\')) => T"
+  (check-type character character)
+  (check-type sub-character character)
+  (or (%dispatch-macro-character character sub-character readtable)
+      (and (char= character #\#)
+           (find (char-upcase sub-character) "'(\\:.*+-ABCOPRSX=#|")
+           (if (char= sub-character #\|)
+               #'%skip-block
+               (lambda (stream read-character argument)
+                 (declare (ignore read-character))
+                 (%read-after (format nil "#~@[~d~]~c" argument sub-character) stream))))
+      (progn (%check-dispatching character readtable) nil)))
+
+(defun %skip-block (stream character argument)
+  "Skips the rest of a comment that began with two characters, and comments inside it."
+  (declare (ignore character argument))
+  (loop with depth = 1
+        for previous = #\space then (if is-pair #\space next)
+        for next = (read-char stream t nil t)
+        for is-pair = (or (and (char= previous #\|) (char= next #\#))
+                          (and (char= previous #\#) (char= next #\|)))
+        do (when is-pair
+             (incf depth (if (char= next #\|) 1 -1)))
+        until (zerop depth))
+  (values))
+
+(defun set-dispatch-macro-character (character sub-character function
+                                     &optional (readtable *readtable*))
+  "Lets a function of stream, sub-character and number read what begins with the two characters.
+  Examples:
+  (let ((*readtable* (copy-readtable nil))) (set-dispatch-macro-character #\\# #\\! (lambda (s c n) (list c n (read s)))) (read-from-string \"#3!x\")) => (#\\! 3 X) ; 4"
+  (check-type character character)
+  (check-type sub-character character)
+  (when (digit-char-p sub-character)
+    (error "~s stands for a number after ~s, so it cannot have a function." sub-character character))
+  (%check-dispatching character readtable)
+  (%set-dispatch-macro-character character sub-character function readtable)
+  t)
+
+(defun make-dispatch-macro-character (character &optional non-terminating-p (readtable *readtable*))
+  "Lets what begins with a character be read by functions that SET-DISPATCH-MACRO-CHARACTER sets.
+  Examples:
+  (let ((*readtable* (copy-readtable nil))) (make-dispatch-macro-character #\\$) (set-dispatch-macro-character #\\$ #\\n (lambda (s c n) c n (- (read s)))) (read-from-string \"$n5\")) => -5 ; 3"
+  (set-macro-character character '%read-dispatched non-terminating-p readtable))
+
+(defun %check-dispatching (character readtable)
+  "Signals an error unless functions of a further character read what begins with a character."
+  (unless (or (char= character #\#)
+              (eq (%macro-character character readtable) '%read-dispatched))
+    (error "~s is no dispatching macro character; MAKE-DISPATCH-MACRO-CHARACTER makes it one."
+           character)))
+
+(defun %read-dispatched (stream character)
+  "Reads a number and a further character, and calls the function of both characters."
+  (let* ((argument (loop with number = nil
+                         for digit = (digit-char-p (peek-char nil stream t nil t))
+                         while digit
+                         do (setf number (+ (* 10 (or number 0)) digit))
+                            (read-char stream t nil t)
+                         finally (return number)))
+         (sub-character (read-char stream t nil t))
+         (function (%dispatch-macro-character character sub-character *readtable*)))
+    (unless function
+      (error 'reader-error :stream stream
+                           :format-control "No function reads what begins with ~c~c."
+                           :format-arguments (list character sub-character)))
+    (funcall function stream sub-character argument)))
+
+(defun set-syntax-from-char (to from &optional (to-readtable *readtable*) from-readtable)
+  "Lets a character mean to the reader what another one means.
+  Examples:
+  (let ((*readtable* (copy-readtable nil))) (set-syntax-from-char #\\$ #\\') (read-from-string \"$a\")) => 'A ; 2
+  (let ((*readtable* (copy-readtable nil))) (set-syntax-from-char #\\, #\\space) (read-from-string \"(1, 2)\")) => (1 2) ; 6"
+  (check-type to character)
+  (check-type from character)
+  (let ((from-readtable (or from-readtable (copy-readtable nil))))
+    (multiple-value-bind (function non-terminating-p) (get-macro-character from from-readtable)
+      (cond ((and (char= to from) (null (%macro-character from from-readtable)))
+             (%reset-macro-character to to-readtable))
+            ((char= from #\#)
+             (error "Another character cannot mean what # means; MAKE-DISPATCH-MACRO-CHARACTER makes a character that dispatches."))
+            (function
+             (set-macro-character to function non-terminating-p to-readtable))
+            ((member from '(#\space #\tab #\newline #\return #\page))
+             (set-macro-character to '%read-nothing nil to-readtable))
+            ((or (find from "\\|") (find to "\\|") (%standard-reader to)
+                 (member to '(#\space #\tab #\newline #\return #\page)))
+             (error "The syntax of ~s cannot be that of ~s." to from))
+            (t (%reset-macro-character to to-readtable)))))
+  t)
+
+(defun %read-nothing (stream character)
+  "What a character is read as that separates forms."
+  (declare (ignore stream character))
+  (values))
