@@ -67,6 +67,18 @@ fn forms_are_read_from_methods() {
             ":OPEN",
         ),
         (
+            "(loop for text in '(\"(a #\\\\( \\\"b)\\\" |c)|) rest\" \"#| ( #| ( |# |# (x #| ) |# y) rest\"
+                                \"|a (b| rest\" \"\\\\( rest\" \"\\\"a\\\\\\\"(\\\" rest\")
+                   always (let ((s (letters text)))
+                            (and (equal (read s) (read-from-string text)) (equal (read-line s) \"rest\"))))",
+            "T",
+        ),
+        // Looking at the whole text again at each blank would take minutes.
+        (
+            "(length (read (letters (format nil \"(~{(~d)~%~})\" (loop for i below 20000 collect i)))))",
+            "20000",
+        ),
+        (
             "(let ((s (letters \"a b) c\"))) (list (read-delimited-list #\\) s) (read s)))",
             "((A B) C)",
         ),

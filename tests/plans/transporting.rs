@@ -257,6 +257,20 @@ fn what_can_be_reached_only_from_where_it_is_out_of_sight_is_fetched() {
     assert!(cook.pose("BOTTLE-1").translation.x < -0.6, "{said}");
 }
 
+#[test]
+fn a_cup_in_the_corner_is_fetched_from_beside_what_stands_in_the_best_places() {
+    let mut cook = Cook::new();
+    cook.done(
+        "(spawn-object '((1.6523 1.2023 0.97) (0 0 0.98696 0.16099)) :cup 'cup-1)
+         (loop for (x y) in '((0.725 1.075) (0.875 1.225) (0.875 0.925) (0.575 1.225) (0.575 0.925))
+               for number from 1
+               do (spawn-object (list (list x y 0.1019) '(0 0 0 1)) :breakfast-cereal
+                                (intern (format nil \"BOX-~a\" number))))",
+    );
+    let said = cook.done(&from_the_counter("cup"));
+    assert!(cook.pose("CUP-1").translation.x < -0.6, "{said}");
+}
+
 /// Transports an object of a type from anywhere on the counter to the island.
 fn from_the_counter(kind: &str) -> String {
     format!(

@@ -158,7 +158,7 @@ pub(crate) fn run(evaluator: impl Serve + 'static, options: ReplOptions) -> Resu
 struct Repl {
     evaluator: Shared,
     interrupt: Arc<AtomicBool>,
-    /// Whether the user has interrupted since resuming began, heard or not.
+    /// Becomes true at every interrupt, heard or not.
     has_interrupted: Arc<AtomicBool>,
     is_evaluating: Arc<AtomicBool>,
     screen: Screen<io::Stdout>,

@@ -89,6 +89,7 @@ pub(crate) fn resume(
     let mut quick = Quick::new(evaluator, &earlier.path, &earlier.inputs);
     let mut end = earlier.inputs.len();
     loop {
+        has_interrupted.store(false, Ordering::Relaxed);
         *number = first + end;
         let inputs = earlier.inputs.get(..end).unwrap_or_default();
         match quick.run(evaluator, keeper, inputs, first, &mut progress)? {
@@ -114,7 +115,7 @@ pub(crate) fn resume(
                     "; The tape beside the journal does not fit: every input is evaluated with the physics.",
                 )?;
                 // The input that was interrupted is not evaluated instead.
-                if has_interrupted.swap(false, Ordering::Relaxed) {
+                if has_interrupted.load(Ordering::Relaxed) {
                     end = end.min(progress.at);
                 }
                 if !evaluator.begin_anew() {

@@ -8,6 +8,7 @@ use crate::lisp::image::Image;
 use crate::lisp::object::method::method_value;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, Initform, SlotDefinition};
+use crate::lisp::value::function::Function;
 use crate::lisp::value::generic::{Accessor, Specializer};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -139,7 +140,7 @@ fn description(image: &mut Image, slot: &SlotDefinition) -> Vec<Value> {
             "INITARGS",
             Value::list(slot.initargs.iter().map(|key| Value::symbol(*key))),
         ),
-        ("INITFUNCTION", function(image, slot.initform.as_ref())),
+        ("INITFUNCTION", function(slot.initform.as_ref())),
         ("TYPE", slot.slot_type.clone()),
         ("ALLOCATION", allocation.into()),
         (
@@ -154,22 +155,20 @@ fn description(image: &mut Image, slot: &SlotDefinition) -> Vec<Value> {
 }
 
 /// A function without arguments that computes an initial value, or `NIL`.
-fn function(_: &Image, initform: Option<&Initform>) -> Value {
+fn function(initform: Option<&Initform>) -> Value {
     match initform {
         None => Value::NIL,
         Some(Initform::Function(function)) => Value::Function(function.clone()),
-        Some(Initform::Value(value)) => {
-            Value::Function(crate::lisp::value::function::Function::pure_of(
-                known::CONSTANTLY,
-                (0, None),
-                value.clone(),
-                |value, _, _| Ok(value.clone()),
-            ))
-        }
+        Some(Initform::Value(value)) => Value::Function(Function::pure_of(
+            known::CONSTANTLY,
+            (0, None),
+            value.clone(),
+            |value, _, _| Ok(value.clone()),
+        )),
     }
 }
 
-fn default_initargs(image: &mut Image, args: &[Value]) -> Outcome {
+fn default_initargs(_: &mut Image, args: &[Value]) -> Outcome {
     let class = class_argument(&args[0])?;
     let initargs = if args[1].is_true() {
         class.direct_default_initargs.borrow()
@@ -178,6 +177,6 @@ fn default_initargs(image: &mut Image, args: &[Value]) -> Outcome {
     };
     let initargs = initargs
         .iter()
-        .map(|(key, form)| Value::list([(*key).into(), Value::NIL, function(image, Some(form))]));
+        .map(|(key, form)| Value::list([(*key).into(), Value::NIL, function(Some(form))]));
     Ok(Value::list(initargs.collect::<Vec<_>>()))
 }

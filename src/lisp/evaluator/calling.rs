@@ -38,7 +38,7 @@ impl Machine<'_> {
                 match self.image.native_call(native) {
                     NativeCall::Pure(f) => match f(self.image, &args) {
                         Ok(value) => Next::Deliver(if multi { value } else { value.primary() }),
-                        Err(raise) => self.failed(native.name, args, raise, multi),
+                        Err(raise) => self.instead(native.name, args, raise, multi),
                     },
                     NativeCall::Made(f) => match f(self.image, &args) {
                         Ok(value) => Next::Deliver(if multi { value } else { value.primary() }),
@@ -216,46 +216,16 @@ impl Machine<'_> {
             self.under_way = self.pc().map(|pc| UnderWay { pc, cut });
             let result = f(self.image, &self.fiber.stack[start..]);
             self.under_way = None;
-            if let Err(raise) = &result
-                && raise.stream_object().is_some()
-            {
-                // As below, where the method of the stream is called.
-                return self.call_with_vector(function, start, cut, multi);
-            }
-            self.fiber.stack.truncate(cut);
             return match result {
                 Ok(value) => {
+                    self.fiber.stack.truncate(cut);
                     let value = if multi { value } else { value.primary() };
                     self.fiber.stack.push(value);
                     Next::Run
                 }
-                Err(raise) => self.raise(raise),
+                Err(raise) => self.failed(native.name, raise, start, cut, multi),
             };
         }
-        self.call_with_vector(function, start, cut, multi)
-    }
-
-    /// A pure builtin has failed. If an object was given to it as a stream, it has done nothing yet,
-    /// and what the methods of that object do takes its place.
-    #[cold]
-    fn failed(&mut self, name: Sym, args: Vec<Value>, raise: Box<Raise>, multi: bool) -> Next {
-        match raise.stream_object() {
-            Some(stream) => {
-                let args = vec![name.into(), Value::list(args), stream.clone()];
-                self.call_value(known::SYS_CALL_STREAM_METHOD.into(), args, multi)
-            }
-            None => self.raise(raise),
-        }
-    }
-
-    /// Calls a function with the values from `start` up; the result replaces everything from `cut` up.
-    pub(super) fn call_with_vector(
-        &mut self,
-        function: Rc<Function>,
-        start: usize,
-        cut: usize,
-        multi: bool,
-    ) -> Next {
         let args: Vec<Value> = self.fiber.stack.drain(start..).collect();
         self.fiber.stack.truncate(cut);
         match self.call_value(Value::Function(function), args, multi) {
@@ -272,6 +242,49 @@ impl Machine<'_> {
                 Next::Run
             }
             next => next,
+        }
+    }
+
+    /// Calls the function below the topmost `count` results with all their values.
+    pub(super) fn call_with_values(&mut self, count: usize, multi: bool) -> Next {
+        let start = self.fiber.stack.len() - count;
+        let mut args = Vec::with_capacity(count);
+        for result in self.fiber.stack.drain(start..) {
+            match result {
+                Value::Multiple(values) => args.extend(values.iter().cloned()),
+                single => args.push(single),
+            }
+        }
+        let called = self.pop();
+        self.call_value(called, args, multi)
+    }
+
+    /// A pure builtin with the values from `start` up has failed; everything from `cut` up is given
+    /// up. See [`Self::instead`].
+    #[cold]
+    pub(super) fn failed(
+        &mut self,
+        name: Sym,
+        raise: Box<Raise>,
+        start: usize,
+        cut: usize,
+        multi: bool,
+    ) -> Next {
+        let args = self.fiber.stack.drain(start..).collect();
+        self.fiber.stack.truncate(cut);
+        self.instead(name, args, raise, multi)
+    }
+
+    /// What happens after a pure builtin has failed: the error, unless an object was given to it as a
+    /// stream. Then it has done nothing yet, and what the object's methods do takes its place.
+    #[cold]
+    fn instead(&mut self, name: Sym, args: Vec<Value>, raise: Box<Raise>, multi: bool) -> Next {
+        match raise.stream_object() {
+            Some(stream) => {
+                let args = vec![name.into(), Value::list(args), stream.clone()];
+                self.call_value(known::SYS_CALL_STREAM_METHOD.into(), args, multi)
+            }
+            None => self.raise(raise),
         }
     }
 }

@@ -389,15 +389,17 @@ impl Machine<'_> {
         match &called.body {
             Body::Native(native) if native.accepts(count) => {
                 if let Some(f) = self.image.pure_call(native) {
+                    let name = native.name;
                     self.under_way = Some(UnderWay { pc, cut });
                     let result = f(self.image, &self.fiber.stack[cut..]);
                     self.under_way = None;
-                    if let Err(raise) = &result
-                        && raise.stream_object().is_some()
-                    {
-                        return self.call_for_stream(sym, cut, multi, pc);
-                    }
-                    return self.returned(result, cut, multi, pc);
+                    return match result {
+                        Ok(value) => self.returned(value, cut, multi, pc),
+                        Err(raise) => {
+                            self.save_pc(pc);
+                            Called::Elsewhere(self.failed(name, raise, cut, cut, multi))
+                        }
+                    };
                 }
             }
             Body::Closure { code, .. }
@@ -476,18 +478,6 @@ impl Machine<'_> {
         }
     }
 
-    /// Calls a builtin again that was given an object as a stream, so that the object's methods take
-    /// its place.
-    #[cold]
-    fn call_for_stream(&mut self, sym: Sym, cut: usize, multi: bool, pc: usize) -> Called {
-        let FunctionCell::Function(called) = &self.image.symbols.get(sym).function else {
-            return self.call_undefined(sym.into(), cut, pc);
-        };
-        let called = called.clone();
-        self.save_pc(pc);
-        Called::Elsewhere(self.call_with_vector(called, cut, cut, multi))
-    }
-
     #[cold]
     fn call_undefined(&mut self, name: Value, cut: usize, pc: usize) -> Called {
         self.fiber.stack.truncate(cut);
@@ -497,29 +487,15 @@ impl Machine<'_> {
 
     /// Replaces the arguments of a pure builtin by what it has returned.
     #[inline(always)]
-    fn returned(
-        &mut self,
-        result: Result<Value, Box<Raise>>,
-        cut: usize,
-        multi: bool,
-        pc: usize,
-    ) -> Called {
+    fn returned(&mut self, value: Value, cut: usize, multi: bool, pc: usize) -> Called {
         self.cut_stack(cut);
-        match result {
-            Ok(value) => {
-                let value = if multi { value } else { value.primary() };
-                self.fiber.stack.push(value);
-                if self.image.output.is_due() {
-                    self.save_pc(pc);
-                    return Called::Elsewhere(Next::Stop(Event::Output));
-                }
-                Called::Here
-            }
-            Err(raise) => {
-                self.save_pc(pc);
-                Called::Elsewhere(self.raise(raise))
-            }
+        let value = if multi { value } else { value.primary() };
+        self.fiber.stack.push(value);
+        if self.image.output.is_due() {
+            self.save_pc(pc);
+            return Called::Elsewhere(Next::Stop(Event::Output));
         }
+        Called::Here
     }
 
     /// Is this the function of a symbol?
@@ -541,20 +517,6 @@ impl Machine<'_> {
             argument.move_to(place);
         }
         self.cut_stack(base + count);
-    }
-
-    /// Calls the function below the topmost `count` results with all their values.
-    fn call_with_values(&mut self, count: usize, multi: bool) -> Next {
-        let start = self.fiber.stack.len() - count;
-        let mut args = Vec::with_capacity(count);
-        for result in self.fiber.stack.drain(start..) {
-            match result {
-                Value::Multiple(values) => args.extend(values.iter().cloned()),
-                single => args.push(single),
-            }
-        }
-        let called = self.pop();
-        self.call_value(called, args, multi)
     }
 
     /// Returns the top value from the topmost frame.

@@ -308,11 +308,14 @@
 
 (defun %read-form-from-stream-object (stream error-p value keeps-blank end)
   "Reads a form from a stream that gives one character after the other. END ends a symbol, too."
-  (let ((text (make-array 40 :element-type 'character :adjustable t :fill-pointer 0)))
+  (let ((text (make-array 40 :element-type 'character :adjustable t :fill-pointer 0))
+        (inside-p (%nesting-tracker))
+        (is-inside nil))
     (loop
       (let* ((next (stream-peek-char stream))
              (is-end (eq next :eof)))
         (when (and (plusp (length text))
+                   (or is-end (not is-inside))
                    (%form-may-end-p text next end)
                    (%whole-form-p text))
           (multiple-value-bind (form position) (read-from-string text nil text)
@@ -330,7 +333,32 @@
                       (if (eq (ignore-errors (read-from-string text nil text)) text)
                           (%or-end :eof stream error-p value)
                           (error 'end-of-file :stream stream)))))
-        (vector-push-extend (stream-read-char stream) text)))))
+        (let ((character (stream-read-char stream)))
+          (vector-push-extend character text)
+          (setf is-inside (funcall inside-p character)))))))
+
+(defun %nesting-tracker ()
+  "A function of the characters of a text, one after the other: is the text certain to end inside a list,
+  a string, bars or a comment? So a long form is not looked at as a whole again and again."
+  (let ((depth 0) (delimiter nil) (previous nil) (is-escaped nil) (has-block-comment nil))
+    (lambda (character)
+      (cond (is-escaped (setf is-escaped nil))
+            ((eql delimiter #\newline) (when (char= character #\newline) (setf delimiter nil)))
+            ((char= character #\\) (setf is-escaped t))
+            (delimiter (when (char= character delimiter) (setf delimiter nil)))
+            (t
+             (case character
+               (#\( (incf depth))
+               (#\) (decf depth))
+               (#\; (setf delimiter #\newline))
+               (#\" (setf delimiter #\"))
+               (#\|
+                (setf delimiter #\|)
+                ;; One may be inside another; what follows is not tracked.
+                (when (eql previous #\#) (setf has-block-comment t))))))
+      (setf previous character)
+      (and (not has-block-comment)
+           (or (plusp depth) delimiter is-escaped)))))
 
 (defun %form-may-end-p (text next end)
   "May a form end after this text, before this character?"

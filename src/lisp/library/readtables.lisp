@@ -145,7 +145,7 @@
              (set-macro-character to '%read-nothing nil to-readtable))
             ((or (find from "\\|") (find to "\\|") (%standard-reader to)
                  (member to '(#\space #\tab #\newline #\return #\page)))
-             (error "The syntax of ~s cannot be that of ~s." to from))
+             (error "~s cannot mean what ~s means: the reader itself gives one of them a meaning that cannot be changed." to from))
             (t (%reset-macro-character to to-readtable)))))
   t)
 

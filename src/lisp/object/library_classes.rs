@@ -2,8 +2,10 @@
 //! and what describes slots and specializers.
 
 use crate::lisp::image::Image;
+use crate::lisp::value::Value;
 use crate::lisp::value::class::{ClassKind, Initform, SlotDefinition};
 use crate::lisp::value::package::{PackageId, PackageTable};
+use crate::lisp::value::symbol::Sym;
 
 use super::define::ClassDefinition;
 
@@ -116,7 +118,7 @@ impl Image {
         let superclasses = superclasses.collect();
         let slots = slots.iter().map(|slot| SlotDefinition {
             initargs: vec![self.keyword(slot)],
-            initform: Some(Initform::Value(crate::lisp::Value::NIL)),
+            initform: Some(Initform::Value(Value::NIL)),
             ..SlotDefinition::new(self.slot_symbol(package, slot))
         });
         let slots = slots.collect();
@@ -133,7 +135,7 @@ impl Image {
     }
 
     /// The symbol that the library's files read as the name of a slot.
-    fn slot_symbol(&mut self, package: PackageId, name: &str) -> crate::lisp::Sym {
+    fn slot_symbol(&mut self, package: PackageId, name: &str) -> Sym {
         match self.packages.find_symbol(package, name) {
             Some((sym, _)) => sym,
             None => self.intern(PackageTable::SYSTEM, name),
@@ -141,7 +143,7 @@ impl Image {
     }
 
     /// May a program add methods to the functions of a symbol because it belongs to the streams?
-    pub(crate) fn is_stream_function(&self, sym: crate::lisp::Sym) -> bool {
+    pub(crate) fn is_stream_function(&self, sym: Sym) -> bool {
         let package = self.symbols.get(sym).package;
         package.is_some() && package == self.packages.find(STREAMS)
     }
