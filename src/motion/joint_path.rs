@@ -23,6 +23,20 @@ pub(crate) struct PathAxis {
     pub(crate) chain: usize,
 }
 
+impl PathAxis {
+    /// The value at a fraction of the part of the range about a value that is within a share of the
+    /// range; of all of the range if the share is 1.
+    fn about(&self, value: f64, share: f64, fraction: f64) -> f64 {
+        let (mut lower, mut upper) = (self.lower, self.upper);
+        if share < 1.0 {
+            let half = (upper - lower) * share / 2.0;
+            lower = (value - half).clamp(lower, upper);
+            upper = (value + half).clamp(lower, upper);
+        }
+        lower + (upper - lower) * fraction
+    }
+}
+
 /// The chain of an axis that carries all other chains.
 pub(crate) const ALL_CHAINS: usize = 0;
 
@@ -68,6 +82,17 @@ impl Default for JointPathEffort {
 
 /// Longest new branch of a tree, as a bound (m) on the motion of any part of the robot.
 const BRANCH: f64 = 0.5;
+
+/// Random configurations are drawn from around the straight path, at first within this share of the
+/// ranges of the axes: most obstacles are passed by a small detour.
+const NARROWEST: f64 = 0.2;
+
+/// How many more random configurations make the share larger by 1; from there on they come from
+/// anywhere.
+const WIDENING: f64 = 1000.0;
+
+/// A shortcut saves at least this share of the way that it replaces; others are not worth the checks.
+const LEAST_GAIN: f64 = 0.05;
 
 /// How much coarser the edges are checked during the search than in the result.
 const COARSENESS: f64 = 2.5;
@@ -255,10 +280,12 @@ impl<P> Search<'_, P> {
                 return None;
             }
             let side = round % 2;
+            let width = (NARROWEST + round as f64 / WIDENING).min(1.0);
+            let along = unit(rng);
             let sample: Point = (self.axes.iter().zip(start).zip(goal))
                 .map(|((axis, from), to)| {
                     let stays = chain.is_some_and(|c| axis.chain != c) && from == to;
-                    let random = axis.lower + (axis.upper - axis.lower) * unit(rng);
+                    let random = axis.about(from + (to - from) * along, width, unit(rng));
                     if stays { *from } else { random }
                 })
                 .collect();
@@ -311,6 +338,7 @@ impl<P> Search<'_, P> {
         } else {
             between(from, target, BRANCH / distance)
         };
+        self.checks += 1;
         if (self.blocked)(&to).is_some() || self.edge(from, &to).is_some() {
             return Growth::Trapped;
         }
@@ -333,7 +361,12 @@ impl<P> Search<'_, P> {
             let (a, b) = (unit(rng) * length, unit(rng) * length);
             let (i, from) = self.place(&path, a.min(b));
             let (j, to) = self.place(&path, a.max(b));
-            if i == j || self.edge(&from, &to).is_some() {
+            let is_shorter = || {
+                let corners = path[i + 1..=j].iter();
+                let way = std::iter::once(&from).chain(corners).chain([&to]);
+                self.straight(&from, &to) < (1.0 - LEAST_GAIN) * self.along(way)
+            };
+            if i == j || !is_shorter() || self.edge(&from, &to).is_some() {
                 continue;
             }
             path.splice(i + 1..=j, [from, to]);
@@ -347,6 +380,27 @@ impl<P> Search<'_, P> {
             }
         }
         path
+    }
+
+    /// The length of a straight edge, with the axes as coordinates: unlike the bound on the robot's
+    /// motion, no way but the straight one is as short.
+    fn straight(&self, a: &[f64], b: &[f64]) -> f64 {
+        let moved = a.iter().zip(b).zip(self.axes);
+        let squares = moved.map(|((a, b), axis)| ((a - b) * axis.reach).powi(2));
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// The sum of the lengths of the edges from point to point.
+    fn along<'p>(&self, mut points: impl Iterator<Item = &'p Point>) -> f64 {
+        let Some(mut last) = points.next() else {
+            return 0.0;
+        };
+        let lengths = points.map(|point| {
+            let length = self.straight(last, point);
+            last = point;
+            length
+        });
+        lengths.sum()
     }
 
     fn length(&self, path: &[Point]) -> f64 {

@@ -57,15 +57,13 @@ impl Pushing {
     /// every step.
     pub(super) fn pushed(&mut self, world: &World, allowed: &AllowedPairs) -> Option<PushedObject> {
         guard::loose(world).find_map(|object| {
-            let contacts = world.object_contacts(object.name()).ok()?;
+            let contacts = world.robot_contacts(object.name()).ok()?;
             let is_allowed = |link: &BodyName| {
                 let mut pairs = allowed.iter();
                 pairs.any(|(one, other)| one == link && other.object() == Some(object.name()))
             };
-            let mut by_robot = contacts.into_iter().filter(|contact| {
-                contact.body.robot_link().is_some() && !is_allowed(&contact.body)
-            });
-            let by = by_robot.next()?.body;
+            let mut contacts = contacts.into_iter();
+            let by = contacts.find(|contact| !is_allowed(&contact.body))?.body;
             let now = world.object_pose(object.name()).ok()?;
             let began = self.touched.iter().find(|(name, _)| name == object.name());
             let Some((_, began)) = began else {

@@ -6,7 +6,7 @@ use super::body_name::BodyName;
 use super::error::WorldError;
 use super::object::Object;
 use super::part_key::PartKey;
-use super::physics::{BodyHandle, GRAVITY, RawContact};
+use super::physics::{BodyHandle, GRAVITY};
 use super::scene::World;
 use crate::robot::Side;
 use crate::spatial::pose::{angle_between, distance_between};
@@ -46,7 +46,7 @@ impl World {
     /// Where and how the bodies that touch an object press on it, in a fixed order.
     pub(crate) fn presses(&self, object: &Object) -> Vec<Press> {
         let mut presses = Vec::new();
-        self.physics.visit_contacts(object.body, |contact| {
+        self.physics.visit_contacts(object.body, any, |contact| {
             if let Some(body) = self.body_name(PartKey::from_code(contact.other)) {
                 presses.push(Press {
                     body,
@@ -61,19 +61,23 @@ impl World {
     /// What presses on the object, in a fixed order.
     pub(crate) fn object_contacts(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
         let body = self.object(name)?.body;
-        Ok(self.forces_on(body, |_| true))
+        Ok(self.forces_on(body, any))
+    }
+
+    /// The links of the robot that press on the object, in a fixed order.
+    pub(crate) fn robot_contacts(&self, name: &str) -> Result<Vec<ContactForce>, WorldError> {
+        let body = self.object(name)?.body;
+        Ok(self.forces_on(body, |_, other| is_robot(other)))
     }
 
     /// Sum of the forces (N) on the object from anything but the robot: its support and what it
     /// bumps into.
     pub(crate) fn support_force(&self, name: &str) -> Result<f64, WorldError> {
         let mut sum = 0.0;
+        let body = self.object(name)?.body;
+        let counts = |_, other| !is_robot(other);
         self.physics
-            .visit_contacts(self.object(name)?.body, |contact| {
-                if !matches!(PartKey::from_code(contact.other), PartKey::Robot(_)) {
-                    sum += contact.force;
-                }
-            });
+            .visit_contacts(body, counts, |contact| sum += contact.force);
         Ok(sum)
     }
 
@@ -81,24 +85,26 @@ impl World {
     /// it bears that besides the object's weight. Zero if the robot does not touch it.
     pub(crate) fn pressed_down(&self, name: &str) -> Result<f64, WorldError> {
         let object = self.object(name)?;
-        let mut is_touched = false;
+        if !self.touches(object, is_robot) {
+            return Ok(0.0);
+        }
         let mut load = -object.mass * GRAVITY;
-        self.physics.visit_contacts(object.body, |contact| {
-            if matches!(PartKey::from_code(contact.other), PartKey::Robot(_)) {
-                is_touched = true;
-            } else {
-                load += contact.push.z;
-            }
-        });
-        Ok(if is_touched { load.max(0.0) } else { 0.0 })
+        let counts = |_, other| !is_robot(other);
+        self.physics
+            .visit_contacts(object.body, counts, |contact| load += contact.push.z);
+        Ok(load.max(0.0))
     }
 
     /// Whether the object presses on anything but the robot.
     pub(super) fn touches_others(&self, object: &Object) -> bool {
+        self.touches(object, |other| !is_robot(other))
+    }
+
+    fn touches(&self, object: &Object, counts: impl Fn(u64) -> bool) -> bool {
         let mut touches = false;
-        self.physics.visit_contacts(object.body, |contact| {
-            touches |= !matches!(PartKey::from_code(contact.other), PartKey::Robot(_));
-        });
+        let counts = |_, other| counts(other);
+        self.physics
+            .visit_contacts(object.body, counts, |_| touches = true);
         touches
     }
 
@@ -120,7 +126,7 @@ impl World {
                 let Some((body, _)) = self.body_of_link(link) else {
                     continue;
                 };
-                for one in self.forces_on(body, |contact| contact.own == own) {
+                for one in self.forces_on(body, |link, _| link == own) {
                     add(&mut forces, one);
                 }
             }
@@ -146,13 +152,10 @@ impl World {
     pub(super) fn forces_on(
         &self,
         body: BodyHandle,
-        counts: impl Fn(&RawContact) -> bool,
+        counts: impl Fn(u64, u64) -> bool,
     ) -> Vec<ContactForce> {
         let mut forces = Vec::new();
-        self.physics.visit_contacts(body, |contact| {
-            if !counts(&contact) {
-                return;
-            }
+        self.physics.visit_contacts(body, counts, |contact| {
             if let Some(body) = self.body_name(PartKey::from_code(contact.other)) {
                 add(
                     &mut forces,
@@ -165,6 +168,16 @@ impl World {
         });
         forces
     }
+}
+
+/// Every contact, whatever the codes of the two bodies.
+fn any(_: u64, _: u64) -> bool {
+    true
+}
+
+/// Whether that is the code of one of the robot's links.
+fn is_robot(code: u64) -> bool {
+    matches!(PartKey::from_code(code), PartKey::Robot(_))
 }
 
 fn add(forces: &mut Vec<ContactForce>, one: ContactForce) {

@@ -166,13 +166,13 @@ impl World {
             .zip(&self.models.kitchen_geometry.groups)
         {
             if let (Some(body), true) = (body, part.links.contains(&group.root)) {
-                forces.extend(self.forces_on(*body, |_| true));
+                forces.extend(self.forces_on(*body, |_, _| true));
             }
         }
         forces.retain(|force| !is_rider(&force.body));
         for body in self.bodies_of(&part.riders) {
-            let outside = self.forces_on(body, |contact| {
-                !is_of(&part.links, PartKey::from_code(contact.other))
+            let outside = self.forces_on(body, |_, other| {
+                !is_of(&part.links, PartKey::from_code(other))
             });
             forces.extend(outside.into_iter().filter(|force| !is_rider(&force.body)));
         }

@@ -122,8 +122,6 @@ pub(crate) enum Surface {
 /// A contact of a body that carries load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RawContact {
-    /// Key of the body's own part.
-    pub(crate) own: u64,
     /// Key of the other body's part.
     pub(crate) other: u64,
     /// Normal force (N), averaged over the last step.
@@ -465,28 +463,32 @@ impl Physics {
     }
 
     /// Calls `visit` for every contact of the body that carried load in the last step, in the
-    /// order of the body's parts.
-    pub(crate) fn visit_contacts(&self, body: BodyHandle, mut visit: impl FnMut(RawContact)) {
+    /// order of the body's parts: those for whose two keys, the body's own first, `counts` is true.
+    /// Finding out the force takes long, that is for no other contacts.
+    pub(crate) fn visit_contacts(
+        &self,
+        body: BodyHandle,
+        counts: impl Fn(u64, u64) -> bool,
+        mut visit: impl FnMut(RawContact),
+    ) {
         let Some(body) = self.sets.bodies.get(body.0) else {
             return;
         };
         for &collider in body.colliders() {
             for pair in self.sets.narrow_phase.contact_pairs_with(collider) {
-                if let Some(contact) = self.raw_contact(collider, pair) {
+                if let Some(contact) = self.raw_contact(collider, pair, &counts) {
                     visit(contact);
                 }
             }
         }
     }
 
-    fn raw_contact(&self, own: ColliderHandle, pair: &ContactPair) -> Option<RawContact> {
-        // Pairs exist from a distance of 2 cm; only active ones touch.
-        if !pair.has_any_active_contact() {
-            return None;
-        }
-        let place = self.sets.colliders.get(pair.collider1)?.position();
-        let NormalImpulse { sum, vector, point } = normal_impulse(pair, place);
-        let force = sum / STEP_SECONDS;
+    fn raw_contact(
+        &self,
+        own: ColliderHandle,
+        pair: &ContactPair,
+        counts: impl Fn(u64, u64) -> bool,
+    ) -> Option<RawContact> {
         let (other, sign) = if pair.collider1 == own {
             (pair.collider2, -1.0)
         } else {
@@ -496,9 +498,16 @@ impl Physics {
             let data = self.sets.colliders.get(c)?.user_data;
             u64::try_from(data).ok()
         };
+        let (own, other) = (key(own)?, key(other)?);
+        // Pairs exist from a distance of 2 cm; only active ones touch.
+        if !counts(own, other) || !pair.has_any_active_contact() {
+            return None;
+        }
+        let place = self.sets.colliders.get(pair.collider1)?.position();
+        let NormalImpulse { sum, vector, point } = normal_impulse(pair, place);
+        let force = sum / STEP_SECONDS;
         (force > 0.0).then_some(RawContact {
-            own: key(own)?,
-            other: key(other)?,
+            other,
             force,
             push: from_parry_vector(vector) * (sign / STEP_SECONDS),
             at: from_parry_vector(point),

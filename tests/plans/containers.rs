@@ -365,7 +365,7 @@ fn a_cup_is_brought_from_a_drawer_of_the_island() {
 }
 
 /// A free base pose somewhere in the room.
-fn somewhere(cook: &Cook, rng: &mut Pcg64) -> [f64; 3] {
+pub(super) fn somewhere(cook: &Cook, rng: &mut Pcg64) -> [f64; 3] {
     let mut share = || f64::from(rng.next_u32()) / f64::from(u32::MAX);
     let world = cook.session.simulation().world();
     loop {

@@ -26,8 +26,23 @@ impl Cook {
         Self::watched(false)
     }
 
+    /// One whose overlaps are watched, in a session with that seed.
+    pub(crate) fn with_seed(seed: u64) -> Self {
+        Self::watched_in(
+            &SessionOptions {
+                seed,
+                ..SessionOptions::default()
+            },
+            true,
+        )
+    }
+
     fn watched(is_watched: bool) -> Self {
-        let mut session = Session::new(&SessionOptions::default()).unwrap();
+        Self::watched_in(&SessionOptions::default(), is_watched)
+    }
+
+    fn watched_in(options: &SessionOptions, is_watched: bool) -> Self {
+        let mut session = Session::new(options).unwrap();
         let overlaps = is_watched.then(|| Overlaps::watch(&mut session));
         Self::in_session(session, overlaps)
     }
@@ -127,9 +142,13 @@ impl Cook {
         was.dot(&is).clamp(-1.0, 1.0).acos().to_degrees()
     }
 
+    /// The first time that something has gone through something.
+    pub(crate) fn overlap(&self) -> Option<String> {
+        self.overlaps.as_ref().expect("they are watched").first()
+    }
+
     /// Nothing went through anything so far.
     pub(crate) fn assert_no_overlap(&self) {
-        let overlaps = self.overlaps.as_ref().expect("they are watched");
-        assert_eq!(overlaps.first(), None);
+        assert_eq!(self.overlap(), None);
     }
 }

@@ -291,11 +291,18 @@ fn table(runs: impl Iterator<Item = (u64, Achieved)>) {
     println!("{right} of {all} things where they belong, {tidy} of {runs} runs tidy");
 }
 
-/// The seeds in the environment's `SEEDS`, as FROM..TO.
-fn seeds() -> std::ops::Range<u64> {
-    let text = std::env::var("SEEDS").unwrap_or_else(|_| "0..100".to_owned());
+/// The range in a variable of the environment, as FROM..TO, or the usual one.
+pub(super) fn range(variable: &str, usual: std::ops::Range<u64>) -> std::ops::Range<u64> {
+    let Ok(text) = std::env::var(variable) else {
+        return usual;
+    };
     let (from, to) = text.split_once("..").expect("FROM..TO");
     from.parse().expect("a number")..to.parse().expect("a number")
+}
+
+/// The seeds in the environment's `SEEDS`.
+fn seeds() -> std::ops::Range<u64> {
+    range("SEEDS", 0..100)
 }
 
 #[test]

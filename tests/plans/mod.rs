@@ -16,6 +16,7 @@ mod location_measurements;
 mod locations;
 mod noise;
 mod occasions;
+mod out_of_containers;
 pub(crate) mod overlaps;
 mod packages;
 mod parking;

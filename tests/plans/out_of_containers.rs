@@ -1,0 +1,141 @@
+//! How often things are brought out of closed drawers and the fridge to the island, and back.
+
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::SeedableRng;
+
+use super::containers::somewhere;
+use super::cook::Cook;
+
+/// Where something is that is to be brought to the island.
+struct Store {
+    kind: &'static str,
+    furniture: &'static str,
+    joint: &'static str,
+    /// In how many worlds, and in how many of a hundred it has to arrive at least.
+    worlds: u64,
+    wanted: u64,
+}
+
+const STORES: [Store; 4] = [
+    Store {
+        kind: "spoon",
+        furniture: "sink-area-left-upper-drawer-main",
+        joint: "sink_area_left_upper_drawer_main_joint",
+        worlds: 100,
+        wanted: 95,
+    },
+    Store {
+        kind: "milk",
+        furniture: "iai-fridge-main",
+        joint: "iai_fridge_door_joint",
+        worlds: 40,
+        wanted: 90,
+    },
+    Store {
+        kind: "cup",
+        furniture: "kitchen-island-left-upper-drawer-main",
+        joint: "kitchen_island_left_upper_drawer_main_joint",
+        worlds: 40,
+        wanted: 90,
+    },
+    Store {
+        kind: "bowl",
+        furniture: "sink-area-left-middle-drawer-main",
+        joint: "sink_area_left_middle_drawer_main_joint",
+        worlds: 40,
+        wanted: 90,
+    },
+];
+
+const PLAN: &str = "
+    (in-package :pp-tut)
+    (defvar *thing*)
+    (defun in-furniture (?name)
+      (a location (in (an object (urdf-name ?name) (part-of kitchen)))))
+    (defun put-somewhere-in (?type ?name)
+      (let* ((?for (an object (type ?type)))
+             (?in (an object (urdf-name ?name) (part-of kitchen))))
+        (spawn-object (desig:reference (a location (in ?in) (for ?for))) ?type 'thing)))
+    (defun on-island (?thing)
+      (let ((?island (an object (urdf-name kitchen-island-surface) (part-of kitchen))))
+        (a location (on ?island) (for ?thing))))
+    (defun bring (?type name)
+      (let* ((?thing (an object (type ?type)))
+             (?from (in-furniture name))
+             (?to (on-island ?thing)))
+        (setf *thing* ?thing)
+        (with-simulated-robot
+          (perform (an action (type transporting) (object ?thing) (location ?from)
+                       (target ?to))))))
+    (defun bring-back (?name)
+      (let* ((?thing *thing*)
+             (?to (a location (in (an object (urdf-name ?name) (part-of kitchen)))
+                     (for ?thing))))
+        (with-simulated-robot
+          (perform (an action (type transporting) (object ?thing) (target ?to))))))";
+
+/// Why a thing did not get to where it was to be, or what has not been tidied up.
+fn flaw(cook: &mut Cook, store: &Store, form: &str, is_there: &str) -> Option<String> {
+    if let Err((report, _)) = cook.say(form) {
+        return Some(report.replace('\n', " "));
+    }
+    let support = cook.done("(pp-plans::support-of 'thing)");
+    if !support.contains(is_there) {
+        return Some(format!("on {support}"));
+    }
+    let world = cook.session.simulation().world();
+    let open = world.kitchen_joint(store.joint).unwrap();
+    if open.abs() > 0.02 {
+        return Some(format!("left open by {open:.2}"));
+    }
+    cook.overlap()
+}
+
+/// `cargo test --release --lib -- --ignored --nocapture how_often_things_are_brought_out_of_containers`;
+/// `KINDS`, separated by commas, for some of the things, and `WORLDS=FROM..TO` for some of the worlds.
+#[test]
+#[ignore = "takes minutes; prints how often things are brought out of containers"]
+fn how_often_things_are_brought_out_of_containers() {
+    let kinds = std::env::var("KINDS").unwrap_or_default();
+    println!("| thing | out of | brought to the island | and back | missed |\n|---|---|---|---|---|");
+    for store in &STORES {
+        if !kinds.is_empty() && !kinds.split(',').any(|kind| kind == store.kind) {
+            continue;
+        }
+        let worlds = super::demos::range("WORLDS", 0..store.worlds);
+        let (all, mut brought, mut back) = (worlds.end - worlds.start, 0, 0);
+        for seed in worlds {
+            let mut cook = Cook::with_seed(seed);
+            cook.done(PLAN);
+            let mut rng = Pcg64::seed_from_u64(seed);
+            let [x, y, yaw] = somewhere(&cook, &mut rng);
+            let (s, c) = crate::spatial::trig::sin_cos(yaw / 2.0);
+            cook.done(&format!(
+                "(btr-utils:move-robot '(({x} {y} 0) (0 0 {s} {c})))
+                 (put-somewhere-in :{} :{})",
+                store.kind, store.furniture
+            ));
+            let stood = cook.pose("THING");
+            let form = format!("(bring :{} :{})", store.kind, store.furniture);
+            let out = flaw(&mut cook, store, &form, "kitchen_island");
+            let Some(why) = out else {
+                brought += 1;
+                let form = format!("(bring-back :{})", store.furniture);
+                let part = &store.furniture.replace('-', "_");
+                match flaw(&mut cook, store, &form, part) {
+                    None => back += 1,
+                    Some(why) => println!("  {} {seed}, back: {why}", store.kind),
+                }
+                continue;
+            };
+            println!("  {} {seed} at {stood}: {why}", store.kind);
+        }
+        println!(
+            "| {} | {} | {brought} of {all} | {back} of {brought} | {} |",
+            store.kind,
+            store.furniture,
+            all - brought
+        );
+        assert!(brought * 100 >= all * store.wanted, "{}", store.kind);
+    }
+}
