@@ -4,6 +4,7 @@ mod builtin_robustness;
 mod cram_utilities;
 mod debugger_and_packages;
 mod examples;
+mod formatters;
 mod gray_streams;
 mod library;
 mod limits;

@@ -51,3 +51,30 @@ fn standard_macro_characters_have_functions() {
         ),
     ]);
 }
+
+#[test]
+fn any_character_can_be_a_letter() {
+    check(&[
+        (
+            "(let ((*readtable* (copy-readtable nil)) (names '())) (dolist (c '(#\\( #\\) #\\\" #\\' #\\` #\\, #\\; #\\# #\\| #\\\\ #\\Space)) (set-syntax-from-char c #\\a) (push (symbol-name (read-from-string (format nil \"x~cy\" c))) names)) (equal (reverse names) (mapcar (lambda (c) (format nil \"X~cY\" c)) '(#\\( #\\) #\\\" #\\' #\\` #\\, #\\; #\\# #\\| #\\\\ #\\Space))))",
+            "T",
+        ),
+        (
+            "(let ((*readtable* (copy-readtable nil))) (set-syntax-from-char #\\' #\\a) (list (symbol-name (read-from-string \"'a\")) (progn (set-syntax-from-char #\\' #\\') (read-from-string \"'a\"))))",
+            "(\"'A\" 'A)",
+        ),
+        (
+            "(let ((*readtable* (copy-readtable nil))) (set-syntax-from-char #\\! #\\#) (read-from-string \"(!'car !(1 2) !xff a!b)\"))",
+            "(#'CAR #(1 2) 255 A!B) ; 23",
+        ),
+        (
+            "(handler-case (set-syntax-from-char #\\! #\\| (copy-readtable nil)) (error () :no-escape))",
+            ":NO-ESCAPE",
+        ),
+        // A copy has the letters, too; the original does not get those of the copy.
+        (
+            "(let* ((*readtable* (copy-readtable nil)) (copy (copy-readtable))) (set-syntax-from-char #\\; #\\a copy) (list (read-from-string \"a;b\") (let ((*readtable* (copy-readtable copy))) (symbol-name (read-from-string \"a;b\")))))",
+            "(A \"A;B\")",
+        ),
+    ]);
+}

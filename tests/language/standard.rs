@@ -585,3 +585,166 @@ fn names_of_types_stand_for_sequences_and_elements() {
         ),
     ]);
 }
+
+#[test]
+fn lists_and_places_follow_the_standard() {
+    check(&[
+        // The test gets the part of the tree, then the key.
+        (
+            "(sublis '((1 . x) (5 . y)) '(0 3 8) :test (lambda (part key) (and (realp part) (< part key))))",
+            "(X Y 8)",
+        ),
+        (
+            "(nsublis '((1 . x) (5 . y)) (list 0 3 8) :test (lambda (part key) (and (realp part) (< part key))))",
+            "(X Y 8)",
+        ),
+        ("(rassoc 'a #(1))", "!! The value #(1) is not of type LIST"),
+        (
+            "(pairlis #(1) #(2))",
+            "!! The value #(1) is not of type LIST",
+        ),
+        ("(subsetp #() '(1))", "!! The value #() is not of type LIST"),
+        (
+            "(get-properties '(a 1) '(x . y))",
+            "!! The value Y is not of type LIST",
+        ),
+        (
+            "(values-list '(1 . 2))",
+            "!! The value 2 is not of type LIST",
+        ),
+        (
+            "(let (a b c d) (setf (values a (values b c) d) (values 1 2 3 4)) (list a b c d))",
+            "(1 2 NIL 3)",
+        ),
+        (
+            "(handler-case ((lambda (&key) t) :allow-other-keys nil :allow-other-keys t :x 1) (program-error () :wrong))",
+            ":WRONG",
+        ),
+        (
+            "(fboundp '(setf car . x))",
+            "!! The value (SETF CAR . X) is not of type SYMBOL",
+        ),
+        (
+            "(handler-case (funcall (macro-function 'push) '(push x y)) (program-error () :wrong))",
+            ":WRONG",
+        ),
+        (
+            "(handler-case (proclaim '(optimize . x)) (type-error () :wrong))",
+            ":WRONG",
+        ),
+    ]);
+}
+
+#[test]
+fn restarts_show_what_they_report_and_belong_to_what_macros_signal() {
+    check(&[
+        (
+            "(restart-case (princ-to-string (find-restart 'r)) (r () :report (lambda (s) (write-string \"Go on.\" s))))",
+            "\"Go on.\"",
+        ),
+        (
+            "(restart-bind ((r #'list :report-function (lambda (s) (write-string \"Again.\" s)))) (format nil \"~a\" (find-restart 'r)))",
+            "\"Again.\"",
+        ),
+        (
+            "(macrolet ((fail-now () '(error \"one\"))) (handler-bind ((error (lambda (c) (invoke-restart (find-restart 'r c))))) (handler-bind ((error (lambda (c) (declare (ignore c)) (error \"two\")))) (restart-case (restart-case (fail-now) (r () :inner)) (r () :outer)))))",
+            ":OUTER",
+        ),
+        (
+            "(handler-case (warn (make-condition 'simple-warning) 1) (type-error (c) (type-error-datum c)))",
+            "(1)",
+        ),
+        (
+            "(handler-case (error (make-condition 'simple-error) 1) (type-error (c) (type-error-datum c)))",
+            "(1)",
+        ),
+        (
+            "(handler-bind ((error #'continue)) (cerror \"Go ~a.\" (make-condition 'simple-error) 1))",
+            "NIL",
+        ),
+    ]);
+}
+
+#[test]
+fn what_slots_lack_is_answered_with_one_value() {
+    check(&[
+        (
+            "(progn (defclass lacking () (a)) (defmethod slot-unbound (class (object lacking) name) (values name 2 3)) (defmethod slot-missing (class (object lacking) name operation &optional new) (values (list name operation new) 5)) (multiple-value-list (slot-value (make-instance 'lacking) 'a)))",
+            "(A)",
+        ),
+        (
+            "(multiple-value-list (slot-value (make-instance 'lacking) 'b))",
+            "((B SLOT-VALUE NIL))",
+        ),
+        ("(setf (slot-value (make-instance 'lacking) 'b) 7)", "7"),
+        ("(slot-boundp (make-instance 'lacking) 'b)", "T"),
+        (
+            "(typep (slot-makunbound (make-instance 'lacking) 'b) 'lacking)",
+            "T",
+        ),
+        (
+            "(handler-case (eval '(defclass twice () ((a :type t :type t)))) (program-error () :wrong))",
+            ":WRONG",
+        ),
+        (
+            "(handler-case (eval '(defclass twice () (a) (:default-initargs :a 1 :a 2))) (program-error () :wrong))",
+            ":WRONG",
+        ),
+    ]);
+}
+
+#[test]
+fn what_is_printed_readably_leaves_nothing_out() {
+    check(&[
+        (
+            "(let ((*print-readably* t) (*print-array* nil) (*print-length* 1) (*print-level* 1) (*print-escape* nil)) (list (write-to-string '(#(1 2) (\"a\" (b)))) (princ-to-string '(1 2))))",
+            "(\"(#(1 2) (\\\"a\\\" (B)))\" \"(1 ...)\")",
+        ),
+        (
+            "(let ((*print-readably* t) (*print-gensym* nil)) (prin1-to-string (make-symbol \"X\")))",
+            "\"#:X\"",
+        ),
+        (
+            "(handler-case (read-from-string \"(1 \") (end-of-file (c) (streamp (stream-error-stream c))))",
+            "T",
+        ),
+        (
+            "(with-input-from-string (s \" . )\") (handler-case (read s) (reader-error (c) (eq s (stream-error-stream c)))))",
+            "T",
+        ),
+        (
+            "(list (upgraded-complex-part-type '(integer 0 1)) (upgraded-complex-part-type nil))",
+            "(RATIONAL NIL)",
+        ),
+        (
+            "(progn (deftype between (a b) (declare (type integer a b)) `(integer ,a ,b)) (typep 3 '(between 1 4)))",
+            "T",
+        ),
+        (
+            "(with-input-from-string (in (format nil \"maybe~%y~%\")) (with-output-to-string (out) (let ((*query-io* (make-two-way-stream in out))) (y-or-n-p \"Go ~a?\" 1))))",
+            "\"Go 1? (y or n) Go 1? (y or n) \"",
+        ),
+    ]);
+}
+
+#[test]
+fn tables_places_and_types_follow_the_standard() {
+    check(&[
+        (
+            "(let ((h (make-hash-table :test 'equalp))) (setf (gethash 0.0 h) :x (gethash '(0.0d0) h) :y) (list (gethash -0.0 h) (gethash '(-0.0) h)))",
+            "(:X :Y)",
+        ),
+        (
+            "(progn (defsetf leaving (x) (new) \"Doc.\" (declare (ignorable x)) (return-from leaving `(setf (car ,x) ,new))) (let ((l (list 1))) (setf (leaving l) 5) l))",
+            "(5)",
+        ),
+        (
+            "(list (make-sequence (find-class 'list) 2) (length (make-sequence (find-class 'string) 3)))",
+            "((NIL NIL) 3)",
+        ),
+        (
+            "(progn (defgeneric counted-by (x)) (list (compiled-function-p #'counted-by) (typep #'counted-by 'compiled-function) (compiled-function-p #'car)))",
+            "(NIL NIL T)",
+        ),
+    ]);
+}

@@ -104,6 +104,25 @@ fn suspension_freezes_a_subtree() {
             "(:DONE :EVAPORATED)",
         ),
         (
+            // Grandchildren that are being started at that moment are held, too.
+            "(let ((n 0) (go (make-fluent))) (tl (with-tags (par (:tag a (wait-for go) (par (par (incf n) (incf n)) (par (incf n) (incf n)))) (seq (setf (value go) t) (with-task-suspended (a) (let ((m n)) (sleep 0.1) (list m n))))))) n)",
+            "4",
+        ),
+        (
+            "(let ((n 0) (go (make-fluent)) seen) (tl (with-tags (par (:tag a (wait-for go) (par (par (incf n) (incf n)) (par (incf n) (incf n)))) (seq (setf (value go) t) (with-task-suspended (a) (let ((m n)) (sleep 0.1) (setf seen (= m n)))))))) (list seen n))",
+            "(T 4)",
+        ),
+        (
+            // A task that is suspended before it begins is suspended where it may first wait, even if
+            // there is nothing to wait for any more.
+            "(let ((f (make-fluent)) l) (tl (with-tags (par (seq (suspend a) (setf (value f) t) (sleep 1) (push (value (status a)) l) (wake-up a)) (:tag a (push :begun l) (sleep 0) (push :on l))))) (reverse l))",
+            "(:BEGUN :SUSPENDED :ON)",
+        ),
+        (
+            "(let (l) (tl (with-tags (par (seq (suspend a) (sleep 1) (evaporate a)) (:tag a (sleep 0) (push :on l))))) l)",
+            "NIL",
+        ),
+        (
             // A sleep goes on while the task is suspended, its end waits.
             "(tl (with-tags (par (seq (:tag a (sleep 1)) :a) (seq (with-task-suspended (a) (sleep 5))))))",
             ":A",

@@ -259,6 +259,9 @@ fn modify_place(image: &mut Image, args: &[Value]) -> Result<Value> {
 }
 
 fn proclaim(image: &mut Image, args: &[Value]) -> Result<Value> {
+    if args[0].list_to_vec().is_none() {
+        return Err(Raise::type_error(&args[0], known::LIST));
+    }
     if args[0].car_or_nil().as_symbol() == Some(known::SPECIAL) {
         for name in args[0].cdr_or_nil().iter_list() {
             let name = symbol(&name)?;

@@ -239,7 +239,11 @@ fn values(_: &mut Image, args: &[Value]) -> Result<Value> {
 fn values_list(_: &mut Image, args: &[Value]) -> Result<Value> {
     match args[0].list_to_vec() {
         Some(items) => Ok(Value::values(items)),
-        None => Err(Raise::type_error(&args[0], known::LIST)),
+        None => {
+            let mut items = args[0].iter_list();
+            items.by_ref().for_each(drop);
+            Err(Raise::type_error(&items.rest, known::LIST))
+        }
     }
 }
 
@@ -322,7 +326,7 @@ fn macro_function(image: &mut Image, args: &[Value]) -> Result<Value> {
         FunctionCell::Macro(f) => Value::Function(f.clone()),
         FunctionCell::Builtin => match image.operator(name).and_then(|o| o.expand) {
             Some(expand) => {
-                let function = Function::pure_of(name, (1, Some(2)), (), move |(), image, args| {
+                let function = Function::pure_of(name, (2, Some(2)), (), move |(), image, args| {
                     let environment = args.get(1).cloned().unwrap_or(Value::NIL);
                     image.expand_with(expand, &args[0], environment)
                 });

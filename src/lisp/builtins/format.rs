@@ -26,6 +26,15 @@ pub(crate) static TABLE: &[Builtin] = &[control(
     format,
 )];
 
+/// What the expansion of FORMATTER calls.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[control(
+    "%FORMAT-REST",
+    "stream control &rest arguments",
+    "Writes to a stream as FORMAT does; the arguments that are left.",
+    &[],
+    format_rest,
+)];
+
 /// Macros of package `COMMON-LISP`.
 pub(crate) static OPERATORS: &[Operator] = &[Operator {
     name: "FORMATTER",
@@ -160,6 +169,44 @@ fn format(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
     }
 }
 
+/// Writes to a stream as FORMAT does; returns the arguments that are left.
+fn format_rest(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let Value::Str(control) = &args[1] else {
+        return Err(Raise::type_error(&args[1], known::STRING));
+    };
+    let control = Control::parse(&control.borrow())?;
+    let target = args[0].clone();
+    if let Some(stream) = stream::pretty(machine.image, &target) {
+        return compose(
+            machine,
+            "FORMATTER",
+            move |image, calls| control.run_for_rest(image, &args[2..], 0, true, calls),
+            move |_, (output, rest)| {
+                stream.with_document(|document| document.append(&output.into_document()));
+                Ok(Step::Return(Value::list(rest)))
+            },
+        );
+    }
+    // The methods of an object that is a stream know its column, if anybody does.
+    let column = stream::column(machine.image, &target)
+        .ok()
+        .flatten()
+        .unwrap_or(0);
+    compose(
+        machine,
+        "FORMATTER",
+        move |image, calls| control.run_for_rest(image, &args[2..], column, false, calls),
+        move |machine, (output, rest)| {
+            let text = Value::string(output.into_text());
+            run(machine, "FORMATTER", |calls| async move {
+                let write = known::WRITE_STRING.into();
+                calls.call(&write, Args::Many(vec![text, target])).await;
+                Ok(Value::list(rest))
+            })
+        },
+    )
+}
+
 fn expand_formatter(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>> {
     let control = form.cdr_or_nil().car_or_nil();
     if let Some(text) = control.as_text() {
@@ -171,16 +218,15 @@ fn expand_formatter(image: &mut Image, form: &Value) -> Result<Value, Box<Raise>
     let parameters = [target.clone(), known::L_REST.into(), arguments.clone()];
     let call: [Value; 5] = [
         known::APPLY.into(),
-        Value::list([known::FUNCTION.into(), known::FORMAT.into()]),
+        Value::list([known::FUNCTION.into(), known::SYS_FORMAT_REST.into()]),
         target,
         control,
         arguments,
     ];
-    let lambda: [Value; 4] = [
+    let lambda: [Value; 3] = [
         known::LAMBDA.into(),
         Value::list(parameters),
         Value::list(call),
-        Value::NIL,
     ];
     Ok(Value::list([known::FUNCTION.into(), Value::list(lambda)]))
 }

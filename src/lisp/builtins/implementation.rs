@@ -20,13 +20,6 @@ pub(crate) static TABLE: &[Builtin] = &[
         constantp,
     ),
     pure(
-        "COMPILED-FUNCTION-P",
-        "object",
-        "Is it a function? All functions are compiled.",
-        &["(compiled-function-p #'car) => T"],
-        |_, args| Ok(matches!(args[0], Value::Function(_)).into()),
-    ),
-    pure(
         "LISP-IMPLEMENTATION-TYPE",
         "",
         "The name of the implementation.",

@@ -100,7 +100,12 @@ fn get_properties(_: &mut Image, args: &[Value]) -> Outcome {
         let Some(value) = walk.next()? else {
             return Err(malformed(&args[0]));
         };
-        if args[1].iter_list().any(|i| i.is_eq(&cons.car())) {
+        let mut indicators = args[1].iter_list();
+        let is_among = indicators.any(|i| i.is_eq(&cons.car()));
+        if !is_among && !indicators.rest.is_nil() {
+            return Err(Raise::type_error(&indicators.rest, known::LIST));
+        }
+        if is_among {
             return Ok(Value::values(vec![cons.car(), value, Value::Cons(cons)]));
         }
     }

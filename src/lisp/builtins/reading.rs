@@ -117,6 +117,21 @@ pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
             let c = character(&args[0])?;
             with_readtable(image, args.get(1), |table| {
                 table.macros.borrow_mut().remove(&c);
+                table.constituents.borrow_mut().remove(&c);
+                Value::T
+            })
+        },
+    ),
+    pure(
+        "%SET-CONSTITUENT",
+        "character readtable",
+        "Lets a character be a part of symbols like a letter.",
+        &[],
+        |image, args| {
+            let c = character(&args[0])?;
+            with_readtable(image, args.get(1), |table| {
+                table.macros.borrow_mut().remove(&c);
+                table.constituents.borrow_mut().insert(c);
                 Value::T
             })
         },
@@ -198,6 +213,8 @@ enum After {
     String {
         /// Characters before the text.
         before: usize,
+        /// A stream of the text, for errors.
+        stream: Value,
         eof: Eof,
         preserve_whitespace: bool,
     },
@@ -289,7 +306,11 @@ impl Reading {
             Ok(Outcome::End) => None,
             Err(error) => {
                 self.advance_stream(image)?;
-                return Err(error.raise());
+                let stream = match &self.then {
+                    After::Stream(from) => &from.stream,
+                    After::List { stream, .. } | After::String { stream, .. } => stream,
+                };
+                return Err(error.raise().with(known::K_STREAM, stream.clone()));
             }
         };
         let value = match (&mut self.then, form) {
@@ -319,6 +340,7 @@ impl Reading {
                     before,
                     eof,
                     preserve_whitespace,
+                    ..
                 },
                 form,
             ) => {
@@ -452,7 +474,8 @@ fn read_from_string(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step,
         start: 0,
         then: After::String {
             before: bounds.start,
-            eof: Eof::of(args.get(1..).unwrap_or(&[]), stream),
+            eof: Eof::of(args.get(1..).unwrap_or(&[]), stream.clone()),
+            stream,
             preserve_whitespace: preserve_whitespace.is_some_and(|v| v.is_true()),
         },
     };

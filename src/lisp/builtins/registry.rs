@@ -63,6 +63,7 @@ pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
 pub(crate) static SYSTEM_FUNCTIONS: &[&[Builtin]] = &[
     arguments::SYSTEM_TABLE,
     definitions::SYSTEM_TABLE,
+    format::SYSTEM_TABLE,
     generic_functions::SYSTEM_TABLE,
     objects::SYSTEM_TABLE,
     property_lists::SYSTEM_TABLE,

@@ -100,6 +100,11 @@ pub(crate) fn signal_with(
     if let Some(Value::Instance(i)) = args.first()
         && i.is_a(known::CONDITION)
     {
+        // The arguments of a condition were given when it was made.
+        if args.len() > 1 {
+            let arguments = Value::list(args[1..].to_vec());
+            return Err(Raise::type_error(&arguments, known::NULL));
+        }
         return signal_here(
             machine,
             args.into_iter().next().unwrap_or_default(),

@@ -5,7 +5,7 @@ use super::strings::string;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
+use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::index;
@@ -136,7 +136,8 @@ fn constantp(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn compiled_function_p(_: &mut Image, args: &[Value]) -> Outcome {
-    Ok(Value::bool(matches!(args[0], Value::Function(_))))
+    let is_compiled = matches!(&args[0], Value::Function(f) if !matches!(f.body, Body::Generic(_)));
+    Ok(Value::bool(is_compiled))
 }
 
 /// A symbol, or the place name in `(setf name)`.
@@ -149,9 +150,10 @@ fn function_name(value: &Value) -> Result<FunctionName, Box<Raise>> {
     if let Value::Symbol(sym, ..) = value {
         return Ok(FunctionName::Plain(*sym));
     }
-    let parts: Vec<Value> = value.iter_list().take(3).collect();
-    match parts.as_slice() {
-        [Value::Symbol(known::SETF, ..), Value::Symbol(place, ..)] => {
+    let mut parts = value.iter_list();
+    let words: Vec<Value> = parts.by_ref().take(3).collect();
+    match words.as_slice() {
+        [Value::Symbol(known::SETF, ..), Value::Symbol(place, ..)] if parts.rest.is_nil() => {
             Ok(FunctionName::Setf(*place))
         }
         _ => Err(Raise::type_error(value, known::SYMBOL)),
@@ -335,7 +337,7 @@ pub(crate) static TABLE: &[Builtin] = &[
     pure(
         "COMPILED-FUNCTION-P",
         "object",
-        "Is the object a function? All functions are compiled.",
+        "Is the object a function that is not generic? All of these are compiled.",
         &["(compiled-function-p #'car) => T"],
         compiled_function_p,
     ),

@@ -186,8 +186,16 @@ fn values_expansion(image: &mut Image, places: &[Value]) -> Result<Expansion, Bo
         let one = expansion(image, place)?;
         all.temps.extend(one.temps);
         all.values.extend(one.values);
-        all.stores.extend(one.stores);
-        setters.push(one.setter);
+        // Each place takes one value, also one of several variables: those after the first get NIL.
+        let mut stores = one.stores.into_iter();
+        let first = stores.next().unwrap_or_else(|| gensym(image, "NEW"));
+        all.stores.push(first);
+        let others: Vec<Value> = stores.collect();
+        setters.push(if others.is_empty() {
+            one.setter
+        } else {
+            Value::list([known::LET.into(), Value::list(others), one.setter])
+        });
         getters.push(one.getter);
     }
     all.setter = Value::cons(known::VALUES.into(), Value::list(setters));

@@ -299,9 +299,10 @@ fn check_keywords(image: &Image, code: &Code, more: &[Value]) -> Result<(), Box<
         return Err(Raise::program("odd number of &KEY arguments"));
     }
     let others_allowed = code.parameters.allow_other_keys
-        || more.chunks_exact(2).any(|pair| {
-            pair[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS) && pair[1].is_true()
-        });
+        || more
+            .chunks_exact(2)
+            .find(|pair| pair[0].as_symbol() == Some(known::K_ALLOW_OTHER_KEYS))
+            .is_some_and(|pair| pair[1].is_true());
     if others_allowed {
         return Ok(());
     }

@@ -49,6 +49,11 @@ impl Foreign for Restart {
             name.to_owned()
         }
     }
+
+    fn writer(&self) -> Option<Value> {
+        let is_function = !matches!(self.report, Value::Str(_)) && self.report.is_true();
+        is_function.then(|| self.report.clone())
+    }
 }
 
 /// The tag of the catch at which a failed operation receives the value that it lacked.

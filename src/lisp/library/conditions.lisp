@@ -59,7 +59,7 @@
     `(handler-case ,(%progn body)
        (error (,condition) (values nil ,condition)))))
 
-(defmacro restart-case (form &rest clauses)
+(defmacro restart-case (form &rest clauses &environment environment)
   "The form, with restarts that unwind and evaluate their clause. If the form signals a
   condition, they belong to that condition.
   Examples:
@@ -88,12 +88,13 @@
     `(block ,block
        (let ((,arguments nil))
          (tagbody
-            (return-from ,block ,(%with-restarts form (nreverse restarts)))
+            (return-from ,block ,(%with-restarts (macroexpand form environment)
+                                                   (nreverse restarts)))
             ,@(nreverse statements))))))
 
 (defun %with-restarts (form restarts)
-  "The form of a form with restarts. If it is a call of a function that signals, they belong to
-  its condition."
+  "The form of a form, whose macro is expanded, with restarts. If it is a call of a function that
+  signals, they belong to its condition."
   (let ((variable (gensym "RESTARTS"))
         (class (and (consp form)
                     (cdr (assoc (car form) '((signal . simple-condition)
@@ -178,7 +179,8 @@
   "Like ERROR, with a restart CONTINUE that goes on.
   Examples:
   (handler-bind ((error #'continue)) (cerror \"Go on.\" \"Stop.\")) => NIL"
-  (restart-case (apply #'error datum arguments)
+  ;; Arguments beside a condition are those of the text of the restart.
+  (restart-case (apply #'error datum (if (typep datum 'condition) '() arguments))
     (continue ()
       :report (lambda (stream) (apply #'format stream continue-control arguments))
       nil)))
@@ -188,7 +190,9 @@
   Examples:
   (handler-bind ((warning #'muffle-warning)) (warn \"x\")) => NIL"
   (let ((condition (%condition datum arguments 'simple-warning)))
-    (if (or (not (typep condition 'warning)) (and arguments (typep datum 'condition)))
+    (if (and arguments (typep datum 'condition))
+        (error 'type-error :datum arguments :expected-type 'null))
+    (if (not (typep condition 'warning))
         (error 'type-error :datum condition :expected-type 'warning))
     (restart-case
         (progn

@@ -67,6 +67,15 @@
   (setf (get (if (consp name) (second name) name) (if (consp name) 'setf-compiler-macro 'compiler-macro))
         function))
 
+(defun (setf macro-function) (function name &optional environment)
+  "Makes a function of a form and an environment the macro of a name.
+  Examples:
+  (progn (setf (macro-function 'twice) (lambda (form environment) (declare (ignore environment)) (list 'list (second form) (second form)))) (twice 3)) => (3 3)"
+  (when environment
+    (error "A local macro cannot be set; the macro of ~s everywhere is set without an environment." name))
+  (define-macro (%name name "a macro") function nil nil)
+  function)
+
 (defmacro define-symbol-macro (name expansion)
   "Lets a symbol stand for a form everywhere.
   Examples:
@@ -88,10 +97,14 @@
       `(define-setf-update ',access-function ',(car how))
       (destructuring-bind (lambda-list stores &body body) how
         (let ((list (gensym "STORES")))
-          `(define-setf-long ',access-function
-             (lambda (,list ,@lambda-list)
-               (destructuring-bind ,stores ,list ,@body))
-             ,(length stores))))))
+          (multiple-value-bind (declarations forms)
+              (%split-body (if (and (stringp (car body)) (cdr body)) (cdr body) body))
+            `(define-setf-long ',access-function
+               (lambda (,list ,@lambda-list)
+                 (destructuring-bind ,stores ,list
+                   ,@declarations
+                   (block ,access-function ,@forms)))
+               ,(length stores)))))))
 
 (defmacro define-modify-macro (name lambda-list function &optional documentation)
   "Defines a macro like INCF.

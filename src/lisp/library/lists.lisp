@@ -67,6 +67,8 @@
   "An association list of keys with data.
   Examples:
   (pairlis '(a b) '(1 2)) => ((B . 2) (A . 1))"
+  (%check-list keys)
+  (%check-list data)
   (unless (= (length keys) (length data))
     (error "The lists of keys and data are of unequal length."))
   (loop for key in keys
@@ -76,6 +78,7 @@
 
 (defun %entry-where (predicate part key alist)
   "The first entry of an association list of which a part satisfies a predicate."
+  (%check-list alist)
   (let ((key (or key #'identity)))
     (find-if (lambda (entry)
                (and entry (funcall predicate (funcall key (funcall part entry)))))

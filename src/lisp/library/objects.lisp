@@ -10,11 +10,24 @@
         (expander (gensym "EXPANDER"))
         (stands-alone (or (null lambda-list)
                           (member (first lambda-list) '(&optional &key &rest &aux)))))
-    `(let ((,expander (lambda (,arguments)
-                        (destructuring-bind ,(%star-defaults lambda-list nil) ,arguments
-                          (block ,name ,@body)))))
-       (%define-type ',name ,expander
-                     ,(and stands-alone `(ignore-errors (list (funcall ,expander '()))))))))
+    (multiple-value-bind (declarations forms) (%split-body body)
+      `(let ((,expander (lambda (,arguments)
+                          (destructuring-bind ,(%star-defaults lambda-list nil) ,arguments
+                            ,@declarations
+                            (block ,name ,@forms)))))
+         (%define-type ',name ,expander
+                       ,(and stands-alone
+                             `(ignore-errors (list (funcall ,expander '())))))))))
+
+(defun upgraded-complex-part-type (type &optional environment)
+  "The type that the parts of a complex number have that is made for parts of a type.
+  Examples:
+  (upgraded-complex-part-type '(single-float 0 1)) => SINGLE-FLOAT
+  (upgraded-complex-part-type 'bit) => RATIONAL"
+  (declare (ignore environment))
+  (cond ((subtypep type nil) nil)
+        ((find-if (lambda (part) (subtypep type part)) '(single-float double-float rational real)))
+        (t (error "~s is no type of parts of complex numbers, which are real." type))))
 
 (defun %star-defaults (lambda-list is-optional)
   "The lambda list with '* as the default of optional parameters that have none."

@@ -130,6 +130,7 @@
   "Lets a character mean to the reader what another one means.
   Examples:
   (let ((*readtable* (copy-readtable nil))) (set-syntax-from-char #\\$ #\\') (read-from-string \"$a\")) => 'A ; 2
+  (let ((*readtable* (copy-readtable nil))) (set-syntax-from-char #\\\" #\\a) (string= (read-from-string \"x\\\"y\") \"X\\\"Y\")) => T
   (let ((*readtable* (copy-readtable nil))) (set-syntax-from-char #\\, #\\space) (read-from-string \"(1, 2)\")) => (1 2) ; 6"
   (check-type to character)
   (check-type from character)
@@ -138,15 +139,21 @@
       (cond ((and (char= to from) (null (%macro-character from from-readtable)))
              (%reset-macro-character to to-readtable))
             ((char= from #\#)
-             (error "Another character cannot mean what # means; MAKE-DISPATCH-MACRO-CHARACTER makes a character that dispatches."))
+             (make-dispatch-macro-character to t to-readtable)
+             (loop for code from (char-code #\!) to (char-code #\~)
+                   for sub-character = (code-char code)
+                   do (let ((reader (and (not (digit-char-p sub-character))
+                                         (get-dispatch-macro-character from sub-character
+                                                                       from-readtable))))
+                        (when reader
+                          (set-dispatch-macro-character to sub-character reader to-readtable)))))
             (function
              (set-macro-character to function non-terminating-p to-readtable))
             ((member from '(#\space #\tab #\newline #\return #\page))
              (set-macro-character to '%read-nothing nil to-readtable))
-            ((or (find from "\\|") (find to "\\|") (%standard-reader to)
-                 (member to '(#\space #\tab #\newline #\return #\page)))
-             (error "~s cannot mean what ~s means: the reader itself gives one of them a meaning that cannot be changed." to from))
-            (t (%reset-macro-character to to-readtable)))))
+            ((find from "\\|")
+             (error "~s cannot mean what ~s means: no other character escapes." to from))
+            (t (%set-constituent to to-readtable)))))
   t)
 
 (defun %read-nothing (stream character)

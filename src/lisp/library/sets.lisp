@@ -103,4 +103,5 @@ grows with the sum, not the product, of their lengths."
   "Is every element of the first list in the second?
   Examples:
   (subsetp '(1 2) '(1 2 3)) => T"
+  (%check-list list-1)
   (every (%finder list-2 key test test-not) list-1))

@@ -61,8 +61,9 @@
 (defun %ask (control arguments yes no)
   "Whether a question is answered with one word rather than the other."
   (loop
-    (format t "~&~@[~?~] (~a or ~a) " control arguments yes no)
-    (finish-output)
+    (let ((output (if (output-stream-p *query-io*) *query-io* *standard-output*)))
+      (format output "~&~@[~?~] (~a or ~a) " control arguments yes no)
+      (finish-output output))
     (let ((answer (string-trim " " (read-line *query-io*))))
       (cond ((string-equal answer yes) (return t))
             ((string-equal answer no) (return nil))))))

@@ -70,9 +70,7 @@ the entry. The pairs are copied unless they are to be changed in place."
   (let ((key (or key #'identity)))
     (lambda (part)
       (let ((object (funcall key part)))
-        (assoc-if (lambda (item)
-                    (funcall (%equal-to item test test-not) object))
-                  alist)))))
+        (assoc-if (%equal-to object test test-not) alist)))))
 
 (defun sublis (alist tree &key key test test-not)
   "A tree with every part that is a key of an association list replaced by its datum.

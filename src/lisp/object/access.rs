@@ -9,6 +9,7 @@ use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
+use crate::lisp::vm::calls::{Args, run};
 use crate::lisp::vm::machine::Machine;
 use crate::lisp::vm::step::Step;
 
@@ -51,10 +52,10 @@ pub(crate) fn slot_value(
         }
         Value::Instance(instance) => match instance.slot(slot) {
             Some(value) if !value.is_unbound() => Ok(Step::Return(value)),
-            Some(_) => unbound(machine.image, object, slot),
-            None => missing(machine.image, object, slot, Access::Read, None),
+            Some(_) => unbound(machine, object, slot),
+            None => missing(machine, object, slot, Access::Read, None),
         },
-        other => missing(machine.image, other, slot, Access::Read, None),
+        other => missing(machine, other, slot, Access::Read, None),
     }
 }
 
@@ -77,7 +78,7 @@ pub(crate) fn set_slot_value(
             cycles::note(instance, &value);
             Ok(Step::Return(value))
         }
-        other => missing(machine.image, other, slot, Access::Write, Some(value)),
+        other => missing(machine, other, slot, Access::Write, Some(value)),
     }
 }
 
@@ -95,9 +96,9 @@ pub(crate) fn slot_boundp(
         }
         Value::Instance(instance) => match instance.slot(slot) {
             Some(value) => Ok(Step::Return(Value::bool(!value.is_unbound()))),
-            None => missing(machine.image, object, slot, Access::IsBound, None),
+            None => missing(machine, object, slot, Access::IsBound, None),
         },
-        other => missing(machine.image, other, slot, Access::IsBound, None),
+        other => missing(machine, other, slot, Access::IsBound, None),
     }
 }
 
@@ -116,20 +117,20 @@ pub(crate) fn slot_makunbound(
         Value::Instance(instance) if instance.set_slot(slot, Value::Unbound) => {
             Ok(Step::Return(object.clone()))
         }
-        other => missing(machine.image, other, slot, Access::MakeUnbound, None),
+        other => missing(machine, other, slot, Access::MakeUnbound, None),
     }
 }
 
 /// The value of an unbound slot, which a call of `slot-unbound` supplies.
-fn unbound(image: &Image, object: &Value, slot: Sym) -> Result<Step, Box<Raise>> {
-    let class = Value::Class(super::class_of(image, object));
-    match extended_function(image, known::SLOT_UNBOUND) {
-        Some(function) => Ok(Step::TailCall {
-            function,
-            args: vec![class, object.clone(), slot.into()],
-        }),
-        None => Err(unbound_slot(object, slot)),
-    }
+fn unbound(machine: &mut Machine<'_>, object: &Value, slot: Sym) -> Result<Step, Box<Raise>> {
+    let class = Value::Class(super::class_of(machine.image, object));
+    let Some(function) = extended_function(machine.image, known::SLOT_UNBOUND) else {
+        return Err(unbound_slot(object, slot));
+    };
+    let args = vec![class, object.clone(), slot.into()];
+    run(machine, "SLOT-VALUE", |calls| async move {
+        Ok(calls.call(&function, Args::Many(args)).await)
+    })
 }
 
 /// The error for a slot without a value.
@@ -145,21 +146,33 @@ pub(crate) fn unbound_slot(object: &Value, slot: Sym) -> Box<Raise> {
     })
 }
 
+/// What an access to a slot returns that the object does not have: what a call of `slot-missing` says,
+/// for one that only reads, else what it always returns.
 fn missing(
-    image: &Image,
+    machine: &mut Machine<'_>,
     object: &Value,
     slot: Sym,
     access: Access,
     value: Option<Value>,
 ) -> Result<Step, Box<Raise>> {
-    if let Some(function) = extended_function(image, known::SLOT_MISSING) {
-        let class = Value::Class(super::class_of(image, object));
-        let operation = Value::symbol(access.symbol());
-        let mut args = vec![class, object.clone(), slot.into(), operation];
-        args.extend(value);
-        return Ok(Step::TailCall { function, args });
-    }
-    Err(missing_slot(image, object, slot, access, value.as_ref()))
+    let Some(function) = extended_function(machine.image, known::SLOT_MISSING) else {
+        let value = value.as_ref();
+        return Err(missing_slot(machine.image, object, slot, access, value));
+    };
+    let class = Value::Class(super::class_of(machine.image, object));
+    let operation = Value::symbol(access.symbol());
+    let mut args = vec![class, object.clone(), slot.into(), operation];
+    args.extend(value.clone());
+    let object = object.clone();
+    run(machine, "SLOT-MISSING", move |calls| async move {
+        let answer = calls.call(&function, Args::Many(args)).await;
+        Ok(match access {
+            Access::Read => answer,
+            Access::Write => value.unwrap_or_default(),
+            Access::IsBound => Value::bool(answer.is_true()),
+            Access::MakeUnbound => object,
+        })
+    })
 }
 
 /// The error for a slot that the object does not have.

@@ -110,6 +110,13 @@ impl Definition {
                     let [key, init] = pair else {
                         return Err(Raise::program("odd number of :DEFAULT-INITARGS"));
                     };
+                    let mut others = pairs.chunks(2).filter(|other| other[0].is_eq(key));
+                    if others.nth(1).is_some() {
+                        return Err(Raise::program(format!(
+                            "{} stands twice among the :DEFAULT-INITARGS of {definer}.",
+                            super::text(image, key)
+                        )));
+                    }
                     self.default_initargs.push(form![
                         known::CONS,
                         quote(key.clone()),

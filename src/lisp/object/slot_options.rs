@@ -132,16 +132,25 @@ fn describe(image: &Image, description: &Value, definer: &str) -> Result<Descrip
         is_shared: false,
         doc: Value::NIL,
     };
+    let mut seen = Vec::new();
     for option in options.chunks_exact(2) {
         let value = option[1].clone();
-        match option[0].as_symbol() {
-            Some(known::K_INITARG) => result.initargs.push(value),
-            Some(known::K_INITFORM) if result.initform.is_some() => {
+        let key = option[0].as_symbol();
+        if matches!(
+            key,
+            Some(known::K_INITFORM | known::K_TYPE | known::K_ALLOCATION | known::K_DOCUMENTATION)
+        ) {
+            if seen.contains(&key) {
                 return Err(Raise::program(format!(
-                    "Duplicate slot option :INITFORM for slot {} in {definer}.",
+                    "Duplicate slot option {} for slot {} in {definer}.",
+                    super::text(image, &option[0]),
                     image.name(name)
                 )));
             }
+            seen.push(key);
+        }
+        match option[0].as_symbol() {
+            Some(known::K_INITARG) => result.initargs.push(value),
             Some(known::K_INITFORM) => result.initform = Some(value),
             Some(known::K_READER) => result.readers.push(value),
             Some(known::K_WRITER) => result.writers.push(value),

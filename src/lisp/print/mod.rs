@@ -50,7 +50,7 @@ pub(crate) fn write(
     column: usize,
     calls: &mut Calls,
 ) -> String {
-    printer::Printer::new(image, settings, calls).print(value, column)
+    printer::Printer::new(image, &settings.effective(), calls).print(value, column)
 }
 
 /// A value under given settings, as a part of a document in which lines will break.
@@ -61,7 +61,7 @@ pub(crate) fn document(
     calls: &mut Calls,
 ) -> Document {
     let mut document = Document::new(settings.pretty);
-    printer::Printer::new(image, settings, calls).print_into(&mut document, value);
+    printer::Printer::new(image, &settings.effective(), calls).print_into(&mut document, value);
     document
 }
 
@@ -73,7 +73,7 @@ pub(crate) fn document_default(
     calls: &mut Calls,
 ) -> Document {
     let mut document = Document::new(settings.pretty);
-    printer::Printer::new(image, settings, calls)
+    printer::Printer::new(image, &settings.effective(), calls)
         .without_own_method()
         .print_into(&mut document, value);
     document
@@ -93,7 +93,7 @@ pub(crate) fn write_default(
     column: usize,
     calls: &mut Calls,
 ) -> String {
-    printer::Printer::new(image, settings, calls)
+    printer::Printer::new(image, &settings.effective(), calls)
         .without_own_method()
         .print(value, column)
 }

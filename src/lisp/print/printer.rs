@@ -188,6 +188,13 @@ impl<'a> Printer<'a> {
             Value::Vector(vector) => self.vector(&value, vector, depth),
             Value::Array(array) => self.array(&value, array, depth),
             Value::Instance(instance) => self.instance(&value, instance, depth),
+            Value::Foreign(object) if !self.settings.escape => {
+                let writer = object.object().writer();
+                match writer.and_then(|writer| self.text_of_call(writer, Vec::new(), depth)) {
+                    Some(text) => self.document.append(&text),
+                    None => self.atom(&value),
+                }
+            }
             _ => self.atom(&value),
         }
     }
@@ -553,23 +560,32 @@ impl<'a> Printer<'a> {
         instance: &Instance,
         depth: usize,
     ) -> Option<Document> {
-        let escape = self.settings.escape;
-        let call = |function: Value| Call {
-            function,
-            before: vec![value.clone()],
-            after: Vec::new(),
-            bindings: self.settings.bindings(self.image, depth),
-            is_pretty: self.settings.pretty,
-        };
         let skips_method = std::mem::take(&mut self.skips_method);
         if !skips_method && dispatch::has_print_method(self.image, instance) {
-            return self.calls.text(|| call(known::PRINT_OBJECT.into()));
+            return self.text_of_call(known::PRINT_OBJECT.into(), vec![value.clone()], depth);
         }
-        if escape {
+        if self.settings.escape {
             return None;
         }
         let report = report::function(instance)?;
-        self.calls.text(|| call(Value::Function(report)))
+        self.text_of_call(Value::Function(report), vec![value.clone()], depth)
+    }
+
+    /// What a function writes that gets arguments and then a stream.
+    fn text_of_call(
+        &mut self,
+        function: Value,
+        before: Vec<Value>,
+        depth: usize,
+    ) -> Option<Document> {
+        let bindings = self.settings.bindings(self.image, depth);
+        self.calls.text(|| Call {
+            function,
+            before,
+            after: Vec::new(),
+            bindings,
+            is_pretty: self.settings.pretty,
+        })
     }
 
     fn slots(&mut self, instance: Rc<Instance>, next: usize, depth: usize) {

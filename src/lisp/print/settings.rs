@@ -101,6 +101,24 @@ impl Settings {
         }
     }
 
+    /// As they count for a value: one that is to be readable is printed without what would leave
+    /// something out that is needed to read it again.
+    pub(super) fn effective(&self) -> Settings {
+        let settings = self.clone();
+        if !settings.readably {
+            return settings;
+        }
+        Settings {
+            escape: true,
+            length: None,
+            level: None,
+            lines: None,
+            gensym: true,
+            array: true,
+            ..settings
+        }
+    }
+
     /// The printer variables whose values have to change for a call of Lisp code to print like
     /// this, so many levels deep.
     pub(crate) fn bindings(&self, image: &Image, depth: usize) -> Vec<(Sym, Value)> {

@@ -70,6 +70,8 @@ pub(crate) struct Lexer<'t> {
     position: usize,
     /// Further characters that end a token.
     terminators: &'t [char],
+    /// Characters that are parts of symbols like letters.
+    constituents: &'t [char],
 }
 
 /// Is the character blank space between tokens? Pasted text may contain exotic ones.
@@ -99,6 +101,7 @@ impl<'t> Lexer<'t> {
             text,
             position,
             terminators: &[],
+            constituents: &[],
         }
     }
 
@@ -106,6 +109,14 @@ impl<'t> Lexer<'t> {
     pub(crate) fn with_terminators(self, terminators: &'t [char]) -> Lexer<'t> {
         Lexer {
             terminators,
+            ..self
+        }
+    }
+
+    /// Lets characters be parts of symbols that would mean something else.
+    pub(crate) fn with_constituents(self, constituents: &'t [char]) -> Lexer<'t> {
+        Lexer {
+            constituents,
             ..self
         }
     }
@@ -118,7 +129,7 @@ impl<'t> Lexer<'t> {
     /// Moves past blank space.
     pub(crate) fn skip_blanks(&mut self) {
         while let Some(c) = self.peek() {
-            if !is_blank(c) {
+            if !is_blank(c) || self.constituents.contains(&c) {
                 return;
             }
             self.position += c.len_utf8();
@@ -153,6 +164,9 @@ impl<'t> Lexer<'t> {
     fn skip_atom(&mut self) -> bool {
         while let Some(c) = self.peek() {
             match c {
+                c if self.constituents.contains(&c) && !self.terminators.contains(&c) => {
+                    self.position += c.len_utf8();
+                }
                 '\\' => {
                     self.position += 1;
                     if self.bump().is_none() {
@@ -260,6 +274,10 @@ impl Iterator for Lexer<'_> {
         let start = self.position;
         let first = self.bump()?;
         let (kind, is_closed) = match first {
+            first if self.constituents.contains(&first) => {
+                self.position = start;
+                (TokenKind::Atom, self.skip_atom())
+            }
             '(' => (TokenKind::Open, true),
             ')' => (TokenKind::Close, true),
             '\'' => (TokenKind::Quote, true),

@@ -8,7 +8,7 @@ use super::label::Labels;
 use super::lexer::{Lexer, Token, TokenKind};
 use super::literal;
 use super::numeric::parse_number;
-use super::readtable::{LetterCase, Readtable};
+use super::readtable::{LetterCase, Readtable, escaped};
 use super::symbol;
 use crate::lisp::image::Image;
 use crate::lisp::source::{Place, SourceId};
@@ -232,7 +232,12 @@ impl Reader {
             });
             self.skips += 1;
         }
-        let mut lexer = Lexer::at(&text, self.position).with_terminators(&terminators);
+        let constituents: Vec<char> = readtable
+            .map(|table| table.constituents.borrow().iter().copied().collect())
+            .unwrap_or_default();
+        let mut lexer = Lexer::at(&text, self.position)
+            .with_terminators(&terminators)
+            .with_constituents(&constituents);
         loop {
             if let Some(readtable) = readtable {
                 lexer.skip_blanks();
@@ -398,7 +403,7 @@ impl Reader {
             }
             TokenKind::String => literal::string(slice(start + 1, token.end - 1)),
             TokenKind::Character => literal::character(slice(start + 2, token.end))?,
-            TokenKind::Atom => match self.atom(image, slice(start, token.end))? {
+            TokenKind::Atom => match self.atom(image, &escaped(image, slice(start, token.end)))? {
                 Some(value) => value,
                 None => return Ok(None),
             },

@@ -1,7 +1,8 @@
 //! Characters to which a program gives a meaning: `set-macro-character`.
 
+use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
@@ -62,6 +63,8 @@ pub(crate) struct Readtable {
     /// Functions of stream, sub-character and number, by dispatching character and
     /// sub-character (in upper case).
     pub(crate) dispatch: RefCell<BTreeMap<(char, char), Value>>,
+    /// Characters that are parts of symbols, whatever they are in the standard syntax.
+    pub(crate) constituents: RefCell<BTreeSet<char>>,
     /// What happens to letters.
     pub(crate) case: Cell<LetterCase>,
 }
@@ -86,6 +89,22 @@ impl Readtable {
     }
 }
 
+/// The text of a token, with escapes before the characters that would escape others although the
+/// readtable makes letters of them.
+pub(crate) fn escaped<'t>(image: &Image, token: &'t str) -> Cow<'t, str> {
+    let table = image.special(known::V_READTABLE);
+    let Some(table) = table.as_foreign::<Readtable>() else {
+        return token.into();
+    };
+    let constituents = table.constituents.borrow();
+    let is_letter = |c: char| matches!(c, '\\' | '|') && constituents.contains(&c);
+    if constituents.is_empty() || !token.contains(is_letter) {
+        return token.into();
+    }
+    let escape = |c| is_letter(c).then_some('\\').into_iter().chain([c]);
+    token.chars().flat_map(escape).collect()
+}
+
 impl Foreign for Readtable {
     fn copied(&self, copier: &mut Copier) -> ForeignCopy {
         let macros = self.macros.borrow();
@@ -100,6 +119,7 @@ impl Foreign for Readtable {
         ForeignCopy::New(Box::new(Readtable {
             macros: RefCell::new(macros),
             dispatch: RefCell::new(dispatch.collect()),
+            constituents: self.constituents.clone(),
             case: self.case.clone(),
         }))
     }

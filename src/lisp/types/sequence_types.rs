@@ -21,7 +21,10 @@ pub(crate) struct SequenceType {
 impl SequenceType {
     /// The sequence type that a type specifier denotes, if it names a kind of sequence.
     pub(crate) fn of(image: &Image, specifier: &Value) -> Option<SequenceType> {
-        let named = by_itself(image, specifier);
+        let named = match specifier {
+            Value::Class(class) => by_itself(image, &class.name.into()),
+            other => by_itself(image, other),
+        };
         let mut parts = named.iter_list();
         let (name, first, second) = match &named {
             Value::Symbol(sym, ..) => (*sym, None, None),

@@ -161,10 +161,9 @@ fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
         Value::Int(_) | Value::Single(_) | Value::Double(_) | Value::Big(_) | Value::Ratio(_)
             if loosely =>
         {
-            crate::lisp::value::number::to_f64(value)
-                .unwrap_or(0.0)
-                .to_bits()
-                .hash(state);
+            // The sum makes one zero of both.
+            let number = crate::lisp::value::number::to_f64(value).unwrap_or(0.0) + 0.0;
+            number.to_bits().hash(state);
         }
         Value::Int(n) => n.hash(state),
         Value::Single(x) => x.to_bits().hash(state),

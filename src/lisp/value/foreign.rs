@@ -40,6 +40,11 @@ pub(crate) trait Foreign: Any {
     /// The readable form, as `princ` (`escape` false) or `prin1` (`escape` true) print it.
     fn print(&self, context: &dyn PrintContext, escape: bool) -> String;
 
+    /// A function of a stream that writes what `princ` shows, if programs can say that.
+    fn writer(&self) -> Option<Value> {
+        None
+    }
+
     /// Can its printed form be read again? One that begins with `#<` cannot in any case.
     fn is_readable(&self) -> bool {
         true

@@ -67,6 +67,7 @@ pub(crate) fn install(image: &mut Image) {
     crate::lisp::library::install(image, &library::UTILITIES);
     let prolog = packages::ensure(image, "CRAM-PROLOG", &["PROLOG"]);
     image.install(prolog, prolog_rules::builtins::TABLE);
+    image.install(PackageTable::SYSTEM, prolog_rules::builtins::SYSTEM_TABLE);
     image.install(prolog, prolog_rules::facts::TABLE);
     image.install_operators(prolog, prolog_rules::facts::OPERATORS);
     prolog_rules::facts::install_functors(image, prolog_rules::functors::TABLE);

@@ -122,13 +122,16 @@
   (loop repeat index do (setf list (lazy-cdr list)))
   (lazy-car list))
 
-(defun force-ll (list)
-  "The list with all its elements, which are computed now.
+(defun force-ll (list &optional limit)
+  "The list with all its elements, which are computed now; with a limit, a list of at most so many.
   Examples:
-  (cut:force-ll (cut:lazy-mapcar #'1+ '(1 2))) => (2 3)"
-  (loop for rest = list then (lazy-cdr rest)
-        while rest)
-  list)
+  (cut:force-ll (cut:lazy-mapcar #'1+ '(1 2))) => (2 3)
+  (cut:force-ll (cut:lazy-list ((i 0)) (cut:cont i (1+ i))) 3) => (0 1 2)"
+  (if limit
+      (force-ll (lazy-take limit list))
+      (loop for rest = list then (lazy-cdr rest)
+            while rest
+            finally (return list))))
 
 (defun copy-lazy-list (list)
   "A copy; what has not been computed yet is computed by whichever is asked first, for itself.

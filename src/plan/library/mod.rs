@@ -17,11 +17,12 @@ static LANGUAGE_FILES: &[File] = &[
     library_file!("src/plan/library", "suspension.lisp"),
 ];
 
-/// Lazy lists, patterns and bindings, which are CRAM's utilities, and the registration of what
+/// Lazy lists, patterns, bindings and proofs, which are CRAM's utilities, and the registration of what
 /// resolves locations; the loader of systems. They need nothing from the plan language.
 static UTILITY_FILES: &[File] = &[
     library_file!("src/plan/library", "lazy-lists.lisp"),
     library_file!("src/plan/library", "patterns.lisp"),
+    library_file!("src/plan/library", "proofs.lisp"),
     library_file!("src/plan/library", "locations.lisp"),
     library_file!("src/plan/library", "systems.lisp"),
     library_file!("src/plan/library", "system-files.lisp"),

@@ -13,6 +13,12 @@
               return (%checked-options (rest definition) name file))
       (error "~a: there is no system ~s in it." file name)))
 
+(defun %describes-p (file name)
+  "Does a file describe a system of that name?"
+  (some (lambda (form)
+          (equal (ignore-errors (%system-name (first (%definition form)))) name))
+        (%read-description file)))
+
 (defun %definition (form)
   "Name and options in a form (defsystem name …), or NIL."
   (and (alexandria:proper-list-p form)

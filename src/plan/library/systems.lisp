@@ -147,8 +147,13 @@ names.")
 
 (defun %system-file (name)
   "The file that describes a system, or NIL."
-  (let ((primary (%primary-name name)))
-    (find primary (%system-files) :key #'pathname-name :test #'string=)))
+  (let ((files (%system-files)))
+    (or (find (%primary-name name) files :key #'pathname-name :test #'string=)
+        ;; A file may describe further systems: library.asd that of its tests, library-test.
+        (find-if (lambda (file)
+                   (and (alexandria:starts-with-subseq (pathname-name file) name)
+                        (%describes-p file name)))
+                 (sort files #'> :key #'length)))))
 
 (defun %no-system (name dependent)
   "Signals that there is no such system, which another one may depend on."

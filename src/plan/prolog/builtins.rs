@@ -1,6 +1,7 @@
-//! `prolog`, `prove-one` and the like.
+//! `prove-one`, and what `prolog` is made of.
 
 use super::engine::{Engine, Progress};
+use super::search::{NextProofs, Search};
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::value::Value;
 use crate::lisp::value::raise::Raise;
@@ -11,37 +12,42 @@ use crate::lisp::vm::step::Step;
 
 type Result<T> = std::result::Result<T, Box<Raise>>;
 
-/// Maximum number of solutions of a query.
-const MOST_SOLUTIONS: usize = 100_000;
-
 /// Functions of package `CRAM-PROLOG`.
-pub(crate) static TABLE: &[Builtin] = &[
+pub(crate) static TABLE: &[Builtin] = &[control(
+    "PROVE-ONE",
+    "query &optional bindings",
+    "The first proof of a goal, under bindings that are known already: a list that holds its list of bindings; NIL if there is none.",
+    &["(prolog:prove-one '(prolog:member ?x (1 2))) => (((?X . 1)))"],
+    |machine, args| {
+        let engine = begun(machine, &args)?;
+        compute(machine, "PROVE-ONE", Solve::new(engine, 1))
+    },
+)];
+
+/// What the library makes lazy lists of proofs of.
+pub(crate) static SYSTEM_TABLE: &[Builtin] = &[
     control(
-        "PROLOG",
-        "query",
-        "All proofs of a goal: a list of lists of bindings; NIL if there is none.",
-        &["(prolog:prolog '(prolog:member ?x (1 2))) => (((?X . 1)) ((?X . 2)))"],
-        |machine, args| start(machine, &args[0], MOST_SOLUTIONS),
+        "%BEGIN-SEARCH",
+        "query bindings",
+        "A search for proofs.",
+        &[],
+        |machine, args| {
+            let search = Search::new(begun(machine, &args)?);
+            Ok(Step::Return(Value::foreign(search)))
+        },
     ),
     control(
-        "PROVE-ALL",
-        "query &optional bindings",
-        "All proofs of a goal: a list of lists of bindings.",
-        &["(prolog:prove-all '(prolog:member ?x (1 2))) => (((?X . 1)) ((?X . 2)))"],
-        |machine, args| start(machine, &args[0], MOST_SOLUTIONS),
-    ),
-    control(
-        "PROVE-ONE",
-        "query &optional bindings",
-        "The first proof of a goal: a list that holds its list of bindings; NIL if there is none.",
-        &["(prolog:prove-one '(prolog:member ?x (1 2))) => (((?X . 1)))"],
-        |machine, args| start(machine, &args[0], 1),
+        "%NEXT-PROOFS",
+        "search",
+        "Its next proofs, after whether there may be more.",
+        &[],
+        |machine, args| compute(machine, "PROLOG", NextProofs::of(args[0].clone())),
     ),
 ];
 
-fn start(machine: &mut Machine<'_>, query: &Value, most: usize) -> Result<Step> {
-    let engine = Engine::new(machine.image, query)?;
-    compute(machine, "PROLOG", Solve::new(engine, most))
+fn begun(machine: &mut Machine<'_>, args: &[Value]) -> Result<Engine> {
+    let known = args.get(1).cloned().unwrap_or(Value::NIL);
+    Engine::with_bindings(machine.image, &args[0], &known)
 }
 
 /// The list of the bindings of up to `most` solutions.

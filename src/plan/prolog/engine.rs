@@ -1,12 +1,14 @@
 //! The prover: goals to prove, and choice points to backtrack to.
 
+use std::collections::HashSet;
 use std::rc::Rc;
 
 use super::facts;
 use super::facts::{Clause, Facts};
-use super::functor::{Call, Functor};
+use super::functor::Call;
 use super::goal::{Action, Collection, Goal};
 use super::term::{Bindings, Mark, Naming, Variable};
+use super::warnings;
 use crate::lisp::image::Image;
 use crate::lisp::print;
 use crate::lisp::value::Value;
@@ -20,6 +22,8 @@ type Result<T> = std::result::Result<T, Box<Raise>>;
 const INTERRUPT_INTERVAL: u32 = 1024;
 /// Maximum number of open choice points.
 const MOST_CHOICES: usize = 200_000;
+/// Maximum number of goals that are still to be proved.
+const MOST_GOALS: usize = 1_000_000;
 
 /// Goals to prove, in order.
 pub(crate) type Goals = Option<Rc<GoalNode>>;
@@ -30,11 +34,56 @@ pub(crate) struct GoalNode {
     /// Number of choice points when the clause of this goal was entered: `!` cuts back to that
     /// many.
     clause: usize,
+    /// Number of goals from this one on.
+    count: usize,
     next: Goals,
 }
 
+impl GoalNode {
+    /// A goal before others.
+    fn before(next: Goals, goal: Goal, clause: usize) -> GoalNode {
+        let count = 1 + next.as_ref().map_or(0, |next| next.count);
+        GoalNode {
+            goal,
+            clause,
+            count,
+            next,
+        }
+    }
+
+    /// The goal.
+    pub(super) fn goal(&self) -> &Goal {
+        &self.goal
+    }
+
+    /// Those after it.
+    pub(super) fn next(&self) -> &Goals {
+        &self.next
+    }
+
+    /// A node like this one with another goal and others after it.
+    pub(super) fn with(&self, goal: Goal, next: Goals) -> GoalNode {
+        GoalNode {
+            goal,
+            clause: self.clause,
+            count: self.count,
+            next,
+        }
+    }
+}
+
+impl Drop for GoalNode {
+    fn drop(&mut self) {
+        // A loop, since a rule that proves itself makes long chains.
+        let mut next = self.next.take();
+        while let Some(node) = next {
+            next = Rc::try_unwrap(node).map_or(None, |mut node| node.next.take());
+        }
+    }
+}
+
 /// What to do on backtracking to a choice point.
-enum Alternative {
+pub(super) enum Alternative {
     /// Try the next clauses of a goal.
     Clauses {
         goal: Value,
@@ -55,15 +104,15 @@ enum Alternative {
     Forgotten,
 }
 
-struct Choice {
-    number: u64,
-    mark: Mark,
-    goals: Goals,
-    alternative: Alternative,
+pub(super) struct Choice {
+    pub(super) number: u64,
+    pub(super) mark: Mark,
+    pub(super) goals: Goals,
+    pub(super) alternative: Alternative,
 }
 
 /// What to do with the value of a call.
-enum Awaited {
+pub(super) enum Awaited {
     /// Unify it with a term.
     Result(Value),
     /// Continue if it is not `NIL`.
@@ -95,28 +144,49 @@ pub(crate) enum Progress {
 /// A prover for one query.
 pub(crate) struct Engine {
     /// The bindings so far.
-    bindings: Bindings,
-    goals: Goals,
-    choices: Vec<Choice>,
-    collections: Vec<Vec<Value>>,
-    awaited: Option<Awaited>,
-    facts: Rc<Facts>,
-    query: Naming,
-    is_started: bool,
-    numbers: u64,
+    pub(super) bindings: Bindings,
+    pub(super) goals: Goals,
+    pub(super) choices: Vec<Choice>,
+    pub(super) collections: Vec<Vec<Value>>,
+    pub(super) awaited: Option<Awaited>,
+    pub(super) facts: Rc<Facts>,
+    pub(super) query: Naming,
+    pub(super) is_started: bool,
+    pub(super) numbers: u64,
+    /// Functors with numbers of arguments that a warning has been given of.
+    pub(super) warned: HashSet<(Sym, usize)>,
 }
 
 impl Engine {
     /// A prover for a query whose variables are `?symbols`.
     pub(crate) fn new(image: &mut Image, query: &Value) -> Result<Engine> {
+        Engine::with_bindings(image, query, &Value::NIL)
+    }
+
+    /// A prover for a query some of whose variables are bound already: a list of pairs, the last
+    /// variable first.
+    pub(crate) fn with_bindings(image: &mut Image, query: &Value, known: &Value) -> Result<Engine> {
         let mut bindings = Bindings::default();
         let mut naming = Naming::default();
+        let Some(pairs) = known.list_to_vec() else {
+            return Err(Raise::type_error(known, known::LIST));
+        };
+        let mut agrees = true;
+        for pair in pairs.iter().rev() {
+            let Value::Cons(pair) = pair else {
+                return Err(Raise::type_error(pair, known::CONS));
+            };
+            let variable = bindings.rename(image, &pair.car(), &mut naming)?;
+            let value = bindings.rename(image, &pair.cdr(), &mut naming)?;
+            agrees &= bindings.unify(&variable, &value);
+        }
         let goal = bindings.rename(image, query, &mut naming)?;
-        let goals = Some(Rc::new(GoalNode {
-            goal: Goal::Prove(goal),
-            clause: 0,
-            next: None,
-        }));
+        let goal = if agrees {
+            Goal::Prove(goal)
+        } else {
+            Goal::Fail
+        };
+        let goals = Some(Rc::new(GoalNode::before(None, goal, 0)));
         Ok(Engine {
             bindings,
             goals,
@@ -127,7 +197,19 @@ impl Engine {
             query: naming,
             is_started: false,
             numbers: 0,
+            warned: HashSet::new(),
         })
+    }
+
+    /// From now on, these are the facts.
+    pub(super) fn attach(&mut self, facts: Rc<Facts>) {
+        self.facts = facts;
+    }
+
+    /// Is anything left to try after the proof that was found?
+    pub(super) fn has_choices(&self) -> bool {
+        let mut choices = self.choices.iter();
+        choices.any(|choice| !matches!(choice.alternative, Alternative::Forgotten))
     }
 
     /// The bindings of the query's variables: a list of pairs, the last variable first.
@@ -231,6 +313,11 @@ impl Engine {
                     "A Prolog goal has too many open choices: does a rule prove itself?",
                 ));
             }
+            if self.goals.as_ref().is_some_and(|g| g.count > MOST_GOALS) {
+                return Err(Raise::simple(
+                    "A Prolog goal needs more and more goals to be proved: does a rule prove itself?",
+                ));
+            }
         }
     }
 
@@ -253,6 +340,10 @@ impl Engine {
         };
         if self.facts.knows(functor) {
             let clauses: Rc<[Clause]> = self.facts.clauses(functor).into();
+            if let Some(why) = warnings::of_rules(image, functor, &clauses, term) {
+                self.warn(image, functor, args.iter_list().count(), &why);
+                return Ok(Ok(false));
+            }
             return Ok(Ok(self.try_clauses(image, term.clone(), clauses, 0)?));
         }
         let args: Vec<Value> = args.iter_list().collect();
@@ -273,24 +364,32 @@ impl Engine {
             None => match (self.facts.handler(functor), known) {
                 (Some(function), _) => self.handled(function, &args)?,
                 (None, Some(known)) => {
-                    return Err(wrong_count(image, functor, known, args.len()));
+                    let why = warnings::of_functor(image, functor, known, args.len());
+                    self.warn(image, functor, args.len(), &why);
+                    return Ok(Ok(false));
                 }
                 (None, None) => {
                     let shown = print::to_string(image, &self.bindings.shown(term)?, true);
                     let name = image.name(functor);
                     let near = self.facts.closest(image, name);
                     let near = near.map(|near| format!(" Did you mean {near}?"));
-                    let text = format!(
-                        "WARNING: Trying to prove goal {shown} with undefined functor {name}.{}\n",
+                    let why = format!(
+                        "Trying to prove goal {shown} with undefined functor {name}.{}",
                         near.unwrap_or_default()
                     );
-                    image.output.fresh_line();
-                    image.output.write(&text);
+                    self.warn(image, functor, args.len(), &why);
                     return Ok(Ok(false));
                 }
             },
         };
         Ok(self.take(action, clause))
+    }
+
+    /// Warns of a goal, once for all that are wrong like it.
+    fn warn(&mut self, image: &mut Image, functor: Sym, count: usize, why: &str) {
+        if self.warned.insert((functor, count)) {
+            warnings::warn(image, why);
+        }
     }
 
     /// The call of a functor of `def-prolog-handler`.
@@ -376,7 +475,7 @@ impl Engine {
     fn push_goals(&mut self, goals: Vec<Goal>, clause: usize) {
         for goal in goals.into_iter().rev() {
             let next = self.goals.take();
-            self.goals = Some(Rc::new(GoalNode { goal, clause, next }));
+            self.goals = Some(Rc::new(GoalNode::before(next, goal, clause)));
         }
     }
 
@@ -488,20 +587,6 @@ impl Engine {
         }
         Ok(false)
     }
-}
-
-fn wrong_count(image: &Image, functor: Sym, known: &Functor, count: usize) -> Box<Raise> {
-    Raise::simple(format!(
-        "The Prolog goal {} does not take {count} argument{}; it is written ({}{}).",
-        print::to_string(image, &functor.into(), true),
-        if count == 1 { "" } else { "s" },
-        known.name,
-        known
-            .arguments
-            .split_whitespace()
-            .map(|argument| format!(" {argument}"))
-            .collect::<String>()
-    ))
 }
 
 /// The items without those equal to earlier ones.

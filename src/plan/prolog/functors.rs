@@ -129,19 +129,19 @@ pub(crate) static TABLE: &[Functor] = &[
     functor("==", "a b", "Both terms are made equal.", unify),
     functor("EQUAL", "a b", "Both terms are made equal.", unify),
     functor("=", "a b", "Both numbers are equal.", |call| {
-        compare(&call, known::NUM_EQUAL)
+        compare(&call, number::number_equal)
     }),
     functor("<", "a b", "The first number is less.", |call| {
-        compare(&call, known::LESS)
+        compare(&call, number::less)
     }),
     functor(">", "a b", "The first number is greater.", |call| {
-        compare(&call, known::GREATER)
+        compare(&call, number::greater)
     }),
     functor("<=", "a b", "The first number is not greater.", |call| {
-        compare(&call, known::LESS_EQUAL)
+        compare(&call, number::less_equal)
     }),
     functor(">=", "a b", "The first number is not less.", |call| {
-        compare(&call, known::GREATER_EQUAL)
+        compare(&call, number::greater_equal)
     }),
     functor(
         "BOUND",
@@ -381,16 +381,17 @@ fn unify(call: Call<'_>) -> Result<Action> {
 }
 
 /// Compares two numbers; what is not known yet cannot be compared.
-fn compare(call: &Call<'_>, function: Sym) -> Result<Action> {
+fn compare(call: &Call<'_>, compare: fn(&Value, &Value) -> Result<bool>) -> Result<Action> {
     for term in call.args {
         if !call.bindings.is_ground(term)? {
             return Ok(Action::Fail);
         }
     }
-    Ok(Action::CallTest {
-        function: function.into(),
-        args: call.shown(call.args)?,
-    })
+    let (a, b) = (
+        call.bindings.shown(&call.arg(0))?,
+        call.bindings.shown(&call.arg(1))?,
+    );
+    Ok(holds(compare(&a, &b)?))
 }
 
 fn collect(call: &Call<'_>, kind: Collection) -> Action {

@@ -8,8 +8,11 @@
 
 pub(crate) mod builtins;
 pub(crate) mod engine;
+mod engine_copy;
 pub(crate) mod facts;
 pub(crate) mod functor;
 pub(crate) mod functors;
 pub(crate) mod goal;
+pub(crate) mod search;
 pub(crate) mod term;
+mod warnings;

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::copy::Copier;
+use crate::lisp::value::copy::{Copied, Copier};
 use crate::lisp::value::equality;
 use crate::lisp::value::foreign::{Foreign, ForeignCopy, PrintContext};
 use crate::lisp::value::known;
@@ -59,6 +59,17 @@ pub(crate) struct Bindings {
 pub(crate) struct Mark {
     values: usize,
     trail: usize,
+}
+
+impl Copied for Bindings {
+    fn copied(&self, copier: &mut Copier) -> Bindings {
+        let values = self.values.iter();
+        let values = values.map(|value| value.as_ref().map(|value| copier.value(value)));
+        Bindings {
+            values: values.collect(),
+            trail: self.trail.clone(),
+        }
+    }
 }
 
 impl Bindings {

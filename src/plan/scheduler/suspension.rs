@@ -23,18 +23,18 @@ impl Scheduler {
         found
     }
 
-    /// Suspends a task and all below it.
-    pub(super) fn suspend(&mut self, image: &mut Image, host: &mut dyn Host, slot: Slot) {
-        for slot in self.subtree(slot) {
+    /// Suspends a task and all below it. If it has not begun, it begins, and is suspended where it may
+    /// first wait; what is below it and has not begun does not begin before it is woken up.
+    pub(super) fn suspend(&mut self, image: &mut Image, host: &mut dyn Host, outermost: Slot) {
+        for slot in self.subtree(outermost) {
             let Some(live) = self.live_mut(slot) else {
                 continue;
             };
             if live.is_suspended || live.ending.is_some() {
                 continue;
             }
-            // A task that has not begun is suspended when it first waits.
-            let has_begun = !matches!(live.answer, Some(Answer::Start(..)));
-            if live.scheduling < 0 || !has_begun {
+            let begins = slot == outermost && matches!(live.answer, Some(Answer::Start(..)));
+            if live.scheduling < 0 || begins {
                 live.told = Told::Suspend;
                 continue;
             }
@@ -64,6 +64,12 @@ impl Scheduler {
             live.told = Told::Nothing;
             self.suspend(image, host, slot);
         }
+    }
+
+    /// Must an entry that could go on be suspended, since it was told to earlier?
+    pub(super) fn is_told_to_suspend(&self, slot: Slot) -> bool {
+        self.live(slot)
+            .is_some_and(|live| live.told == Told::Suspend && live.scheduling >= 0)
     }
 
     /// Interrupts an entry's wait to run its hooks.

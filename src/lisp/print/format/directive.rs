@@ -134,6 +134,7 @@ impl Parser<'_> {
     fn pieces(&mut self, depth: usize) -> Result<(Vec<Piece>, End), FormatError> {
         let mut pieces = Vec::new();
         let mut text = String::new();
+        let mut leaves_out = false;
         while let Some(c) = self.chars.get(self.next).copied() {
             self.next += 1;
             if c != '~' {
@@ -143,10 +144,15 @@ impl Parser<'_> {
             let directive = self.directive()?;
             if directive.letter == '\n' {
                 self.skip_newline(&directive, &mut text);
+                leaves_out = true;
                 continue;
             }
             if !text.is_empty() {
                 pieces.push(Piece::Text(std::mem::take(&mut text)));
+            } else if leaves_out && pieces.is_empty() {
+                // What holds a newline that is left out is not empty: `~{~}` without a body would
+                // take an argument as its body.
+                pieces.push(Piece::Text(String::new()));
             }
             match directive.letter {
                 ';' => return Ok((pieces, End::Clause(directive))),

@@ -130,6 +130,17 @@ pub(super) fn run_into(
     output: Output,
     calls: &mut Calls,
 ) -> Result<Output> {
+    run_for_rest(control, image, args, output, calls).map(|(output, _)| output)
+}
+
+/// Like [`run_into()`]; also the arguments that are left.
+pub(super) fn run_for_rest(
+    control: &Control,
+    image: &Image,
+    args: &[Value],
+    output: Output,
+    calls: &mut Calls,
+) -> Result<(Output, Vec<Value>)> {
     let mut interpreter = Interpreter {
         image,
         calls,
@@ -142,7 +153,7 @@ pub(super) fn run_into(
         control: &control.text,
     };
     interpreter.pieces(context, &control.pieces, &mut arguments)?;
-    Ok(interpreter.output)
+    Ok((interpreter.output, arguments.rest()))
 }
 
 impl Interpreter<'_> {
@@ -273,7 +284,8 @@ impl Interpreter<'_> {
     /// Prints a value at the end of the text.
     fn write(&mut self, value: &Value, settings: &Settings) {
         if let Some(document) = self.output.document() {
-            let printer = Printer::new(self.image, settings, self.calls);
+            let settings = settings.effective();
+            let printer = Printer::new(self.image, &settings, self.calls);
             printer.print_into(document, value);
             return;
         }
@@ -791,7 +803,12 @@ impl Interpreter<'_> {
             Some(Given::Char(char)) => i64::from(u32::from(*char)),
             None => 0,
         };
-        let values: Vec<i64> = given.iter().map(order).collect();
+        // An argument NIL in place of a parameter leaves it out.
+        let count = given
+            .iter()
+            .rposition(Option::is_some)
+            .map_or(0, |last| last + 1);
+        let values: Vec<i64> = given.iter().take(count).map(order).collect();
         let leaves = match values.as_slice() {
             [] if d.colon => !args.has_more_lists,
             [] => args.left() == 0 && args.tail.is_none(),

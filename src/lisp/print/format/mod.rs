@@ -17,6 +17,7 @@ mod output;
 mod tests;
 
 pub(crate) use error::FormatError;
+pub(crate) use output::Output;
 
 use std::rc::Rc;
 
@@ -55,6 +56,23 @@ impl Control {
         interpreter::run(self, image, args, column, calls)
     }
 
+    /// What the control string makes of the arguments, perhaps as a part of a document, and the
+    /// arguments that it leaves.
+    pub(crate) fn run_for_rest(
+        &self,
+        image: &Image,
+        args: &[Value],
+        column: usize,
+        is_in_document: bool,
+        calls: &mut Calls,
+    ) -> Result<(Output, Vec<Value>), Box<Raise>> {
+        let output = match is_in_document {
+            true => Output::in_document(column, true),
+            false => Output::new(column),
+        };
+        interpreter::run_for_rest(self, image, args, output, calls)
+    }
+
     /// The same as a part of a document, whose lines will break.
     pub(crate) fn run_in_document(
         &self,
@@ -63,8 +81,8 @@ impl Control {
         column: usize,
         calls: &mut Calls,
     ) -> Result<Document, Box<Raise>> {
-        let output = output::Output::in_document(column, true);
-        interpreter::run_into(self, image, args, output, calls).map(output::Output::into_document)
+        let output = Output::in_document(column, true);
+        interpreter::run_into(self, image, args, output, calls).map(Output::into_document)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::lisp::guard::reserve;
 use crate::lisp::value::document::Document;
 
 /// Text under construction.
-pub(super) struct Output {
+pub(crate) struct Output {
     text: String,
     /// Column where the text begins.
     start: usize,
@@ -31,7 +31,7 @@ impl Output {
         }
     }
 
-    pub(super) fn into_document(self) -> Document {
+    pub(crate) fn into_document(self) -> Document {
         self.document.unwrap_or_else(|| Document::new(false))
     }
 
@@ -99,7 +99,7 @@ impl Output {
         }
     }
 
-    pub(super) fn into_text(self) -> String {
+    pub(crate) fn into_text(self) -> String {
         self.text
     }
 }
