@@ -30,6 +30,10 @@ fn iterations_end_where_their_parameters_say() {
         // NIL in place of a parameter leaves it out: two are equal.
         ("(format nil \"~{~v,v,v^~a~}\" '(1 1 nil 5))", "\"\""),
         ("(format nil \"~{~v,v^~a~}\" '(1 2 x 3 3 y))", "\"X\""),
+        (
+            "(format nil \"~{~a~}\" '(1 . 2))",
+            "!! The value 2 is not of type LIST",
+        ),
         // A newline that is left out is a body.
         ("(format nil \"~{~\n  ~}\" '())", "\"\""),
     ]);

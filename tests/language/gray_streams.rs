@@ -151,3 +151,43 @@ fn what_a_class_of_streams_lacks_is_named() {
         ),
     ]);
 }
+
+#[test]
+fn objects_are_parts_of_two_way_and_broadcast_streams() {
+    check(&[
+        (
+            "(progn (defclass twice (gray-streams:fundamental-character-input-stream gray-streams:fundamental-character-output-stream) ((text :initarg :text) (at :initform 0) (written :initform '())))
+               (defmethod gray-streams:stream-read-char ((s twice)) (with-slots (text at) s (if (< at (length text)) (prog1 (char text at) (incf at)) :eof)))
+               (defmethod gray-streams:stream-unread-char ((s twice) c) (declare (ignore c)) (decf (slot-value s 'at)) nil)
+               (defmethod gray-streams:stream-write-char ((s twice) c) (push (char-upcase c) (slot-value s 'written)))
+               (defvar *part* (make-instance 'twice :text \"h (1 2) rest of it\"))
+               (defvar *both* (make-two-way-stream *part* *part*))
+               (list (read-char *both*) (read *both*) (peek-char t *both*) (read-line *both*) (read-char *both* nil :end)))",
+            "(#\\h (1 2) #\\r \"rest of it\" :END)",
+        ),
+        (
+            "(progn (format *both* \"a~a\" 1) (write-string \"xy\" *both*) (princ 'q *both*) (let ((*standard-output* *both*)) (princ \"z\")) (coerce (reverse (slot-value *part* 'written)) 'string))",
+            "\"A1XYQZ\"",
+        ),
+        (
+            "(list (typep *both* 'two-way-stream) (eq *part* (two-way-stream-input-stream *both*)) (input-stream-p *both*) (output-stream-p *both*) (progn (close *both*) (open-stream-p *both*)) (open-stream-p *part*))",
+            "(T T T T NIL T)",
+        ),
+        (
+            "(let* ((text (make-string-output-stream)) (all (make-broadcast-stream *part* text))) (write-string \"b\" all) (format all \"~a\" 'c) (list (get-output-stream-string text) (subseq (slot-value *part* 'written) 0 2) (length (broadcast-stream-streams all))))",
+            "(\"bC\" (#\\C #\\B) 2)",
+        ),
+        (
+            "(progn (defvar *named* *both*) (write-char #\\n (make-synonym-stream '*named*)) (write 'w :stream *both*) (print-unreadable-object (*part* *both*) (princ 'u *both*)) (subseq (slot-value *part* 'written) 0 6))",
+            "(#\\> #\\U #\\< #\\# #\\W #\\N)",
+        ),
+        (
+            "(handler-case (make-two-way-stream *part* (make-string-input-stream \"\")) (error (e) (not (null (search \"cannot be written to\" (princ-to-string e))))))",
+            "T",
+        ),
+        (
+            "(let ((*query-io* (let ((part (make-instance 'twice :text (format nil \"y~%\")))) (make-two-way-stream part part)))) (y-or-n-p \"Ok?\"))",
+            "T",
+        ),
+    ]);
+}

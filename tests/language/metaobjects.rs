@@ -33,3 +33,17 @@ fn classes_tell_their_slots_and_relatives() {
         ),
     ]);
 }
+
+#[test]
+fn methods_have_as_many_specializers_as_their_function() {
+    check(&[
+        (
+            "(progn (defgeneric of-two (a b)) (defmethod of-two ((a integer) b) a) (find-method #'of-two '() (list (find-class 't)) nil))",
+            "!! Methods of #<STANDARD-GENERIC-FUNCTION COMMON-LISP-USER::OF-TWO (1)> have 2 specializers, not 1.",
+        ),
+        (
+            "(progn (defgeneric of-one (a)) (defmethod of-one (a) a) (add-method #'of-two (find-method #'of-one '() (list (find-class 't)))))",
+            "!! Methods of #<STANDARD-GENERIC-FUNCTION COMMON-LISP-USER::OF-TWO (1)> have 2 specializers, not 1.",
+        ),
+    ]);
+}

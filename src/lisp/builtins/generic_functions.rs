@@ -57,6 +57,11 @@ pub(crate) static TABLE: &[Builtin] = &[
         &[],
         |image, args| {
             let function = generic_argument(&args[0])?.clone();
+            let required = as_generic(&function)?.parameters.borrow().required;
+            let count = method_argument(&args[1])?.specializers.len();
+            if count != required && !as_generic(&function)?.methods.borrow().is_empty() {
+                return Err(wrong_count(image, &args[0], required, count));
+            }
             add_method(image, &function, method_argument(&args[1])?.clone())?;
             Ok(args[0].clone())
         },
@@ -210,6 +215,15 @@ pub(super) fn method_argument(value: &Value) -> Result<&Rc<Method>, Box<Raise>> 
         .ok_or_else(|| Raise::type_error(value, Value::symbol(known::METHOD)))
 }
 
+/// The error for a method, or the description of one, with another number of required parameters.
+fn wrong_count(image: &Image, function: &Value, required: usize, count: usize) -> Box<Raise> {
+    Raise::simple(format!(
+        "Methods of {} have {required} specializer{}, not {count}.",
+        text(image, function),
+        if required == 1 { "" } else { "s" },
+    ))
+}
+
 fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
     let function = generic_argument(&args[0])?;
     let qualifiers: Vec<Sym> = args[1].iter_list().filter_map(|q| q.as_symbol()).collect();
@@ -217,6 +231,10 @@ fn find_method(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
         .iter_list()
         .map(|s| specializer(image, &s))
         .collect::<Result<Vec<_>, _>>()?;
+    let required = as_generic(function)?.parameters.borrow().required;
+    if specializers.len() != required {
+        return Err(wrong_count(image, &args[0], required, specializers.len()));
+    }
     let methods = as_generic(function)?.methods.borrow();
     let found = methods.iter().find(|m| {
         m.qualifiers == qualifiers

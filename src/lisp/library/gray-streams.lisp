@@ -155,7 +155,68 @@
 
 (defun %call-stream-method (name arguments stream)
   "What a function does that was called with these arguments, one of which leads to the stream."
+  (typecase stream
+    (object-two-way-stream (%call-with-part name arguments stream))
+    (object-broadcast-stream (%call-with-parts name arguments stream))
+    (t (%call-method-of-stream name arguments stream))))
+
+(defun %input-function-p (name)
+  "Does the function of this name read?"
+  (member name '(read-char read-char-no-hang peek-char unread-char read-line read-byte read-sequence
+                 listen clear-input read read-preserving-whitespace read-delimited-list)))
+
+(defun %call-with-part (name arguments stream)
+  "Calls a function with that part of a two-way stream which it is for."
   (case name
+    ((close open-stream-p input-stream-p output-stream-p interactive-stream-p stream-external-format)
+     (%ask-stream-object name stream))
+    (two-way-stream-input-stream (slot-value stream 'input))
+    (two-way-stream-output-stream (slot-value stream 'output))
+    (t (let ((part (slot-value stream
+                               (if (or (%input-function-p name) (eq name 'stream-element-type))
+                                   'input
+                                   'output))))
+         (apply name (%arguments-for-part name arguments part))))))
+
+(defun %call-with-parts (name arguments stream)
+  "Calls a function with each part of a broadcast stream; what it returns for the last one."
+  (case name
+    ((close open-stream-p input-stream-p output-stream-p interactive-stream-p stream-external-format
+      stream-element-type)
+     (%ask-stream-object name stream))
+    (broadcast-stream-streams (copy-list (slot-value stream 'outputs)))
+    (t (let ((values '()))
+         (dolist (part (slot-value stream 'outputs) (values-list values))
+           (setf values (multiple-value-list
+                         (apply name (%arguments-for-part name arguments part)))))))))
+
+(defun %arguments-for-part (name arguments part)
+  "The arguments of a function with another stream in place of theirs."
+  (case name
+    (write (list* (first arguments) :stream part (rest arguments)))
+    ((print prin1 princ pprint print-object write-unreadable write-char write-string write-line
+      write-byte write-sequence read-sequence read-delimited-list peek-char unread-char)
+     (list* (first arguments) part (cddr arguments)))
+    (t (cons part (rest arguments)))))
+
+(defun %call-method-of-stream (name arguments stream)
+  "What a function does that was called with these arguments, one of which is an object of a program's
+own class."
+  (case name
+    (make-two-way-stream
+     (destructuring-bind (input output) arguments
+       (unless (input-stream-p input)
+         (error "~s cannot be read." input))
+       (unless (output-stream-p output)
+         (error "~s cannot be written to." output))
+       (let ((both (make-instance 'object-two-way-stream)))
+         (setf (slot-value both 'input) input
+               (slot-value both 'output) output)
+         both)))
+    (make-broadcast-stream
+     (let ((all (make-instance 'object-broadcast-stream)))
+       (setf (slot-value all 'outputs) arguments)
+       all))
     ((print prin1 princ pprint write print-object write-unreadable format)
      (%print-to-stream-object name arguments stream))
     ((write-char write-string write-line terpri fresh-line finish-output force-output clear-output

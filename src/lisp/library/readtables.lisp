@@ -21,10 +21,23 @@
     (#\" #'%read-string)
     (#\; #'%skip-line)
     (#\) #'%read-unmatched)
-    ((#\( #\` #\, #\#)
-     (lambda (stream read-character)
-       (declare (ignore read-character))
-       (%read-after (string character) stream)))))
+    ((#\( #\` #\, #\#) (%reader-after (string character)))))
+
+(defvar system::%*readers-after* (make-hash-table :test 'equal)
+  "Functions that do what the reader does itself, by the characters that they are for: a program that
+compares readtables finds the same ones.")
+
+(defun %reader-after (characters)
+  "The function that does what the reader does itself with one or two characters."
+  (or (gethash characters %*readers-after*)
+      (setf (gethash characters %*readers-after*)
+            (if (= (length characters) 1)
+                (lambda (stream read-character)
+                  (declare (ignore read-character))
+                  (%read-after characters stream))
+                (lambda (stream read-character argument)
+                  (declare (ignore read-character))
+                  (%read-after (format nil "#~@[~d~]~c" argument (char characters 1)) stream))))))
 
 (defun %read-after (text stream)
   "Reads a form that begins with a text and goes on in a stream."
@@ -66,9 +79,7 @@
            (find (char-upcase sub-character) "'(\\:.*+-ABCOPRSX=#|")
            (if (char= sub-character #\|)
                #'%skip-block
-               (lambda (stream read-character argument)
-                 (declare (ignore read-character))
-                 (%read-after (format nil "#~@[~d~]~c" argument sub-character) stream))))
+               (%reader-after (format nil "#~c" (char-upcase sub-character)))))
       (progn (%check-dispatching character readtable) nil)))
 
 (defun %skip-block (stream character argument)
@@ -98,10 +109,13 @@
   t)
 
 (defun make-dispatch-macro-character (character &optional non-terminating-p (readtable *readtable*))
-  "Lets what begins with a character be read by functions that SET-DISPATCH-MACRO-CHARACTER sets.
+  "Lets what begins with a character be read by functions that SET-DISPATCH-MACRO-CHARACTER sets; # has
+  those of the standard syntax, too.
   Examples:
   (let ((*readtable* (copy-readtable nil))) (make-dispatch-macro-character #\\$) (set-dispatch-macro-character #\\$ #\\n (lambda (s c n) c n (- (read s)))) (read-from-string \"$n5\")) => -5 ; 3"
-  (set-macro-character character '%read-dispatched non-terminating-p readtable))
+  (if (char= character #\#)
+      (%reset-macro-character character readtable)
+      (set-macro-character character '%read-dispatched non-terminating-p readtable)))
 
 (defun %check-dispatching (character readtable)
   "Signals an error unless functions of a further character read what begins with a character."

@@ -56,6 +56,20 @@ const PACKAGES: &[(&str, &[&str], &[Row])] = &[
                 &[],
             ),
             ("TRIVIAL-GRAY-STREAM-MIXIN", &["STANDARD-OBJECT"], &[]),
+            (
+                "OBJECT-TWO-WAY-STREAM",
+                &[
+                    "FUNDAMENTAL-CHARACTER-INPUT-STREAM",
+                    "FUNDAMENTAL-CHARACTER-OUTPUT-STREAM",
+                    "TWO-WAY-STREAM",
+                ],
+                &["INPUT", "OUTPUT"],
+            ),
+            (
+                "OBJECT-BROADCAST-STREAM",
+                &["FUNDAMENTAL-CHARACTER-OUTPUT-STREAM", "BROADCAST-STREAM"],
+                &["OUTPUTS"],
+            ),
         ],
     ),
     (

@@ -117,10 +117,11 @@ impl Scheduler {
                     if next.is_some() && image.take_interrupt() {
                         return self.interrupt(slot, fiber, next);
                     }
-                    if next.is_some() && self.is_told_to_suspend(slot) {
-                        if let Some(live) = self.live_mut(slot) {
-                            live.answer = next.take();
-                        }
+                    if next.is_some()
+                        && self.is_told_to_suspend(slot)
+                        && let Some(live) = self.live_mut(slot)
+                    {
+                        live.answer = next.take();
                     }
                 }
             }

@@ -884,8 +884,12 @@ fn default_clause(clauses: &[Clause]) -> Option<&Clause> {
 }
 
 fn list_items(list: &Value) -> Result<Vec<Value>> {
-    list.list_to_vec()
-        .ok_or_else(|| Raise::type_error(list, known::LIST))
+    let mut items = list.iter_list();
+    let found = items.by_ref().collect();
+    match items.rest.is_nil() {
+        true => Ok(found),
+        false => Err(Raise::type_error(&items.rest, known::LIST)),
+    }
 }
 
 fn number_of(given: &[Option<Given>], index: usize) -> Result<Option<i64>> {
