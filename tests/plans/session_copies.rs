@@ -62,6 +62,12 @@ const FILE: &str = r##"
                  "map" 0 (cl-transforms:make-3d-vector 1 2 3) (cl-transforms:make-identity-rotation)))
 (defvar *fluent* (make-fluent :name 'level :value (list 1)))
 (prolog:def-fact-group shop () (prolog:<- (sells bread)))
+(prolog:def-fact-group counting ()
+  (prolog:<- (counted 0))
+  (prolog:<- (counted ?n) (counted ?m) (lisp-fun 1+ ?m ?n)))
+(defvar *proofs* (prolog:prolog '(counted ?n)))
+(defvar *bread* (prolog:prolog '(or (and (sells ?x) (member ?y (1 2)) (lisp-fun list ?x ?y ?z))
+                                    (== ?x *proofs*))))
 (set-macro-character #\! (lambda (stream char) (declare (ignore char)) (list 'not (read stream t nil t))))
 (push :shop *features*)
 (defvar *shown* (princ-to-string #'next))
@@ -109,6 +115,7 @@ const CHANGE: &str = r##"
 (list (desig:current-desig *object*) (desig:desig-equal *object* *other*))
 *pose*
 (progn (setf (value *fluent*) (cons 2 (value *fluent*))) (value *fluent*))
+(list (cut:lazy-elt *proofs* 2) (cut:lazy-elt *bread* 1) (cut:force-ll *bread*))
 (prolog:def-fact-group shop () (prolog:<- (sells milk)))
 (cut:force-ll (prolog:prolog '(sells ?what)))
 '!a
