@@ -743,6 +743,14 @@ fn tables_places_and_types_follow_the_standard() {
             "((NIL NIL) 3)",
         ),
         (
+            "(loop for (type . zero) in '((short-float . 0.0) (long-float . 0d0) (double-float . 0d0) (fixnum . 0)) collect (eql zero (eval `(loop for i in nil sum i of-type ,type))))",
+            "(T T T T)",
+        ),
+        (
+            "(handler-case (eval '(defgeneric told-twice (x) (:documentation \"a\") (:documentation \"b\"))) (program-error () :wrong))",
+            ":WRONG",
+        ),
+        (
             "(progn (defgeneric counted-by (x)) (list (compiled-function-p #'counted-by) (typep #'counted-by 'compiled-function) (compiled-function-p #'car)))",
             "(NIL NIL T)",
         ),

@@ -87,8 +87,10 @@ pub(crate) fn default_value(of_type: Option<&Value>) -> Value {
             | known::UNSIGNED_BYTE,
             ..,
         )) => Value::Int(0),
-        Some(Value::Symbol(known::FLOAT | known::SINGLE_FLOAT, ..)) => Value::Single(0.0),
-        Some(Value::Symbol(known::DOUBLE_FLOAT, ..)) => Value::Double(0.0),
+        Some(Value::Symbol(known::FLOAT | known::SINGLE_FLOAT | known::SHORT_FLOAT, ..)) => {
+            Value::Single(0.0)
+        }
+        Some(Value::Symbol(known::DOUBLE_FLOAT | known::LONG_FLOAT, ..)) => Value::Double(0.0),
         _ => Value::NIL,
     }
 }

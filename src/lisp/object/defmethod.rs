@@ -253,6 +253,11 @@ pub(crate) fn expand_defgeneric(image: &mut Image, whole: &Value) -> Result<Valu
     for option in options {
         let rest = option.cdr_or_nil();
         match option.car_or_nil().as_symbol() {
+            Some(known::K_DOCUMENTATION) if doc.is_true() => {
+                return Err(Raise::program(
+                    "The :DOCUMENTATION of a generic function is given twice.",
+                ));
+            }
             Some(known::K_DOCUMENTATION) => doc = rest.car_or_nil(),
             Some(known::K_METHOD_COMBINATION) => combination = rest,
             Some(known::K_METHOD) => methods.push(form![
