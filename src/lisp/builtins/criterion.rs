@@ -74,6 +74,17 @@ impl Test {
         }
     }
 
+    /// What compares two values, if that is no function of a program.
+    fn simple(&self) -> Option<fn(&Value, &Value) -> bool> {
+        Some(match self {
+            Test::Eq => Value::is_eq,
+            Test::Eql => Value::is_eql,
+            Test::Equal => equality::equal,
+            Test::Equalp => equality::equalp,
+            Test::Function(_) | Test::NotFunction(_) => return None,
+        })
+    }
+
     /// Do two values match? The function receives them in this order.
     pub(crate) async fn matches(&self, calls: &Calls, a: &Value, b: &Value) -> bool {
         match self {
@@ -121,6 +132,14 @@ impl Criterion {
             },
             key,
         })
+    }
+
+    /// The item and the test, if elements are compared as they are and without calls of functions.
+    pub(crate) fn simple(&self) -> Option<(&Value, fn(&Value, &Value) -> bool)> {
+        match &self.kind {
+            Kind::Item { item, test } if self.key.0.is_none() => Some((item, test.simple()?)),
+            _ => None,
+        }
     }
 
     /// Does an element satisfy the condition?

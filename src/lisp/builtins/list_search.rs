@@ -28,6 +28,17 @@ fn criterion(image: &Image, args: &[Value]) -> Result<Criterion, Box<Raise>> {
     ))
 }
 
+/// The same without calls of functions.
+fn find_tail_at_once(item: &Value, test: fn(&Value, &Value) -> bool, list: Value) -> Outcome {
+    let mut walk = ListWalk::new(list);
+    while let Some(cons) = walk.next_cons()? {
+        if test(item, &cons.car()) {
+            return Ok(Value::Cons(cons));
+        }
+    }
+    Ok(Value::NIL)
+}
+
 async fn find_tail(calls: Calls, criterion: Criterion, list: Value) -> Outcome {
     let mut walk = ListWalk::new(list);
     while let Some(cons) = walk.next_cons()? {
@@ -41,7 +52,27 @@ async fn find_tail(calls: Calls, criterion: Criterion, list: Value) -> Outcome {
 fn member(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let criterion = criterion(machine.image, &args)?;
     let list = args[1].clone();
+    if let Some((item, test)) = criterion.simple() {
+        return Ok(find_tail_at_once(item, test, list)?.into());
+    }
     run(machine, "MEMBER", |calls| find_tail(calls, criterion, list))
+}
+
+/// The same without calls of functions.
+fn find_entry_at_once(item: &Value, test: fn(&Value, &Value) -> bool, alist: Value) -> Outcome {
+    let mut walk = ListWalk::new(alist);
+    while let Some(entry) = walk.next()? {
+        match &entry {
+            Value::Symbol(known::NIL, ..) => {}
+            Value::Cons(pair) => {
+                if test(item, &pair.car()) {
+                    return Ok(entry);
+                }
+            }
+            other => return Err(Raise::type_error(other, known::LIST)),
+        }
+    }
+    Ok(Value::NIL)
 }
 
 async fn find_entry(calls: Calls, criterion: Criterion, alist: Value) -> Outcome {
@@ -63,6 +94,9 @@ async fn find_entry(calls: Calls, criterion: Criterion, alist: Value) -> Outcome
 fn assoc(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
     let criterion = criterion(machine.image, &args)?;
     let alist = args[1].clone();
+    if let Some((item, test)) = criterion.simple() {
+        return Ok(find_entry_at_once(item, test, alist)?.into());
+    }
     run(machine, "ASSOC", |calls| {
         find_entry(calls, criterion, alist)
     })

@@ -1,7 +1,10 @@
 //! Pairs and positions in lists: `car` to `cddddr`, `first` to `tenth`, `nth`, `last`.
 
+use std::rc::Rc;
+
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::image::Image;
+use crate::lisp::value::cons::{self, Cons};
 use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -72,9 +75,11 @@ fn nth_cdr(count: usize, list: &Value) -> Outcome {
     let mut rest = list.clone();
     for _ in 0..count {
         match &rest {
-            Value::Cons(cons) => {
-                let cons = cons.clone();
-                cons.copy_cdr_to(&mut rest);
+            Value::Cons(_) => {
+                if let Some(cons) = rest.take_pair() {
+                    cons.copy_cdr_into(&mut rest);
+                    cons::release(cons);
+                }
             }
             Value::Symbol(known::NIL, ..) => break,
             _ => rest = cdr_of(&rest)?,
@@ -111,7 +116,7 @@ fn cons(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::cons(args[0].clone(), args[1].clone()))
 }
 
-fn pair(value: &Value) -> Result<&std::rc::Rc<crate::lisp::value::cons::Cons>, Box<Raise>> {
+fn pair(value: &Value) -> Result<&Rc<Cons>, Box<Raise>> {
     value
         .as_cons()
         .ok_or_else(|| Raise::type_error(value, known::CONS))

@@ -8,7 +8,8 @@ use crate::lisp::value::Value;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::calls::Annotation;
-use crate::lisp::vm::fiber::{Fiber, Frame, FrameKind};
+use crate::lisp::vm::fiber::Fiber;
+use crate::lisp::vm::frames::{Frame, FrameKind};
 
 /// Frames that are shown at either end of the stack.
 const MOST_AT_AN_END: usize = 5_000;
@@ -25,6 +26,19 @@ pub(crate) struct FrameView {
     pub(crate) place: Place,
     /// What the layer that made the call says about it.
     pub(crate) annotation: Option<Rc<Annotation>>,
+}
+
+impl FrameView {
+    /// A frame of which nothing can be said.
+    fn unknown(index: usize) -> FrameView {
+        FrameView {
+            index,
+            name: Value::NIL,
+            arguments: Vec::new(),
+            place: Place::NONE,
+            annotation: None,
+        }
+    }
 }
 
 /// A variable of a frame.
@@ -104,18 +118,13 @@ impl Fiber {
                         index,
                         name: code.name.value(),
                         arguments: values.filter(|value| !value.is_unbound()).collect(),
-                        place: code.place_at(pc.saturating_sub(1)),
+                        place: code.place_at(pc.get().saturating_sub(1)),
                         annotation: None,
                     }
                 }
-                _ => FrameView {
-                    index,
-                    name: Value::NIL,
-                    arguments: Vec::new(),
-                    place: Place::NONE,
-                    annotation: None,
-                },
+                _ => FrameView::unknown(index),
             },
+            FrameKind::Over => FrameView::unknown(index),
         }
     }
 
@@ -160,7 +169,7 @@ impl Fiber {
         let Body::Closure { code, captured } = &function.body else {
             return Vec::new();
         };
-        let pc = u32::try_from(pc.saturating_sub(1)).unwrap_or(u32::MAX);
+        let pc = u32::try_from(pc.get().saturating_sub(1)).unwrap_or(u32::MAX);
         let mut found: Vec<Variable> = Vec::new();
         let locals = code.locals.iter().rev();
         for local in locals.filter(|local| local.from <= pc && pc < local.to) {

@@ -11,14 +11,14 @@ use crate::lisp::value::Value;
 use crate::lisp::value::code::Code;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
-use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::fiber::{Dynamic, Frame, FrameKind};
-use crate::lisp::vm::machine::{Machine, UnderWay};
+use crate::lisp::vm::fiber::Dynamic;
+use crate::lisp::vm::frames::{Frame, FrameKind};
+use crate::lisp::vm::machine::Machine;
 
 /// The most calls that may be open at once.
-const MOST_FRAMES: usize = 1_000_000;
+pub(super) const MOST_FRAMES: usize = 1_000_000;
 /// Calls allowed beyond that limit for the handlers of the error that it causes.
 const SPARE_FRAMES: usize = 10_000;
 
@@ -86,8 +86,9 @@ impl Machine<'_> {
         cut: usize,
         multi: bool,
     ) -> Result<(), Box<Raise>> {
-        if !self.has_room() {
-            self.check_depth(self.fiber.frames.len())?;
+        let depth = self.fiber.frames.len();
+        if depth >= MOST_FRAMES {
+            self.check_depth(depth)?;
         }
         match code.exact_count {
             Some(exact) if count == usize::from(exact) => {}
@@ -95,33 +96,10 @@ impl Machine<'_> {
             None => self.arrange_arguments(code, count)?,
         }
         let base = self.fiber.stack.len() - code.parameters.slots();
-        self.push_frame(function, base, cut, multi);
-        Ok(())
-    }
-
-    /// Is there room for one more call, so that its depth need not be looked at closely?
-    #[inline(always)]
-    pub(super) fn has_room(&self) -> bool {
-        self.fiber.frames.len() < MOST_FRAMES
-    }
-
-    /// Enters a closure whose slots are filled from `base` on.
-    #[inline(always)]
-    pub(super) fn push_frame(
-        &mut self,
-        function: Rc<Function>,
-        base: usize,
-        cut: usize,
-        multi: bool,
-    ) {
         let dynamic = self.fiber.dynamic.len();
-        push_made(&mut self.fiber.frames, || Frame {
-            kind: FrameKind::Code { function, pc: 0 },
-            base,
-            cut,
-            dynamic,
-            multi,
-        });
+        let frames = &mut self.fiber.frames;
+        frames.enter(function, base, cut, dynamic, multi);
+        Ok(())
     }
 
     fn check_depth(&self, frames: usize) -> Result<(), Box<Raise>> {
@@ -155,14 +133,14 @@ impl Machine<'_> {
         let stack = &mut self.fiber.stack;
         let start = stack.len() - count;
         if count < positional {
-            stack.resize(start + positional, Value::Unbound);
+            stack.fill_up(start + positional);
             if parameters.rest {
                 stack.push(Value::NIL);
             }
-            stack.resize(stack.len() + parameters.keys.len(), Value::Unbound);
+            stack.fill_up(stack.len() + parameters.keys.len());
             return Ok(());
         }
-        let more: Vec<Value> = stack.drain(start + positional..).collect();
+        let more = stack.split_off(start + positional);
         if parameters.has_keys {
             check_keywords(self.image, code, &more)?;
         }
@@ -213,9 +191,10 @@ impl Machine<'_> {
             && native.accepts(count)
             && let Some(f) = self.image.pure_call(native)
         {
-            self.under_way = self.pc().map(|pc| UnderWay { pc, cut });
-            let result = f(self.image, &self.fiber.stack[start..]);
-            self.under_way = None;
+            let window = self.fiber.stack.window(cut, start + count - cut);
+            window.close_below(0);
+            let result = f(self.image, &window.slots[start - cut..window.top]);
+            window.close();
             return match result {
                 Ok(value) => {
                     self.fiber.stack.truncate(cut);
@@ -226,7 +205,7 @@ impl Machine<'_> {
                 Err(raise) => self.failed(native.name, raise, start, cut, multi),
             };
         }
-        let args: Vec<Value> = self.fiber.stack.drain(start..).collect();
+        let args = self.fiber.stack.split_off(start);
         self.fiber.stack.truncate(cut);
         match self.call_value(Value::Function(function), args, multi) {
             Next::Deliver(value)
@@ -249,7 +228,7 @@ impl Machine<'_> {
     pub(super) fn call_with_values(&mut self, count: usize, multi: bool) -> Next {
         let start = self.fiber.stack.len() - count;
         let mut args = Vec::with_capacity(count);
-        for result in self.fiber.stack.drain(start..) {
+        for result in self.fiber.stack.split_off(start) {
             match result {
                 Value::Multiple(values) => args.extend(values.iter().cloned()),
                 single => args.push(single),
@@ -270,7 +249,7 @@ impl Machine<'_> {
         cut: usize,
         multi: bool,
     ) -> Next {
-        let args = self.fiber.stack.drain(start..).collect();
+        let args = self.fiber.stack.split_off(start);
         self.fiber.stack.truncate(cut);
         self.instead(name, args, raise, multi)
     }

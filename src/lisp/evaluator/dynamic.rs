@@ -3,30 +3,19 @@
 
 use std::rc::Rc;
 
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::code::Code;
 use crate::lisp::value::known;
+use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::fiber::{Dynamic, Handler};
 use crate::lisp::vm::machine::Machine;
 
 impl Machine<'_> {
-    /// Binds a special variable.
-    pub(super) fn bind_special(&mut self, sym: Sym, value: Value) {
-        let place = &mut self.image.symbols.get_mut(sym).value;
-        let outside = std::mem::replace(place, value);
-        self.fiber.dynamic.push(Dynamic::Bind(sym, outside));
-    }
-
-    /// Drops dynamic entries beyond `length`, restoring special variables. There is no
-    /// cleanup code among them.
-    pub(super) fn drop_dynamic(&mut self, length: usize) {
-        while self.fiber.dynamic.len() > length {
-            if let Some(Dynamic::Bind(sym, outside)) = self.fiber.dynamic.pop() {
-                self.image.symbols.get_mut(sym).value = outside;
-            }
-        }
+    /// Pops the top value.
+    pub(super) fn pop(&mut self) -> Value {
+        self.fiber.stack.pop().unwrap_or_default()
     }
 
     /// Pops a list of values and a list of symbols, and binds the symbols.
@@ -37,7 +26,10 @@ impl Machine<'_> {
         let mut values = values.iter_list();
         for symbol in symbols.iter_list() {
             match symbol.as_symbol() {
-                Some(sym) => self.bind_special(sym, values.next().unwrap_or(Value::Unbound)),
+                Some(sym) => {
+                    let mut value = values.next().unwrap_or(Value::Unbound);
+                    bind(self.image, &mut self.fiber.dynamic, sym, &mut value);
+                }
                 None => return Err(Raise::type_error(&symbol, known::SYMBOL)),
             }
         }
@@ -48,13 +40,7 @@ impl Machine<'_> {
     pub(super) fn end_progv(&mut self) {
         let mut entries = self.fiber.dynamic.iter();
         let mark = entries.rposition(|d| matches!(d, Dynamic::ProgvMark));
-        self.drop_dynamic(mark.unwrap_or(0));
-    }
-
-    /// Undoes the innermost `count` dynamic entries.
-    pub(super) fn pop_dynamic(&mut self, count: u32) {
-        let length = self.fiber.dynamic.len() - count as usize;
-        self.drop_dynamic(length);
+        undo(self.image, &mut self.fiber.dynamic, mark.unwrap_or(0));
     }
 
     /// Enters a block that closures may leave: pushes its identity.
@@ -109,12 +95,12 @@ impl Machine<'_> {
         self.fiber.stack.push(Value::Int(0));
     }
 
-    /// Pops `count` handler functions and establishes them with the types in a constant.
-    pub(super) fn enter_handlers(&mut self, code: &Code, types: u32, count: u16) {
+    /// Pops `count` handler functions and establishes them with these types.
+    pub(super) fn enter_handlers(&mut self, types: &Value, count: u16) {
         let start = self.fiber.stack.len() - usize::from(count);
-        let handlers: Rc<[Handler]> = code.constants[types as usize]
+        let handlers: Rc<[Handler]> = types
             .iter_list()
-            .zip(self.fiber.stack.drain(start..))
+            .zip(self.fiber.stack.split_off(start))
             .map(|(condition_type, function)| Handler {
                 condition_type,
                 function,
@@ -127,5 +113,25 @@ impl Machine<'_> {
     pub(super) fn enter_restarts(&mut self) {
         let list = self.pop();
         self.fiber.dynamic.push(Dynamic::Restarts(list));
+    }
+}
+
+/// Binds a special variable to a value that is moved out of its place.
+#[inline(always)]
+pub(super) fn bind(image: &mut Image, dynamic: &mut Vec<Dynamic>, sym: Sym, value: &mut Value) {
+    let place = &mut image.symbols.get_mut(sym).value;
+    let mut outside = std::mem::take(place);
+    value.move_into(place);
+    push_made(dynamic, || Dynamic::Bind(sym, std::mem::take(&mut outside)));
+}
+
+/// Drops dynamic entries beyond `length`, restoring special variables. There is no cleanup code
+/// among them.
+#[inline(always)]
+pub(super) fn undo(image: &mut Image, dynamic: &mut Vec<Dynamic>, length: usize) {
+    while dynamic.len() > length {
+        if let Some(Dynamic::Bind(sym, outside)) = dynamic.pop() {
+            image.symbols.get_mut(sym).value = outside;
+        }
     }
 }

@@ -10,8 +10,9 @@ use crate::lisp::value::known;
 use crate::lisp::value::raise::{Raise, is_interrupt};
 use crate::lisp::value::release;
 use crate::lisp::vm::calls::Suspended;
-use crate::lisp::vm::fiber::{Frame, FrameKind, Target};
-use crate::lisp::vm::machine::{Event, Machine, UnderWay};
+use crate::lisp::vm::fiber::Target;
+use crate::lisp::vm::frames::{Frame, FrameKind};
+use crate::lisp::vm::machine::{Event, Machine};
 use crate::lisp::vm::step::Step;
 
 /// What the machine does next.
@@ -138,10 +139,7 @@ impl Machine<'_> {
     /// What to do when a builtin was left. The call cannot go on, and no handler is asked about
     /// an interrupt.
     fn left(&mut self, reason: Stopped) -> Next {
-        if let Some(UnderWay { pc, cut }) = self.under_way.take() {
-            self.save_pc(pc);
-            self.fiber.stack.truncate(cut);
-        }
+        self.fiber.stack.clear_above();
         let raise = Box::<Raise>::from(reason);
         if reason != Stopped::Interrupted {
             return self.raise(raise);
@@ -283,17 +281,9 @@ impl Machine<'_> {
         if let Some(Frame {
             kind: FrameKind::Code { pc, .. },
             ..
-        }) = self.fiber.frames.last_mut()
+        }) = self.fiber.frames.last()
         {
-            *pc = new;
-        }
-    }
-
-    /// The next operation of the topmost frame, if that is one of code.
-    pub(super) fn pc(&self) -> Option<usize> {
-        match self.fiber.frames.last()?.kind {
-            FrameKind::Code { pc, .. } => Some(pc),
-            FrameKind::Native { .. } => None,
+            pc.set(new);
         }
     }
 
@@ -306,12 +296,12 @@ impl Machine<'_> {
             .find_map(|frame| match &frame.kind {
                 FrameKind::Code { function, pc } => match &function.body {
                     Body::Closure { code, .. } => {
-                        let place = code.place_at(pc.saturating_sub(1));
+                        let place = code.place_at(pc.get().saturating_sub(1));
                         self.image.sources.is_of_program(place).then_some(place)
                     }
                     _ => None,
                 },
-                FrameKind::Native { .. } => None,
+                FrameKind::Native { .. } | FrameKind::Over => None,
             })
             .unwrap_or(Place::NONE)
     }

@@ -3,7 +3,7 @@
 use crate::lisp::image::open_call::OpenCall;
 use crate::lisp::source::Place;
 use crate::lisp::value::function::Body;
-use crate::lisp::vm::fiber::FrameKind;
+use crate::lisp::vm::frames::FrameKind;
 use crate::lisp::vm::machine::Machine;
 
 /// The most frames that are examined.
@@ -17,7 +17,7 @@ impl Machine<'_> {
             .filter_map(|frame| match &frame.kind {
                 FrameKind::Code { function, pc } => match &function.body {
                     Body::Closure { code, .. } => {
-                        let place = code.place_at(pc.saturating_sub(1));
+                        let place = code.place_at(pc.get().saturating_sub(1));
                         let subject = None;
                         let sources = &self.image.sources;
                         sources
@@ -30,6 +30,7 @@ impl Machine<'_> {
                     place: Place::NONE,
                     subject: Some(annotation.subject.clone()),
                 }),
+                FrameKind::Over => None,
             })
             .collect()
     }

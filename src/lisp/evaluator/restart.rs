@@ -8,7 +8,8 @@ use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
-use crate::lisp::vm::fiber::{Dynamic, Frame, FrameKind};
+use crate::lisp::vm::fiber::Dynamic;
+use crate::lisp::vm::frames::{Frame, FrameKind};
 use crate::lisp::vm::machine::Machine;
 
 pub(crate) struct Restart {
@@ -103,7 +104,7 @@ impl Machine<'_> {
             tag: tag.clone(),
             frame: self.fiber.frames.len() - 1,
             height: self.fiber.stack.len(),
-            target: u32::try_from(*pc).unwrap_or(u32::MAX),
+            target: u32::try_from(pc.get()).unwrap_or(u32::MAX),
             multi: false,
         });
         let give = move |how: fn(&mut Machine<'_>, Sym, Value)| {

@@ -3,31 +3,27 @@
 //! The functions that carry out operations are grouped in files of their own and inlined here; the
 //! loop itself controls where execution continues. An operation either falls through to the next
 //! one, moves the program counter, switches to another frame of code, or leaves the loop.
+//!
+//! While it runs, the frame's place in the code and the height of the stack are only known here. They
+//! are noted where something else may ask for them: before whatever concerns the machine as a whole,
+//! and before a builtin, which may be left by unwinding.
 
+use std::mem::forget;
 use std::rc::Rc;
 
+use super::calling::MOST_FRAMES;
+use super::dynamic::{bind, undo};
 use super::entry::{INTERRUPT_INTERVAL, Next};
-use super::variables::push_unboxed;
+use super::variables::{closure, function as function_of, setf_function, unboxed_into};
 use crate::lisp::value::Value;
 use crate::lisp::value::function::{Body, Function};
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::operation::Op;
-use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::lisp::vm::fiber::{Frame, FrameKind};
-use crate::lisp::vm::machine::{Event, Machine, UnderWay};
-
-/// Where execution continues after a call.
-enum Called {
-    /// At the next operation: the call's value is on the stack.
-    Here,
-    /// In the topmost frame, which has changed.
-    Frame,
-    /// Outside the loop.
-    Elsewhere(Next),
-}
+use crate::lisp::vm::frames::{Frame, FrameKind};
+use crate::lisp::vm::machine::{Event, Machine};
 
 impl Machine<'_> {
     /// `budget`: how many calls and jumps backwards there may be before the next pause.
@@ -35,28 +31,41 @@ impl Machine<'_> {
         if self.image.output.is_due() {
             return Next::Stop(Event::Output);
         }
-        loop {
+        'frame: loop {
             // Registers of the topmost frame.
-            let Some(frame) = self.fiber.frames.last() else {
+            let fiber = &mut *self.fiber;
+            let Some(frame) = fiber.frames.last() else {
                 return Next::Run;
             };
-            let FrameKind::Code { function, pc } = &frame.kind else {
+            let FrameKind::Code {
+                function,
+                pc: noted,
+            } = &frame.kind
+            else {
                 return Next::Run;
             };
-            let function = function.clone();
-            let mut pc = *pc;
-            let base = frame.base;
             let Body::Closure { code, captured } = &function.body else {
                 return Next::Run;
             };
-
+            let mut pc = noted.get();
+            let mut window = fiber.stack.window(frame.base, code.room);
             let ops: &[Op] = &code.ops;
 
+            // Notes where the code is, for what concerns the machine as a whole.
+            macro_rules! note {
+                () => {
+                    noted.set(pc);
+                    window.close();
+                };
+            }
             macro_rules! check {
                 ($result:expr) => {
-                    if let Err(raise) = $result {
-                        self.save_pc(pc);
-                        return self.raise(raise);
+                    match $result {
+                        Ok(value) => value,
+                        Err(raise) => {
+                            note!();
+                            return self.raise(raise);
+                        }
                     }
                 };
             }
@@ -64,20 +73,18 @@ impl Machine<'_> {
             macro_rules! leave {
                 ($next:expr) => {
                     match $next {
-                        Next::Run => break,
+                        Next::Run => continue 'frame,
                         next => return next,
                     }
                 };
             }
-
-            macro_rules! called {
-                ($called:expr) => {
-                    match $called {
-                        Called::Here => {}
-                        Called::Frame => break,
-                        Called::Elsewhere(next) => return next,
-                    }
-                };
+            // An operation of the machine, after which the code goes on.
+            macro_rules! slowly {
+                ($operation:expr) => {{
+                    note!();
+                    $operation;
+                    continue 'frame;
+                }};
             }
             // Jumps if a test has the wanted result.
             macro_rules! branch {
@@ -87,495 +94,557 @@ impl Machine<'_> {
                     }
                 };
             }
-            // The same if there may be no result; else the next operation is skipped.
-            macro_rules! branch_or_skip {
-                ($test:expr, $when:expr, $target:expr) => {
-                    match $test {
-                        Ok(result) if result == $when => pc = $target as usize,
-                        Ok(_) => pc += 1,
+            // Computes with numbers that are not small integers. They may be so large that this is
+            // left on the way; the topmost values, of which there are so many, are then gone.
+            macro_rules! compute {
+                ($count:expr, $operation:expr) => {{
+                    noted.set(pc);
+                    window.close_below(window.top - $count);
+                    let result = $operation;
+                    window.cut(window.top - $count);
+                    match result {
+                        Ok(value) => value,
                         Err(raise) => {
-                            self.save_pc(pc);
+                            window.close();
                             return self.raise(raise);
                         }
+                    }
+                }};
+            }
+            // Jumps if a comparison of numbers has the wanted result, of which `count` are on top of the stack and are
+            // dropped. The next operation is skipped unless they are no numbers.
+            macro_rules! branch_compared {
+                ($test:expr, $ints:expr, $numbers:expr, $count:expr, $target:expr) => {{
+                    let jumps = match $ints {
+                        Some((a, b)) => {
+                            window.top -= $count;
+                            $test.jumps(a, b)
+                        }
+                        None => {
+                            let result = compute!($count, {
+                                let (a, b) = $numbers;
+                                number::compare_like($test.comparison(), a, b)
+                            });
+                            result == $test.when()
+                        }
+                    };
+                    pc = if jumps { $target as usize } else { pc + 1 };
+                }};
+            }
+            macro_rules! arithmetic {
+                ($of_integers:expr, $of_numbers:expr) => {
+                    if !window.combine($of_integers) {
+                        let (a, b) = window.two();
+                        let value = compute!(2, $of_numbers(a, b));
+                        window.push(value);
+                    }
+                };
+            }
+            // Enters the code of a function whose arguments are the topmost values, `below` which
+            // there may be what goes with them.
+            macro_rules! enter {
+                ($called:expr, $count:expr, $below:expr, $multi:expr) => {{
+                    let called = Rc::clone($called);
+                    note!();
+                    let base = window.height() - $count;
+                    let dynamic = fiber.dynamic.len();
+                    let frames = &mut fiber.frames;
+                    frames.enter(called, base, base - $below, dynamic, $multi);
+                    *budget -= 1;
+                    if *budget > 0 {
+                        continue 'frame;
+                    }
+                    return self.or_interrupt(Next::Run, budget);
+                }};
+            }
+            // Continues in the frame of a call that has begun, or outside the loop.
+            macro_rules! called {
+                ($called:expr) => {
+                    match $called {
+                        Ok(()) => continue 'frame,
+                        Err(next) => return next,
                     }
                 };
             }
 
-            loop {
+            'operation: loop {
                 // The emitter ends every function with a return, so there is an operation.
-                let op = ops[pc];
+                let op = &ops[pc];
                 pc += 1;
-                match op {
-                    Op::Const(i) => code.constants[i as usize].push_copy(&mut self.fiber.stack),
-                    Op::Nil => self.push_nil(),
-                    Op::Int(n) => self.push_int(i64::from(n)),
+                let (sym, count, multi) = 'call: {
+                    match *op {
+                        Op::Const(i) => code.constants[i as usize].copy_into(window.next()),
+                        Op::Nil => window.push(Value::NIL),
+                        Op::Int(n) => window.push_int(i64::from(n)),
 
-                    Op::Local(i) => self.local(base + i as usize),
-                    Op::LocalBox(i) => self.local_box(base + i as usize),
-                    Op::SetLocal(i) => self.set_local(base + i as usize),
-                    Op::SetLocalBox(i) => self.set_local_box(base + i as usize),
-                    Op::MakeBox(i) => self.make_box(base + i as usize),
-                    Op::Free(i) => captured[i as usize].push_copy(&mut self.fiber.stack),
-                    Op::FreeBox(i) => push_unboxed(&captured[i as usize], &mut self.fiber.stack),
-                    Op::SetFreeBox(i) => self.set_free_box(&captured[i as usize]),
-                    Op::Global(sym) => check!(self.global(sym)),
-                    Op::SetGlobal(sym) => self.set_global(sym),
-                    Op::Function(sym) => check!(self.function(sym)),
-                    Op::SetfFunction(sym) => check!(self.setf_function(sym)),
-                    Op::Closure(i) => self.closure(code, i as usize, base, captured),
-                    Op::Supplied(i) => {
-                        let supplied = self.is_supplied(base + i as usize);
-                        self.push_bool(supplied);
-                    }
+                        Op::Local(i) => window.local(i as usize),
+                        Op::LocalBox(i) => window.local_box(i as usize),
+                        Op::SetLocal(i) => window.set_local(i as usize),
+                        Op::SetLocalBox(i) => window.set_local_box(i as usize),
+                        Op::MakeBox(i) => window.make_box(i as usize),
+                        Op::Free(i) => captured[i as usize].copy_into(window.next()),
+                        Op::FreeBox(i) => unboxed_into(&captured[i as usize], window.next()),
+                        Op::SetFreeBox(i) => window.set_free_box(&captured[i as usize]),
+                        Op::Global(sym) => check!(window.global(self.image, sym)),
+                        Op::SetGlobal(sym) => window.set_global(self.image, sym),
+                        Op::Function(sym) => window.push(check!(function_of(self.image, sym))),
+                        Op::SetfFunction(sym) => {
+                            window.push(check!(setf_function(self.image, sym)))
+                        }
+                        Op::Closure(i) => {
+                            let closure = closure(code, i as usize, window.slots, captured);
+                            window.push(Value::Function(closure));
+                        }
+                        Op::Supplied(i) => {
+                            let supplied = window.is_supplied(i as usize);
+                            window.push_bool(supplied);
+                        }
 
-                    Op::Pop => self.drop_top(),
-                    Op::Drop(n) => self.drop_values(n),
-                    Op::Slide(n) => self.slide(n),
-                    Op::Dup => self.duplicate(),
-                    Op::Spread(count) => self.spread(count),
+                        Op::Pop => window.drop_top(),
+                        Op::Drop(n) => window.cut(window.top - n as usize),
+                        Op::Slide(n) => window.slide(n),
+                        Op::Dup => window.duplicate(),
+                        Op::Spread(count) => window.spread(count),
 
-                    Op::Jump(target) => {
-                        let target = target as usize;
-                        if target < pc {
-                            *budget -= 1;
-                            if *budget == 0 {
-                                *budget = INTERRUPT_INTERVAL;
-                                // After an interrupt it jumps again: here, variables are in scope.
-                                self.save_pc(pc - 1);
-                                if let Some(next) = self.pause() {
-                                    return next;
+                        Op::Jump(target) => {
+                            let target = target as usize;
+                            if target < pc {
+                                *budget -= 1;
+                                if *budget == 0 {
+                                    *budget = INTERRUPT_INTERVAL;
+                                    // After an interrupt it jumps again: here, variables are in scope.
+                                    noted.set(pc - 1);
+                                    window.close();
+                                    if let Some(next) = self.pause() {
+                                        return next;
+                                    }
+                                    self.save_pc(target);
+                                    continue 'frame;
                                 }
                             }
+                            pc = target;
                         }
-                        pc = target;
-                    }
-                    Op::JumpIfNil(target) => {
-                        branch!(self.test_top(Value::is_nil), true, target);
-                    }
-                    Op::JumpIfTrue(target) => {
-                        branch!(self.test_top(Value::is_true), true, target);
-                    }
-                    Op::JumpIfTrueOrPop(target) => {
-                        if self.fiber.stack.last().is_some_and(Value::is_true) {
-                            pc = target as usize;
-                        } else {
-                            self.drop_top();
+                        Op::JumpIfNil(target) => {
+                            branch!(window.test_top(Value::is_nil), true, target);
                         }
-                    }
-                    Op::JumpIfSupplied(i, target) => {
-                        branch!(self.is_supplied(base + i as usize), true, target);
-                    }
-                    Op::JumpIfLocal { slot, when, target } => {
-                        let local = &self.fiber.stack[base + slot as usize];
-                        branch!(local.is_true(), when, target);
-                    }
-                    Op::JumpIfConsp { when, target } => {
-                        branch!(
-                            self.test_top(|value| matches!(value, Value::Cons(_))),
+                        Op::JumpIfTrue(target) => {
+                            branch!(window.test_top(Value::is_true), true, target);
+                        }
+                        Op::JumpIfTrueOrPop(target) => {
+                            if window.last().is_true() {
+                                pc = target as usize;
+                            } else {
+                                window.top -= 1;
+                            }
+                        }
+                        Op::JumpIfSupplied(i, target) => {
+                            branch!(window.is_supplied(i as usize), true, target);
+                        }
+                        Op::JumpIfLocal { slot, when, target } => {
+                            branch!(window.slots[slot as usize].is_true(), when, target);
+                        }
+                        Op::JumpIfConsp { when, target } => {
+                            branch!(
+                                window.test_top(|value| matches!(value, Value::Cons(_))),
+                                when,
+                                target
+                            );
+                        }
+                        Op::JumpIfLocalConsp { slot, when, target } => {
+                            let local = &window.slots[slot as usize];
+                            branch!(matches!(local, Value::Cons(_)), when, target);
+                        }
+                        Op::JumpIfEq { when, target } => {
+                            branch!(window.are_eq(), when, target);
+                        }
+                        Op::JumpIfEqConst {
+                            constant,
                             when,
-                            target
-                        );
-                    }
-                    Op::JumpIfLocalConsp { slot, when, target } => {
-                        let local = &self.fiber.stack[base + slot as usize];
-                        branch!(matches!(local, Value::Cons(_)), when, target);
-                    }
-                    Op::JumpIfEq { when, target } => {
-                        branch!(self.are_eq(), when, target);
-                    }
-                    Op::JumpIfEqConst {
-                        constant,
-                        when,
-                        target,
-                    } => {
-                        let constant = &code.constants[constant as usize];
-                        branch!(self.test_top(|value| value.is_eq(constant)), when, target);
-                    }
-                    Op::JumpIfCompare {
-                        comparison,
-                        when,
-                        target,
-                    } => {
-                        branch_or_skip!(self.compare(comparison), when, target);
-                    }
-                    Op::JumpIfCompareInt {
-                        comparison,
-                        when,
-                        n,
-                        target,
-                    } => {
-                        branch_or_skip!(self.compare_int(comparison, n), when, target);
-                    }
-                    Op::JumpIfCompareLocals {
-                        comparison,
-                        when,
-                        a,
-                        b,
-                        target,
-                    } => {
-                        let stack = &self.fiber.stack;
-                        let (a, b) = (&stack[base + usize::from(a)], &stack[base + usize::from(b)]);
-                        branch_or_skip!(number::compare_like(comparison, a, b), when, target);
-                    }
-                    Op::JumpIfCompareLocalInt {
-                        comparison,
-                        when,
-                        slot,
-                        n,
-                        target,
-                    } => {
-                        let a = &self.fiber.stack[base + usize::from(slot)];
-                        branch_or_skip!(number::compare_int(comparison, a, n), when, target);
-                    }
+                            target,
+                        } => {
+                            let constant = &code.constants[constant as usize];
+                            branch!(window.test_top(|value| value.is_eq(constant)), when, target);
+                        }
+                        Op::JumpIfCompare { test, target } => {
+                            let ints = both_ints(window.two());
+                            branch_compared!(test, ints, window.two(), 2, target);
+                        }
+                        Op::JumpIfCompareInt { test, n, target } => {
+                            let n = i64::from(n);
+                            let ints = int(window.last()).map(|a| (a, n));
+                            branch_compared!(
+                                test,
+                                ints,
+                                (window.last(), &Value::Int(n)),
+                                1,
+                                target
+                            );
+                        }
+                        Op::JumpIfCompareLocals { test, a, b, target } => {
+                            let (a, b) = (usize::from(a), usize::from(b));
+                            let ints = both_ints((&window.slots[a], &window.slots[b]));
+                            branch_compared!(
+                                test,
+                                ints,
+                                (&window.slots[a], &window.slots[b]),
+                                0,
+                                target
+                            );
+                        }
+                        Op::JumpIfCompareLocalInt {
+                            test,
+                            slot,
+                            n,
+                            target,
+                        } => {
+                            let (slot, n) = (usize::from(slot), i64::from(n));
+                            let ints = int(&window.slots[slot]).map(|a| (a, n));
+                            branch_compared!(
+                                test,
+                                ints,
+                                (&window.slots[slot], &Value::Int(n)),
+                                0,
+                                target
+                            );
+                        }
 
-                    Op::Call(sym, count) | Op::CallMulti(sym, count) => {
-                        let multi = matches!(op, Op::CallMulti(..));
-                        called!(self.call_symbol(sym, usize::from(count), multi, pc, budget));
-                    }
-                    Op::CallSelf(sym, count) => {
-                        let count = usize::from(count);
-                        if self.is_function_of(&function, sym) {
-                            self.take_arguments_again(base, count);
+                        Op::Call(sym, count) => break 'call (sym, count, false),
+                        Op::CallMulti(sym, count) => break 'call (sym, count, true),
+                        Op::CallSelf(sym, count) => {
+                            let running = match &self.image.symbols.get(sym).function {
+                                FunctionCell::Function(other) => Rc::ptr_eq(function, other),
+                                _ => false,
+                            };
+                            if !running {
+                                break 'call (sym, count, true);
+                            }
+                            window.take_arguments_again(usize::from(count));
                             pc = 0;
                             *budget -= 1;
                             if *budget == 0 {
                                 *budget = INTERRUPT_INTERVAL;
-                                self.save_pc(pc);
+                                note!();
                                 if let Some(next) = self.pause() {
                                     return next;
                                 }
+                                continue 'frame;
                             }
-                        } else {
-                            called!(self.call_symbol(sym, count, true, pc, budget));
                         }
-                    }
-                    Op::CallValue(count) | Op::CallValueMulti(count) => {
-                        let multi = matches!(op, Op::CallValueMulti(_));
-                        self.save_pc(pc);
-                        called!(self.call_top(usize::from(count), multi, budget));
-                    }
-                    Op::MultipleValueCall(count, multi) => {
-                        self.save_pc(pc);
-                        leave!(self.call_with_values(usize::from(count), multi));
-                    }
-                    Op::Return => leave!(self.return_value()),
+                        Op::CallValue(count) | Op::CallValueMulti(count) => {
+                            let multi = matches!(op, Op::CallValueMulti(_));
+                            let start = window.top - usize::from(count);
+                            if let Value::Function(called) = &window.slots[start - 1]
+                                && let Body::Closure { code, .. } = &called.body
+                                && code.exact_count == Some(count)
+                                && fiber.frames.len() < MOST_FRAMES
+                            {
+                                enter!(called, usize::from(count), 1, multi);
+                            }
+                            note!();
+                            called!(self.call_top(usize::from(count), multi, budget));
+                        }
+                        Op::MultipleValueCall(count, multi) => {
+                            note!();
+                            leave!(self.call_with_values(usize::from(count), multi));
+                        }
+                        Op::Return => {
+                            let (cut, multi, length) = (frame.cut, frame.multi, frame.dynamic);
+                            window.close();
+                            fiber.frames.leave();
+                            if fiber.dynamic.len() > length {
+                                undo(self.image, &mut fiber.dynamic, length);
+                            }
+                            let to_code = fiber.frames.last().is_some_and(Frame::is_of_code);
+                            if !to_code || !fiber.stack.lower_top(cut) {
+                                leave!(self.return_values(cut, multi));
+                            }
+                            continue 'frame;
+                        }
 
-                    Op::Car => check!(self.car()),
-                    Op::Cdr => check!(self.cdr()),
-                    Op::Path(path) => check!(self.path(path)),
-                    Op::LocalCar(i) => check!(self.local_car(base + i as usize)),
-                    Op::LocalCdr(i) => check!(self.local_cdr(base + i as usize)),
-                    Op::LocalToCdr(i) => {
-                        check!(self.local_to_cdr(base + i as usize));
-                        pc += 1;
-                    }
-                    Op::LocalPath(i, path) => check!(self.local_path(base + i as usize, path)),
-                    Op::SetCar => check!(self.set_car()),
-                    Op::SetCdr => check!(self.set_cdr()),
-                    Op::Cons => self.join_top(),
-                    Op::Eq => {
-                        let result = self.are_eq();
-                        self.push_bool(result);
-                    }
-                    Op::Not => {
-                        let result = self.test_top(Value::is_nil);
-                        self.push_bool(result);
-                    }
-                    Op::Consp => {
-                        let result = self.test_top(|value| matches!(value, Value::Cons(_)));
-                        self.push_bool(result);
-                    }
-                    Op::Add => check!(self.arithmetic(i64::checked_add, number::add, pc)),
-                    Op::Sub => check!(self.arithmetic(i64::checked_sub, number::sub, pc)),
-                    Op::Mul => check!(self.arithmetic(i64::checked_mul, number::mul, pc)),
-                    Op::AddInt(n) => check!(self.add_int(n, pc)),
-                    Op::LocalAddInt(i, n) => check!(self.local_add_int(base + i as usize, n, pc)),
-                    Op::AddToLocal(i, n) => {
-                        check!(self.add_to_local(base + i as usize, n, pc));
-                        pc += 1;
-                    }
-                    Op::Compare(comparison) => match self.compare(comparison) {
-                        Ok(holds) => self.push_bool(holds),
-                        Err(raise) => {
-                            self.save_pc(pc);
-                            return self.raise(raise);
+                        Op::Car => check!(window.car()),
+                        Op::Cdr => check!(window.cdr()),
+                        Op::Path(path) => check!(window.path(path)),
+                        Op::LocalCar(i) => check!(window.local_car(i as usize)),
+                        Op::LocalCdr(i) => check!(window.local_cdr(i as usize)),
+                        Op::LocalToCdr(i) => {
+                            check!(window.local_to_cdr(i as usize));
+                            pc += 1;
                         }
-                    },
-                    Op::Element(sym) => {
-                        if !self.element(sym) {
-                            called!(self.call_symbol(sym, 2, false, pc, budget));
+                        Op::LocalPath(i, path) => check!(window.local_path(i as usize, path)),
+                        Op::SetCar => check!(window.set_car()),
+                        Op::SetCdr => check!(window.set_cdr()),
+                        Op::Cons => window.join_top(),
+                        Op::Eq => {
+                            let result = window.are_eq();
+                            window.push_bool(result);
                         }
-                    }
-                    Op::SetElement(sym) => {
-                        if !self.set_element() {
-                            self.save_pc(pc);
-                            called!(self.call_setf_function(sym, 3, budget));
+                        Op::Not => {
+                            let result = window.test_top(Value::is_nil);
+                            window.push_bool(result);
                         }
-                    }
+                        Op::Consp => {
+                            let result = window.test_top(|value| matches!(value, Value::Cons(_)));
+                            window.push_bool(result);
+                        }
+                        Op::Add => arithmetic!(i64::checked_add, number::add),
+                        Op::Sub => arithmetic!(i64::checked_sub, number::sub),
+                        Op::Mul => arithmetic!(i64::checked_mul, number::mul),
+                        Op::AddInt(n) => {
+                            let n = i64::from(n);
+                            if let Value::Int(x) = window.last_mut()
+                                && let Some(sum) = x.checked_add(n)
+                            {
+                                *x = sum;
+                            } else {
+                                let sum = compute!(1, number::add(window.last(), &Value::Int(n)));
+                                window.push(sum);
+                            }
+                        }
+                        Op::LocalAddInt(i, n) => {
+                            let n = i64::from(n);
+                            if let Value::Int(x) = &window.slots[i as usize]
+                                && let Some(sum) = x.checked_add(n)
+                            {
+                                window.push_int(sum);
+                            } else {
+                                let local = &window.slots[i as usize];
+                                let sum = compute!(0, number::add(local, &Value::Int(n)));
+                                window.push(sum);
+                            }
+                        }
+                        Op::AddToLocal(i, n) => {
+                            let n = i64::from(n);
+                            if let Value::Int(x) = &mut window.slots[i as usize]
+                                && let Some(sum) = x.checked_add(n)
+                            {
+                                *x = sum;
+                            } else {
+                                let local = &window.slots[i as usize];
+                                let sum = compute!(0, number::add(local, &Value::Int(n)));
+                                window.slots[i as usize] = sum;
+                            }
+                            pc += 1;
+                        }
+                        Op::Compare(comparison) => {
+                            let (a, b) = window.two();
+                            let holds = if let (Value::Int(a), Value::Int(b)) = (a, b) {
+                                let holds = comparison.holds(*a, *b);
+                                window.top -= 2;
+                                holds
+                            } else {
+                                compute!(2, number::compare_like(comparison, a, b))
+                            };
+                            window.push_bool(holds);
+                        }
+                        Op::Element(sym) => {
+                            if !window.element(sym) {
+                                break 'call (sym, 2, false);
+                            }
+                        }
+                        Op::SetElement(sym) => {
+                            if !window.set_element() {
+                                note!();
+                                called!(self.call_setf_function(sym, 3, budget));
+                            }
+                        }
 
-                    Op::BindSpecial(sym) => {
-                        let value = self.pop();
-                        self.bind_special(sym, value);
-                    }
-                    Op::Progv => check!(self.progv()),
-                    Op::EndProgv => self.end_progv(),
-                    Op::PopDynamic(n) => self.pop_dynamic(n),
-                    Op::EnterBlock { target, multi } => self.enter_block(target, multi),
-                    Op::EnterTagbody(table) => self.enter_tagbody(table),
-                    Op::EnterCatch { target, multi } => self.enter_catch(target, multi),
-                    Op::EnterUnwind(target) => self.enter_unwind(target),
-                    Op::LeaveUnwind => self.leave_unwind(),
-                    Op::EnterHandlers(types, count) => self.enter_handlers(code, types, count),
-                    Op::EnterRestarts => self.enter_restarts(),
-                    Op::ReturnFrom => {
-                        let id = self.pop();
-                        let value = self.pop();
-                        self.save_pc(pc);
-                        leave!(self.return_from(&id, value));
-                    }
-                    Op::Throw => {
-                        let value = self.pop();
-                        let tag = self.pop();
-                        self.save_pc(pc);
-                        let next = match self.catch_of(&tag) {
-                            Ok(target) => self.unwind(target, value),
-                            Err(raise) => self.raise(raise),
-                        };
-                        // As after a jump through closures.
-                        *budget -= 1;
-                        if *budget == 0 {
-                            return self.or_interrupt(next, budget);
+                        Op::BindSpecial(sym) => {
+                            window.top -= 1;
+                            let value = &mut window.slots[window.top];
+                            bind(self.image, &mut fiber.dynamic, sym, value);
                         }
-                        leave!(next);
-                    }
-                    Op::Go(tag) => {
-                        let id = self.pop();
-                        self.save_pc(pc);
-                        let next = self.go(&id, tag);
-                        // A loop through closures can be interrupted, too.
-                        *budget -= 1;
-                        if *budget == 0 {
-                            return self.or_interrupt(next, budget);
+                        Op::PopDynamic(n) => {
+                            let length = fiber.dynamic.len() - n as usize;
+                            undo(self.image, &mut fiber.dynamic, length);
                         }
-                        leave!(next);
-                    }
-                    Op::EndCleanup => {
-                        let unwinding = matches!(self.pop(), Value::Int(1));
-                        if unwinding {
-                            self.fiber.stack.pop();
-                            self.save_pc(pc);
-                            leave!(self.continue_unwinding());
+                        Op::Progv => {
+                            note!();
+                            if let Err(raise) = self.progv() {
+                                return self.raise(raise);
+                            }
+                            continue 'frame;
+                        }
+                        Op::EndProgv => slowly!(self.end_progv()),
+                        Op::EnterBlock { target, multi } => {
+                            slowly!(self.enter_block(target, multi))
+                        }
+                        Op::EnterTagbody(table) => slowly!(self.enter_tagbody(table)),
+                        Op::EnterCatch { target, multi } => {
+                            slowly!(self.enter_catch(target, multi))
+                        }
+                        Op::EnterUnwind(target) => slowly!(self.enter_unwind(target)),
+                        Op::LeaveUnwind => slowly!(self.leave_unwind()),
+                        Op::EnterHandlers(types, count) => {
+                            let types = code.constants[types as usize].clone();
+                            slowly!(self.enter_handlers(&types, count));
+                        }
+                        Op::EnterRestarts => slowly!(self.enter_restarts()),
+                        Op::ReturnFrom => {
+                            note!();
+                            let id = self.pop();
+                            let value = self.pop();
+                            leave!(self.return_from(&id, value));
+                        }
+                        Op::Throw => {
+                            note!();
+                            let value = self.pop();
+                            let tag = self.pop();
+                            let next = match self.catch_of(&tag) {
+                                Ok(target) => self.unwind(target, value),
+                                Err(raise) => self.raise(raise),
+                            };
+                            // As after a jump through closures.
+                            *budget -= 1;
+                            if *budget == 0 {
+                                return self.or_interrupt(next, budget);
+                            }
+                            leave!(next);
+                        }
+                        Op::Go(tag) => {
+                            note!();
+                            let id = self.pop();
+                            let next = self.go(&id, tag);
+                            // A loop through closures can be interrupted, too.
+                            *budget -= 1;
+                            if *budget == 0 {
+                                return self.or_interrupt(next, budget);
+                            }
+                            leave!(next);
+                        }
+                        Op::EndCleanup => {
+                            let unwinding = matches!(window.pop(), Value::Int(1));
+                            if unwinding {
+                                window.drop_top();
+                                note!();
+                                leave!(self.continue_unwinding());
+                            }
                         }
                     }
+                    continue 'operation;
+                };
+
+                // A call of a symbol's function with the topmost values.
+                let FunctionCell::Function(called) = &self.image.symbols.get(sym).function else {
+                    note!();
+                    return self.call_undefined(sym.into(), usize::from(count));
+                };
+                let pure = match &called.body {
+                    Body::Closure { code, .. }
+                        if code.exact_count == Some(count) && fiber.frames.len() < MOST_FRAMES =>
+                    {
+                        enter!(called, usize::from(count), 0, multi)
+                    }
+                    Body::Native(native) if native.accepts(usize::from(count)) => {
+                        let pure = self.image.pure_call(native);
+                        pure.map(|pure| (pure, native.name))
+                    }
+                    _ => None,
+                };
+                let Some((pure, name)) = pure else {
+                    let called = called.clone();
+                    note!();
+                    called!(self.call_any(called, usize::from(count), 0, multi, budget))
+                };
+                let start = window.top - usize::from(count);
+                noted.set(pc);
+                window.close_below(start);
+                match pure(self.image, &window.slots[start..window.top]) {
+                    Ok(mut value) => {
+                        window.cut(start);
+                        if !multi && matches!(value, Value::Multiple(_)) {
+                            value = value.primary();
+                        }
+                        value.move_into(window.next());
+                        // Nothing of it is left to be freed.
+                        forget(value);
+                    }
+                    Err(raise) => {
+                        window.close();
+                        let start = self.fiber.stack.len() - usize::from(count);
+                        return self.failed(name, raise, start, start, multi);
+                    }
+                }
+                if self.image.output.is_due() {
+                    window.close();
+                    return Next::Stop(Event::Output);
                 }
             }
         }
     }
 
-    /// Calls a symbol's function with the topmost arguments.
-    #[inline(always)]
-    fn call_symbol(
-        &mut self,
-        sym: Sym,
-        count: usize,
-        multi: bool,
-        pc: usize,
-        budget: &mut u32,
-    ) -> Called {
-        let cut = self.fiber.stack.len() - count;
-        let FunctionCell::Function(called) = &self.image.symbols.get(sym).function else {
-            return self.call_undefined(sym.into(), cut, pc);
-        };
-        match &called.body {
-            Body::Native(native) if native.accepts(count) => {
-                if let Some(f) = self.image.pure_call(native) {
-                    let name = native.name;
-                    self.under_way = Some(UnderWay { pc, cut });
-                    let result = f(self.image, &self.fiber.stack[cut..]);
-                    self.under_way = None;
-                    return match result {
-                        Ok(value) => self.returned(value, cut, multi, pc),
-                        Err(raise) => {
-                            self.save_pc(pc);
-                            Called::Elsewhere(self.failed(name, raise, cut, cut, multi))
-                        }
-                    };
-                }
-            }
-            Body::Closure { code, .. }
-                if code.exact_count.map(usize::from) == Some(count) && self.has_room() =>
-            {
-                let called = called.clone();
-                self.save_pc(pc);
-                self.push_frame(called, cut, cut, multi);
-                *budget -= 1;
-                if *budget > 0 {
-                    return Called::Frame;
-                }
-                return Called::Elsewhere(self.or_interrupt(Next::Run, budget));
-            }
-            _ => {}
-        }
-        let called = called.clone();
-        self.save_pc(pc);
-        self.call_any(called, count, cut, multi, budget)
-    }
-
-    /// Calls the function below the topmost arguments.
-    #[inline(always)]
-    fn call_top(&mut self, count: usize, multi: bool, budget: &mut u32) -> Called {
+    /// Calls the function below the topmost arguments. Returns whether code goes on in the topmost
+    /// frame, or else what comes next. So do the following ones.
+    fn call_top(&mut self, count: usize, multi: bool, budget: &mut u32) -> Result<(), Next> {
         let cut = self.fiber.stack.len() - count - 1;
-        let called = match &self.fiber.stack[cut] {
-            Value::Function(f) => f.clone(),
-            other => match self.image.coerce_to_function(other) {
-                Ok(f) => f,
-                Err(raise) => {
-                    self.fiber.stack.truncate(cut);
-                    return Called::Elsewhere(self.raise(raise));
-                }
-            },
-        };
-        if let Body::Closure { code, .. } = &called.body
-            && code.exact_count.map(usize::from) == Some(count)
-            && self.has_room()
-        {
-            self.push_frame(called, cut + 1, cut, multi);
-            *budget -= 1;
-            if *budget > 0 {
-                return Called::Frame;
+        match self.image.coerce_to_function(&self.fiber.stack[cut]) {
+            Ok(called) => self.call_any(called, count, 1, multi, budget),
+            Err(raise) => {
+                self.fiber.stack.truncate(cut);
+                Err(self.raise(raise))
             }
-            return Called::Elsewhere(self.or_interrupt(Next::Run, budget));
         }
-        self.call_any(called, count, cut, multi, budget)
     }
 
     /// Calls the function of `(setf symbol)` with the topmost arguments.
-    fn call_setf_function(&mut self, sym: Sym, count: usize, budget: &mut u32) -> Called {
-        let cut = self.fiber.stack.len() - count;
+    fn call_setf_function(&mut self, sym: Sym, count: usize, budget: &mut u32) -> Result<(), Next> {
         match self.image.symbols.get(sym).setf_function.clone() {
-            Some(called) => self.call_any(called, count, cut, false, budget),
+            Some(called) => self.call_any(called, count, 0, false, budget),
             None => {
                 let name = Value::list([known::SETF.into(), sym.into()]);
-                self.fiber.stack.truncate(cut);
-                Called::Elsewhere(self.raise(Raise::undefined_function(name)))
+                Err(self.call_undefined(name, count))
             }
         }
     }
 
-    /// Calls any function with the topmost arguments; its value replaces everything from `cut` up.
+    /// Calls any function with the topmost arguments; its value replaces these and what is `below`
+    /// them.
     fn call_any(
         &mut self,
         called: Rc<Function>,
         count: usize,
-        cut: usize,
+        below: usize,
         multi: bool,
         budget: &mut u32,
-    ) -> Called {
+    ) -> Result<(), Next> {
         *budget -= 1;
+        let cut = self.fiber.stack.len() - count - below;
         match self.call_on_stack(called, count, cut, multi) {
-            Next::Run if *budget > 0 && !self.image.output.is_due() => Called::Frame,
-            next => Called::Elsewhere(self.or_interrupt(next, budget)),
+            Next::Run if *budget > 0 && !self.image.output.is_due() => Ok(()),
+            next => Err(self.or_interrupt(next, budget)),
         }
     }
 
     #[cold]
-    fn call_undefined(&mut self, name: Value, cut: usize, pc: usize) -> Called {
+    fn call_undefined(&mut self, name: Value, count: usize) -> Next {
+        let cut = self.fiber.stack.len() - count;
         self.fiber.stack.truncate(cut);
-        self.save_pc(pc);
-        Called::Elsewhere(self.raise(Raise::undefined_function(name)))
+        self.raise(Raise::undefined_function(name))
     }
 
-    /// Replaces the arguments of a pure builtin by what it has returned.
-    #[inline(always)]
-    fn returned(&mut self, value: Value, cut: usize, multi: bool, pc: usize) -> Called {
-        self.cut_stack(cut);
-        let value = if multi { value } else { value.primary() };
-        self.fiber.stack.push(value);
-        if self.image.output.is_due() {
-            self.save_pc(pc);
-            return Called::Elsewhere(Next::Stop(Event::Output));
-        }
-        Called::Here
-    }
-
-    /// Is this the function of a symbol?
-    #[inline(always)]
-    fn is_function_of(&self, function: &Rc<Function>, sym: Sym) -> bool {
-        match &self.image.symbols.get(sym).function {
-            FunctionCell::Function(other) => Rc::ptr_eq(function, other),
-            _ => false,
-        }
-    }
-
-    /// Makes the topmost values the arguments of the frame whose slots begin at `base`.
-    #[inline(always)]
-    fn take_arguments_again(&mut self, base: usize, count: usize) {
-        let stack = &mut self.fiber.stack;
-        let start = stack.len() - count;
-        let (below, arguments) = stack.split_at_mut(start);
-        for (place, argument) in below[base..].iter_mut().zip(arguments) {
-            argument.move_to(place);
-        }
-        self.cut_stack(base + count);
-    }
-
-    /// Returns the top value from the topmost frame.
-    #[inline(always)]
-    fn return_value(&mut self) -> Next {
-        let (function, cut, dynamic, multi) = match self.fiber.frames.pop() {
-            Some(Frame {
-                kind: FrameKind::Code { function, .. },
-                cut,
-                dynamic,
-                multi,
-                ..
-            }) => (function, cut, dynamic, multi),
-            // Not reached, since a function runs only in a frame of code.
-            other => {
-                std::mem::forget(other);
-                return Next::Deliver(self.pop());
-            }
-        };
-        drop(function);
-        if self.fiber.dynamic.len() > dynamic {
-            self.drop_dynamic(dynamic);
-        }
-        let to_code = matches!(
-            self.fiber.frames.last(),
-            Some(Frame {
-                kind: FrameKind::Code { .. },
-                ..
-            })
-        );
-        // The most frequent values are not moved but made again in their new place.
-        match self.fiber.stack.last_mut() {
-            Some(&mut Value::Int(n)) if to_code => {
-                self.cut_stack(cut);
-                self.push_int(n);
-                return Next::Run;
-            }
-            Some(&mut Value::Symbol(sym, ref hold)) if to_code && hold.is_none() => {
-                self.cut_stack(cut);
-                push_made(&mut self.fiber.stack, || Value::symbol(sym));
-                return Next::Run;
-            }
-            Some(value @ Value::Cons(_)) if to_code => {
-                let pair = value.take_pair();
-                self.cut_stack(cut);
-                if let Some(pair) = pair {
-                    push_made(&mut self.fiber.stack, || Value::Cons(pair));
-                }
-                return Next::Run;
-            }
-            _ => {}
-        }
+    /// Returns the top value to what made the call, whose frame is the topmost one now.
+    fn return_values(&mut self, cut: usize, multi: bool) -> Next {
         let value = self.pop();
-        self.cut_stack(cut);
+        self.fiber.stack.truncate(cut);
         let value = if multi { value } else { value.primary() };
-        if !to_code {
+        if !self.fiber.frames.last().is_some_and(Frame::is_of_code) {
             return Next::Deliver(value);
         }
         self.fiber.stack.push(value);
         Next::Run
     }
+}
+
+/// The integer, if the value is a small one.
+#[inline(always)]
+fn int(value: &Value) -> Option<i64> {
+    match value {
+        Value::Int(n) => Some(*n),
+        _ => None,
+    }
+}
+
+/// The integers, if both values are small ones.
+#[inline(always)]
+fn both_ints((a, b): (&Value, &Value)) -> Option<(i64, i64)> {
+    Some((int(a)?, int(b)?))
 }

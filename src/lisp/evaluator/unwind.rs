@@ -6,7 +6,8 @@ use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::vm::fiber::{Dynamic, FrameKind, Pending, Target};
+use crate::lisp::vm::fiber::{Dynamic, Pending, Target};
+use crate::lisp::vm::frames::FrameKind;
 use crate::lisp::vm::machine::{Event, Machine};
 use crate::lisp::vm::step::Step;
 

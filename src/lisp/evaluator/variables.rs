@@ -2,69 +2,47 @@
 
 use std::rc::Rc;
 
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::code::{Capture, Code};
 use crate::lisp::value::cycles;
 use crate::lisp::value::function::Function;
 use crate::lisp::value::known;
-use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::slot::Slot;
 use crate::lisp::value::symbol::{FunctionCell, Sym};
-use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::stack::Window;
 
-impl Machine<'_> {
+impl Window<'_> {
     /// Pushes a local.
     #[inline(always)]
-    pub(super) fn local(&mut self, at: usize) {
-        // As `Value::push_copy`, from a place in the stack itself.
-        let stack = &mut self.fiber.stack;
-        match &stack[at] {
-            &Value::Int(n) => push_made(stack, || Value::Int(n)),
-            Value::Cons(cons) => {
-                let cons = cons.clone();
-                push_made(stack, || Value::Cons(cons));
-            }
-            &Value::Symbol(sym, ref hold) if hold.is_none() => {
-                push_made(stack, || Value::symbol(sym));
-            }
-            _ => self.local_of_other_kind(at),
-        }
-    }
-
-    #[inline(never)]
-    fn local_of_other_kind(&mut self, at: usize) {
-        let value = self.fiber.stack[at].clone();
-        self.fiber.stack.push(value);
+    pub(super) fn local(&mut self, i: usize) {
+        let (used, room) = self.slots.split_at_mut(self.top);
+        used[i].copy_into(&mut room[0]);
+        self.top += 1;
     }
 
     /// Pushes what a local's box holds.
     #[inline(always)]
-    pub(super) fn local_box(&mut self, at: usize) {
-        match &self.fiber.stack[at] {
-            Value::Cell(cell) => {
-                // Another reference to the box, since the stack that it stands in is pushed on.
-                let cell = cell.clone();
-                cell.push_copy(&mut self.fiber.stack);
-            }
-            _ => self.local(at),
-        }
+    pub(super) fn local_box(&mut self, i: usize) {
+        let (used, room) = self.slots.split_at_mut(self.top);
+        unboxed_into(&used[i], &mut room[0]);
+        self.top += 1;
     }
 
     /// Pops into a local.
     #[inline(always)]
-    pub(super) fn set_local(&mut self, at: usize) {
-        if let Some((top, below)) = self.fiber.stack.split_last_mut() {
-            top.move_to(&mut below[at]);
-        }
-        self.drop_top();
+    pub(super) fn set_local(&mut self, i: usize) {
+        self.top -= 1;
+        let (below, top) = self.slots.split_at_mut(self.top);
+        top[0].move_to(&mut below[i]);
     }
 
     /// Pops into a local's box.
     #[inline(always)]
-    pub(super) fn set_local_box(&mut self, at: usize) {
+    pub(super) fn set_local_box(&mut self, i: usize) {
         let value = self.pop();
-        if let Value::Cell(cell) = &self.fiber.stack[at] {
+        if let Value::Cell(cell) = &self.slots[i] {
             cycles::note(cell, &value);
             cell.set(value);
         }
@@ -72,16 +50,16 @@ impl Machine<'_> {
 
     /// Puts a local into a fresh box.
     #[inline(always)]
-    pub(super) fn make_box(&mut self, at: usize) {
-        let place = &mut self.fiber.stack[at];
+    pub(super) fn make_box(&mut self, i: usize) {
+        let place = &mut self.slots[i];
         let value = std::mem::take(place);
-        *place = Value::Cell(Rc::new(Slot::new(value)));
+        place.fill(Value::Cell(Rc::new(Slot::new(value))));
     }
 
     /// Was a parameter supplied?
     #[inline(always)]
-    pub(super) fn is_supplied(&self, at: usize) -> bool {
-        !self.fiber.stack[at].is_unbound()
+    pub(super) fn is_supplied(&self, i: usize) -> bool {
+        !self.slots[i].is_unbound()
     }
 
     /// Pops into a free variable's box.
@@ -96,67 +74,87 @@ impl Machine<'_> {
 
     /// Pushes the value of a global or special variable.
     #[inline(always)]
-    pub(super) fn global(&mut self, sym: Sym) -> Result<(), Box<Raise>> {
-        let value = &self.image.symbols.get(sym).value;
+    pub(super) fn global(&mut self, image: &Image, sym: Sym) -> Result<(), Box<Raise>> {
+        let value = &image.symbols.get(sym).value;
         if value.is_unbound() {
             return Err(Raise::unbound_variable(sym));
         }
-        value.push_copy(&mut self.fiber.stack);
+        value.copy_into(self.next());
         Ok(())
     }
 
     /// Pops into a global or special variable.
     #[inline(always)]
-    pub(super) fn set_global(&mut self, sym: Sym) {
-        let value = self.pop();
-        self.image.symbols.get_mut(sym).value = value;
+    pub(super) fn set_global(&mut self, image: &mut Image, sym: Sym) {
+        self.top -= 1;
+        self.slots[self.top].move_to(&mut image.symbols.get_mut(sym).value);
     }
 
-    /// Pushes a symbol's global function.
-    pub(super) fn function(&mut self, sym: Sym) -> Result<(), Box<Raise>> {
-        match &self.image.symbols.get(sym).function {
-            FunctionCell::Function(f) => {
-                self.fiber.stack.push(Value::Function(f.clone()));
-                Ok(())
-            }
-            _ => Err(Raise::undefined_function(sym.into())),
-        }
-    }
-
-    /// Pushes the function of `(setf symbol)`.
-    pub(super) fn setf_function(&mut self, sym: Sym) -> Result<(), Box<Raise>> {
-        match &self.image.symbols.get(sym).setf_function {
-            Some(f) => {
-                self.fiber.stack.push(Value::Function(f.clone()));
-                Ok(())
-            }
-            None => {
-                let name = Value::list([known::SETF.into(), sym.into()]);
-                Err(Raise::undefined_function(name))
-            }
-        }
-    }
-
-    /// Pushes a closure over the inner code number `i`.
-    pub(super) fn closure(&mut self, code: &Code, i: usize, base: usize, captured: &[Value]) {
-        let (inner, captures) = &code.inner[i];
-        let values = captures
-            .iter()
-            .map(|capture| match capture {
-                Capture::Local(slot) => self.fiber.stack[base + *slot as usize].clone(),
-                Capture::Free(i) => captured[*i as usize].clone(),
-            })
-            .collect();
-        let closure = Rc::new(Function::closure(inner.clone(), values));
-        self.fiber.stack.push(Value::Function(closure));
+    /// Pops the values of a call and pushes exactly `count` of them.
+    #[inline(always)]
+    pub(super) fn spread(&mut self, count: u32) {
+        let values = self.pop();
+        let start = self.top;
+        self.top += count as usize;
+        spread_into(values, &mut self.slots[start..self.top]);
     }
 }
 
-/// Pushes the contents of a box; any other value as it is.
+/// Stores the values of a call, as many as there are places, where there is nothing to free.
+fn spread_into(values: Value, places: &mut [Value]) {
+    match values {
+        Value::Multiple(values) => {
+            for (i, place) in places.iter_mut().enumerate() {
+                place.fill(values.get(i).cloned().unwrap_or(Value::NIL));
+            }
+        }
+        single => {
+            if let [first, others @ ..] = places {
+                first.fill(single);
+                others.iter_mut().for_each(|place| place.fill(Value::NIL));
+            }
+        }
+    }
+}
+
+/// A symbol's global function.
+pub(super) fn function(image: &Image, sym: Sym) -> Result<Value, Box<Raise>> {
+    match &image.symbols.get(sym).function {
+        FunctionCell::Function(f) => Ok(Value::Function(f.clone())),
+        _ => Err(Raise::undefined_function(sym.into())),
+    }
+}
+
+/// The function of `(setf symbol)`.
+pub(super) fn setf_function(image: &Image, sym: Sym) -> Result<Value, Box<Raise>> {
+    match &image.symbols.get(sym).setf_function {
+        Some(f) => Ok(Value::Function(f.clone())),
+        None => {
+            let name = Value::list([known::SETF.into(), sym.into()]);
+            Err(Raise::undefined_function(name))
+        }
+    }
+}
+
+/// A closure over the inner code number `i`.
+pub(super) fn closure(code: &Code, i: usize, slots: &[Value], captured: &[Value]) -> Rc<Function> {
+    let (inner, captures) = &code.inner[i];
+    let values = captures
+        .iter()
+        .map(|capture| match capture {
+            Capture::Local(slot) => slots[*slot as usize].clone(),
+            Capture::Free(i) => captured[*i as usize].clone(),
+        })
+        .collect();
+    Rc::new(Function::closure(inner.clone(), values))
+}
+
+/// Stores a copy of the contents of a box, or of any other value as it is, where there is nothing to
+/// free.
 #[inline(always)]
-pub(super) fn push_unboxed(value: &Value, stack: &mut Vec<Value>) {
+pub(super) fn unboxed_into(value: &Value, place: &mut Value) {
     match value {
-        Value::Cell(cell) => cell.push_copy(stack),
-        other => other.push_copy(stack),
+        Value::Cell(cell) => cell.copy_into(place),
+        other => other.copy_into(place),
     }
 }

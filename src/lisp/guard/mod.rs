@@ -115,10 +115,10 @@ pub(crate) fn stoppable_on<S, T>(
 
 /// Counts the steps of a walk, and looks once in a while.
 #[derive(Default)]
-pub(crate) struct Pace(u32);
+pub(crate) struct Pace(usize);
 
 /// Short steps between two looks: about a tenth of a millisecond.
-const STEPS: u32 = 4096;
+pub(crate) const STEPS: usize = 4096;
 
 impl Pace {
     /// To be called for each step.
@@ -149,7 +149,7 @@ mod tests {
     fn a_walk_without_end_is_left_once_the_flag_is_set() {
         let limits = Rc::new(Limits::default());
         let _watch = limits.watch();
-        let mut steps = 0_u64;
+        let mut steps = 0;
         let outcome = stoppable(|| {
             let mut pace = Pace::default();
             loop {
@@ -161,7 +161,7 @@ mod tests {
             }
         });
         assert_eq!(outcome.map(|(): ()| ()), Err(Stopped::Interrupted));
-        assert_eq!(steps, 3 * u64::from(STEPS) - 1);
+        assert_eq!(steps, 3 * STEPS - 1);
         assert!(!limits.polls.flag().load(Ordering::Relaxed));
     }
 

@@ -44,6 +44,12 @@ impl Vector {
         self.items.get(index)
     }
 
+    /// Stores a copy of the element at an index where there is nothing to free; false if there is none.
+    #[inline(always)]
+    pub(crate) fn copy_into(&self, index: usize, place: &mut Value) -> bool {
+        self.items.copy_into(index, place)
+    }
+
     /// Replaces the element at an index; false if there is none.
     pub(crate) fn set(&self, index: usize, value: Value) -> bool {
         self.items.set(index, value)

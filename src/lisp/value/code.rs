@@ -143,6 +143,8 @@ pub(crate) struct Code {
     pub(crate) parameters: Parameters,
     /// The number of arguments that fill the parameters' slots as they are, if there is one.
     pub(crate) exact_count: Option<u16>,
+    /// The most values that it has on the stack, from its frame's base on.
+    pub(crate) room: usize,
     /// The operations.
     pub(crate) ops: Rc<[Op]>,
     pub(crate) constants: Vec<Value>,

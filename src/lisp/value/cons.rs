@@ -64,22 +64,16 @@ impl Cons {
         self.cdr.with(look)
     }
 
-    /// Pushes the first half onto a stack.
+    /// Stores a copy of the first half where there is nothing to free.
     #[inline(always)]
-    pub(crate) fn push_car(&self, stack: &mut Vec<Value>) {
-        self.car.push_copy(stack);
+    pub(crate) fn copy_car_into(&self, place: &mut Value) {
+        self.car.copy_into(place);
     }
 
-    /// Pushes the second half onto a stack.
+    /// Stores a copy of the second half where there is nothing to free.
     #[inline(always)]
-    pub(crate) fn push_cdr(&self, stack: &mut Vec<Value>) {
-        self.cdr.push_copy(stack);
-    }
-
-    /// Puts the second half into a place.
-    #[inline(always)]
-    pub(crate) fn copy_cdr_to(&self, place: &mut Value) {
-        self.cdr.copy_to(place);
+    pub(crate) fn copy_cdr_into(&self, place: &mut Value) {
+        self.cdr.copy_into(place);
     }
 
     /// The first half, if it is a pair.

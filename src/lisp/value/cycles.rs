@@ -46,8 +46,18 @@ thread_local! {
 
 /// Notes that an object has been assigned a value. Objects that are noted already have a weak
 /// reference.
-#[inline]
+#[inline(always)]
 pub(crate) fn note<T>(object: &Rc<T>, assigned: &Value)
+where
+    for<'a> Suspect: From<&'a Rc<T>>,
+{
+    if !assigned.is_plain() {
+        note_suspect(object, assigned);
+    }
+}
+
+#[inline(never)]
+fn note_suspect<T>(object: &Rc<T>, assigned: &Value)
 where
     for<'a> Suspect: From<&'a Rc<T>>,
 {

@@ -142,6 +142,22 @@ impl Elements {
         }
     }
 
+    /// Stores a copy of the element at an index where there is nothing to free; false if there is none.
+    #[inline(always)]
+    pub(crate) fn copy_into(&self, index: usize, place: &mut Value) -> bool {
+        match &*self.0.borrow() {
+            Place::Own(items) => match items.get(index) {
+                Some(item) => item.copy_into(place),
+                None => return false,
+            },
+            Place::Displaced(displacement) => match displacement.get(index) {
+                Some(item) => place.fill(item),
+                None => return false,
+            },
+        }
+        true
+    }
+
     /// Replaces the element at an index; false if there is none.
     #[inline]
     pub(crate) fn set(&self, index: usize, value: Value) -> bool {

@@ -51,27 +51,34 @@ use self::slot::Slot;
 use self::stream::Stream;
 use self::string::LispString;
 use self::symbol::{Hold, Sym};
-use crate::lisp::guard::Pace;
+use crate::lisp::guard::{self, Pace, STEPS};
 
 /// A Lisp value.
+///
+/// The kinds of which there is nothing to free come first, so that one comparison tells them.
 #[derive(Default)]
 pub(crate) enum Value {
-    /// A symbol; `NIL` and `T` are symbols too. With what holds its data, if that may be freed.
-    Symbol(Sym, Hold),
+    /// Internal: no value (unbound variable or slot, argument not supplied).
+    #[default]
+    Unbound,
     /// An integer that fits 64 bits.
     Int(i64),
-    /// An integer that does not fit 64 bits.
-    Big(Rc<BigInt>),
-    /// A ratio in lowest terms with a denominator greater than one.
-    Ratio(Rc<Ratio>),
     /// A single float.
     Single(f32),
     /// A double float.
     Double(f64),
     /// A character.
     Char(char),
+    /// A package.
+    Package(PackageId),
+    /// A symbol; `NIL` and `T` are symbols too. With what holds its data, if that may be freed.
+    Symbol(Sym, Hold),
     /// A pair.
     Cons(Rc<Cons>),
+    /// An integer that does not fit 64 bits.
+    Big(Rc<BigInt>),
+    /// A ratio in lowest terms with a denominator greater than one.
+    Ratio(Rc<Ratio>),
     /// A string.
     Str(Rc<LispString>),
     /// A one-dimensional array of anything.
@@ -86,8 +93,6 @@ pub(crate) enum Value {
     Instance(Rc<Instance>),
     /// A class.
     Class(Rc<Class>),
-    /// A package.
-    Package(PackageId),
     /// A stream.
     Stream(Rc<Stream>),
     /// A value of a layer above the language (task, fluent, designator, pose, …).
@@ -96,9 +101,6 @@ pub(crate) enum Value {
     Cell(Rc<Slot>),
     /// Internal: zero, or more than one, values returned by a call. Never stored in a variable.
     Multiple(Rc<Vec<Value>>),
-    /// Internal: no value (unbound variable or slot, argument not supplied).
-    #[default]
-    Unbound,
 }
 
 impl Clone for Value {
@@ -143,11 +145,16 @@ impl Value {
         }
     }
 
-    /// Is it of one of the most frequent kinds of which there is nothing to free?
+    /// Is there nothing to free?
     #[inline(always)]
     pub(crate) fn is_plain(&self) -> bool {
         match self {
-            Value::Int(_) | Value::Unbound => true,
+            Value::Unbound
+            | Value::Int(_)
+            | Value::Single(_)
+            | Value::Double(_)
+            | Value::Char(_)
+            | Value::Package(_) => true,
             Value::Symbol(_, hold) => hold.is_none(),
             _ => false,
         }
@@ -393,7 +400,8 @@ pub(crate) struct Rounds {
     mark: Option<Rc<Cons>>,
     steps: usize,
     next_mark: usize,
-    pace: Pace,
+    /// The number of steps at which there is to be a mark, or the walk may have to stop.
+    next_stop: usize,
 }
 
 impl Default for Rounds {
@@ -402,14 +410,14 @@ impl Default for Rounds {
             mark: None,
             steps: 0,
             next_mark: 1024,
-            pace: Pace::default(),
+            next_stop: 1024,
         }
     }
 }
 
 impl Rounds {
     /// Is the list circular? Must be called for each pair of the list in turn.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn is_closed_by(&mut self, pair: &Rc<Cons>) -> bool {
         if self
             .mark
@@ -418,13 +426,24 @@ impl Rounds {
         {
             return true;
         }
-        self.pace.step();
         self.steps += 1;
+        if self.steps == self.next_stop {
+            self.stop(pair);
+        }
+        false
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn stop(&mut self, pair: &Rc<Cons>) {
+        if self.steps.is_multiple_of(STEPS) {
+            guard::look();
+        }
         if self.steps == self.next_mark {
             self.mark = Some(pair.clone());
             self.next_mark *= 2;
         }
-        false
+        self.next_stop = self.next_mark.min((self.steps + 1).next_multiple_of(STEPS));
     }
 }
 
@@ -440,11 +459,11 @@ impl Iterator for ListIter {
     type Item = Value;
 
     fn next(&mut self) -> Option<Value> {
-        let cons = self.rest.as_cons()?.clone();
-        if self.rounds.is_closed_by(&cons) {
+        if self.rounds.is_closed_by(self.rest.as_cons()?) {
             return None;
         }
-        cons.copy_cdr_to(&mut self.rest);
+        let cons = self.rest.take_pair()?;
+        cons.copy_cdr_into(&mut self.rest);
         Some(cons.car())
     }
 }

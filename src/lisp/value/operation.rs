@@ -28,7 +28,53 @@ impl Comparison {
     }
 }
 
-/// One operation. "Push" and "pop" refer to the value stack.
+/// A comparison, and whether to jump when it holds or when it does not. Its lowest three bits say for
+/// which orders of two integers it jumps, as those of a comparison say for which this holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Test(u8);
+
+impl Test {
+    const WHEN: u8 = 0b1000;
+    const ORDERS: u8 = 0b0111;
+
+    /// Jumps when the comparison holds (if that is wanted) or when it does not.
+    pub(crate) fn new(comparison: Comparison, when: bool) -> Test {
+        match when {
+            true => Test(comparison as u8 | Test::WHEN),
+            false => Test(comparison as u8 ^ Test::ORDERS),
+        }
+    }
+
+    /// Does it jump for two integers?
+    #[inline(always)]
+    pub(crate) fn jumps(self, a: i64, b: i64) -> bool {
+        let order = (a >= b) as u8 + (a > b) as u8;
+        (self.0 >> order) & 1 != 0
+    }
+
+    /// The comparison.
+    pub(crate) fn comparison(self) -> Comparison {
+        let orders = match self.when() {
+            true => self.0 & Test::ORDERS,
+            false => self.0 ^ Test::ORDERS,
+        };
+        match orders {
+            0b001 => Comparison::Less,
+            0b010 => Comparison::Equal,
+            0b011 => Comparison::LessEqual,
+            0b100 => Comparison::Greater,
+            _ => Comparison::GreaterEqual,
+        }
+    }
+
+    /// Does it jump when the comparison holds?
+    pub(crate) fn when(self) -> bool {
+        self.0 & Test::WHEN != 0
+    }
+}
+
+/// One operation, in eight bytes; slots and numbers that do not fit are left to longer sequences.
+/// "Push" and "pop" refer to the value stack.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Op {
     /// Push a constant.
@@ -80,50 +126,39 @@ pub(crate) enum Op {
     /// Jump if the top is true, else pop it.
     JumpIfTrueOrPop(u32),
     /// Jump if a parameter was supplied.
-    JumpIfSupplied(u32, u32),
+    JumpIfSupplied(u16, u32),
     /// Jump if a local is true (when that is wanted) or `NIL` (when it is not). So do the following
     /// operations, according to the result of a test.
-    JumpIfLocal { slot: u32, when: bool, target: u32 },
+    JumpIfLocal { slot: u16, when: bool, target: u32 },
     /// Pop; is it a pair?
     JumpIfConsp { when: bool, target: u32 },
     /// Is a local a pair?
-    JumpIfLocalConsp { slot: u32, when: bool, target: u32 },
+    JumpIfLocalConsp { slot: u16, when: bool, target: u32 },
     /// Pop two; are they `eq`?
     JumpIfEq { when: bool, target: u32 },
     /// Pop; is it `eq` to a constant?
     JumpIfEqConst {
-        constant: u32,
+        constant: u16,
         when: bool,
         target: u32,
     },
     /// Pop two numbers; do they compare like that? This and the following operations skip the next
     /// one if they do not jump.
-    JumpIfCompare {
-        comparison: Comparison,
-        when: bool,
-        target: u32,
-    },
+    JumpIfCompare { test: Test, target: u32 },
     /// Pop a number; does it compare like that with an integer?
-    JumpIfCompareInt {
-        comparison: Comparison,
-        when: bool,
-        n: i32,
-        target: u32,
-    },
+    JumpIfCompareInt { test: Test, n: i16, target: u32 },
     /// Do two locals compare like that?
     JumpIfCompareLocals {
-        comparison: Comparison,
-        when: bool,
-        a: u16,
-        b: u16,
+        test: Test,
+        a: u8,
+        b: u8,
         target: u32,
     },
     /// Does a local compare like that with an integer?
     JumpIfCompareLocalInt {
-        comparison: Comparison,
-        when: bool,
+        test: Test,
         slot: u8,
-        n: i32,
+        n: i8,
         target: u32,
     },
     /// Push whether a parameter was supplied.
@@ -175,9 +210,9 @@ pub(crate) enum Op {
     /// Top plus a small integer.
     AddInt(i32),
     /// Push a local plus a small integer.
-    LocalAddInt(u32, i32),
+    LocalAddInt(u16, i32),
     /// Add a small integer to a local and skip the next operation.
-    AddToLocal(u32, i32),
+    AddToLocal(u16, i32),
     /// Do the two topmost numbers compare like that?
     Compare(Comparison),
     /// Is the top a pair?
@@ -234,6 +269,8 @@ pub(crate) enum Op {
     EnterRestarts,
 }
 
+const _: () = assert!(size_of::<Op>() == 8);
+
 impl Op {
     /// Is it a jump that compares numbers, and so may find that they are none?
     pub(crate) fn may_fail_instead_of_jump(self) -> bool {
@@ -267,6 +304,30 @@ impl Op {
             | Op::EnterBlock { target, .. }
             | Op::EnterCatch { target, .. } => Some(target),
             _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_test_jumps_when_its_comparison_says_so() {
+        for comparison in [
+            Comparison::Less,
+            Comparison::Equal,
+            Comparison::LessEqual,
+            Comparison::Greater,
+            Comparison::GreaterEqual,
+        ] {
+            for when in [true, false] {
+                let test = Test::new(comparison, when);
+                assert_eq!((test.comparison(), test.when()), (comparison, when));
+                for (a, b) in [(1, 2), (2, 2), (3, 2), (i64::MIN, i64::MAX)] {
+                    assert_eq!(test.jumps(a, b), comparison.holds(a, b) == when);
+                }
+            }
         }
     }
 }

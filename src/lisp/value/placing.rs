@@ -17,42 +17,78 @@ pub(crate) fn push_made<T>(stack: &mut Vec<T>, make: impl FnOnce() -> T) {
 }
 
 impl Value {
-    /// Pushes a copy onto a stack.
+    /// Stores a value where there is nothing to free.
     #[inline(always)]
-    pub(crate) fn push_copy(&self, stack: &mut Vec<Value>) {
+    pub(crate) fn fill(&mut self, value: Value) {
+        std::mem::forget(std::mem::replace(self, value));
+    }
+
+    /// Stores a copy where there is nothing to free.
+    #[inline(always)]
+    pub(crate) fn copy_into(&self, place: &mut Value) {
         match self {
-            Value::Int(n) => push_made(stack, || Value::Int(*n)),
-            Value::Cons(cons) => push_made(stack, || Value::Cons(cons.clone())),
-            Value::Symbol(sym, hold) if hold.is_none() => push_made(stack, || Value::symbol(*sym)),
-            Value::Vector(vector) => push_made(stack, || Value::Vector(vector.clone())),
-            other => other.push_other(stack),
+            Value::Int(n) => place.fill(Value::Int(*n)),
+            Value::Cons(cons) => place.fill(Value::Cons(cons.clone())),
+            Value::Symbol(sym, hold) if hold.is_none() => place.fill(Value::symbol(*sym)),
+            other => other.copy_other_into(place),
         }
     }
 
-    /// Pushes a copy of a value of one of the less frequent kinds.
+    /// The same for a value of one of the less frequent kinds.
     #[inline(never)]
-    fn push_other(&self, stack: &mut Vec<Value>) {
-        stack.push(self.clone_other());
+    fn copy_other_into(&self, place: &mut Value) {
+        match self {
+            Value::Vector(vector) => place.fill(Value::Vector(vector.clone())),
+            other => place.fill(other.clone_other()),
+        }
+    }
+
+    /// Drops the value, and leaves behind what needs not be freed.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        if self.is_plain() {
+            return;
+        }
+        if let Value::Cons(_) = self {
+            if let Some(pair) = self.take_pair() {
+                cons::release(pair);
+            }
+        } else {
+            self.clear_other();
+        }
+    }
+
+    #[inline(never)]
+    fn clear_other(&mut self) {
+        drop(std::mem::take(self));
+    }
+
+    /// Moves the value to a place where there is nothing to free, and leaves behind what needs not be
+    /// freed.
+    #[inline(always)]
+    pub(crate) fn move_into(&mut self, place: &mut Value) {
+        match self {
+            Value::Int(n) => place.fill(Value::Int(*n)),
+            Value::Symbol(sym, hold) if hold.is_none() => place.fill(Value::symbol(*sym)),
+            Value::Cons(_) => {
+                if let Some(cons) = self.take_pair() {
+                    place.fill(Value::Cons(cons));
+                }
+            }
+            _ => self.move_other_into(place),
+        }
+    }
+
+    #[inline(never)]
+    fn move_other_into(&mut self, place: &mut Value) {
+        place.fill(std::mem::take(self));
     }
 
     /// Moves the value to another place, and leaves behind what needs not be freed.
     #[inline(always)]
     pub(crate) fn move_to(&mut self, place: &mut Value) {
-        match self {
-            Value::Int(n) => place.become_plain(Value::Int(*n)),
-            Value::Symbol(sym, hold) if hold.is_none() => place.become_plain(Value::symbol(*sym)),
-            Value::Cons(_) => {
-                if let Some(cons) = self.take_pair() {
-                    place.become_cons(cons);
-                }
-            }
-            _ => self.move_other_to(place),
-        }
-    }
-
-    #[inline(never)]
-    fn move_other_to(&mut self, place: &mut Value) {
-        *place = std::mem::take(self);
+        place.clear();
+        self.move_into(place);
     }
 
     /// Takes out the pair, if the value is one, and leaves "no value" behind; a value of another kind
@@ -66,28 +102,6 @@ impl Value {
                 std::mem::forget(other);
                 None
             }
-        }
-    }
-
-    /// Puts a value of which there is nothing to free into this place.
-    #[inline(always)]
-    fn become_plain(&mut self, value: Value) {
-        if self.is_plain() {
-            std::mem::forget(std::mem::replace(self, value));
-        } else {
-            *self = value;
-        }
-    }
-
-    /// Puts a pair into this place, where there is often one.
-    #[inline(always)]
-    pub(super) fn become_cons(&mut self, cons: Rc<Cons>) {
-        match self {
-            Value::Cons(old) => cons::release(std::mem::replace(old, cons)),
-            _ if self.is_plain() => {
-                std::mem::forget(std::mem::replace(self, Value::Cons(cons)));
-            }
-            _ => *self = Value::Cons(cons),
         }
     }
 }

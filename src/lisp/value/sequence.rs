@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use crate::lisp::value::array::Vector;
-use crate::lisp::value::cons::Cons;
+use crate::lisp::value::cons::{self, Cons};
 use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -426,17 +426,22 @@ impl ListWalk {
     }
 
     /// The next pair.
+    #[inline(always)]
     pub(crate) fn next_cons(&mut self) -> Result<Option<Rc<Cons>>, Box<Raise>> {
-        let cons = match &self.rest {
-            Value::Cons(cons) => cons.clone(),
+        match &self.rest {
+            Value::Cons(cons) => {
+                if self.rounds.is_closed_by(cons) {
+                    return Err(circular(&self.rest));
+                }
+            }
             Value::Symbol(known::NIL, ..) => return Ok(None),
             other => return Err(Raise::type_error(other, known::LIST)),
-        };
-        if self.rounds.is_closed_by(&cons) {
-            return Err(circular(&self.rest));
         }
-        cons.copy_cdr_to(&mut self.rest);
-        Ok(Some(cons))
+        let cons = self.rest.take_pair();
+        if let Some(cons) = &cons {
+            cons.copy_cdr_into(&mut self.rest);
+        }
+        Ok(cons)
     }
 
     /// The next element.
@@ -456,7 +461,8 @@ pub(crate) fn circular(list: &Value) -> Box<Raise> {
 pub(crate) fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
     let mut walk = ListWalk::new(list.clone());
     let mut count = 0;
-    while walk.next_cons()?.is_some() {
+    while let Some(cons) = walk.next_cons()? {
+        cons::release(cons);
         count += 1;
     }
     Ok(count)
@@ -542,7 +548,7 @@ pub(crate) fn last_pair(list: &Value) -> Result<Option<Rc<Cons>>, Box<Raise>> {
         if rounds.is_closed_by(&next) {
             return Err(circular(list));
         }
-        last = next;
+        cons::release(std::mem::replace(&mut last, next));
     }
     Ok(Some(last))
 }

@@ -1,11 +1,11 @@
 //! A place that holds one value and can be assigned through a shared reference.
 
 use std::cell::Cell;
+use std::mem::{forget, take};
 use std::rc::Rc;
 
 use super::Value;
 use super::cons::Cons;
-use super::placing::push_made;
 
 /// A mutable place for one value.
 #[derive(Default)]
@@ -21,59 +21,35 @@ impl Slot {
     /// The value.
     #[inline]
     pub(crate) fn get(&self) -> Value {
-        match self.0.take() {
-            Value::Int(n) => {
-                self.put_back(Value::Int(n));
-                Value::Int(n)
-            }
-            Value::Cons(cons) => {
-                let copy = cons.clone();
-                self.put_back(Value::Cons(cons));
-                Value::Cons(copy)
-            }
-            other => {
-                self.put_back(other);
-                self.with(Value::clone_other)
-            }
-        }
+        let mut value = Value::Unbound;
+        self.copy_into(&mut value);
+        value
     }
 
-    /// Pushes a copy of the value onto a stack.
+    /// Stores a copy of the value where there is nothing to free.
     #[inline(always)]
-    pub(crate) fn push_copy(&self, stack: &mut Vec<Value>) {
-        match self.0.take() {
+    pub(crate) fn copy_into(&self, place: &mut Value) {
+        // What is forgotten is plain, or has been put back; were it dropped, that would be checked.
+        let value = self.0.take();
+        match value {
             Value::Int(n) => {
                 self.put_back(Value::Int(n));
-                push_made(stack, || Value::Int(n));
+                place.fill(Value::Int(n));
+                forget(value);
             }
             Value::Cons(cons) => {
                 let copy = cons.clone();
                 self.put_back(Value::Cons(cons));
-                push_made(stack, || Value::Cons(copy));
+                place.fill(Value::Cons(copy));
             }
-            Value::Symbol(sym, hold) if hold.is_none() => {
+            Value::Symbol(sym, ref hold) if hold.is_none() => {
                 self.put_back(Value::symbol(sym));
-                push_made(stack, || Value::symbol(sym));
+                place.fill(Value::symbol(sym));
+                forget(value);
             }
             other => {
                 self.put_back(other);
-                self.push_other(stack);
-            }
-        }
-    }
-
-    /// Puts a copy of the value into a place.
-    #[inline(always)]
-    pub(crate) fn copy_to(&self, place: &mut Value) {
-        match self.0.take() {
-            Value::Cons(cons) => {
-                let copy = cons.clone();
-                self.put_back(Value::Cons(cons));
-                place.become_cons(copy);
-            }
-            other => {
-                self.put_back(other);
-                *place = self.with(Value::clone);
+                self.copy_other_into(place);
             }
         }
     }
@@ -97,43 +73,37 @@ impl Slot {
     /// Exchanges the value for one in another place.
     #[inline(always)]
     pub(crate) fn exchange(&self, place: &mut Value) {
-        match self.0.take() {
-            Value::Int(n) => {
-                self.fill_from(place);
-                std::mem::forget(std::mem::replace(place, Value::Int(n)));
-            }
-            Value::Cons(cons) => {
-                self.fill_from(place);
-                std::mem::forget(std::mem::replace(place, Value::Cons(cons)));
-            }
-            other => {
-                self.fill_from(place);
-                std::mem::forget(std::mem::replace(place, other));
-            }
-        }
+        let mut value = self.0.take();
+        self.fill_from(place);
+        value.move_into(place);
+        forget(value);
     }
 
-    /// Moves a value here, where there is "no value", and leaves that behind.
+    /// Moves a value here, where there is "no value", and leaves behind what needs not be freed.
     #[inline(always)]
     pub(crate) fn fill_from(&self, place: &mut Value) {
-        match std::mem::take(place) {
-            Value::Int(n) => self.put_back(Value::Int(n)),
-            Value::Symbol(sym, hold) if hold.is_none() => self.put_back(Value::symbol(sym)),
-            Value::Cons(cons) => self.put_back(Value::Cons(cons)),
-            other => self.put_back(other),
+        match place {
+            Value::Int(n) => self.put_back(Value::Int(*n)),
+            Value::Symbol(sym, hold) if hold.is_none() => self.put_back(Value::symbol(*sym)),
+            Value::Cons(_) => {
+                if let Some(cons) = place.take_pair() {
+                    self.put_back(Value::Cons(cons));
+                }
+            }
+            other => self.put_back(take(other)),
         }
     }
 
     #[inline(never)]
-    fn push_other(&self, stack: &mut Vec<Value>) {
-        stack.push(self.with(Value::clone_other));
+    fn copy_other_into(&self, place: &mut Value) {
+        place.fill(self.with(Value::clone_other));
     }
 
     /// Stores a value where it was just taken from. So what is replaced is "no value", which needs not
     /// be freed.
     #[inline(always)]
     fn put_back(&self, value: Value) {
-        std::mem::forget(self.0.replace(value));
+        forget(self.0.replace(value));
     }
 
     /// Looks at the value without counting a reference. `look` must not touch this slot.

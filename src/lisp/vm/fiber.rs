@@ -2,44 +2,12 @@
 
 use std::rc::Rc;
 
-use super::calls::Suspended;
+use super::frames::Frames;
+use super::stack::Stack;
 use crate::lisp::image::Image;
 use crate::lisp::value::Value;
-use crate::lisp::value::function::Function;
 use crate::lisp::value::release::put_off_others;
 use crate::lisp::value::symbol::Sym;
-
-/// A call that has not returned.
-pub(crate) struct Frame {
-    /// What continues when a callee returns.
-    pub(crate) kind: FrameKind,
-    /// Where the frame's values start on the stack.
-    pub(crate) base: usize,
-    /// Length to which its return cuts the stack.
-    pub(crate) cut: usize,
-    /// Number of dynamic entries when it was entered.
-    pub(crate) dynamic: usize,
-    /// Does the caller want all values?
-    pub(crate) multi: bool,
-}
-
-/// What runs in a frame.
-pub(crate) enum FrameKind {
-    /// Compiled code.
-    Code {
-        /// The closure that was called.
-        function: Rc<Function>,
-        /// The next operation.
-        pc: usize,
-    },
-    /// A builtin that is waiting for a value.
-    Native {
-        /// The rest of the builtin.
-        then: Box<Suspended>,
-        /// Does it want all values?
-        all: bool,
-    },
-}
 
 /// A handler: a type of conditions and a function.
 pub(crate) struct Handler {
@@ -142,9 +110,9 @@ pub(crate) struct Pending {
 #[derive(Default)]
 pub(crate) struct Fiber {
     /// The value stack.
-    pub(crate) stack: Vec<Value>,
+    pub(crate) stack: Stack,
     /// The frames, innermost last.
-    pub(crate) frames: Vec<Frame>,
+    pub(crate) frames: Frames,
     /// The dynamic entries, innermost last.
     pub(crate) dynamic: Vec<Dynamic>,
     /// Unwindings that wait for cleanup code to finish, innermost last.

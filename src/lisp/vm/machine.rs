@@ -14,18 +14,6 @@ use crate::lisp::value::Value;
 pub(crate) struct Machine<'a> {
     pub(crate) image: &'a mut Image,
     pub(crate) fiber: &'a mut Fiber,
-    /// What is under way, in case it is left.
-    pub(crate) under_way: Option<UnderWay>,
-}
-
-/// A computation in the middle of code that may be left by unwinding, before the frame and the
-/// stack are as after it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct UnderWay {
-    /// The next operation of the topmost frame.
-    pub(crate) pc: usize,
-    /// Height of the stack without the operands.
-    pub(crate) cut: usize,
 }
 
 /// Why the machine stopped.
@@ -48,10 +36,6 @@ pub(crate) enum Event {
 impl<'a> Machine<'a> {
     /// A machine for a fiber.
     pub(crate) fn new(image: &'a mut Image, fiber: &'a mut Fiber) -> Machine<'a> {
-        Machine {
-            image,
-            fiber,
-            under_way: None,
-        }
+        Machine { image, fiber }
     }
 }

@@ -5,5 +5,7 @@ pub(crate) mod callable;
 pub(crate) mod calls;
 pub(crate) mod computation;
 pub(crate) mod fiber;
+pub(crate) mod frames;
 pub(crate) mod machine;
+pub(crate) mod stack;
 pub(crate) mod step;

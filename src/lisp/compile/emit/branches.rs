@@ -7,7 +7,7 @@ use crate::lisp::compile::analyze::Compiled;
 use crate::lisp::compile::node::{Node, Target};
 use crate::lisp::source::Place;
 use crate::lisp::value::known;
-use crate::lisp::value::operation::{Comparison, Op};
+use crate::lisp::value::operation::{Comparison, Op, Test};
 use crate::lisp::value::symbol::Sym;
 
 /// The comparison that a function of two numbers makes, if it is one.
@@ -157,7 +157,7 @@ impl Emitter<'_> {
 
     /// Emits a value, and returns the operation that jumps according to its truth.
     fn emit_truth(&mut self, test: &Node, when: bool) -> Compiled<Op> {
-        if let Some(slot) = self.plain_local(test) {
+        if let Some(slot) = self.short_local(test) {
             return Ok(Op::JumpIfLocal {
                 slot,
                 when,
@@ -171,7 +171,7 @@ impl Emitter<'_> {
 
     fn emit_consp(&mut self, value: &Node, when: bool) -> Compiled<Op> {
         let target = 0;
-        if let Some(slot) = self.plain_local(value) {
+        if let Some(slot) = self.short_local(value) {
             return Ok(Op::JumpIfLocalConsp { slot, when, target });
         }
         self.emit(value, Want::One)?;
@@ -182,8 +182,10 @@ impl Emitter<'_> {
     fn emit_eq(&mut self, a: &Node, b: &Node, when: bool) -> Compiled<Op> {
         let target = 0;
         self.emit(a, Want::One)?;
-        if let Node::Const(value) = b {
-            let constant = self.constant(value)?;
+        if let Node::Const(value) = b
+            && let Ok(constant) = u16::try_from(self.constants.len())
+        {
+            self.constant(value)?;
             self.height -= 1;
             return Ok(Op::JumpIfEqConst {
                 constant,
@@ -205,48 +207,32 @@ impl Emitter<'_> {
         place: Place,
     ) -> Compiled<Op> {
         let target = 0;
-        let locals = (self.plain_local(a), self.plain_local(b));
-        if let (Some(a), Some(b)) = locals
-            && let (Ok(a), Ok(b)) = (u16::try_from(a), u16::try_from(b))
+        let test = Test::new(comparison, when);
+        let locals: (Option<u8>, Option<u8>) = (self.short_local(a), self.short_local(b));
+        if let (Some(a), Some(b)) = locals {
+            self.at(place);
+            return Ok(Op::JumpIfCompareLocals { test, a, b, target });
+        }
+        if let Some(slot) = locals.0
+            && let Some(n) = small_int(b)
         {
             self.at(place);
-            return Ok(Op::JumpIfCompareLocals {
-                comparison,
-                when,
-                a,
-                b,
-                target,
-            });
-        }
-        if let Some(n) = small_int(b) {
-            if let Some(slot) = locals.0.and_then(|slot| u8::try_from(slot).ok()) {
-                self.at(place);
-                return Ok(Op::JumpIfCompareLocalInt {
-                    comparison,
-                    when,
-                    slot,
-                    n,
-                    target,
-                });
-            }
-            self.emit(a, Want::One)?;
-            self.at(place);
-            self.height -= 1;
-            return Ok(Op::JumpIfCompareInt {
-                comparison,
-                when,
+            return Ok(Op::JumpIfCompareLocalInt {
+                test,
+                slot,
                 n,
                 target,
             });
         }
         self.emit(a, Want::One)?;
+        if let Some(n) = small_int(b) {
+            self.at(place);
+            self.height -= 1;
+            return Ok(Op::JumpIfCompareInt { test, n, target });
+        }
         self.emit(b, Want::One)?;
         self.at(place);
         self.height -= 2;
-        Ok(Op::JumpIfCompare {
-            comparison,
-            when,
-            target,
-        })
+        Ok(Op::JumpIfCompare { test, target })
     }
 }

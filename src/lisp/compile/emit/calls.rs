@@ -46,10 +46,10 @@ pub(crate) fn is_inlined(name: Sym) -> bool {
     is_operation || name == known::FUNCALL
 }
 
-/// A literal integer that fits an operation, positive or negated.
-pub(super) fn small_int(node: &Node) -> Option<i32> {
+/// A literal integer, if it fits an operation.
+pub(super) fn small_int<T: TryFrom<i64>>(node: &Node) -> Option<T> {
     match node {
-        Node::Const(Value::Int(n)) => i32::try_from(*n).ok(),
+        Node::Const(Value::Int(n)) => T::try_from(*n).ok(),
         _ => None,
     }
 }
@@ -63,7 +63,7 @@ fn sum_with_int(node: &Node) -> Option<(&Node, i32, Place)> {
         (known::ONE_PLUS, [a]) => (a, 1),
         (known::ONE_MINUS, [a]) => (a, -1),
         (known::PLUS, [a, b]) => (a, small_int(b)?),
-        (known::MINUS, [a, b]) => (a, small_int(b)?.checked_neg()?),
+        (known::MINUS, [a, b]) => (a, i32::checked_neg(small_int(b)?)?),
         _ => return None,
     };
     Some((a, n, *place))
@@ -148,7 +148,7 @@ impl Emitter<'_> {
         place: Place,
     ) -> Compiled<bool> {
         if let Some((a, n, _)) = sum_with_int(node) {
-            if let Some(slot) = self.plain_local(a) {
+            if let Some(slot) = self.short_local(a) {
                 self.at(place);
                 self.push(Op::LocalAddInt(slot, n));
             } else {
@@ -197,6 +197,9 @@ impl Emitter<'_> {
     /// is that, and returns whether it is.
     pub(super) fn emit_advance(&mut self, slot: u32, value: &Node) -> bool {
         let (operand, op, place) = if let Some((operand, n, place)) = sum_with_int(value) {
+            let Ok(slot) = u16::try_from(slot) else {
+                return false;
+            };
             (operand, Op::AddToLocal(slot, n), place)
         } else if let Node::Call(Target::Global(known::CDR | known::REST), args, place) = value
             && let [operand] = args.as_slice()

@@ -61,10 +61,15 @@ struct Emitter<'a> {
     places: Vec<(u32, Place)>,
     locals: Vec<Local>,
     height: u32,
+    /// The greatest height so far.
+    most: u32,
     dynamic: u32,
     blocks: Vec<OpenBlock>,
     tagbodies: Vec<OpenTagbody>,
 }
+
+/// Places that an operation may need beyond the height before it.
+const MORE_ROOM: usize = 2;
 
 /// Emits the code of a function.
 pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
@@ -78,6 +83,7 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
         places: Vec::new(),
         locals: Vec::new(),
         height: 0,
+        most: 0,
         dynamic: 0,
         blocks: Vec::new(),
         tagbodies: Vec::new(),
@@ -95,6 +101,7 @@ pub(super) fn emit_function(lambda: &LambdaNode) -> Compiled<Rc<Code>> {
         name: Signature::of(&lambda.name),
         parameters: lambda.parameters.clone(),
         exact_count: lambda.parameters.exact_count(),
+        room: emitter.most as usize + MORE_ROOM,
         ops: emitter.ops.into(),
         constants: emitter.constants,
         inner: emitter.inner,
@@ -113,8 +120,14 @@ fn index(n: usize) -> Compiled<u32> {
     u32::try_from(n).map_err(|_| Raise::program("The form is too large to be compiled."))
 }
 
+/// A slot of a parameter.
+fn short(slot: u32) -> Compiled<u16> {
+    u16::try_from(slot).map_err(|_| Raise::program("A function has too many parameters."))
+}
+
 impl Emitter<'_> {
     fn op(&mut self, op: Op) {
+        self.most = self.most.max(self.height);
         self.ops.push(op);
     }
 

@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use super::{Emitter, Want, index};
+use super::{Emitter, Want, index, short};
 use crate::lisp::compile::analyze::Compiled;
 use crate::lisp::compile::node::{Binding, LambdaNode, Node, Prologue};
 use crate::lisp::compile::scope::Var;
@@ -40,7 +40,7 @@ impl Emitter<'_> {
                         self.bind_top(binding);
                     }
                     let jump = self.ops.len();
-                    self.op(Op::JumpIfSupplied(slot, 0));
+                    self.op(Op::JumpIfSupplied(short(slot)?, 0));
                     self.emit(&default.init, Want::One)?;
                     self.op(Op::SetLocal(slot));
                     self.height -= 1;
@@ -117,6 +117,11 @@ impl Emitter<'_> {
             Node::Local(var) => self.plain_slot(var),
             _ => None,
         }
+    }
+
+    /// The same, if its number is small enough.
+    pub(super) fn short_local<T: TryFrom<u32>>(&self, node: &Node) -> Option<T> {
+        T::try_from(self.plain_local(node)?).ok()
     }
 
     pub(super) fn emit_variable(&mut self, var: &Rc<Var>) {

@@ -98,6 +98,7 @@ impl Copier {
             name: code.name.copied(self),
             parameters: code.parameters.clone(),
             exact_count: code.exact_count,
+            room: code.room,
             ops: code.ops.clone(),
             constants: self.all(&code.constants),
             inner,

@@ -150,16 +150,6 @@ pub(crate) fn compare_like(
     }
 }
 
-/// Does a number compare like that with a small integer?
-#[inline(always)]
-pub(crate) fn compare_int(comparison: Comparison, a: &Value, n: i32) -> Result<bool, Box<Raise>> {
-    let n = i64::from(n);
-    match a {
-        Value::Int(x) => Ok(comparison.holds(*x, n)),
-        _ => compare_any(comparison, a, &Value::Int(n)),
-    }
-}
-
 #[inline(never)]
 fn compare_any(comparison: Comparison, a: &Value, b: &Value) -> Result<bool, Box<Raise>> {
     match comparison {

@@ -27,8 +27,8 @@ pub(crate) use bits::{
     ByteSpecifier, and, ash, bit_count, bit_length, deposit, extract, is_bit_set, not, or, xor,
 };
 pub(crate) use compare::{
-    compare, compare_int, compare_like, equal_by_value, greater, greater_equal, is_even, is_minus,
-    is_plus, is_zero, less, less_equal, maximum, minimum, number_equal,
+    compare, compare_like, equal_by_value, greater, greater_equal, is_even, is_minus, is_plus,
+    is_zero, less, less_equal, maximum, minimum, number_equal,
 };
 pub(crate) use complex::{cis, complex, conjugate, imaginary_part, is_complex, phase, real_part};
 pub(crate) use convert::{
