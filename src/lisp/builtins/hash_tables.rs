@@ -68,12 +68,12 @@ fn hash_table_p(_: &mut Image, args: &[Value]) -> Outcome {
     Ok(Value::bool(matches!(args[0], Value::Hash(_))))
 }
 
-fn gethash(_: &mut Image, args: &[Value]) -> Outcome {
+fn gethash(image: &mut Image, args: &[Value]) -> Outcome {
     let (value, found) = match table(&args[1])?.get(&args[0]) {
         Some(value) => (value, true),
         None => (args.get(2).cloned().unwrap_or(Value::NIL), false),
     };
-    Ok(Value::values(vec![value, found.into()]))
+    Ok(image.with_second(value, || found.into()))
 }
 
 fn set_gethash(_: &mut Image, args: &[Value]) -> Outcome {

@@ -231,28 +231,28 @@ pub(crate) static TABLE: &[Builtin] = &[
         "number &optional divisor",
         "The integer at or below the quotient, and the remainder.",
         &["(floor -7 2) => -4 ; 1", "(floor 7.5) => 7 ; 0.5"],
-        |_, args| divide(args, Rounding::Floor),
+        |image, args| divide(image, args, Rounding::Floor),
     ),
     pure(
         "CEILING",
         "number &optional divisor",
         "The integer at or above the quotient, and the remainder.",
         &["(ceiling 7 2) => 4 ; -1"],
-        |_, args| divide(args, Rounding::Ceiling),
+        |image, args| divide(image, args, Rounding::Ceiling),
     ),
     pure(
         "TRUNCATE",
         "number &optional divisor",
         "The quotient without its fraction, and the remainder.",
         &["(truncate -7 2) => -3 ; -1"],
-        |_, args| divide(args, Rounding::Truncate),
+        |image, args| divide(image, args, Rounding::Truncate),
     ),
     pure(
         "ROUND",
         "number &optional divisor",
         "The integer nearest to the quotient, the even one of two, and the remainder.",
         &["(round 2.5) => 2 ; 0.5", "(round 7 2) => 4 ; -1"],
-        |_, args| divide(args, Rounding::Round),
+        |image, args| divide(image, args, Rounding::Round),
     ),
     pure(
         "FFLOOR",
@@ -389,9 +389,9 @@ fn divisor(args: &[Value]) -> Value {
     args.get(1).cloned().unwrap_or(Value::Int(1))
 }
 
-fn divide(args: &[Value], rounding: Rounding) -> Outcome {
+fn divide(image: &Image, args: &[Value], rounding: Rounding) -> Outcome {
     let (quotient, rest) = number::divide(&args[0], &divisor(args), rounding)?;
-    Ok(Value::values(vec![quotient, rest]))
+    Ok(image.with_second(quotient, || rest))
 }
 
 fn divide_to_float(args: &[Value], rounding: Rounding) -> Outcome {

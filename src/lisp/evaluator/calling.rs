@@ -6,6 +6,7 @@ use super::entry::Next;
 use crate::lisp::image::Image;
 use crate::lisp::native::NativeCall;
 use crate::lisp::object;
+use crate::lisp::object::dispatch::AtOnce;
 use crate::lisp::print;
 use crate::lisp::value::Value;
 use crate::lisp::value::code::Code;
@@ -187,6 +188,20 @@ impl Machine<'_> {
             };
         }
         let start = self.fiber.stack.len() - count;
+        if let Body::Generic(generic) = &function.body {
+            let args = &self.fiber.stack[start..];
+            match object::dispatch::call_at_once(self.image, generic, args) {
+                Some(AtOnce::Slot(value)) => {
+                    self.fiber.stack.truncate(cut);
+                    self.fiber.stack.push(value);
+                    return Next::Run;
+                }
+                Some(AtOnce::Method(method)) => {
+                    return self.call_on_stack(method, count, cut, multi);
+                }
+                None => {}
+            }
+        }
         if let Body::Native(native) = &function.body
             && native.accepts(count)
             && let Some(f) = self.image.pure_call(native)

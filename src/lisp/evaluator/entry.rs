@@ -95,6 +95,7 @@ impl Machine<'_> {
     /// Runs until the machine stops. Rust functions that work long may be left on the way.
     fn go_on(&mut self, begin: impl FnOnce(&mut Self) -> Next) -> Event {
         let _watch = self.image.limits.watch();
+        self.image.wants_all = true;
         let leave = |machine: &mut Self| machine.fiber.leave(machine.image);
         let first = |machine: &mut Self| {
             let next = begin(machine);
@@ -140,6 +141,7 @@ impl Machine<'_> {
     /// an interrupt.
     fn left(&mut self, reason: Stopped) -> Next {
         self.fiber.stack.clear_above();
+        self.image.wants_all = true;
         let raise = Box::<Raise>::from(reason);
         if reason != Stopped::Interrupted {
             return self.raise(raise);

@@ -241,6 +241,46 @@ impl Window<'_> {
         result
     }
 
+    /// Pushes the element of a vector that is a local, at an index that is one, and returns whether it
+    /// can be done without the builtin.
+    #[inline(always)]
+    pub(super) fn local_element(&mut self, is_simple: bool, vector: usize, index: usize) -> bool {
+        let (used, room) = self.slots.split_at_mut(self.top);
+        let (Value::Vector(vector), Value::Int(index)) = (&used[vector], &used[index]) else {
+            return false;
+        };
+        if is_simple && !vector.is_general_simple() {
+            return false;
+        }
+        let index = usize::try_from(*index).unwrap_or(usize::MAX);
+        if !vector.copy_into(index, &mut room[0]) {
+            return false;
+        }
+        self.top += 1;
+        true
+    }
+
+    /// Pops a value and makes it the element of a vector that is a local, at an index that is one, and
+    /// returns whether it can be done without the builtin.
+    #[inline(always)]
+    pub(super) fn set_local_element(&mut self, vector: usize, index: usize) -> bool {
+        let (used, top) = self.slots.split_at_mut(self.top - 1);
+        let (Value::Vector(vector), Value::Int(index)) = (&used[vector], &used[index]) else {
+            return false;
+        };
+        if !vector.is_general_simple() {
+            return false;
+        }
+        let value = &mut top[0];
+        cycles::note(vector, value);
+        let index = usize::try_from(*index).unwrap_or(usize::MAX);
+        if !vector.move_into(index, value) {
+            return false;
+        }
+        self.top -= 1;
+        true
+    }
+
     /// `rplaca` of the two topmost values.
     #[inline(always)]
     pub(super) fn set_car(&mut self) -> Result<(), Box<Raise>> {
@@ -305,6 +345,26 @@ impl Window<'_> {
             self.drop_top();
         }
         done
+    }
+
+    /// Replaces the top with the result of an operation on it and a local, if both are integers and
+    /// there is one.
+    #[inline(always)]
+    pub(super) fn combine_with(
+        &mut self,
+        i: usize,
+        operation: fn(i64, i64) -> Option<i64>,
+    ) -> bool {
+        let Value::Int(y) = self.slots[i] else {
+            return false;
+        };
+        if let Value::Int(x) = self.last_mut()
+            && let Some(result) = operation(*x, y)
+        {
+            *x = result;
+            return true;
+        }
+        false
     }
 
     /// Replaces the two topmost integers with the result of an operation, if they are that and have

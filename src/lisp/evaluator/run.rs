@@ -140,6 +140,15 @@ impl Machine<'_> {
                     }
                 };
             }
+            // The same with the top and a local.
+            macro_rules! arithmetic_with {
+                ($i:expr, $of_integers:expr, $of_numbers:expr) => {
+                    if !window.combine_with($i, $of_integers) {
+                        let value = compute!(1, $of_numbers(window.last(), &window.slots[$i]));
+                        window.push(value);
+                    }
+                };
+            }
             // Enters the code of a function whose arguments are the topmost values, `below` which
             // there may be what goes with them.
             macro_rules! enter {
@@ -178,6 +187,7 @@ impl Machine<'_> {
                         Op::Int(n) => window.push_int(i64::from(n)),
 
                         Op::Local(i) => window.local(i as usize),
+                        Op::TwoLocals(a, b) => window.two_locals(usize::from(a), usize::from(b)),
                         Op::LocalBox(i) => window.local_box(i as usize),
                         Op::SetLocal(i) => window.set_local(i as usize),
                         Op::SetLocalBox(i) => window.set_local_box(i as usize),
@@ -291,6 +301,17 @@ impl Machine<'_> {
                                 target
                             );
                         }
+                        Op::JumpIfCompareLocal { test, slot, target } => {
+                            let slot = usize::from(slot);
+                            let ints = both_ints((&window.slots[slot], window.last()));
+                            branch_compared!(
+                                test,
+                                ints,
+                                (&window.slots[slot], window.last()),
+                                1,
+                                target
+                            );
+                        }
                         Op::JumpIfCompareLocalInt {
                             test,
                             slot,
@@ -371,6 +392,16 @@ impl Machine<'_> {
                             pc += 1;
                         }
                         Op::LocalPath(i, path) => check!(window.local_path(i as usize, path)),
+                        Op::SetCarOnly => {
+                            check!(window.set_car());
+                            window.drop_top();
+                            pc += 1;
+                        }
+                        Op::SetCdrOnly => {
+                            check!(window.set_cdr());
+                            window.drop_top();
+                            pc += 1;
+                        }
                         Op::SetCar => check!(window.set_car()),
                         Op::SetCdr => check!(window.set_cdr()),
                         Op::Cons => window.join_top(),
@@ -389,6 +420,12 @@ impl Machine<'_> {
                         Op::Add => arithmetic!(i64::checked_add, number::add),
                         Op::Sub => arithmetic!(i64::checked_sub, number::sub),
                         Op::Mul => arithmetic!(i64::checked_mul, number::mul),
+                        Op::AddLocal(i) => {
+                            arithmetic_with!(i as usize, i64::checked_add, number::add);
+                        }
+                        Op::SubLocal(i) => {
+                            arithmetic_with!(i as usize, i64::checked_sub, number::sub);
+                        }
                         Op::AddInt(n) => {
                             let n = i64::from(n);
                             if let Value::Int(x) = window.last_mut()
@@ -439,6 +476,24 @@ impl Machine<'_> {
                         Op::Element(sym) => {
                             if !window.element(sym) {
                                 break 'call (sym, 2, false);
+                            }
+                        }
+                        Op::LocalElement {
+                            is_simple,
+                            vector,
+                            index,
+                        } => {
+                            let (vector, index) = (usize::from(vector), usize::from(index));
+                            if !window.local_element(is_simple, vector, index) {
+                                window.two_locals(vector, index);
+                                let sym = if is_simple { known::SVREF } else { known::AREF };
+                                break 'call (sym, 2, false);
+                            }
+                        }
+                        Op::SetLocalElement { vector, index } => {
+                            let (vector, index) = (usize::from(vector), usize::from(index));
+                            if window.set_local_element(vector, index) {
+                                pc += 4;
                             }
                         }
                         Op::SetElement(sym) => {
@@ -548,7 +603,10 @@ impl Machine<'_> {
                 let start = window.top - usize::from(count);
                 noted.set(pc);
                 window.close_below(start);
-                match pure(self.image, &window.slots[start..window.top]) {
+                self.image.wants_all = multi;
+                let result = pure(self.image, &window.slots[start..window.top]);
+                self.image.wants_all = true;
+                match result {
                     Ok(mut value) => {
                         window.cut(start);
                         if !multi && matches!(value, Value::Multiple(_)) {

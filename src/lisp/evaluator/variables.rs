@@ -22,6 +22,18 @@ impl Window<'_> {
         self.top += 1;
     }
 
+    /// Pushes two locals.
+    #[inline(always)]
+    pub(super) fn two_locals(&mut self, a: usize, b: usize) {
+        let (used, room) = self.slots.split_at_mut(self.top);
+        let [first, second, ..] = room else {
+            unreachable!("code has room for what it pushes");
+        };
+        used[a].copy_into(first);
+        used[b].copy_into(second);
+        self.top += 2;
+    }
+
     /// Pushes what a local's box holds.
     #[inline(always)]
     pub(super) fn local_box(&mut self, i: usize) {

@@ -54,6 +54,7 @@ impl Image {
             notes: None,
             environment: Value::NIL,
             nesting: 0,
+            wants_all: true,
             signalled: Signalled::default(),
             identities: self.identities,
             entries: self.entries.clone(),

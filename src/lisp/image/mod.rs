@@ -69,6 +69,8 @@ pub(crate) struct Image {
     pub(crate) environment: Value,
     /// How deeply runs of macro functions are nested.
     pub(crate) nesting: usize,
+    /// Are all values of the builtin that runs wanted? It may leave out all but the first one if not.
+    pub(crate) wants_all: bool,
     signalled: Signalled,
     identities: i64,
     /// What the tables say about functions, macros and special operators, by name: calls, help,
@@ -122,6 +124,7 @@ impl Image {
             notes: None,
             environment: Value::NIL,
             nesting: 0,
+            wants_all: true,
             signalled: Signalled::default(),
             identities: 0,
             natives: Vec::new(),
@@ -165,6 +168,14 @@ impl Image {
         let expansion = expand(self, form);
         self.environment = outside;
         expansion
+    }
+
+    /// A value of a builtin and another one after it, if that is wanted.
+    pub(crate) fn with_second(&self, first: Value, second: impl FnOnce() -> Value) -> Value {
+        match self.wants_all {
+            true => Value::values(vec![first, second()]),
+            false => first,
+        }
     }
 
     /// Takes a note about a form, if notes are wanted.

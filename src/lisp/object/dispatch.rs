@@ -18,7 +18,7 @@ use crate::lisp::value::dispatch::{
     Position, Shape, SlotPlace,
 };
 use crate::lisp::value::function::Function;
-use crate::lisp::value::generic::GenericFunction;
+use crate::lisp::value::generic::{GenericFunction, Method};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::vm::machine::Machine;
@@ -100,39 +100,105 @@ pub(crate) fn call_generic(
         check_keys(machine.image, keys, &args[effective.keys_from..])?;
     }
     match &effective.shape {
-        Shape::Read(SlotPlace::Local(index), _) => {
-            if let Some(Value::Instance(instance)) = args.first()
-                && let Some(value) = instance.slots.borrow().get(*index)
-                && !value.is_unbound()
-            {
-                return Ok(Step::Return(value.clone()));
-            }
-        }
-        Shape::Read(SlotPlace::Shared(slot), _) => {
-            let value = slot.get();
-            if !value.is_unbound() {
+        Shape::Read(place, _) => {
+            if let Some(value) = place.read(&args) {
                 return Ok(Step::Return(value));
             }
         }
-        Shape::Write(SlotPlace::Local(index), _) => {
-            if let [value, Value::Instance(instance)] = args.as_slice()
-                && let Some(slot) = instance.slots.borrow_mut().get_mut(*index)
-            {
-                cycles::note(instance, value);
-                *slot = value.clone();
-                return Ok(Step::Return(value.clone()));
-            }
-        }
-        Shape::Write(SlotPlace::Shared(slot), _) => {
-            if let [value, _] = args.as_slice() {
-                slot.set(value.clone());
-                return Ok(Step::Return(value.clone()));
+        Shape::Write(place, _) => {
+            if let Some(value) = place.write(&args) {
+                return Ok(Step::Return(value));
             }
         }
         Shape::Single(_) | Shape::Combined { .. } => {}
         Shape::NotApplicable => return no_applicable_method(machine.image, function, args),
     }
     combine::run(machine, &effective, combine::START, args)
+}
+
+/// A call of a generic function that is no more than a slot or one function.
+pub(crate) enum AtOnce {
+    /// The value of the slot, which has been read or written.
+    Slot(Value),
+    /// The function of the only method that runs; it takes the arguments of the call.
+    Method(Rc<Function>),
+}
+
+/// Calls a generic function with arguments that need not be moved, if the effective method is known and
+/// that simple.
+pub(crate) fn call_at_once(
+    image: &Image,
+    generic: &GenericFunction,
+    args: &[Value],
+) -> Option<AtOnce> {
+    if !generic.parameters.borrow().accepts(args.len()) || args.iter().any(is_obsolete) {
+        return None;
+    }
+    let mut dispatch = generic.dispatch.borrow_mut();
+    let key = dispatch.key(image, args)?;
+    let effective = dispatch.find(&key)?;
+    if effective.keys.is_some() {
+        return None;
+    }
+    match &effective.shape {
+        Shape::Read(place, _) => place.read(args).map(AtOnce::Slot),
+        Shape::Write(place, _) => place.write(args).map(AtOnce::Slot),
+        Shape::Single(method) => method.alone(),
+        Shape::Combined {
+            around,
+            before,
+            primary,
+            after,
+            combination,
+        } if combination.is_standard()
+            && around.is_empty()
+            && before.is_empty()
+            && after.is_empty() =>
+        {
+            primary.first()?.alone()
+        }
+        _ => None,
+    }
+}
+
+impl Method {
+    /// A call of the method alone, if it does not take the next one.
+    fn alone(&self) -> Option<AtOnce> {
+        (!self.takes_next).then(|| AtOnce::Method(self.function.clone()))
+    }
+}
+
+impl SlotPlace {
+    /// The value of the slot of the instance that is the argument, if it has one.
+    #[inline]
+    fn read(&self, args: &[Value]) -> Option<Value> {
+        let value = match (self, args.first()) {
+            (SlotPlace::Local(index), Some(Value::Instance(instance))) => {
+                instance.slots.borrow().get(*index)?.clone()
+            }
+            (SlotPlace::Local(_), _) => return None,
+            (SlotPlace::Shared(slot), _) => slot.get(),
+        };
+        (!value.is_unbound()).then_some(value)
+    }
+
+    /// Stores the first argument in the slot of the second one.
+    #[inline]
+    fn write(&self, args: &[Value]) -> Option<Value> {
+        match (self, args) {
+            (SlotPlace::Local(index), [value, Value::Instance(instance)]) => {
+                let mut slots = instance.slots.borrow_mut();
+                let slot = slots.get_mut(*index)?;
+                cycles::note(instance, value);
+                let old = std::mem::replace(slot, value.clone());
+                drop(slots);
+                drop(old);
+            }
+            (SlotPlace::Shared(slot), [value, _]) => slot.set(value.clone()),
+            _ => return None,
+        }
+        args.first().cloned()
+    }
 }
 
 #[inline]
@@ -151,7 +217,7 @@ fn effective_method(
     if let Some(key) = &key
         && let Some(effective) = dispatch.find(key)
     {
-        return Ok(effective);
+        return Ok(effective.clone());
     }
     let effective = Rc::new(Effective::compute(image, generic, args)?);
     if let Some(key) = key {

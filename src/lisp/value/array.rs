@@ -50,6 +50,13 @@ impl Vector {
         self.items.copy_into(index, place)
     }
 
+    /// Replaces the element at an index by a value that is moved out of its place; false, and the value
+    /// stays, if there is none.
+    #[inline(always)]
+    pub(crate) fn move_into(&self, index: usize, value: &mut Value) -> bool {
+        self.items.move_into(index, value)
+    }
+
     /// Replaces the element at an index; false if there is none.
     pub(crate) fn set(&self, index: usize, value: Value) -> bool {
         self.items.set(index, value)

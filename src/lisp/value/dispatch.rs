@@ -119,12 +119,10 @@ impl Dispatch {
 
     /// The cached effective method, which is moved towards the front.
     #[inline]
-    pub(crate) fn find(&mut self, key: &Key) -> Option<Rc<Effective>> {
+    pub(crate) fn find(&mut self, key: &Key) -> Option<&Rc<Effective>> {
         let found = self.entries.iter().position(|(k, _)| k == key)?;
-        if found > 0 {
-            self.entries.swap(found, found - 1);
-            return Some(self.entries[found - 1].1.clone());
-        }
-        Some(self.entries[0].1.clone())
+        let moved = found.saturating_sub(1);
+        self.entries.swap(found, moved);
+        Some(&self.entries[moved].1)
     }
 }

@@ -158,6 +158,28 @@ impl Elements {
         true
     }
 
+    /// Replaces an element of the array's own by a value that is moved out of its place; false, and the
+    /// value stays, if it has none at that index.
+    #[inline(always)]
+    pub(crate) fn move_into(&self, index: usize, value: &mut Value) -> bool {
+        let mut place = self.0.borrow_mut();
+        let Place::Own(items) = &mut *place else {
+            return false;
+        };
+        let Some(item) = items.get_mut(index) else {
+            return false;
+        };
+        if item.is_plain() {
+            value.move_into(item);
+        } else {
+            let old = std::mem::replace(item, take(value));
+            // It may hold whatever looks at the array when it is freed.
+            drop(place);
+            drop(old);
+        }
+        true
+    }
+
     /// Replaces the element at an index; false if there is none.
     #[inline]
     pub(crate) fn set(&self, index: usize, value: Value) -> bool {

@@ -27,17 +27,30 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
         (Value::Str(x), Value::Str(y)) if !loosely => return *x.borrow() == *y.borrow(),
         _ => {}
     }
-    let mut pending = vec![(a.clone(), b.clone())];
+    let mut pending = Vec::new();
+    let mut next = Some((a.clone(), b.clone()));
     let mut pace = Pace::default();
-    while let Some((a, b)) = pending.pop() {
+    while let Some((a, b)) = next.take().or_else(|| pending.pop()) {
         pace.step();
         if a.is_eql(&b) {
             continue;
         }
         match (&a, &b) {
             (Value::Cons(x), Value::Cons(y)) => {
-                pending.push((x.cdr(), y.cdr()));
-                pending.push((x.car(), y.car()));
+                let (car, other) = (x.car(), y.car());
+                match (&car, &other) {
+                    // Most differences are found here.
+                    (Value::Symbol(..), Value::Symbol(..)) | (Value::Int(_), Value::Int(_)) => {
+                        if !car.is_eq(&other) {
+                            return false;
+                        }
+                        next = Some((x.cdr(), y.cdr()));
+                    }
+                    _ => {
+                        pending.push((x.cdr(), y.cdr()));
+                        next = Some((car, other));
+                    }
+                }
             }
             (Value::Str(x), Value::Str(y)) => {
                 let (x, y) = (x.borrow(), y.borrow());

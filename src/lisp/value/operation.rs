@@ -85,6 +85,8 @@ pub(crate) enum Op {
     Int(i32),
     /// Push a local.
     Local(u32),
+    /// Push two locals.
+    TwoLocals(u16, u16),
     /// Push what a local's box holds.
     LocalBox(u32),
     /// Pop into a local.
@@ -129,13 +131,27 @@ pub(crate) enum Op {
     JumpIfSupplied(u16, u32),
     /// Jump if a local is true (when that is wanted) or `NIL` (when it is not). So do the following
     /// operations, according to the result of a test.
-    JumpIfLocal { slot: u16, when: bool, target: u32 },
+    JumpIfLocal {
+        slot: u16,
+        when: bool,
+        target: u32,
+    },
     /// Pop; is it a pair?
-    JumpIfConsp { when: bool, target: u32 },
+    JumpIfConsp {
+        when: bool,
+        target: u32,
+    },
     /// Is a local a pair?
-    JumpIfLocalConsp { slot: u16, when: bool, target: u32 },
+    JumpIfLocalConsp {
+        slot: u16,
+        when: bool,
+        target: u32,
+    },
     /// Pop two; are they `eq`?
-    JumpIfEq { when: bool, target: u32 },
+    JumpIfEq {
+        when: bool,
+        target: u32,
+    },
     /// Pop; is it `eq` to a constant?
     JumpIfEqConst {
         constant: u16,
@@ -144,14 +160,27 @@ pub(crate) enum Op {
     },
     /// Pop two numbers; do they compare like that? This and the following operations skip the next
     /// one if they do not jump.
-    JumpIfCompare { test: Test, target: u32 },
+    JumpIfCompare {
+        test: Test,
+        target: u32,
+    },
     /// Pop a number; does it compare like that with an integer?
-    JumpIfCompareInt { test: Test, n: i16, target: u32 },
+    JumpIfCompareInt {
+        test: Test,
+        n: i16,
+        target: u32,
+    },
     /// Do two locals compare like that?
     JumpIfCompareLocals {
         test: Test,
         a: u8,
         b: u8,
+        target: u32,
+    },
+    /// Pop a number; does a local compare like that with it?
+    JumpIfCompareLocal {
+        test: Test,
+        slot: u8,
         target: u32,
     },
     /// Does a local compare like that with an integer?
@@ -207,6 +236,10 @@ pub(crate) enum Op {
     Sub,
     /// Product of the two topmost.
     Mul,
+    /// Sum of the top and a local.
+    AddLocal(u32),
+    /// Difference of the top and a local.
+    SubLocal(u32),
     /// Top plus a small integer.
     AddInt(i32),
     /// Push a local plus a small integer.
@@ -222,10 +255,25 @@ pub(crate) enum Op {
     /// Pop an index, a vector and a value, and make this the element: `(setf aref)` or `(setf
     /// svref)`.
     SetElement(Sym),
+    /// Push the element of a vector that is a local, at an index that is one: `svref` or `aref`.
+    LocalElement {
+        is_simple: bool,
+        vector: u16,
+        index: u16,
+    },
+    /// Pop a value and make it the element of a vector that is a local, at an index that is one, if
+    /// that can be done without a builtin, and skip the next four operations, which do it otherwise.
+    SetLocalElement {
+        vector: u16,
+        index: u16,
+    },
     /// `rplaca` of the two topmost.
     SetCar,
     /// `rplacd` of the two topmost.
     SetCdr,
+    /// The same, dropping the pair: both skip the next operation, which does.
+    SetCarOnly,
+    SetCdrOnly,
     /// Pop a value and bind a special variable to it.
     BindSpecial(Sym),
     /// Pop a list of values and a list of symbols, and bind the symbols; pushes nothing.
@@ -279,6 +327,7 @@ impl Op {
             Op::JumpIfCompare { .. }
                 | Op::JumpIfCompareInt { .. }
                 | Op::JumpIfCompareLocals { .. }
+                | Op::JumpIfCompareLocal { .. }
                 | Op::JumpIfCompareLocalInt { .. }
         )
     }
@@ -299,6 +348,7 @@ impl Op {
             | Op::JumpIfCompare { target, .. }
             | Op::JumpIfCompareInt { target, .. }
             | Op::JumpIfCompareLocals { target, .. }
+            | Op::JumpIfCompareLocal { target, .. }
             | Op::JumpIfCompareLocalInt { target, .. }
             | Op::EnterUnwind(target)
             | Op::EnterBlock { target, .. }

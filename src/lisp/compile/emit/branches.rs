@@ -224,6 +224,16 @@ impl Emitter<'_> {
                 target,
             });
         }
+        // A local that is never assigned may as well be looked at last.
+        if let Some(slot) = locals.0
+            && let Node::Local(var) = a
+            && !var.assigned.get()
+        {
+            self.emit(b, Want::One)?;
+            self.at(place);
+            self.height -= 1;
+            return Ok(Op::JumpIfCompareLocal { test, slot, target });
+        }
         self.emit(a, Want::One)?;
         if let Some(n) = small_int(b) {
             self.at(place);

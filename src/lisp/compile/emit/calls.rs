@@ -79,6 +79,15 @@ impl Emitter<'_> {
         match (target, args) {
             (Target::Global(name), args) => {
                 if self.emit_inline(node, *name, args, place)? {
+                    if want == Want::Effect
+                        && let Some(last) = self.ops.last_mut()
+                    {
+                        match last {
+                            Op::SetCar => *last = Op::SetCarOnly,
+                            Op::SetCdr => *last = Op::SetCdrOnly,
+                            _ => {}
+                        }
+                    }
                     self.discard_unless(want);
                     return Ok(());
                 }
@@ -112,8 +121,21 @@ impl Emitter<'_> {
         if let (Node::SetfFunction(name @ (known::AREF | known::SVREF), _), 3) =
             (function, args.len())
         {
-            self.emit_args(args)?;
-            self.at(place);
+            if let [value, vector, index] = args
+                && want == Want::Effect
+                && let Some(vector) = self.short_local(vector)
+                && let Some(index) = self.short_local(index)
+            {
+                self.emit(value, Want::One)?;
+                self.at(place);
+                self.op(Op::SetLocalElement { vector, index });
+                // Otherwise, as always.
+                self.push(Op::Local(u32::from(vector)));
+                self.push(Op::Local(u32::from(index)));
+            } else {
+                self.emit_args(args)?;
+                self.at(place);
+            }
             self.op(Op::SetElement(*name));
             self.height -= 2;
             self.discard_unless(want);
@@ -132,8 +154,19 @@ impl Emitter<'_> {
     }
 
     fn emit_args(&mut self, args: &[Node]) -> Compiled<u16> {
-        for arg in args {
-            self.emit(arg, Want::One)?;
+        let mut rest = args;
+        while let [arg, others @ ..] = rest {
+            rest = others;
+            if let [other, others @ ..] = others
+                && let Some(a) = self.short_local(arg)
+                && let Some(b) = self.short_local(other)
+            {
+                self.push(Op::TwoLocals(a, b));
+                self.height += 1;
+                rest = others;
+            } else {
+                self.emit(arg, Want::One)?;
+            }
         }
         arg_count(args.len())
     }
@@ -184,6 +217,27 @@ impl Emitter<'_> {
             self.at(place);
             self.op(of_local);
             ops = &ops[1..];
+        } else if let (known::PLUS | known::MINUS, [a, b]) = (name, args)
+            && let Some(slot) = self.plain_local(b)
+        {
+            self.emit(a, Want::One)?;
+            self.at(place);
+            self.op(match name {
+                known::PLUS => Op::AddLocal(slot),
+                _ => Op::SubLocal(slot),
+            });
+            ops = &[];
+        } else if let (known::AREF | known::SVREF, [vector, index]) = (name, args)
+            && let Some(vector) = self.short_local(vector)
+            && let Some(index) = self.short_local(index)
+        {
+            self.at(place);
+            self.op(Op::LocalElement {
+                is_simple: name == known::SVREF,
+                vector,
+                index,
+            });
+            ops = &[];
         } else {
             self.emit_args(args)?;
             self.at(place);
