@@ -10,6 +10,7 @@ use crate::lisp::value::placing::push_made;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::Sym;
 use crate::lisp::vm::fiber::{Dynamic, Handler};
+use crate::lisp::vm::frames::Frames;
 use crate::lisp::vm::machine::Machine;
 
 impl Machine<'_> {
@@ -43,58 +44,6 @@ impl Machine<'_> {
         undo(self.image, &mut self.fiber.dynamic, mark.unwrap_or(0));
     }
 
-    /// Enters a block that closures may leave: pushes its identity.
-    pub(super) fn enter_block(&mut self, target: u32, multi: bool) {
-        let id = self.image.fresh_identity();
-        self.fiber.dynamic.push(Dynamic::Block {
-            id,
-            frame: self.fiber.frames.len() - 1,
-            height: self.fiber.stack.len(),
-            target,
-            multi,
-        });
-        self.fiber.stack.push(Value::Int(id));
-    }
-
-    /// Enters a tagbody that closures may jump into: pushes its identity.
-    pub(super) fn enter_tagbody(&mut self, table: u32) {
-        let id = self.image.fresh_identity();
-        self.fiber.stack.push(Value::Int(id));
-        self.fiber.dynamic.push(Dynamic::Tagbody {
-            id,
-            frame: self.fiber.frames.len() - 1,
-            height: self.fiber.stack.len(),
-            table,
-        });
-    }
-
-    /// Pops a tag and establishes a catch.
-    pub(super) fn enter_catch(&mut self, target: u32, multi: bool) {
-        let tag = self.pop();
-        self.fiber.dynamic.push(Dynamic::Catch {
-            tag,
-            frame: self.fiber.frames.len() - 1,
-            height: self.fiber.stack.len(),
-            target,
-            multi,
-        });
-    }
-
-    /// Protects what follows with the cleanup code at the target.
-    pub(super) fn enter_unwind(&mut self, target: u32) {
-        self.fiber.dynamic.push(Dynamic::Unwind {
-            frame: self.fiber.frames.len() - 1,
-            height: self.fiber.stack.len(),
-            target,
-        });
-    }
-
-    /// Leaves the protected form normally: pushes the mark that no exit is pending.
-    pub(super) fn leave_unwind(&mut self) {
-        self.fiber.dynamic.pop();
-        self.fiber.stack.push(Value::Int(0));
-    }
-
     /// Pops `count` handler functions and establishes them with these types.
     pub(super) fn enter_handlers(&mut self, types: &Value, count: u16) {
         let start = self.fiber.stack.len() - usize::from(count);
@@ -114,6 +63,15 @@ impl Machine<'_> {
         let list = self.pop();
         self.fiber.dynamic.push(Dynamic::Restarts(list));
     }
+}
+
+/// Establishes something whose extent begins now.
+#[inline(always)]
+pub(super) fn establish(fiber: (&mut Vec<Dynamic>, &Frames), make: impl FnOnce(usize) -> Dynamic) {
+    let (dynamic, frames) = fiber;
+    // It belongs to the frame of the code that runs.
+    let frame = frames.len() - 1;
+    push_made(dynamic, || make(frame));
 }
 
 /// Binds a special variable to a value that is moved out of its place.

@@ -2,6 +2,7 @@
 
 pub(crate) mod aside;
 pub(crate) mod backtrace;
+mod callees;
 mod calling;
 mod dynamic;
 mod entry;

@@ -12,16 +12,16 @@ use std::mem::forget;
 use std::rc::Rc;
 
 use super::calling::MOST_FRAMES;
-use super::dynamic::{bind, undo};
+use super::dynamic::{bind, establish, undo};
 use super::entry::{INTERRUPT_INTERVAL, Next};
 use super::variables::{closure, function as function_of, setf_function, unboxed_into};
 use crate::lisp::value::Value;
-use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::operation::Op;
-use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::{FunctionCell, Sym};
+use crate::lisp::value::symbol::FunctionCell;
+use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::frames::{Frame, FrameKind};
 use crate::lisp::vm::machine::{Event, Machine};
 
@@ -521,14 +521,56 @@ impl Machine<'_> {
                         }
                         Op::EndProgv => slowly!(self.end_progv()),
                         Op::EnterBlock { target, multi } => {
-                            slowly!(self.enter_block(target, multi))
+                            let id = self.image.fresh_identity();
+                            let height = window.height();
+                            let entries = (&mut fiber.dynamic, &fiber.frames);
+                            establish(entries, |frame| Dynamic::Block {
+                                id,
+                                frame,
+                                height,
+                                target,
+                                multi,
+                            });
+                            window.push_int(id);
                         }
-                        Op::EnterTagbody(table) => slowly!(self.enter_tagbody(table)),
+                        Op::EnterTagbody(table) => {
+                            let id = self.image.fresh_identity();
+                            window.push_int(id);
+                            let height = window.height();
+                            let entries = (&mut fiber.dynamic, &fiber.frames);
+                            establish(entries, |frame| Dynamic::Tagbody {
+                                id,
+                                frame,
+                                height,
+                                table,
+                            });
+                        }
                         Op::EnterCatch { target, multi } => {
-                            slowly!(self.enter_catch(target, multi))
+                            let tag = window.pop();
+                            let height = window.height();
+                            let entries = (&mut fiber.dynamic, &fiber.frames);
+                            establish(entries, |frame| Dynamic::Catch {
+                                tag,
+                                frame,
+                                height,
+                                target,
+                                multi,
+                            });
                         }
-                        Op::EnterUnwind(target) => slowly!(self.enter_unwind(target)),
-                        Op::LeaveUnwind => slowly!(self.leave_unwind()),
+                        Op::EnterUnwind(target) => {
+                            let height = window.height();
+                            let entries = (&mut fiber.dynamic, &fiber.frames);
+                            establish(entries, |frame| Dynamic::Unwind {
+                                frame,
+                                height,
+                                target,
+                            });
+                        }
+                        Op::LeaveUnwind => {
+                            // No exit is pending.
+                            fiber.dynamic.pop();
+                            window.push_int(0);
+                        }
                         Op::EnterHandlers(types, count) => {
                             let types = code.constants[types as usize].clone();
                             slowly!(self.enter_handlers(&types, count));
@@ -542,12 +584,7 @@ impl Machine<'_> {
                         }
                         Op::Throw => {
                             note!();
-                            let value = self.pop();
-                            let tag = self.pop();
-                            let next = match self.catch_of(&tag) {
-                                Ok(target) => self.unwind(target, value),
-                                Err(raise) => self.raise(raise),
-                            };
+                            let next = self.throw_top();
                             // As after a jump through closures.
                             *budget -= 1;
                             if *budget == 0 {
@@ -628,67 +665,6 @@ impl Machine<'_> {
                 }
             }
         }
-    }
-
-    /// Calls the function below the topmost arguments. Returns whether code goes on in the topmost
-    /// frame, or else what comes next. So do the following ones.
-    fn call_top(&mut self, count: usize, multi: bool, budget: &mut u32) -> Result<(), Next> {
-        let cut = self.fiber.stack.len() - count - 1;
-        match self.image.coerce_to_function(&self.fiber.stack[cut]) {
-            Ok(called) => self.call_any(called, count, 1, multi, budget),
-            Err(raise) => {
-                self.fiber.stack.truncate(cut);
-                Err(self.raise(raise))
-            }
-        }
-    }
-
-    /// Calls the function of `(setf symbol)` with the topmost arguments.
-    fn call_setf_function(&mut self, sym: Sym, count: usize, budget: &mut u32) -> Result<(), Next> {
-        match self.image.symbols.get(sym).setf_function.clone() {
-            Some(called) => self.call_any(called, count, 0, false, budget),
-            None => {
-                let name = Value::list([known::SETF.into(), sym.into()]);
-                Err(self.call_undefined(name, count))
-            }
-        }
-    }
-
-    /// Calls any function with the topmost arguments; its value replaces these and what is `below`
-    /// them.
-    fn call_any(
-        &mut self,
-        called: Rc<Function>,
-        count: usize,
-        below: usize,
-        multi: bool,
-        budget: &mut u32,
-    ) -> Result<(), Next> {
-        *budget -= 1;
-        let cut = self.fiber.stack.len() - count - below;
-        match self.call_on_stack(called, count, cut, multi) {
-            Next::Run if *budget > 0 && !self.image.output.is_due() => Ok(()),
-            next => Err(self.or_interrupt(next, budget)),
-        }
-    }
-
-    #[cold]
-    fn call_undefined(&mut self, name: Value, count: usize) -> Next {
-        let cut = self.fiber.stack.len() - count;
-        self.fiber.stack.truncate(cut);
-        self.raise(Raise::undefined_function(name))
-    }
-
-    /// Returns the top value to what made the call, whose frame is the topmost one now.
-    fn return_values(&mut self, cut: usize, multi: bool) -> Next {
-        let value = self.pop();
-        self.fiber.stack.truncate(cut);
-        let value = if multi { value } else { value.primary() };
-        if !self.fiber.frames.last().is_some_and(Frame::is_of_code) {
-            return Next::Deliver(value);
-        }
-        self.fiber.stack.push(value);
-        Next::Run
     }
 }
 

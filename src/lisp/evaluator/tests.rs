@@ -381,6 +381,18 @@ fn values_of_every_kind_stay_what_they_are_wherever_they_are_moved() {
         "(defvar *s* 0) (defun f (x) (let ((*s* x)) (h))) (defun h () *s*)",
         "(defun f (x) (aref (vector x) 0))",
         "(defun f (x) (let ((v (vector 1))) (setf (aref v 0) x)))",
+        "(defun f (x) (let ((v (vector 1 2)) (i 1)) (setf (aref v i) x) (aref v i)))",
+        "(defun f (x) (let ((v (vector 1 x)) (i 1)) (setf (svref v i) (svref v i)) (svref v i)))",
+        "(defun f (x) (let ((y 1)) (second (list y x))))",
+        "(defun f (x) (block nil (let ((y x)) (return (first (list y x))))))",
+        "(defclass c () ((s :initarg :s :accessor s))) (defun f (x) (s (make-instance 'c :s x)))",
+        "(defclass c () ((s :accessor s)))
+         (defun f (x) (let ((c (make-instance 'c))) (setf (s c) 1) (setf (s c) x) (s c)))",
+        "(defgeneric g (a b)) (defmethod g ((a integer) b) b) (defun f (x) (g 1 x))",
+        "(defun f (x) (unwind-protect (list x) (setq x 2)) x) (defun f (x) (unwind-protect x (list x)))",
+        "(defun f (x) (tagbody (funcall (lambda () (go out))) (setq x 1) out) x)",
+        "(defun f (x) (cdr (assoc 'x (list (cons 'y 1) (cons 'x x)))))",
+        "(defun f (x) (let ((h (make-hash-table))) (setf (gethash 1 h) x) (gethash 1 h)))",
         "(defun f (x) (do ((l (list 1 2 x) (cdr l))) ((null (cdr l)) (car l))))",
         "(defun f (x) (values (multiple-value-prog1 (values x 2) 3)))",
         "(defun f (x) (car (last (append (list 1) (list x)))))",
@@ -458,6 +470,32 @@ fn code_that_is_interrupted_at_any_poll_goes_on_as_if_it_had_not_been() {
            (defvar *depth* 0)
            (defun down (n) (let ((*depth* (1+ *depth*))) (if (= n 0) *depth* (+ (down (- n 1)) (down (- n 1))))))
            (list (down 11) *depth*))",
+        "(progn
+           (defclass counter () ((count :initform 0 :accessor counted)))
+           (defgeneric advance (counter n))
+           (defmethod advance ((counter counter) n) (incf (counted counter) n))
+           (defmethod advance :around (counter (n float)) (call-next-method))
+           (let ((counter (make-instance 'counter)))
+             (dotimes (i 300) (advance counter i) (advance counter 1.0))
+             (counted counter)))",
+        "(let ((v (make-array 50 :initial-element 1)) (log nil))
+           (dotimes (i 1500)
+             (let ((k (mod i 50)))
+               (block nil
+                 (unwind-protect
+                     (funcall (lambda () (if (evenp i) (return) (setf (aref v k) (+ (aref v k) i)))))
+                   (push k log)))))
+           (list v (length log)))",
+        "(progn
+           (defun turn (n) (if (= n 900) (redefine n) (turn (1+ n))))
+           (defun redefine (n)
+             (eval '(defun turn (n) (if (= n 1900) (list 'new n) (turn (1+ n)))))
+             (turn n))
+           (turn 0))",
+        "(let ((tries 0))
+           (dotimes (i 1500 tries)
+             (handler-case (let ((x 'a)) (+ i x))
+               (type-error () (incf tries)))))",
     ] {
         let (expected, polls) = evaluate_interrupted(form, None);
         let mut continued = 0;
@@ -535,5 +573,186 @@ fn a_value_in_place_of_what_was_left_by_an_interrupt_evaluates_nothing_again() {
         for value in values {
             assert!(value == whole || value == answered, "{form}: {value}");
         }
+    }
+}
+
+/// Evaluates a form, with 55 in place of every operation that fails.
+fn evaluate_with_55(text: &str) -> String {
+    let mut image = Image::new();
+    let source = image.sources.add("test", text);
+    let forms = reader::read_all(&mut image, source).unwrap_or_else(|e| panic!("{e}"));
+    let mut fiber = Fiber::default();
+    let mut machine = Machine::new(&mut image, &mut fiber);
+    let form = forms.into_iter().next().map(|(form, _)| form);
+    let mut event = machine.start(known::EVAL.into(), form.into_iter().collect());
+    loop {
+        event = match event {
+            Event::Unhandled(_) => machine.resume(Value::Int(55)),
+            Event::Done(value) => return print::to_string(&image, &value, true),
+            _ => panic!("{text} has stopped"),
+        };
+    }
+}
+
+#[test]
+fn a_value_takes_the_place_of_an_operation_that_fails() {
+    for (form, expected) in [
+        ("(let ((x 'a) (n 0)) (list (+ (incf n) x) n))", "(55 1)"),
+        ("(let ((x 'a) (n 0)) (list (- x (incf n)) n))", "(55 1)"),
+        ("(let ((x 'a)) (list 1 (1+ x) (+ x 7) 2))", "(1 55 55 2)"),
+        ("(let ((x 'a)) (list 1 (* (car (list x)) 2) 3))", "(1 55 3)"),
+        ("(let ((x 'a)) (setq x (1+ x)) (list x))", "(55)"),
+        ("(let ((x 5)) (setq x (cdr x)) (list x))", "(55)"),
+        (
+            "(let ((x 5)) (list 1 (car x) (cdr x) (cadr x) 2))",
+            "(1 55 55 55 2)",
+        ),
+        ("(list 1 (if (< (car '(a)) 3) 2 4) 5)", "(1 2 5)"),
+        ("(let ((x 'a)) (list 1 (if (< x 3) 2 4) 5))", "(1 2 5)"),
+        (
+            "(let ((x 'a)) (list 1 (if (not (< x 3)) 2 4) 5))",
+            "(1 4 5)",
+        ),
+        (
+            "(let ((x 'a) (y 1)) (list 1 (if (= y x) 2 4) 5))",
+            "(1 2 5)",
+        ),
+        (
+            "(let ((y 1)) (list 1 (if (> y (car '(a))) 2 4) 5))",
+            "(1 2 5)",
+        ),
+        ("(let ((y 1)) (list 1 (> y (car '(a))) 5))", "(1 55 5)"),
+        (
+            "(let ((v 5) (i 0)) (list 1 (aref v i) (svref v i) 2))",
+            "(1 55 55 2)",
+        ),
+        (
+            "(let ((v 5) (i 0)) (setf (aref v i) 1) (list v i))",
+            "(5 0)",
+        ),
+        (
+            "(let ((v (vector 1)) (i 3)) (list (setf (aref v i) 1) v))",
+            "(55 #(1))",
+        ),
+        (
+            "(let ((c 5)) (rplaca c 1) (rplacd c 1) (list c (rplaca c 1)))",
+            "(5 55)",
+        ),
+        ("(let ((x 2)) (list 1 (nowhere x x) 3))", "(1 55 3)"),
+        (
+            "(let ((x 2)) (list 1 (funcall 'nowhere x x) (funcall x x) 3))",
+            "(1 55 55 3)",
+        ),
+        ("(list 1 (throw 'nowhere 2) 3)", "(1 55 3)"),
+        ("(flet ((f (x) x)) (list 1 (f) (f 2 3) 3))", "(1 55 55 3)"),
+        (
+            "(progn (defgeneric g (x)) (list 1 (g 2) (g) 3))",
+            "(1 55 55 3)",
+        ),
+    ] {
+        assert_eq!(evaluate_with_55(form), expected, "{form}");
+    }
+}
+
+#[test]
+fn builtins_return_all_values_where_they_are_wanted() {
+    for (form, expected) in [
+        ("(floor 7 2)", "3 ; 1"),
+        (
+            "(list (floor 7 2) (gethash 1 (make-hash-table) 5))",
+            "(3 5)",
+        ),
+        (
+            "(multiple-value-list (gethash 1 (make-hash-table) 5))",
+            "(5 NIL)",
+        ),
+        ("(multiple-value-list (funcall #'floor 7 2))", "(3 1)"),
+        (
+            "(mapcar (lambda (x) (multiple-value-list (floor x 2))) '(5))",
+            "((2 1))",
+        ),
+        // A macro is expanded within a builtin of which one value is wanted.
+        (
+            "(defmacro rest-of (x y) (multiple-value-bind (q r) (floor x y) (list 'list q r)))
+             (list (macroexpand-1 '(rest-of 7 2)))",
+            "((LIST 3 1))",
+        ),
+        (
+            "(defmacro rest-of (x y) (cons 'list (multiple-value-list (apply #'floor (list x y)))))
+             (list (macroexpand-1 '(rest-of 7 2)))",
+            "((LIST 3 1))",
+        ),
+    ] {
+        assert_eq!(evaluate(form), expected, "{form}");
+    }
+}
+
+#[test]
+fn what_is_defined_anew_while_it_runs_is_called_from_then_on() {
+    for (form, expected) in [
+        (
+            "(defun f (n) (when (= n 5) (eval '(defun f (n) (list 'new n)))) (f (1+ n))) (f 0)",
+            "(NEW 6)",
+        ),
+        (
+            "(defun f (n) (list n (progn (eval '(defun f (n) (list 'new n))) (f n)))) (f 1)",
+            "(1 (NEW 1))",
+        ),
+        (
+            "(defgeneric g (x))
+             (defmethod g ((x integer)) (eval '(defmethod g ((x integer)) 'new)) (list 'old (g x)))
+             (list (g 1) (g 1))",
+            "((OLD NEW) NEW)",
+        ),
+        (
+            "(defclass c () ((s :initform 1 :accessor s)))
+             (let ((c (make-instance 'c)))
+               (list (s c)
+                     (progn (eval '(defmethod s :around ((c c)) (list 'around (call-next-method)))) (s c))
+                     (progn (eval '(defclass c () ((a :initform 2) (s :initform 3 :accessor s)))) (s c))))",
+            "(1 (AROUND 1) (AROUND 1))",
+        ),
+    ] {
+        assert_eq!(evaluate(form), expected, "{form}");
+    }
+}
+
+#[test]
+fn lists_are_equal_part_by_part() {
+    for (form, expected) in [
+        (
+            "(equal '(a (b 2.5) \"c\" . d) (list* 'a (list 'b 2.5) (list* \"c\" 'd)))",
+            "T",
+        ),
+        (
+            "(equal '(a (b 2.5) \"c\" . d) (list* 'a (list 'b 2.5) (list* \"c\" 'e)))",
+            "NIL",
+        ),
+        ("(equal '(1 (2 3) 4) '(1 (2 5) 4))", "NIL"),
+        ("(equal '(1 2) '(1 2 3))", "NIL"),
+        ("(equal '(1 a) '(1 1))", "NIL"),
+        ("(equalp '(1 (\"A\" 2.0) a) '(1.0 (\"a\" 2) a))", "T"),
+        ("(equalp '(1 b) '(1 a))", "NIL"),
+        (
+            "(let ((l (list 'a 'b))) (equal (list l l) (list l (copy-list l))))",
+            "T",
+        ),
+        (
+            "(let ((l (list 1 2))) (member l (list (list 1 2)) :test #'equal))",
+            "((1 2))",
+        ),
+        (
+            "(let ((l (list (list 1) 2))) (cdr (member (car l) l :test #'equal)))",
+            "(2)",
+        ),
+        (
+            "(let ((l (list 1 2))) (eq (car (member l (list 3 l))) l))",
+            "T",
+        ),
+        ("(assoc '(1) '(nil ((1) . 2)) :test 'equal)", "((1) . 2)"),
+        ("(assoc 2 '((1 . 2)) :key (lambda (x) (1+ x)))", "(1 . 2)"),
+        ("(member 2 '(1 2 . 3))", "(2 . 3)"),
+    ] {
+        assert_eq!(evaluate(form), expected, "{form}");
     }
 }

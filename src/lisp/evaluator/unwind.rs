@@ -38,6 +38,21 @@ impl Machine<'_> {
         Ok(Step::Unwind(target, value))
     }
 
+    /// Pops values and a tag, and leaves the innermost catch of the tag with the values.
+    pub(super) fn throw_top(&mut self) -> Next {
+        let value = self.pop();
+        let tag = self.pop();
+        // Mostly there is nothing to undo on the way.
+        let innermost = self.fiber.dynamic.last();
+        if matches!(innermost, Some(Dynamic::Catch { tag: other, .. }) if other.is_eq(&tag)) {
+            return self.arrive(Target::Exit(self.fiber.dynamic.len() - 1), value, None);
+        }
+        match self.catch_of(&tag) {
+            Ok(target) => self.unwind(target, value),
+            Err(raise) => self.raise(raise),
+        }
+    }
+
     /// The innermost catch with this tag.
     pub(super) fn catch_of(&self, tag: &Value) -> Result<Target, Box<Raise>> {
         let found = self

@@ -459,13 +459,27 @@ pub(crate) fn circular(list: &Value) -> Box<Raise> {
 
 /// Length of a proper list.
 pub(crate) fn list_length(list: &Value) -> Result<usize, Box<Raise>> {
-    let mut walk = ListWalk::new(list.clone());
+    let mut pair = match list {
+        Value::Cons(first) => first.clone(),
+        Value::Symbol(known::NIL, ..) => return Ok(0),
+        other => return Err(Raise::type_error(other, known::LIST)),
+    };
+    let mut rounds = Rounds::default();
     let mut count = 0;
-    while let Some(cons) = walk.next_cons()? {
-        cons::release(cons);
+    loop {
+        if rounds.is_closed_by(&pair) {
+            return Err(circular(&Value::Cons(pair)));
+        }
         count += 1;
+        match pair.cdr_cons() {
+            Some(next) => cons::release(std::mem::replace(&mut pair, next)),
+            None => break,
+        }
     }
-    Ok(count)
+    match pair.cdr() {
+        Value::Symbol(known::NIL, ..) => Ok(count),
+        end => Err(Raise::type_error(&end, known::LIST)),
+    }
 }
 
 /// The pairs of a proper list.

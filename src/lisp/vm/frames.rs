@@ -134,7 +134,11 @@ impl Frames {
     /// Ends the innermost frames, down to so many.
     pub(crate) fn truncate(&mut self, depth: usize) {
         while self.depth > depth {
-            drop(self.pop());
+            self.depth -= 1;
+            match take(&mut self.places[self.depth].kind) {
+                FrameKind::Code { function, .. } => drop(function),
+                other => drop(other),
+            }
         }
     }
 
