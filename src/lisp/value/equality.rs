@@ -1,10 +1,12 @@
 //! `equal`, `equalp` and hashing under the four equalities; loops, no recursion.
 
 use std::hash::{Hash, Hasher};
+use std::mem::replace;
 use std::rc::Rc;
 
 use super::Value;
 use super::array::Vector;
+use super::cons;
 use super::hash_table::HashTest;
 use super::known;
 use crate::lisp::guard::Pace;
@@ -37,19 +39,32 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
         }
         match (&a, &b) {
             (Value::Cons(x), Value::Cons(y)) => {
-                let (car, other) = (x.car(), y.car());
-                match (&car, &other) {
-                    // Most differences are found here.
-                    (Value::Symbol(..), Value::Symbol(..)) | (Value::Int(_), Value::Int(_)) => {
-                        if !car.is_eq(&other) {
-                            return false;
+                let (mut x, mut y) = (Rc::clone(x), Rc::clone(y));
+                // Along both lists, as long as their elements are told apart at once.
+                loop {
+                    let (car, other) = (x.car(), y.car());
+                    match (&car, &other) {
+                        (Value::Symbol(..), Value::Symbol(..)) | (Value::Int(_), Value::Int(_)) => {
+                            if !car.is_eq(&other) {
+                                return false;
+                            }
                         }
+                        _ => {
+                            pending.push((x.cdr(), y.cdr()));
+                            next = Some((car, other));
+                            break;
+                        }
+                    }
+                    let (Some(after), Some(other)) = (x.cdr_cons(), y.cdr_cons()) else {
                         next = Some((x.cdr(), y.cdr()));
+                        break;
+                    };
+                    if Rc::ptr_eq(&after, &other) {
+                        break;
                     }
-                    _ => {
-                        pending.push((x.cdr(), y.cdr()));
-                        next = Some((car, other));
-                    }
+                    pace.step();
+                    cons::release(replace(&mut x, after));
+                    cons::release(replace(&mut y, other));
                 }
             }
             (Value::Str(x), Value::Str(y)) => {
