@@ -33,6 +33,9 @@ impl Key {
     }
 }
 
+/// A comparison of two values that calls no function of a program.
+pub(crate) type Compare = fn(&Value, &Value) -> bool;
+
 /// How two values are compared.
 #[derive(Clone)]
 pub(crate) enum Test {
@@ -75,7 +78,7 @@ impl Test {
     }
 
     /// What compares two values, if that is no function of a program.
-    fn simple(&self) -> Option<fn(&Value, &Value) -> bool> {
+    fn simple(&self) -> Option<Compare> {
         Some(match self {
             Test::Eq => Value::is_eq,
             Test::Eql => Value::is_eql,
@@ -135,7 +138,7 @@ impl Criterion {
     }
 
     /// The item and the test, if elements are compared as they are and without calls of functions.
-    pub(crate) fn simple(&self) -> Option<(&Value, fn(&Value, &Value) -> bool)> {
+    pub(crate) fn simple(&self) -> Option<(&Value, Compare)> {
         match &self.kind {
             Kind::Item { item, test } if self.key.0.is_none() => Some((item, test.simple()?)),
             _ => None,

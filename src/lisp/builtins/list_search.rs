@@ -1,6 +1,6 @@
 //! Searching in lists and association lists: `member` and `assoc`.
 
-use super::criterion::{Criterion, Key, Test};
+use super::criterion::{Compare, Criterion, Key, Test};
 use super::keywords;
 use crate::lisp::builtin::{Builtin, control};
 use crate::lisp::image::Image;
@@ -29,7 +29,7 @@ fn criterion(image: &Image, args: &[Value]) -> Result<Criterion, Box<Raise>> {
 }
 
 /// The same without calls of functions.
-fn find_tail_at_once(item: &Value, test: fn(&Value, &Value) -> bool, list: Value) -> Outcome {
+fn find_tail_at_once(item: &Value, test: Compare, list: Value) -> Outcome {
     let mut walk = ListWalk::new(list);
     while let Some(cons) = walk.next_cons()? {
         if test(item, &cons.car()) {
@@ -59,7 +59,7 @@ fn member(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise
 }
 
 /// The same without calls of functions.
-fn find_entry_at_once(item: &Value, test: fn(&Value, &Value) -> bool, alist: Value) -> Outcome {
+fn find_entry_at_once(item: &Value, test: Compare, alist: Value) -> Outcome {
     let mut walk = ListWalk::new(alist);
     while let Some(entry) = walk.next()? {
         match &entry {

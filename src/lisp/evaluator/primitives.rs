@@ -318,11 +318,11 @@ impl Window<'_> {
             _ => return false,
         }
         // The element takes the place of the vector, which is there until it has been copied.
-        if let Value::Vector(vector) = std::mem::take(place) {
-            if !vector.copy_into(index, place) {
-                place.fill(Value::Vector(vector));
-                return false;
-            }
+        if let Value::Vector(vector) = std::mem::take(place)
+            && !vector.copy_into(index, place)
+        {
+            place.fill(Value::Vector(vector));
+            return false;
         }
         self.top -= 1;
         true
