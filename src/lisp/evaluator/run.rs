@@ -111,8 +111,8 @@ impl Machine<'_> {
                     }
                 }};
             }
-            // Jumps if a comparison of numbers has the wanted result, of which `count` are on top of the stack and are
-            // dropped. The next operation is skipped unless they are no numbers.
+            // Jumps if a comparison of numbers has the wanted result, and drops those of them that are on
+            // top of the stack, `count`. The next operation is skipped unless they are no numbers.
             macro_rules! branch_compared {
                 ($test:expr, $ints:expr, $numbers:expr, $count:expr, $target:expr) => {{
                     let jumps = match $ints {
