@@ -97,7 +97,9 @@ fn flaw(cook: &mut Cook, store: &Store, form: &str, is_there: &str) -> Option<St
 #[ignore = "takes minutes; prints how often things are brought out of containers"]
 fn how_often_things_are_brought_out_of_containers() {
     let kinds = std::env::var("KINDS").unwrap_or_default();
-    println!("| thing | out of | brought to the island | and back | missed |\n|---|---|---|---|---|");
+    println!(
+        "| thing | out of | brought to the island | and back | missed |\n|---|---|---|---|---|"
+    );
     for store in &STORES {
         if !kinds.is_empty() && !kinds.split(',').any(|kind| kind == store.kind) {
             continue;
