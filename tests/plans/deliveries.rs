@@ -42,6 +42,26 @@ const FROM_EDGE: f64 = 0.05;
 /// How far (m) from where it was to be put an object may stand.
 const NEAR: f64 = 0.05;
 
+/// Tells whether there is any place to pick the object THING up from, on a grid of 5 cm and 15 degrees.
+pub(super) const REACHABLE_P: &str = "
+    (defun reachable-p (type &optional ?grasps)
+      (let* ((pose (get-current-pose-of-object 'thing))
+             (?object (desig:make-designator :object
+                        `((:type ,type) (:name thing) (:pose ((:pose-in-map ,pose))))))
+             (location (a location (reachable-for pr2) (desig:when ?grasps (grasp ?grasps))
+                          (object ?object)))
+             (origin (cl-tf:origin pose)))
+        (loop for i from -21 to 21
+              thereis (loop for j from -21 to 21
+                            thereis (loop for k below 24
+                                          for half = (* k (/ pi 24))
+                                          thereis (coe::fulfils-p location
+                                                    (make-pose \"map\"
+                                                      (list (list (+ (cl-tf:x origin) (* i 0.05))
+                                                                  (+ (cl-tf:y origin) (* j 0.05))
+                                                                  0)
+                                                            (list 0 0 (sin half) (cos half))))))))))";
+
 const PLAN: &str = "
     (defvar *object*)
     (defvar *target*)
@@ -70,23 +90,6 @@ const PLAN: &str = "
                                      '(0 0 0 1))
                                :breakfast-cereal
                                (intern (format nil \"BOX-~a\" number))))))
-    (defun reachable-p ()
-      \"Is there any place to pick the thing up from, on a grid of 5 cm and 15 degrees?\"
-      (let* ((pose (get-current-pose-of-object 'thing))
-             (?object (desig:make-designator :object
-                        `((:type ,(desig-prop-value *object* :type)) (:name thing) (:pose ((:pose-in-map ,pose))))))
-             (location (a location (reachable-for pr2) (object ?object)))
-             (origin (cl-tf:origin pose)))
-        (loop for i from -21 to 21
-              thereis (loop for j from -21 to 21
-                            thereis (loop for k below 24
-                                          for half = (* k (/ pi 24))
-                                          thereis (coe::fulfils-p location
-                                                    (make-pose \"map\"
-                                                      (list (list (+ (cl-tf:x origin) (* i 0.05))
-                                                                  (+ (cl-tf:y origin) (* j 0.05))
-                                                                  0)
-                                                            (list 0 0 (sin half) (cos half))))))))))
     (defun millimetres-off-target ()
       (values (round (* 1000 (coe::distance
                               (coe::pose-in-map (reference (current-desig *target*)))
@@ -166,7 +169,9 @@ fn trial(cook: &mut Cook, kind: &str, from: &Surface, to: &Surface, tally: &mut 
     tally.trials += 1;
     tally.milliseconds.push(start.elapsed().as_secs_f64() * 1e3);
     if let Err((report, class)) = said {
-        if report.contains("could not be fetched") && cook.done("(reachable-p)") == "NIL\n" {
+        if report.contains("could not be fetched")
+            && cook.done(&format!("(reachable-p {kind})")) == "NIL\n"
+        {
             tally.out_of_reach += 1;
             return;
         }
@@ -211,6 +216,7 @@ fn how_often_objects_are_transported() {
     let is_blocked = std::env::var("BLOCKED").is_ok();
     let mut cook = Cook::unwatched();
     cook.done(PLAN);
+    cook.done(REACHABLE_P);
     let types = match std::env::var("TYPES") {
         Ok(types) => types,
         Err(_) => cook
