@@ -6,7 +6,7 @@ use rand_pcg::rand_core::SeedableRng;
 use super::containers::somewhere;
 use super::cook::Cook;
 use super::deliveries::REACHABLE_P;
-use crate::spatial::pose::yaw;
+use crate::spatial::{pose, trig};
 
 /// Where something is that is to be brought to the island.
 struct Store {
@@ -135,7 +135,7 @@ fn how_often_things_are_brought_out_of_containers() {
             cook.done(PLAN);
             let mut rng = Pcg64::seed_from_u64(seed);
             let [x, y, yaw] = somewhere(&cook, &mut rng);
-            let (s, c) = crate::spatial::trig::sin_cos(yaw / 2.0);
+            let (s, c) = trig::sin_cos(yaw / 2.0);
             cook.done(&format!(
                 "(btr-utils:move-robot '(({x} {y} 0) (0 0 {s} {c})))
                  (put-somewhere-in :{} :{})",
@@ -148,7 +148,7 @@ fn how_often_things_are_brought_out_of_containers() {
                     out_of_reach += 1;
                 } else {
                     all += 1;
-                    let (t, yaw) = (stood.translation, yaw(&stood));
+                    let (t, yaw) = (stood.translation, pose::yaw(&stood));
                     println!(
                         "  {} {seed} at {:.3} {:.3}, yaw {yaw:.2}: {why}",
                         store.kind, t.x, t.y
