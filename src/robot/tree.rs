@@ -168,7 +168,17 @@ pub(crate) struct KinematicTree {
     joints: Vec<Joint>,
     root: LinkId,
     /// All joints, each after the joint that carries its parent link.
-    order: Vec<JointId>,
+    order: Vec<Placement>,
+}
+
+/// What places a link: a few words for each, since all are looked at again and again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Placement {
+    joint: JointId,
+    parent: LinkId,
+    child: LinkId,
+    /// The joint whose position counts, which another one may follow; `None` if this one is fixed.
+    leader: Option<JointId>,
 }
 
 impl KinematicTree {
@@ -194,7 +204,7 @@ impl KinematicTree {
 
     /// All joints, each after the joints that carry it.
     pub(crate) fn joints_from_root(&self) -> impl Iterator<Item = (JointId, &Joint)> {
-        self.order.iter().map(|id| (*id, self.joint(*id)))
+        (self.order.iter()).map(|placed| (placed.joint, self.joint(placed.joint)))
     }
 
     /// The link with that id, which must come from this tree.
@@ -254,13 +264,8 @@ impl KinematicTree {
     pub(crate) fn forward_kinematics(&self, root: &Pose, q: &JointPositions, out: &mut Vec<Pose>) {
         out.clear();
         out.resize(self.links.len(), *root);
-        for &id in &self.order {
-            let joint = self.joint(id);
-            let local = match joint.kind {
-                JointKind::Fixed => joint.origin,
-                _ => joint.pose_at(self.position(q, id)),
-            };
-            out[joint.child.0] = out[joint.parent.0] * local;
+        for placed in &self.order {
+            out[placed.child.0] = out[placed.parent.0] * self.local_pose(placed, q);
         }
     }
 
@@ -275,19 +280,21 @@ impl KinematicTree {
     ) {
         moved.clear();
         moved.resize(self.links.len(), false);
-        for &id in &self.order {
-            let joint = self.joint(id);
-            let is_fixed = joint.kind == JointKind::Fixed;
-            let position = self.position(q, id);
-            let turns = !is_fixed && position.to_bits() != self.position(before, id).to_bits();
-            if turns || moved[joint.parent.0] {
-                moved[joint.child.0] = true;
-                let local = match is_fixed {
-                    true => joint.origin,
-                    false => joint.pose_at(position),
-                };
-                out[joint.child.0] = out[joint.parent.0] * local;
+        for placed in &self.order {
+            let turns = |joint| q.get(joint).to_bits() != before.get(joint).to_bits();
+            if moved[placed.parent.0] || placed.leader.is_some_and(turns) {
+                moved[placed.child.0] = true;
+                out[placed.child.0] = out[placed.parent.0] * self.local_pose(placed, q);
             }
+        }
+    }
+
+    /// Pose of a link in the frame of its parent.
+    fn local_pose(&self, placed: &Placement, q: &JointPositions) -> Pose {
+        let joint = self.joint(placed.joint);
+        match placed.leader {
+            None => joint.origin,
+            Some(_) => joint.pose_at(self.position(q, placed.joint)),
         }
     }
 
@@ -361,8 +368,15 @@ impl KinematicTree {
         let mut open = vec![self.root];
         while let Some(link) = open.pop() {
             reached[link.0] = true;
-            if let Some(joint) = self.links[link.0].parent_joint {
-                self.order.push(joint);
+            if let Some(id) = self.links[link.0].parent_joint {
+                let joint = &self.joints[id.0];
+                let followed = joint.mimic.map_or(id, |mimic| mimic.joint);
+                self.order.push(Placement {
+                    joint: id,
+                    parent: joint.parent,
+                    child: joint.child,
+                    leader: (joint.kind != JointKind::Fixed).then_some(followed),
+                });
             }
             let children = self.links[link.0].children.iter().rev();
             open.extend(children.map(|j| self.joints[j.0].child));

@@ -380,7 +380,7 @@ mod tests {
                 for other in world.state.furniture.all() {
                     // The library's own distance of two boxes is off by centimetres.
                     let (one, two) = (&*solid.shape, &*other.solid.shape);
-                    let near = query::contact(&pose, one, &other.pose, two, 1.0).unwrap();
+                    let near = query::contact(&pose, one, &other.placed.pose, two, 1.0).unwrap();
                     nearest = near.map_or(nearest, |c| nearest.min(c.dist));
                 }
             }

@@ -6,12 +6,14 @@
 use std::ops::ControlFlow;
 
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
-use parry3d_f64::math::Pose as ParryPose;
+use parry3d_f64::math::{Pose as ParryPose, Vector};
 
 use super::models::{Footing, Models};
 use super::moving_parts::{MovingParts, Pairs};
 use super::obstacles::Obstacles;
+use super::oriented_box::{Frame, OrientedBox};
 use super::part_key::{PartKey, index};
+use super::placed_solid::PlacedSolid;
 use super::separation::{Separation, below_floor, overlap, separation};
 use super::solid::{Solid, to_parry};
 use crate::robot::LinkId;
@@ -102,18 +104,13 @@ struct Mover {
     /// The link, or the one that carries the object.
     link: LinkId,
     pose: ParryPose,
+    frame: Frame,
     /// Bounds in the map frame (m).
     bounds: Aabb,
     /// Index of its first solid in the scratch memory.
     first: usize,
     /// Whether its solids have been placed.
     is_placed: bool,
-}
-
-#[derive(Clone)]
-struct PlacedSolid {
-    pose: ParryPose,
-    bounds: Aabb,
 }
 
 /// One running query.
@@ -163,6 +160,19 @@ impl<'w> Surroundings<'w> {
             Some(link) => &link.solids,
             None => self.held.get(mover - links.len()).map_or(&[], |h| h.solids),
         }
+    }
+
+    /// The box about the mover with that index, in its frame.
+    fn containing_box(&self, mover: usize) -> OrientedBox {
+        let links = &self.models.robot_geometry.solid_links;
+        let bounds = match links.get(mover) {
+            Some(link) => link.bounds,
+            None => {
+                let held = self.held.get(mover - links.len());
+                held.map_or_else(Aabb::new_invalid, |held| held.bounds)
+            }
+        };
+        OrientedBox::new(&bounds)
     }
 }
 
@@ -250,12 +260,13 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             return false;
         };
         let (one, two, slack) = (&one.bounds, &two.bounds, margin.max(0.0));
-        one.mins.x - slack <= two.maxs.x
-            && one.maxs.x + slack >= two.mins.x
-            && one.mins.y - slack <= two.maxs.y
-            && one.maxs.y + slack >= two.mins.y
-            && one.mins.z - slack <= two.maxs.z
-            && one.maxs.z + slack >= two.mins.z
+        // One branch for all: which of the comparisons fails cannot be foreseen.
+        (one.mins.x - slack <= two.maxs.x)
+            & (one.maxs.x + slack >= two.mins.x)
+            & (one.mins.y - slack <= two.maxs.y)
+            & (one.maxs.y + slack >= two.mins.y)
+            & (one.mins.z - slack <= two.maxs.z)
+            & (one.maxs.z + slack >= two.mins.z)
     }
 
     /// The pose of a link. The caller must pass one for every link; a link without one is taken to
@@ -265,18 +276,20 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         pose.copied().unwrap_or_default()
     }
 
-    /// The pose and the bounds of the mover with that index.
-    fn place(&self, mover: usize) -> (ParryPose, Aabb) {
+    /// The pose, the frame and the bounds of the mover with that index.
+    fn place(&self, mover: usize) -> (ParryPose, Frame, Aabb) {
         let links = &self.around.models.robot_geometry.solid_links;
-        let (pose, bounds) = match links.get(mover) {
-            Some(link) => (self.link_pose(link.link), link.bounds),
-            None => match self.around.held.get(mover - links.len()) {
-                Some(held) => (self.link_pose(held.link) * held.at, held.bounds),
-                None => (Pose::identity(), Aabb::new_invalid()),
-            },
+        let pose = match links.get(mover) {
+            Some(link) => self.link_pose(link.link),
+            None => {
+                let held = self.around.held.get(mover - links.len());
+                held.map_or_else(Pose::identity, |held| self.link_pose(held.link) * held.at)
+            }
         };
         let pose = to_parry(&pose);
-        (pose, bounds.transform_by(&pose))
+        let frame = Frame::new(&pose);
+        let bounds = frame.bounds_of(&self.around.containing_box(mover));
+        (pose, frame, bounds)
     }
 
     fn place_all(&mut self) {
@@ -287,22 +300,22 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         let mut first = 0;
         self.scratch.movers.clear();
         for (place, (key, link)) in links.chain(held).enumerate() {
-            let (pose, bounds) = self.place(place);
+            let (pose, frame, bounds) = self.place(place);
             self.scratch.movers.push(Mover {
                 key,
                 link,
                 pose,
+                frame,
                 bounds,
                 first,
                 is_placed: false,
             });
             first += around.solids(place).len();
         }
-        let nowhere = PlacedSolid {
-            pose: ParryPose::IDENTITY,
-            bounds: Aabb::new_invalid(),
-        };
-        self.scratch.solids.resize(first, nowhere);
+        // They are placed when they are needed.
+        let point = OrientedBox::new(&Aabb::new(Vector::ZERO, Vector::ZERO));
+        let anywhere = PlacedSolid::at(&ParryPose::IDENTITY, &point);
+        self.scratch.solids.resize(first, anywhere);
     }
 
     fn place_moved(&mut self, moved: &[bool]) {
@@ -312,9 +325,10 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             if moved.get(link.index()) == Some(&false) {
                 continue;
             }
-            let (pose, bounds) = self.place(place);
+            let (pose, frame, bounds) = self.place(place);
             let mover = &mut self.scratch.movers[place];
-            (mover.pose, mover.bounds, mover.is_placed) = (pose, bounds, false);
+            (mover.pose, mover.frame, mover.bounds) = (pose, frame, bounds);
+            mover.is_placed = false;
         }
     }
 
@@ -362,20 +376,19 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         for i in 0..self.scratch.furniture.len() {
             // These are places in this list.
             let obstacle = &around.furniture.all()[self.scratch.furniture[i]];
-            if !obstacle.bounds.intersects(&bounds) || self.is_allowed(key, obstacle.key) {
+            if !obstacle.placed.bounds.intersects(&bounds) || self.is_allowed(key, obstacle.key) {
                 continue;
             }
-            let (pose, solid) = (&obstacle.pose, &obstacle.solid);
-            self.solids_against(place, obstacle.key, pose, solid, &obstacle.bounds, margin)?;
+            let (solid, placed) = (&obstacle.solid, &obstacle.placed);
+            self.solids_against(place, obstacle.key, solid, placed, margin)?;
         }
         for object in &around.objects {
             if !object.bounds.intersects(&bounds) || self.is_allowed(key, object.key) {
                 continue;
             }
             for solid in object.solids {
-                let pose = object.pose * solid.pose;
-                let bounds = solid.bounds.transform_by(&object.pose);
-                self.solids_against(place, object.key, &pose, solid, &bounds, margin)?;
+                let placed = PlacedSolid::new(solid, &object.pose);
+                self.solids_against(place, object.key, solid, &placed, margin)?;
             }
         }
         let margin = match around.models.footing(key) {
@@ -415,6 +428,10 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         if !self.asks_of_links(one.link, two.link) || self.is_allowed(one.key, two.key) {
             return ControlFlow::Continue(());
         }
+        let (box1, box2) = (around.containing_box(a), around.containing_box(b));
+        if box1.is_apart(&one.frame, &box2, &two.frame, margin.max(0.0)) {
+            return ControlFlow::Continue(());
+        }
         let bounds = with_slack(&one.bounds, margin);
         let other = two.key;
         let first = self.place_solids(b);
@@ -422,8 +439,8 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             // The solids were placed from `first` on by the line above.
             let placed = &self.scratch.solids[first + i];
             if placed.bounds.intersects(&bounds) {
-                let (pose, bounds) = (placed.pose, placed.bounds);
-                self.solids_against(a, other, &pose, solid, &bounds, margin)?;
+                let placed = *placed;
+                self.solids_against(a, other, solid, &placed, margin)?;
             }
         }
         ControlFlow::Continue(())
@@ -434,9 +451,8 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
         &mut self,
         place: usize,
         other: PartKey,
-        other_pose: &ParryPose,
         other_solid: &Solid,
-        other_bounds: &Aabb,
+        other_placed: &PlacedSolid,
         margin: f64,
     ) -> ControlFlow<()> {
         let around = self.around;
@@ -446,13 +462,16 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             // The visitor may have lowered the margin since.
             let margin = margin.min(self.margin);
             let placed = &self.scratch.solids[first + i];
-            if !with_slack(&placed.bounds, margin).intersects(other_bounds) {
+            let (box1, box2) = (&solid.containing_box, &other_solid.containing_box);
+            if !with_slack(&placed.bounds, margin).intersects(&other_placed.bounds)
+                || box1.is_apart(&placed.frame, box2, &other_placed.frame, margin.max(0.0))
+            {
                 continue;
             }
             let near = if self.question.wanted == Wanted::Whether && margin == 0.0 {
-                overlap(&placed.pose, solid, other_pose, other_solid)
+                overlap(&placed.pose, solid, &other_placed.pose, other_solid)
             } else {
-                separation(&placed.pose, solid, other_pose, other_solid, margin)
+                separation(&placed.pose, solid, &other_placed.pose, other_solid, margin)
             };
             if let Some(separation) = near {
                 // The mover exists: its solids were placed.
@@ -476,9 +495,7 @@ impl<V: FnMut(Near, &mut f64) -> ControlFlow<()>> Search<'_, '_, V> {
             mover.is_placed = true;
             let own = solids.iter_mut().skip(mover.first);
             for (placed, solid) in own.zip(self.around.solids(place)) {
-                // Somewhat larger than the bounds of the turned solid, but cheap.
-                placed.bounds = solid.bounds.transform_by(&mover.pose);
-                placed.pose = mover.pose * solid.pose;
+                *placed = PlacedSolid::new(solid, &mover.pose);
             }
         }
         mover.first

@@ -89,7 +89,7 @@ impl World {
             .collect();
         let on_link = |object: &ObjectAt<'_>| {
             own.iter()
-                .any(|o| touches(object, &o.pose, &o.solid, TOUCHING).is_some())
+                .any(|o| touches(object, &o.placed.pose, &o.solid, TOUCHING).is_some())
         };
         let mut riding: Vec<ObjectAt<'_>> = Vec::new();
         loop {
@@ -224,7 +224,7 @@ impl MovedPart<'_> {
     /// What other furniture the links of the part overlap there.
     pub(super) fn furniture_hit(&self) -> Option<CollisionHit> {
         self.own_obstacles()
-            .find_map(|own| self.against_furniture(own.key, &own.pose, &own.solid))
+            .find_map(|own| self.against_furniture(own.key, &own.placed.pose, &own.solid))
     }
 
     /// What the part, or something that rides in it, would run into there: other furniture, or an
@@ -243,7 +243,7 @@ impl MovedPart<'_> {
         let (riders, others): (Vec<_>, Vec<_>) = objects.into_iter().partition(|(_, rides)| *rides);
         for (other, _) in &others {
             for own in self.own_obstacles() {
-                if let Some(hit) = touches(other, &own.pose, &own.solid, -SLACK) {
+                if let Some(hit) = touches(other, &own.placed.pose, &own.solid, -SLACK) {
                     return self.report(own.key, other.key, hit);
                 }
             }
@@ -279,7 +279,7 @@ impl MovedPart<'_> {
             if is_of(&self.part.links, other.key) {
                 continue;
             }
-            if let Some(hit) = separation(pose, solid, &other.pose, &other.solid, -SLACK) {
+            if let Some(hit) = separation(pose, solid, &other.placed.pose, &other.solid, -SLACK) {
                 return self.report(key, other.key, (hit.distance, from_parry_vector(hit.point)));
             }
         }

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
-use parry3d_f64::math::Pose as ParryPose;
 
 use super::link_geometry::TreeGeometry;
 use super::part_key::{PartKey, index};
+use super::placed_solid::PlacedSolid;
 use super::solid::{Solid, to_parry};
 use crate::spatial::Pose;
 
@@ -14,10 +14,7 @@ use crate::spatial::Pose;
 pub(crate) struct Obstacle {
     pub(crate) key: PartKey,
     pub(crate) solid: Solid,
-    /// Pose of the solid in the map frame.
-    pub(crate) pose: ParryPose,
-    /// Bounds in the map frame (m).
-    pub(crate) bounds: Aabb,
+    pub(crate) placed: PlacedSolid,
 }
 
 /// All furniture, link by link.
@@ -36,14 +33,12 @@ impl Obstacles {
             let first = all.len();
             let mut bounds = Aabb::new_invalid();
             for solid in &link.solids {
-                let pose = link_pose * solid.pose;
                 let obstacle = Obstacle {
                     key: PartKey::Furniture(index(link.link)),
-                    bounds: solid.shape.compute_aabb(&pose),
                     solid: solid.clone(),
-                    pose,
+                    placed: PlacedSolid::new(solid, &link_pose),
                 };
-                bounds.merge(&obstacle.bounds);
+                bounds.merge(&obstacle.placed.bounds);
                 all.push(obstacle);
             }
             links.push((bounds, first..all.len()));
@@ -63,6 +58,6 @@ impl Obstacles {
             .filter(|(link, _)| link.intersects(bounds))
             .flat_map(|(_, range)| range.clone())
             // The ranges index this list.
-            .filter(|place| self.all[*place].bounds.intersects(bounds))
+            .filter(|place| self.all[*place].placed.bounds.intersects(bounds))
     }
 }

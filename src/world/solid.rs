@@ -9,6 +9,7 @@ use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::{Pose as ParryPose, Rotation, Vector};
 use parry3d_f64::shape::SharedShape;
 
+use super::oriented_box::OrientedBox;
 use crate::spatial::{PlacedShape, Pose, Shape};
 
 /// The library's pose for ours.
@@ -44,6 +45,8 @@ pub(crate) struct Solid {
     pub(crate) pose: ParryPose,
     /// Bounds in the owner's frame (m).
     pub(crate) bounds: Aabb,
+    /// The box about the primitive, in the primitive's own frame.
+    pub(crate) containing_box: OrientedBox,
     /// Volume (m³), the weight of this part in the mass of its owner.
     pub(crate) volume: f64,
 }
@@ -70,10 +73,12 @@ impl Solid {
         };
         let bounds = shape.compute_aabb(&pose);
         let volume = shape.mass_properties(1.0).mass();
+        let containing_box = OrientedBox::new(&shape.compute_local_aabb());
         (volume > 0.0).then_some(Self {
             shape,
             pose,
             bounds,
+            containing_box,
             volume,
         })
     }

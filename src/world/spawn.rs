@@ -342,7 +342,7 @@ impl World {
             }
         };
         for obstacle in self.state.furniture.all() {
-            add(obstacle.key, obstacle.pose, &obstacle.solid);
+            add(obstacle.key, obstacle.placed.pose, &obstacle.solid);
         }
         for link in &self.models.robot_geometry.solid_links {
             let pose = to_parry(&self.link_pose(link.link));
