@@ -85,11 +85,14 @@ const BRANCH: f64 = 0.5;
 
 /// Random configurations are drawn from around the straight path, at first within this share of the
 /// ranges of the axes: most obstacles are passed by a small detour.
-const NARROWEST: f64 = 0.2;
+const NARROWEST: f64 = 0.4;
 
 /// How many more random configurations make the share larger by 1; from there on they come from
 /// anywhere.
 const WIDENING: f64 = 1000.0;
+
+/// One in so many random configurations comes from anywhere in any case.
+const FROM_ANYWHERE: usize = 3;
 
 /// A shortcut saves at least this share of the way that it replaces; others are not worth the checks.
 const LEAST_GAIN: f64 = 0.05;
@@ -280,7 +283,11 @@ impl<P> Search<'_, P> {
                 return None;
             }
             let side = round % 2;
-            let width = (NARROWEST + round as f64 / WIDENING).min(1.0);
+            // Both trees have their turn, then the next share.
+            let width = match (round / 2) % FROM_ANYWHERE {
+                0 => 1.0,
+                _ => (NARROWEST + round as f64 / WIDENING).min(1.0),
+            };
             let along = unit(rng);
             let sample: Point = (self.axes.iter().zip(start).zip(goal))
                 .map(|((axis, from), to)| {
