@@ -80,7 +80,7 @@ async fn first_solution(calls: &Calls, designator: &Value) -> Result<Found> {
         .with(|machine| enabled(machine.image, GENERATORS))
         .await;
     generators.reverse();
-    let search = Search {
+    let mut search = Search {
         designator: designator.clone(),
         owner: designator.clone(),
         samples: Vec::new(),
@@ -230,16 +230,13 @@ struct Search {
 
 impl Search {
     /// Checks samples, running generators for more, until one is accepted.
-    async fn run(mut self, calls: &Calls) -> Result<Found> {
+    async fn run(&mut self, calls: &Calls) -> Result<Found> {
         loop {
             let Some(sample) = self.next_sample(calls).await else {
                 return Ok(Found::Nothing(self.causes.to_string()));
             };
             match self.judge(calls, &sample).await {
-                Verdict::Accepted => {
-                    self.settle(&sample);
-                    return Ok(Found::Pose(sample));
-                }
+                Verdict::Accepted => return Ok(Found::Pose(self.settle(sample))),
                 Verdict::Rejected(why) => self.causes.reject(why),
             }
             let most = calls.with(|machine| most_retries(machine.image)).await;
@@ -307,13 +304,27 @@ impl Search {
         }
     }
 
-    /// Makes a sample the value of the owner, and keeps what has not been checked.
-    fn settle(self, sample: &Value) {
-        if let Some(target) = value::as_designator(&self.owner) {
-            *target.data.borrow_mut() = Some(sample.clone());
-            let rest = Value::cons(Value::list(self.samples), Value::list(self.generators));
-            *target.solutions.borrow_mut() = Some(rest);
+    /// Makes a sample the value of the owner, and keeps what has not been checked. If another task has
+    /// resolved the owner while this search waited, its value stays and is the result.
+    fn settle(&mut self, sample: Value) -> Value {
+        let rest = self.rest();
+        let Some(target) = value::as_designator(&self.owner) else {
+            return sample;
+        };
+        let mut data = target.data.borrow_mut();
+        if let Some(earlier) = &*data {
+            return earlier.clone();
         }
+        *data = Some(sample.clone());
+        *target.solutions.borrow_mut() = Some(rest);
+        sample
+    }
+
+    /// What has not been checked, in reverse order: samples and generators.
+    fn rest(&mut self) -> Value {
+        let samples = std::mem::take(&mut self.samples);
+        let generators = std::mem::take(&mut self.generators);
+        Value::cons(Value::list(samples), Value::list(generators))
     }
 }
 
@@ -335,7 +346,7 @@ pub(crate) async fn next_solution(calls: &Calls, designator: &Value) -> Result<V
         Ok::<_, Box<Raise>>(same_description(machine.image, target))
     });
     let owner = owner.await?;
-    let search = Search {
+    let mut search = Search {
         designator: designator.clone(),
         owner: owner.clone(),
         // Both are kept in reverse order.
@@ -343,11 +354,20 @@ pub(crate) async fn next_solution(calls: &Calls, designator: &Value) -> Result<V
         generators: rest.cdr_or_nil().iter_list().collect(),
         causes: Causes::default(),
     };
-    Ok(match search.run(calls).await? {
+    let found = search.run(calls).await?;
+    // Another task may have asked meanwhile; all get the same answer.
+    if let Some(next) = target.successor.borrow().clone() {
+        return Ok(next);
+    }
+    Ok(match found {
         Found::Pose(_) => {
             value::equate(designator, &owner);
             owner
         }
-        Found::Nothing(_) => Value::NIL,
+        Found::Nothing(_) => {
+            // What was rejected is not judged again.
+            *target.solutions.borrow_mut() = Some(search.rest());
+            Value::NIL
+        }
     })
 }
