@@ -1,5 +1,6 @@
 //! The language without robots.
 
+mod array_elements;
 mod builtin_robustness;
 mod cram_utilities;
 mod debugger_and_packages;

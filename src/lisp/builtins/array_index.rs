@@ -1,9 +1,9 @@
 //! Errors about indices of arrays.
 
 use crate::lisp::value::Value;
+use crate::lisp::value::element_type::ElementType;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
 
 /// "Invalid index 5 for (SIMPLE-VECTOR 2), should be a non-negative integer below 2."
 pub(crate) fn invalid(array: &Value, index: &Value, bound: usize) -> Box<Raise> {
@@ -54,25 +54,15 @@ pub(crate) fn invalid_on_axis(
 
 /// The type of an array as messages show it.
 fn type_name(array: &Value) -> String {
-    let of_type = |sym: Sym| match sym {
-        known::DOUBLE_FLOAT => "DOUBLE-FLOAT",
-        known::SINGLE_FLOAT => "SINGLE-FLOAT",
-        known::FIXNUM => "FIXNUM",
-        known::BIT => "BIT",
-        _ => "T",
-    };
     match array {
         Value::Vector(v) => {
             let size = v.items.len();
             match (v.is_simple(), v.element_type) {
-                (true, known::T) => format!("(SIMPLE-VECTOR {size})"),
-                (true, known::BIT) => format!("(SIMPLE-BIT-VECTOR {size})"),
-                (true, other) => format!("(SIMPLE-ARRAY {} ({size}))", of_type(other)),
+                (true, ElementType::T) => format!("(SIMPLE-VECTOR {size})"),
+                (true, ElementType::Bit) => format!("(SIMPLE-BIT-VECTOR {size})"),
+                (true, other) => format!("(SIMPLE-ARRAY {} ({size}))", other),
                 (false, other) => {
-                    format!(
-                        "(AND (VECTOR {} {size}) (NOT SIMPLE-ARRAY))",
-                        of_type(other)
-                    )
+                    format!("(AND (VECTOR {} {size}) (NOT SIMPLE-ARRAY))", other)
                 }
             }
         }
@@ -92,7 +82,7 @@ fn type_name(array: &Value) -> String {
                 .collect();
             format!(
                 "(SIMPLE-ARRAY {} ({}))",
-                of_type(a.element_type),
+                a.element_type,
                 dimensions.join(" ")
             )
         }

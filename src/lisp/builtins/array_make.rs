@@ -1,12 +1,12 @@
 //! Making arrays.
 
+use crate::lisp::value::element_type::ElementType;
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use super::arrays::{element_type, total_size};
 use super::keywords;
 use super::lists::size;
-use super::sequence_access::default_element;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::guard::{MOST_ELEMENTS, reserve};
 use crate::lisp::image::Image;
@@ -16,10 +16,8 @@ use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::elements::{Displacement, Elements};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::sequence::Kind;
 use crate::lisp::value::sequence::{Sequence, checked_element, index, list_items, text_of};
 use crate::lisp::value::string::LispString;
-use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -33,7 +31,7 @@ pub(crate) struct Options {
     /// Nested sequences of the elements.
     pub(crate) contents: Option<Value>,
     /// The type of the elements, as it is stored, if it is given.
-    pub(crate) element_type: Option<Sym>,
+    pub(crate) element_type: Option<ElementType>,
     /// May the array be adjusted?
     pub(crate) adjustable: bool,
     fill_pointer: Option<Value>,
@@ -96,7 +94,7 @@ impl Options {
     /// displaced.
     pub(crate) fn displacement(
         &self,
-        of_type: Sym,
+        of_type: ElementType,
         shape: &[usize],
     ) -> Result<Option<Displacement>, Box<Raise>> {
         let Some(target) = &self.displaced_to else {
@@ -189,21 +187,18 @@ pub(crate) fn flatten(contents: &Value, shape: &[usize]) -> Result<Vec<Value>, B
 }
 
 /// The element that arrays of this element type hold by default.
-pub(crate) fn filler(element_type: Sym) -> Value {
-    match element_type {
-        known::CHARACTER => default_element(Kind::Str),
-        other => default_element(Kind::Vector(other)),
-    }
+pub(crate) fn filler(element_type: ElementType) -> Value {
+    element_type.default_element()
 }
 
 /// A vector or string made of items.
 pub(crate) fn vector(
-    element_type: Sym,
+    element_type: ElementType,
     items: Vec<Value>,
     fill_pointer: Option<usize>,
     adjustable: bool,
 ) -> Outcome {
-    if element_type == known::CHARACTER {
+    if element_type == ElementType::Character {
         let text = text_of(&items)?;
         let Some(count) = fill_pointer else {
             let string = LispString::new(text);
@@ -224,7 +219,7 @@ pub(crate) fn vector(
 
 /// A new array that is a part of another one.
 pub(super) fn displaced(
-    element_type: Sym,
+    element_type: ElementType,
     shape: Vec<usize>,
     displacement: Displacement,
     options: &Options,
@@ -240,7 +235,7 @@ pub(super) fn displaced(
         return Ok(Value::Array(Rc::new(array)));
     }
     let pointer = options.fill_pointer(size)?;
-    if element_type == known::CHARACTER {
+    if element_type == ElementType::Character {
         let string = LispString::new(String::new());
         string.adjustable.set(options.adjustable);
         string.has_fill_pointer.set(pointer.is_some());
@@ -270,7 +265,7 @@ fn make_array(image: &mut Image, args: &[Value]) -> Outcome {
     let shape = shape(&args[0])?;
     let options = Options::parse(image, &args[1..])?;
     let total: usize = shape.iter().product();
-    let of_type = options.element_type.unwrap_or(known::T);
+    let of_type = options.element_type.unwrap_or(ElementType::T);
     if let Some(displacement) = options.displacement(of_type, &shape)? {
         return displaced(of_type, shape, displacement, &options);
     }

@@ -1,5 +1,6 @@
 //! Arrays of any rank: access, shape, adjustment.
 
+use crate::lisp::value::element_type::ElementType;
 use std::rc::Rc;
 
 use super::array_index;
@@ -13,7 +14,6 @@ use crate::lisp::value::elements::{Displacement, Elements, displacement};
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::{checked_element, index, text_of};
-use crate::lisp::value::symbol::Sym;
 
 type Outcome = Result<Value, Box<Raise>>;
 
@@ -28,10 +28,10 @@ pub(crate) fn dimensions(array: &Value) -> Result<Vec<usize>, Box<Raise>> {
 }
 
 /// The element type that an array has.
-pub(crate) fn element_type(array: &Value) -> Result<Sym, Box<Raise>> {
+pub(crate) fn element_type(array: &Value) -> Result<ElementType, Box<Raise>> {
     match array {
         Value::Vector(v) => Ok(v.element_type),
-        Value::Str(_) => Ok(known::CHARACTER),
+        Value::Str(_) => Ok(ElementType::Character),
         Value::Array(a) => Ok(a.element_type),
         _ => Err(Raise::type_error(array, known::ARRAY)),
     }
@@ -138,7 +138,7 @@ fn set_svref(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn bit(image: &mut Image, args: &[Value]) -> Outcome {
-    if element_type(&args[0])? == known::BIT {
+    if element_type(&args[0])? == ElementType::Bit {
         aref(image, args)
     } else {
         Err(Raise::type_error(&args[0], bit_array_type()))
@@ -146,7 +146,7 @@ fn bit(image: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn set_bit(image: &mut Image, args: &[Value]) -> Outcome {
-    if element_type(&args[1])? == known::BIT {
+    if element_type(&args[1])? == ElementType::Bit {
         set_aref(image, args)
     } else {
         Err(Raise::type_error(&args[1], bit_array_type()))
@@ -217,7 +217,7 @@ fn array_in_bounds_p(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn array_element_type(_: &mut Image, args: &[Value]) -> Outcome {
-    element_type(&args[0]).map(Value::symbol)
+    element_type(&args[0]).map(ElementType::specifier)
 }
 
 fn is_adjustable(array: &Value) -> bool {
@@ -256,7 +256,7 @@ fn vectorp(_: &mut Image, args: &[Value]) -> Outcome {
 
 /// Is this a vector without a fill pointer whose elements may be anything?
 fn is_simple_vector(value: &Value) -> bool {
-    matches!(value, Value::Vector(v) if v.element_type == known::T && v.is_simple())
+    matches!(value, Value::Vector(v) if v.element_type == ElementType::T && v.is_simple())
 }
 
 fn simple_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
@@ -264,7 +264,7 @@ fn simple_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
 }
 
 fn is_bit_vector(value: &Value) -> bool {
-    matches!(value, Value::Vector(v) if v.element_type == known::BIT)
+    matches!(value, Value::Vector(v) if v.element_type == ElementType::Bit)
 }
 
 fn bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
@@ -273,7 +273,7 @@ fn bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
 
 fn simple_bit_vector_p(_: &mut Image, args: &[Value]) -> Outcome {
     let simple =
-        matches!(&args[0], Value::Vector(v) if v.element_type == known::BIT && v.is_simple());
+        matches!(&args[0], Value::Vector(v) if v.element_type == ElementType::Bit && v.is_simple());
     Ok(Value::bool(simple))
 }
 
@@ -352,7 +352,7 @@ fn adjust_array(image: &mut Image, args: &[Value]) -> Outcome {
 /// ADJUST-ARRAY that makes an array a part of another one.
 fn displaced(
     array: &Value,
-    of_type: Sym,
+    of_type: ElementType,
     shape: Vec<usize>,
     displacement: Displacement,
     options: &array_make::Options,

@@ -1,5 +1,6 @@
 //! Bit arrays: the logical operations on all bits.
 
+use crate::lisp::value::element_type::ElementType;
 use std::rc::Rc;
 
 use super::array_make;
@@ -17,7 +18,7 @@ fn bits(array: &Value) -> Result<Vec<bool>, Box<Raise>> {
     let to_bits = |items: &[Value]| -> Vec<bool> {
         items.iter().map(|v| matches!(v, Value::Int(1))).collect()
     };
-    if element_type(array)? != known::BIT {
+    if element_type(array)? != ElementType::Bit {
         return Err(Raise::type_error(array, bit_array_type()));
     }
     Ok(match array {
@@ -36,12 +37,12 @@ fn deliver(operand: &Value, result: Option<&Value>, bits: &[bool]) -> Outcome {
             if let Value::Array(a) = operand {
                 let dimensions = a.dimensions.borrow().clone();
                 return Ok(Value::Array(Rc::new(Array::new(
-                    known::BIT,
+                    ElementType::Bit,
                     dimensions,
                     items,
                 ))));
             }
-            return array_make::vector(known::BIT, items, None, false);
+            return array_make::vector(ElementType::Bit, items, None, false);
         }
         Some(Value::Symbol(known::T, ..)) => operand,
         Some(target) => target,

@@ -176,9 +176,7 @@ pub(crate) fn default_element(kind: Kind) -> Value {
     match kind {
         Kind::List => Value::NIL,
         Kind::Str => Value::Char('\0'),
-        Kind::Vector(known::DOUBLE_FLOAT) => Value::Double(0.0),
-        Kind::Vector(known::SINGLE_FLOAT) => Value::Single(0.0),
-        Kind::Vector(_) => Value::Int(0),
+        Kind::Vector(element_type) => element_type.default_element(),
     }
 }
 

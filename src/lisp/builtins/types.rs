@@ -58,7 +58,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "type &optional environment",
         "The element type that an array made for elements of the type really has.",
         &["(upgraded-array-element-type 'symbol) => T"],
-        |image, args| Ok(upgraded(image, &args[0]).into()),
+        |image, args| Ok(upgraded(image, &args[0]).specifier()),
     ),
 ];
 

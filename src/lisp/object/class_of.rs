@@ -1,5 +1,6 @@
 //! The class of a value.
 
+use crate::lisp::value::element_type::ElementType;
 use std::rc::Rc;
 
 use crate::lisp::image::Image;
@@ -47,9 +48,9 @@ pub(crate) fn builtin_class_name(image: &Image, value: &Value) -> Sym {
         Value::Str(s) if s.is_simple() => known::SIMPLE_STRING,
         Value::Str(_) => known::STRING,
         Value::Vector(v) => match (v.element_type, v.is_simple()) {
-            (known::BIT, true) => known::SIMPLE_BIT_VECTOR,
-            (known::BIT, false) => known::BIT_VECTOR,
-            (known::T, true) => known::SIMPLE_VECTOR,
+            (ElementType::Bit, true) => known::SIMPLE_BIT_VECTOR,
+            (ElementType::Bit, false) => known::BIT_VECTOR,
+            (ElementType::T, true) => known::SIMPLE_VECTOR,
             _ => known::VECTOR,
         },
         Value::Array(a) if a.is_simple() => known::SIMPLE_ARRAY,

@@ -1,5 +1,6 @@
 //! From a value to a document: an explicit stack of what is still to be printed.
 
+use crate::lisp::value::element_type::ElementType;
 use std::rc::Rc;
 
 use super::atom;
@@ -386,7 +387,7 @@ impl<'a> Printer<'a> {
     fn vector(&mut self, value: &Value, vector: &Rc<Vector>, depth: usize) {
         let items = vector.to_vec();
         if !self.settings.array {
-            let kind = if vector.element_type == known::BIT {
+            let kind = if vector.element_type == ElementType::Bit {
                 "SIMPLE-BIT-VECTOR"
             } else {
                 "SIMPLE-VECTOR"
@@ -399,7 +400,7 @@ impl<'a> Printer<'a> {
             self.document.text(&text);
             return;
         }
-        if vector.element_type == known::BIT {
+        if vector.element_type == ElementType::Bit {
             let bits = items.iter().map(|bit| {
                 if matches!(bit, Value::Int(0)) {
                     '0'

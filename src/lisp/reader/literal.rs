@@ -1,6 +1,7 @@
 //! Values of tokens and of finished `#` forms: strings, characters, radix numbers, bit
 //! vectors, vectors, arrays and structures.
 
+use crate::lisp::value::element_type::ElementType;
 use std::rc::Rc;
 
 use super::char_name::char_named;
@@ -99,7 +100,10 @@ fn bits(length: Option<u32>, body: &str) -> Result<Value, ReadErrorKind> {
         })
         .collect::<Result<Vec<Value>, _>>()?;
     let items = fill(items, length)?;
-    Ok(Value::Vector(Rc::new(Vector::of_type(known::BIT, items))))
+    Ok(Value::Vector(Rc::new(Vector::of_type(
+        ElementType::Bit,
+        items,
+    ))))
 }
 
 /// A vector; if a length is given, the last element is repeated to reach it.
@@ -176,7 +180,7 @@ pub(crate) fn array(contents: &Value, rank: u32) -> Result<Value, ReadErrorKind>
         level = rows.into_iter().flatten().collect();
     }
     Ok(Value::Array(Rc::new(Array::new(
-        known::T,
+        ElementType::T,
         dimensions,
         level,
     ))))

@@ -5,6 +5,7 @@ use crate::lisp::image::Image;
 use crate::lisp::types::sequence_types;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
+use crate::lisp::value::element_type::ElementType;
 use crate::lisp::value::known;
 use crate::lisp::value::number::{Rounding, add, divide, rational, sub};
 use crate::lisp::value::raise::Raise;
@@ -170,13 +171,13 @@ impl Parser<'_> {
         let (simple, element) = match name {
             known::ARRAY | known::VECTOR => (false, None),
             known::SIMPLE_ARRAY => (true, None),
-            known::SIMPLE_VECTOR => (true, Some(known::T)),
-            known::STRING => (false, Some(known::CHARACTER)),
-            known::SIMPLE_STRING => (true, Some(known::CHARACTER)),
-            known::BASE_STRING => (false, Some(known::CHARACTER)),
-            known::SIMPLE_BASE_STRING => (true, Some(known::CHARACTER)),
-            known::BIT_VECTOR => (false, Some(known::BIT)),
-            known::SIMPLE_BIT_VECTOR => (true, Some(known::BIT)),
+            known::SIMPLE_VECTOR => (true, Some(ElementType::T)),
+            known::STRING => (false, Some(ElementType::Character)),
+            known::SIMPLE_STRING => (true, Some(ElementType::Character)),
+            known::BASE_STRING => (false, Some(ElementType::Character)),
+            known::SIMPLE_BASE_STRING => (true, Some(ElementType::Character)),
+            known::BIT_VECTOR => (false, Some(ElementType::Bit)),
+            known::SIMPLE_BIT_VECTOR => (true, Some(ElementType::Bit)),
             _ => return Ok(None),
         };
         let has_element = matches!(name, known::ARRAY | known::SIMPLE_ARRAY | known::VECTOR);
@@ -233,7 +234,7 @@ fn is_star(value: &Value) -> bool {
 }
 
 /// The actual element type of an array that is made for elements of a type.
-pub(crate) fn upgraded(image: &Image, element: &Value) -> Sym {
+pub(crate) fn upgraded(image: &Image, element: &Value) -> ElementType {
     sequence_types::upgraded(image, element)
 }
 

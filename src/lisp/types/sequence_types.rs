@@ -4,10 +4,10 @@
 use crate::lisp::image::Image;
 use crate::lisp::object::text as shown;
 use crate::lisp::value::Value;
+use crate::lisp::value::element_type::ElementType;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::sequence::Kind;
-use crate::lisp::value::symbol::Sym;
 
 /// A kind of sequence, and its length if the type specifies one.
 #[derive(Clone)]
@@ -46,8 +46,10 @@ impl SequenceType {
                 let element_type = first.unwrap_or(Value::T);
                 (vector_kind(image, &element_type), size(second))
             }
-            known::SIMPLE_VECTOR => (Kind::Vector(known::T), size(first)),
-            known::BIT_VECTOR | known::SIMPLE_BIT_VECTOR => (Kind::Vector(known::BIT), size(first)),
+            known::SIMPLE_VECTOR => (Kind::Vector(ElementType::T), size(first)),
+            known::BIT_VECTOR | known::SIMPLE_BIT_VECTOR => {
+                (Kind::Vector(ElementType::Bit), size(first))
+            }
             known::STRING
             | known::SIMPLE_STRING
             | known::BASE_STRING
@@ -124,34 +126,59 @@ fn by_itself(image: &Image, specifier: &Value) -> Value {
 /// The kind of vector that holds elements of a type.
 pub(crate) fn vector_kind(image: &Image, element_type: &Value) -> Kind {
     match upgraded(image, element_type) {
-        known::CHARACTER => Kind::Str,
+        ElementType::Character => Kind::Str,
         other => Kind::Vector(other),
     }
 }
 
 /// The actual element type of an array that is made for elements of a type.
-pub(crate) fn upgraded(image: &Image, element_type: &Value) -> Sym {
+pub(crate) fn upgraded(image: &Image, element_type: &Value) -> ElementType {
     match &by_itself(image, element_type) {
-        Value::Symbol(known::CHARACTER | known::BASE_CHAR | known::STANDARD_CHAR, ..) => {
-            known::CHARACTER
-        }
-        Value::Symbol(sym, ..) if image.name(*sym) == "EXTENDED-CHAR" => known::CHARACTER,
-        Value::Symbol(known::BIT, ..) => known::BIT,
-        Value::Symbol(known::NIL, ..) => known::NIL,
-        Value::Symbol(known::DOUBLE_FLOAT | known::LONG_FLOAT, ..) => known::DOUBLE_FLOAT,
-        Value::Symbol(known::SINGLE_FLOAT | known::SHORT_FLOAT, ..) => known::SINGLE_FLOAT,
-        Value::Symbol(known::FIXNUM, ..) => known::FIXNUM,
+        Value::Symbol(sym, ..) => match *sym {
+            known::CHARACTER | known::BASE_CHAR | known::STANDARD_CHAR | known::EXTENDED_CHAR => {
+                ElementType::Character
+            }
+            known::BIT => ElementType::Bit,
+            known::NIL => ElementType::Nil,
+            known::DOUBLE_FLOAT | known::LONG_FLOAT => ElementType::Double,
+            known::SINGLE_FLOAT | known::SHORT_FLOAT => ElementType::Single,
+            known::FIXNUM => ElementType::Fixnum,
+            _ => ElementType::T,
+        },
         Value::Cons(cons) => {
             let arguments: Vec<Value> = cons.cdr().iter_list().collect();
-            match (cons.car(), arguments.as_slice()) {
-                (Value::Symbol(known::UNSIGNED_BYTE, ..), [Value::Int(1)])
-                | (Value::Symbol(known::MOD, ..), [Value::Int(2)])
-                | (Value::Symbol(known::INTEGER, ..), [Value::Int(0), Value::Int(1)]) => known::BIT,
-                (Value::Symbol(known::DOUBLE_FLOAT, ..), _) => known::DOUBLE_FLOAT,
-                (Value::Symbol(known::SINGLE_FLOAT, ..), _) => known::SINGLE_FLOAT,
-                _ => known::T,
+            let Value::Symbol(name, ..) = cons.car() else {
+                return ElementType::T;
+            };
+            match (name, arguments.as_slice()) {
+                (known::UNSIGNED_BYTE, [Value::Int(bits @ 1..)]) => {
+                    ElementType::of_unsigned_bytes(*bits)
+                }
+                (known::SIGNED_BYTE, [Value::Int(bits @ 1..)]) => {
+                    ElementType::of_signed_bytes(*bits)
+                }
+                (known::MOD, [Value::Int(size @ 1..)]) => {
+                    ElementType::of_integers(&Value::Int(0), &Value::Int(size - 1))
+                }
+                (known::INTEGER, [low, high]) => {
+                    ElementType::of_integers(&inclusive(low, 1), &inclusive(high, -1))
+                }
+                (known::DOUBLE_FLOAT | known::LONG_FLOAT, _) => ElementType::Double,
+                (known::SINGLE_FLOAT | known::SHORT_FLOAT, _) => ElementType::Single,
+                _ => ElementType::T,
             }
         }
-        _ => known::T,
+        _ => ElementType::T,
+    }
+}
+
+/// A bound of a range of integers, the integer beside it if it is exclusive, as `(5)`.
+fn inclusive(bound: &Value, step: i64) -> Value {
+    match bound {
+        Value::Cons(exclusive) => match exclusive.car() {
+            Value::Int(n) => n.checked_add(step).map_or(Value::NIL, Value::Int),
+            other => other,
+        },
+        inclusive => inclusive.clone(),
     }
 }

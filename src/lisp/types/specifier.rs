@@ -1,11 +1,11 @@
 //! Types as Rust values, and the calls that reading or testing them may need.
 
+use crate::lisp::value::element_type::ElementType;
 use std::rc::Rc;
 
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Class;
 use crate::lisp::value::raise::Raise;
-use crate::lisp::value::symbol::Sym;
 
 /// A set of values.
 #[derive(Clone)]
@@ -35,7 +35,7 @@ pub(crate) enum Type {
         /// Must it be simple?
         simple: bool,
         /// The upgraded element type; any if none.
-        element: Option<Sym>,
+        element: Option<ElementType>,
         /// The dimensions; any if none.
         dimensions: Option<Vec<Option<usize>>>,
     },

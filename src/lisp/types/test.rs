@@ -6,6 +6,7 @@ use super::specifier::{Answers, Bound, CharacterKind, RealKind, Stop, Type};
 use crate::lisp::image::Image;
 use crate::lisp::object::class_of;
 use crate::lisp::value::Value;
+use crate::lisp::value::element_type::ElementType;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -168,11 +169,11 @@ fn is_below(value: &Value, high: &Bound) -> bool {
 fn is_array(
     value: &Value,
     simple: bool,
-    element: Option<Sym>,
+    element: Option<ElementType>,
     dimensions: Option<&[Option<usize>]>,
 ) -> bool {
     let (own_simple, own_element, sizes) = match value {
-        Value::Str(s) => (s.is_simple(), known::CHARACTER, vec![s.capacity()]),
+        Value::Str(s) => (s.is_simple(), ElementType::Character, vec![s.capacity()]),
         Value::Vector(v) => (v.is_simple(), v.element_type, vec![v.items.len()]),
         Value::Array(a) => (a.is_simple(), a.element_type, a.dimensions.borrow().clone()),
         _ => return false,

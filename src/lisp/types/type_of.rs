@@ -5,9 +5,9 @@ use crate::lisp::image::Image;
 use crate::lisp::object::class_of::builtin_class_name;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::Vector;
+use crate::lisp::value::element_type::ElementType;
 use crate::lisp::value::function::Body;
 use crate::lisp::value::known;
-use crate::lisp::value::symbol::Sym;
 
 /// The largest fixnum.
 const LARGEST_FIXNUM: i64 = 0x3fff_ffff_ffff_ffff;
@@ -20,7 +20,7 @@ pub(crate) fn type_of(image: &Image, value: &Value) -> Value {
         Value::Int(_) | Value::Big(_) => integer_type(image, value),
         Value::Char(c) if is_standard_char(*c) => known::STANDARD_CHAR.into(),
         Value::Char(c) if c.is_ascii() => known::BASE_CHAR.into(),
-        Value::Str(s) => array_type(s.is_simple(), known::CHARACTER, &[s.capacity()]),
+        Value::Str(s) => array_type(s.is_simple(), ElementType::Character, &[s.capacity()]),
         Value::Vector(v) => vector_type(v),
         Value::Array(a) => array_type(a.is_simple(), a.element_type, &a.dimensions.borrow()),
         Value::Function(f) => match f.body {
@@ -52,20 +52,20 @@ fn unsigned_beyond_fixnum() -> Value {
 fn vector_type(vector: &Vector) -> Value {
     let size = vector.items.len();
     match (vector.element_type, vector.is_simple()) {
-        (known::T, true) => Value::list([known::SIMPLE_VECTOR.into(), size.into()]),
-        (known::BIT, true) => Value::list([known::SIMPLE_BIT_VECTOR.into(), size.into()]),
+        (ElementType::T, true) => Value::list([known::SIMPLE_VECTOR.into(), size.into()]),
+        (ElementType::Bit, true) => Value::list([known::SIMPLE_BIT_VECTOR.into(), size.into()]),
         (element, simple) => array_type(simple, element, &[size]),
     }
 }
 
-fn array_type(simple: bool, element: Sym, sizes: &[usize]) -> Value {
+fn array_type(simple: bool, element: ElementType, sizes: &[usize]) -> Value {
     let all = Value::list(sizes.iter().map(|n| Value::from(*n)));
     if simple {
-        return Value::list([known::SIMPLE_ARRAY.into(), element.into(), all]);
+        return Value::list([known::SIMPLE_ARRAY.into(), element.specifier(), all]);
     }
     let array = match sizes {
-        [size] => [known::VECTOR.into(), element.into(), (*size).into()],
-        _ => [known::ARRAY.into(), element.into(), all],
+        [size] => [known::VECTOR.into(), element.specifier(), (*size).into()],
+        _ => [known::ARRAY.into(), element.specifier(), all],
     };
     let not_simple = [known::NOT.into(), known::SIMPLE_ARRAY.into()];
     Value::list([

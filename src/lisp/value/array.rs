@@ -3,8 +3,8 @@
 use std::cell::{Cell, RefCell};
 
 use super::Value;
+use super::element_type::ElementType;
 use super::elements::Elements;
-use super::symbol::{Sym, known};
 
 /// A one-dimensional array.
 pub(crate) struct Vector {
@@ -14,18 +14,18 @@ pub(crate) struct Vector {
     pub(crate) fill_pointer: Cell<Option<usize>>,
     /// May the vector grow?
     pub(crate) adjustable: bool,
-    /// `T`, or the element type the vector was made with (`BIT`, `DOUBLE-FLOAT`, …).
-    pub(crate) element_type: Sym,
+    /// The type of the elements.
+    pub(crate) element_type: ElementType,
 }
 
 impl Vector {
     /// A simple vector.
     pub(crate) fn simple(items: Vec<Value>) -> Vector {
-        Vector::of_type(known::T, items)
+        Vector::of_type(ElementType::T, items)
     }
 
     /// A vector of an element type, without fill pointer.
-    pub(crate) fn of_type(element_type: Sym, items: Vec<Value>) -> Vector {
+    pub(crate) fn of_type(element_type: ElementType, items: Vec<Value>) -> Vector {
         Vector {
             items: Elements::new(items),
             fill_pointer: Cell::new(None),
@@ -70,7 +70,7 @@ impl Vector {
     /// Is it simple and its element type `T`, so that it takes any value?
     #[inline]
     pub(crate) fn is_general_simple(&self) -> bool {
-        self.element_type == known::T && self.is_simple()
+        self.element_type == ElementType::T && self.is_simple()
     }
 
     /// Is the vector neither adjustable nor displaced, and without fill pointer?
@@ -87,13 +87,17 @@ pub(crate) struct Array {
     pub(crate) adjustable: bool,
     /// The elements, the last index running fastest.
     pub(crate) items: Elements,
-    /// `T`, or the element type the array was made with.
-    pub(crate) element_type: Sym,
+    /// The type of the elements.
+    pub(crate) element_type: ElementType,
 }
 
 impl Array {
     /// An array that is not adjustable.
-    pub(crate) fn new(element_type: Sym, dimensions: Vec<usize>, items: Vec<Value>) -> Array {
+    pub(crate) fn new(
+        element_type: ElementType,
+        dimensions: Vec<usize>,
+        items: Vec<Value>,
+    ) -> Array {
         Array {
             dimensions: RefCell::new(dimensions),
             adjustable: false,

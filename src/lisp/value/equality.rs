@@ -1,5 +1,6 @@
 //! `equal`, `equalp` and hashing under the four equalities; loops, no recursion.
 
+use super::element_type::ElementType;
 use std::hash::{Hash, Hasher};
 use std::mem::replace;
 use std::rc::Rc;
@@ -8,7 +9,6 @@ use super::Value;
 use super::array::Vector;
 use super::cons;
 use super::hash_table::HashTest;
-use super::known;
 use crate::lisp::guard::Pace;
 
 /// `equal`: same structure of pairs, strings and bit vectors, `eql` leaves.
@@ -79,7 +79,7 @@ fn same(a: &Value, b: &Value, loosely: bool) -> bool {
                 }
             }
             (Value::Vector(x), Value::Vector(y))
-                if x.element_type == known::BIT && y.element_type == known::BIT =>
+                if x.element_type == ElementType::Bit && y.element_type == ElementType::Bit =>
             {
                 let (x, y) = (x.to_vec(), y.to_vec());
                 let are_equal = x.len() == y.len() && x.iter().zip(&y).all(|(a, b)| a.is_eql(b));
@@ -210,7 +210,7 @@ fn hash_one<H: Hasher>(value: &Value, test: HashTest, state: &mut H) {
             .for_each(|c| c.hash(state)),
         Value::Str(s) if structural => s.borrow().hash(state),
         Value::Vector(v) if loosely => hash_vector(v, state),
-        Value::Vector(v) if structural && v.element_type == known::BIT => {
+        Value::Vector(v) if structural && v.element_type == ElementType::Bit => {
             for bit in v.to_vec() {
                 if let Value::Int(bit) = bit {
                     bit.hash(state);

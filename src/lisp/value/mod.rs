@@ -11,6 +11,7 @@ pub(crate) mod copy;
 pub(crate) mod cycles;
 pub(crate) mod dispatch;
 pub(crate) mod document;
+pub(crate) mod element_type;
 pub(crate) mod elements;
 pub(crate) mod equality;
 pub(crate) mod foreign;

@@ -1,5 +1,6 @@
 //! Sequences as Rust code sees them: lists, vectors and strings behind one interface.
 
+use super::element_type::ElementType;
 use std::rc::Rc;
 
 use crate::lisp::value::array::Vector;
@@ -8,7 +9,6 @@ use crate::lisp::value::cycles;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::string::LispString;
-use crate::lisp::value::symbol::Sym;
 use crate::lisp::value::{Rounds, Value};
 
 #[derive(Clone)]
@@ -98,12 +98,15 @@ impl Sequence {
         match self {
             Sequence::List(list) => {
                 for (cons, item) in conses(list)?.iter().zip(items) {
+                    cycles::note(cons, item);
                     cons.set_car(item.clone());
                 }
             }
             Sequence::Vector(vector) => {
                 for (index, item) in items.iter().enumerate() {
-                    vector.set(index, item.clone());
+                    let item = element(vector, item.clone())?;
+                    cycles::note(vector, &item);
+                    vector.set(index, item);
                 }
             }
             Sequence::Str(string) => string.set_text(text_of(items)?),
@@ -174,7 +177,7 @@ impl Sequence {
             Sequence::List(_) => index_too_large(index, "list", length),
             Sequence::Vector(vector) => index_too_large(
                 index,
-                if vector.element_type == known::BIT {
+                if vector.element_type == ElementType::Bit {
                     "bit vector"
                 } else {
                     "vector"
@@ -209,19 +212,14 @@ pub(crate) fn element(vector: &Vector, value: Value) -> Result<Value, Box<Raise>
 }
 
 /// Checks that a value may be stored in an array of an element type.
-pub(crate) fn checked_element(element_type: Sym, value: Value) -> Result<Value, Box<Raise>> {
-    let fits = match element_type {
-        known::BIT => matches!(value, Value::Int(0 | 1)),
-        known::DOUBLE_FLOAT => matches!(value, Value::Double(_)),
-        known::SINGLE_FLOAT => matches!(value, Value::Single(_)),
-        known::FIXNUM => matches!(value, Value::Int(_)),
-        known::CHARACTER => matches!(value, Value::Char(_)),
-        _ => true,
-    };
-    if fits {
+pub(crate) fn checked_element(
+    element_type: ElementType,
+    value: Value,
+) -> Result<Value, Box<Raise>> {
+    if element_type.holds(&value) {
         Ok(value)
     } else {
-        Err(Raise::type_error(&value, element_type))
+        Err(Raise::type_error(&value, element_type.specifier()))
     }
 }
 
@@ -244,7 +242,7 @@ pub(crate) enum Kind {
     /// A list.
     List,
     /// A vector with an element type.
-    Vector(Sym),
+    Vector(ElementType),
     /// A string.
     Str,
 }
