@@ -40,3 +40,39 @@ fn shared_slots_keep_their_values() {
         ),
     ]);
 }
+
+#[test]
+fn instances_that_were_made_obsolete_are_updated_once() {
+    check(&[
+        (
+            "(defclass urn () ((size :initform 2))) (defclass vase (urn) ()) (defvar *updated* nil) (defmethod update-instance-for-redefined-class :after ((u urn) added lost plist &key) (declare (ignore plist)) (push (list (type-of u) added lost) *updated*)) (defvar *urn* (make-instance 'urn)) (defvar *vase* (make-instance 'vase)) (make-instances-obsolete 'urn)",
+            "URN",
+        ),
+        (
+            "(list (slot-value *urn* 'size) (slot-value *urn* 'size) (slot-value *vase* 'size) *updated*)",
+            "(2 2 2 ((VASE NIL NIL) (URN NIL NIL)))",
+        ),
+        (
+            "(handler-case (make-instances-obsolete 7) (type-error (e) (type-error-datum e)))",
+            "7",
+        ),
+    ]);
+}
+
+#[test]
+fn describe_calls_methods_for_instances() {
+    check(&[
+        (
+            "(defclass jar () ()) (defclass lid () ()) (defmethod describe-object ((j jar) stream) (format stream \"a jar~%\")) (with-output-to-string (*standard-output*) (describe (make-instance 'jar)))",
+            "\"a jar \"",
+        ),
+        (
+            "(let ((told (with-output-to-string (s) (describe (make-instance 'lid) s)))) (list (not (search \"jar\" told)) (and (search \"of type LID\" told) t)))",
+            "(T T)",
+        ),
+        (
+            "(multiple-value-list (let ((*standard-output* (make-broadcast-stream))) (describe (make-instance 'jar))))",
+            "NIL",
+        ),
+    ]);
+}

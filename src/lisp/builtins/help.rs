@@ -1,16 +1,17 @@
 //! Help at the prompt: `describe`, `apropos`, `apropos-list`.
 //!
 //! What is said about builtins and operators comes from their tables, what is said about the user's
-//! definitions from their code. Nothing here runs the user's code.
+//! definitions from their code. Of the user's code, only methods of `describe-object` run.
 
 use std::rc::Rc;
 
 use super::packages;
 use super::strings::designated;
-use crate::lisp::builtin::{Builtin, Entry, pure};
+use crate::lisp::builtin::{Builtin, Entry, control, pure};
 use crate::lisp::image::Image;
 use crate::lisp::image::extension::Extension;
 use crate::lisp::library::definition_of;
+use crate::lisp::object::method::extended_function;
 use crate::lisp::print;
 use crate::lisp::stream;
 use crate::lisp::types::type_of::type_of;
@@ -18,15 +19,20 @@ use crate::lisp::value::Value;
 use crate::lisp::value::class::{Class, ClassKind, Instance};
 use crate::lisp::value::copy::Copier;
 use crate::lisp::value::function::{Body, Function};
+use crate::lisp::value::known;
 use crate::lisp::value::package::{Access, PackageTable};
 use crate::lisp::value::raise::Raise;
 use crate::lisp::value::symbol::{FunctionCell, Sym, VariableKind};
+
+use crate::lisp::vm::calls::{Args, run};
+use crate::lisp::vm::machine::Machine;
+use crate::lisp::vm::step::Step;
 
 type Outcome = Result<Value, Box<Raise>>;
 
 /// The builtins.
 pub(crate) static TABLE: &[Builtin] = &[
-    pure(
+    control(
         "DESCRIBE",
         "object &optional stream",
         "Writes what is known about an object: of a symbol what it means as a function, a variable and a class, with examples.",
@@ -35,6 +41,15 @@ pub(crate) static TABLE: &[Builtin] = &[
             "(null (search \"(first list)\" (with-output-to-string (s) (describe 'first s)))) => NIL",
         ],
         describe,
+    ),
+    pure(
+        "DESCRIBE-OBJECT",
+        "object stream",
+        "Writes what DESCRIBE tells of an object to a stream. Add methods to describe instances of classes otherwise.",
+        &[
+            "(progn (defclass mug () ()) (defmethod describe-object ((m mug) s) (princ \"a mug\" s)) (with-output-to-string (s) (describe (make-instance 'mug) s))) => \"a mug\"",
+        ],
+        describe_object,
     ),
     pure(
         "APROPOS",
@@ -87,7 +102,26 @@ pub(crate) fn topics_of(image: &Image, sym: Sym) -> String {
     topics.map(|topic| topic.text).collect()
 }
 
-fn describe(image: &mut Image, args: &[Value]) -> Outcome {
+/// Calls the methods that a program has added to `describe-object`, if there are any.
+fn describe(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box<Raise>> {
+    let Some(function) = extended_function(machine.image, known::DESCRIBE_OBJECT) else {
+        return describe_object(machine.image, &args).map(Step::from);
+    };
+    let stream = match args.get(1) {
+        None | Some(Value::Symbol(known::NIL, ..)) => {
+            machine.image.special(known::V_STANDARD_OUTPUT).clone()
+        }
+        Some(Value::Symbol(known::T, ..)) => machine.image.special(known::V_TERMINAL_IO).clone(),
+        Some(stream) => stream.clone(),
+    };
+    let object = args[0].clone();
+    run(machine, "DESCRIBE", |calls| async move {
+        calls.call(&function, Args::Two([object, stream])).await;
+        Ok(Value::values(Vec::new()))
+    })
+}
+
+fn describe_object(image: &mut Image, args: &[Value]) -> Outcome {
     let text = match &args[0] {
         Value::Symbol(sym, ..) => of_symbol(image, *sym) + &topics_of(image, *sym),
         other => of_value(image, other),

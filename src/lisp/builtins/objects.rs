@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use crate::lisp::builtin::{Builtin, Operator, control, pure};
 use crate::lisp::image::Image;
-use crate::lisp::object::define::no_class;
+use crate::lisp::object::define::{self, no_class};
 use crate::lisp::object::{access, class_of, defclass, instance, update};
 use crate::lisp::value::Value;
 use crate::lisp::value::class::Instance;
@@ -130,6 +130,13 @@ pub(crate) static TABLE: &[Builtin] = &[
         "The class of that name; without one an error, or NIL if the second argument is NIL.",
         &["(find-class 'no-such-class nil) => NIL"],
         find_class,
+    ),
+    pure(
+        "MAKE-INSTANCES-OBSOLETE",
+        "class",
+        "Lets each instance of the class, given by itself or its name, be brought up to date when it is next used, as after a redefinition; returns its argument.",
+        &["(progn (defclass keg () ()) (make-instances-obsolete 'keg)) => KEG"],
+        make_instances_obsolete,
     ),
     control(
         "CHANGE-CLASS",
@@ -259,6 +266,19 @@ fn slot_missing(machine: &mut Machine<'_>, args: Vec<Value>) -> Result<Step, Box
         operation,
         value,
     ))
+}
+
+fn make_instances_obsolete(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {
+    let class = match &args[0] {
+        Value::Class(class) => class.clone(),
+        Value::Symbol(name, ..) => {
+            let class = image.class(*name).cloned();
+            class.ok_or_else(|| no_class(image, *name))?
+        }
+        other => return Err(Raise::type_error(other, Value::symbol(known::CLASS))),
+    };
+    define::make_obsolete(&class);
+    Ok(args[0].clone())
 }
 
 fn find_class(image: &mut Image, args: &[Value]) -> Result<Value, Box<Raise>> {

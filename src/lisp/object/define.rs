@@ -174,12 +174,7 @@ fn finalize(class: &Rc<Class>) -> Result<(), Box<Raise>> {
         if !current.is_defined.get() {
             continue;
         }
-        let old_slots = current.slots.borrow();
-        let old_layout = old_slots
-            .iter()
-            .map(|s| (s.name, s.shared.as_ref().map(|shared| shared.get())));
-        let old_layout: Vec<OldSlot> = old_layout.collect();
-        drop(old_slots);
+        let old_layout = layout(&current);
         let was_complete = !current.precedence.borrow().is_empty();
         let order = precedence_list(&current)?.unwrap_or_default();
         let slots = effective_slots(&order, &current);
@@ -188,14 +183,41 @@ fn finalize(class: &Rc<Class>) -> Result<(), Box<Raise>> {
         *current.slots.borrow_mut() = slots;
         *current.default_initargs.borrow_mut() = defaults;
         if was_complete {
-            current.old_layouts.borrow_mut().push(old_layout);
-            current
-                .generation
-                .set(current.generation.get().wrapping_add(1));
+            supersede(&current, old_layout);
         }
         pending.extend(current.direct_subclasses.borrow().iter().cloned());
     }
     Ok(())
+}
+
+/// The slots that the instances of a class have.
+fn layout(class: &Class) -> Vec<OldSlot> {
+    let slots = class.slots.borrow();
+    let shared = |slot: &SlotDefinition| slot.shared.as_ref().map(|shared| shared.get());
+    slots.iter().map(|slot| (slot.name, shared(slot))).collect()
+}
+
+/// Begins a generation of a class, the one before having had a layout.
+fn supersede(class: &Class, old_layout: Vec<OldSlot>) {
+    class.old_layouts.borrow_mut().push(old_layout);
+    let next = class.generation.get().wrapping_add(1);
+    class.generation.set(next);
+}
+
+/// Lets the instances of a class and of those below it be brought up to date when they are next used.
+pub(crate) fn make_obsolete(class: &Rc<Class>) {
+    let mut pending = vec![class.clone()];
+    let mut done: Vec<Rc<Class>> = Vec::new();
+    while let Some(current) = pending.pop() {
+        if done.iter().any(|other| Rc::ptr_eq(other, &current)) {
+            continue;
+        }
+        if !current.precedence.borrow().is_empty() {
+            supersede(&current, layout(&current));
+        }
+        pending.extend(current.direct_subclasses.borrow().iter().cloned());
+        done.push(current);
+    }
 }
 
 /// All slots of a class, those of the most general class first.
