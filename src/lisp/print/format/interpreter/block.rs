@@ -1,6 +1,7 @@
 //! Logical blocks: `~<...~:>`.
 
-use super::{Arguments, Context, Flow, Interpreter, Result};
+use super::arguments::Arguments;
+use super::{Context, Flow, Interpreter, Result};
 use crate::lisp::guard::Pace;
 use crate::lisp::print::format::directive::{Clause, Directive, Piece};
 use crate::lisp::print::format::error::Problem;
