@@ -1,0 +1,196 @@
+//! What each token begins, ends or means.
+
+use super::frame::{Dot, Frame, Kind};
+use super::{Outcome, Reader};
+use crate::lisp::image::Image;
+use crate::lisp::reader::error::ReadErrorKind;
+use crate::lisp::reader::lexer::{Token, TokenKind};
+use crate::lisp::reader::literal;
+use crate::lisp::reader::numeric::parse_number;
+use crate::lisp::reader::readtable::{LetterCase, escaped};
+use crate::lisp::reader::symbol;
+use crate::lisp::value::Value;
+use crate::lisp::value::known;
+use crate::lisp::value::symbol::Sym;
+
+impl Reader {
+    /// Processes a token; returns an outcome if there is one for the caller.
+    pub(super) fn token(
+        &mut self,
+        image: &mut Image,
+        text: &str,
+        token: Token,
+    ) -> Result<Option<Outcome>, ReadErrorKind> {
+        if !token.is_closed {
+            let what = match token.kind {
+                TokenKind::String => "a string",
+                TokenKind::BlockComment => "a block comment",
+                TokenKind::Character => "a character",
+                TokenKind::Dispatch { .. } => "the dispatch macro #",
+                _ => "a symbol",
+            };
+            return Err(self.end_of_file(what, token.start));
+        }
+        // The lexer's spans lie on character boundaries of the text.
+        let slice = |from: usize, to: usize| text.get(from..to).unwrap_or("");
+        let start = token.start;
+        let value = match token.kind {
+            TokenKind::LineComment | TokenKind::BlockComment => return Ok(None),
+            TokenKind::Open => return self.push(Kind::List(Dot::None), start),
+            TokenKind::Close => return self.close(image, start, token.end),
+            TokenKind::Quote => return self.push(Kind::Wrap(known::QUOTE), start),
+            TokenKind::Backquote => return self.push(Kind::Backquote, start),
+            TokenKind::Comma => return self.comma(known::UNQUOTE, ",", start),
+            TokenKind::CommaAt => return self.comma(known::UNQUOTE_SPLICING, ",@", start),
+            TokenKind::CommaDot => return self.comma(known::UNQUOTE_SPLICING, ",.", start),
+            TokenKind::Dispatch { argument, letter } => {
+                return self.dispatch(argument, letter, start);
+            }
+            _ if self.skips > 0 && self.features == 0 => {
+                if slice(start, token.end) == "." {
+                    return Ok(None);
+                }
+                Value::NIL
+            }
+            TokenKind::String => literal::string(slice(start + 1, token.end - 1)),
+            TokenKind::Character => literal::character(slice(start + 2, token.end))?,
+            TokenKind::Atom => match self.atom(image, &escaped(image, slice(start, token.end)))? {
+                Some(value) => value,
+                None => return Ok(None),
+            },
+            TokenKind::Prefixed {
+                argument,
+                letter: '#',
+                ..
+            } => self.labels.reference(argument)?,
+            TokenKind::Prefixed {
+                argument,
+                letter,
+                body,
+            } => literal::prefixed(image, argument, letter, slice(body, token.end))?,
+        };
+        self.deliver(image, value, start, token.end)
+    }
+
+    pub(super) fn push(
+        &mut self,
+        kind: Kind,
+        start: usize,
+    ) -> Result<Option<Outcome>, ReadErrorKind> {
+        match kind {
+            Kind::Backquote => self.backquotes += 1,
+            Kind::Comma(_) => self.backquotes = self.backquotes.saturating_sub(1),
+            Kind::Skip | Kind::Suppressed => self.skips += 1,
+            Kind::Feature(_) => self.features += 1,
+            _ => {}
+        }
+        self.frames.push(Frame {
+            kind,
+            start,
+            base: self.values.len(),
+        });
+        Ok(None)
+    }
+
+    fn comma(
+        &mut self,
+        operator: Sym,
+        prefix: &'static str,
+        start: usize,
+    ) -> Result<Option<Outcome>, ReadErrorKind> {
+        if self.backquotes == 0 && self.skips == 0 {
+            return Err(ReadErrorKind::CommaOutsideBackquote);
+        }
+        if operator == known::UNQUOTE_SPLICING {
+            let before = match self.frames.last().map(|f| f.kind) {
+                Some(Kind::Backquote) => Some("backquote"),
+                Some(Kind::List(Dot::Expecting)) => Some("dot"),
+                _ => None,
+            };
+            if let Some(before) = before {
+                return Err(ReadErrorKind::NothingToSpliceInto { prefix, before });
+            }
+        }
+        self.push(Kind::Comma(operator), start)
+    }
+
+    fn dispatch(
+        &mut self,
+        argument: Option<u32>,
+        letter: char,
+        start: usize,
+    ) -> Result<Option<Outcome>, ReadErrorKind> {
+        let needed = |reason| argument.ok_or(ReadErrorKind::DispatchArgument { letter, reason });
+        let kind = match letter {
+            '\'' => Kind::Wrap(known::FUNCTION),
+            '(' => Kind::Vector(argument),
+            '+' => Kind::Feature(true),
+            '-' => Kind::Feature(false),
+            '.' => Kind::Evaluate,
+            'A' => Kind::Array(needed("the number of dimensions")?),
+            'S' => Kind::Structure,
+            'C' => Kind::Complex,
+            'P' => Kind::Pathname,
+            '=' => {
+                let label = needed("the label")?;
+                if self.skips == 0 {
+                    self.labels.open(label)?;
+                }
+                Kind::Label(label)
+            }
+            '<' | ')' => return Err(ReadErrorKind::IllegalDispatch(letter)),
+            c if crate::lisp::reader::lexer::is_blank(c) => {
+                return Err(ReadErrorKind::IllegalDispatch(c));
+            }
+            c => return Err(ReadErrorKind::UnknownDispatch(c)),
+        };
+        self.push(kind, start)
+    }
+
+    /// The value of a symbol or number; `None` for the dot of a pair.
+    fn atom(&mut self, image: &mut Image, token: &str) -> Result<Option<Value>, ReadErrorKind> {
+        if token.bytes().all(|b| b == b'.') {
+            return self.dot(token.len()).map(|()| None);
+        }
+        let radix = match image.special(known::V_READ_BASE) {
+            Value::Int(n @ 2..=36) => *n as u32,
+            _ => 10,
+        };
+        let float_format = image
+            .special(known::V_READ_DEFAULT_FLOAT_FORMAT)
+            .as_symbol()
+            .unwrap_or(known::SINGLE_FLOAT);
+        if let Some(number) = parse_number(token, radix, float_format) {
+            return number.map(Some);
+        }
+        let name = symbol::split(token, LetterCase::current(image))?;
+        let sym = if self.features > 0 && name.package.is_none() {
+            image.keyword(&name.name)
+        } else {
+            symbol::resolve(image, &name)?
+        };
+        Ok(Some(sym.into()))
+    }
+
+    fn dot(&mut self, length: usize) -> Result<(), ReadErrorKind> {
+        if length > 1 {
+            return Err(ReadErrorKind::TooManyDots);
+        }
+        let count = self.values.len();
+        match self.frames.last_mut() {
+            Some(Frame {
+                kind: Kind::List(dot),
+                base,
+                ..
+            }) => match dot {
+                Dot::None if *base == count => Err(ReadErrorKind::NothingBeforeDot),
+                Dot::None => {
+                    *dot = Dot::Expecting;
+                    Ok(())
+                }
+                Dot::Expecting | Dot::Done => Err(ReadErrorKind::DotContext),
+            },
+            _ => Err(ReadErrorKind::DotContext),
+        }
+    }
+}
