@@ -1,6 +1,9 @@
 //! From a value to a document: an explicit stack of what is still to be printed.
 
-use crate::lisp::value::element_type::ElementType;
+mod array;
+mod instance;
+mod list;
+
 use std::rc::Rc;
 
 use super::atom;
@@ -8,18 +11,16 @@ use super::calls::{Call, Calls};
 use super::circle::{Label, Labels};
 use super::dispatch;
 use super::layout::lay_out;
-use super::report;
 use super::settings::Settings;
-use super::shape::{self, Form, Layout, Shape, Style};
-use super::symbol;
+use super::shape::Style;
 use crate::lisp::guard::Pace;
 use crate::lisp::image::Image;
-use crate::lisp::image::identity::identity;
 use crate::lisp::value::Value;
-use crate::lisp::value::array::{Array, Vector};
-use crate::lisp::value::class::{ClassKind, Instance};
-use crate::lisp::value::document::{Document, Newline};
+use crate::lisp::value::array::Array;
+use crate::lisp::value::class::Instance;
+use crate::lisp::value::document::Document;
 use crate::lisp::value::known;
+use list::Rest;
 
 /// Prints one value.
 pub(super) struct Printer<'a> {
@@ -62,22 +63,6 @@ enum Task {
     },
     /// End a block and write what closes it.
     Close(&'static str),
-}
-
-struct Rest {
-    list: Value,
-    /// Number of elements printed.
-    index: usize,
-    layout: ListLayout,
-    depth: usize,
-    /// Inner blocks to end with the list.
-    inner: usize,
-}
-
-#[derive(Clone, Copy)]
-enum ListLayout {
-    Shape(&'static Shape),
-    Macro(usize),
 }
 
 impl<'a> Printer<'a> {
@@ -229,349 +214,6 @@ impl<'a> Printer<'a> {
         self.settings.length.is_some_and(|most| printed >= most)
     }
 
-    fn list(&mut self, list: Value, style: Style, depth: usize) {
-        let form = match style {
-            Style::List(shape) if self.settings.pretty && !shape::is_backquote_part(&list) => {
-                Form::Shape(shape)
-            }
-            _ if self.settings.pretty => shape::form(self.image, &list),
-            _ => match shape::prefix(&list) {
-                // Backquotes are always printed with their prefix.
-                Some(prefix) if !matches!(prefix, "'" | "#'") => Form::Prefix(prefix),
-                _ => Form::Shape(&shape::FILL),
-            },
-        };
-        let layout = match form {
-            Form::Prefix(prefix) => {
-                self.document.text(prefix);
-                let argument = list.cdr_or_nil().car_or_nil();
-                if prefix == ","
-                    && let Value::Symbol(sym, ..) = argument
-                    && self.image.name(sym).starts_with(['@', '.'])
-                {
-                    self.document.text(" ");
-                }
-                self.tasks.push(Task::Value(argument, Style::Auto, depth));
-                return;
-            }
-            Form::Shape(shape) => ListLayout::Shape(shape),
-            Form::Macro(count) => ListLayout::Macro(count),
-        };
-        if self.is_too_deep(depth) {
-            return;
-        }
-        self.document.open("(", ")");
-        self.tasks.push(Task::Rest(Rest {
-            list,
-            index: 0,
-            layout,
-            depth,
-            inner: 0,
-        }));
-    }
-
-    /// Writes what precedes an element; returns how the element is printed.
-    fn before(&mut self, rest: &mut Rest, element: &Value) -> Style {
-        let Some(position) = rest.index.checked_sub(1) else {
-            return match rest.layout {
-                ListLayout::Shape(shape) => shape.first,
-                ListLayout::Macro(_) => Style::Auto,
-            };
-        };
-        let shape = match rest.layout {
-            ListLayout::Shape(shape) => shape,
-            ListLayout::Macro(count) => {
-                self.before_macro_argument(position, count);
-                return Style::Auto;
-            }
-        };
-        let step = shape.steps.get(position).or_else(|| {
-            let position = position - shape.steps.len();
-            shape.rest.get(position % shape.rest.len().max(1))
-        });
-        let Some(step) = step else {
-            self.document.text(" ");
-            return Style::Auto;
-        };
-        for layout in step.before {
-            match layout {
-                Layout::Space => self.document.text(" "),
-                Layout::Break(newline) => self.document.newline(*newline),
-                Layout::Block(columns) => self.document.indent_block(*columns),
-                Layout::Current => self.document.indent_current(0),
-                Layout::Inner => {
-                    self.document.start();
-                    rest.inner += 1;
-                }
-                Layout::TagIndent => {
-                    let columns = i64::from(matches!(element, Value::Cons(_)));
-                    self.document.indent_block(columns);
-                }
-                Layout::LoopBreak if shape::begins_loop_clause(self.image, element) => {
-                    self.document.newline(Newline::Mandatory);
-                }
-                Layout::LoopBreak => {}
-                Layout::ParameterBreak if shape::is_parameter_keyword(element) => {
-                    self.document.newline(Newline::Linear);
-                }
-                Layout::ParameterBreak => self.document.newline(Newline::Fill),
-            }
-        }
-        step.style
-    }
-
-    /// The first argument follows the macro's name on its line, others are below it, then the body.
-    fn before_macro_argument(&mut self, position: usize, count: usize) {
-        self.document.text(" ");
-        if position == 0 && count > 0 {
-            return;
-        }
-        let indent = if position < count { 3 } else { 1 };
-        self.document.indent_block(indent);
-        self.document.newline(Newline::Mandatory);
-    }
-
-    fn rest(&mut self, mut rest: Rest) {
-        let list = rest.list.clone();
-        let depth = rest.depth;
-        let is_first = rest.index == 0;
-        let cons = match &list {
-            Value::Cons(cons)
-                if is_first
-                    || !(self.labels.is_marked(&list) || shape::is_backquote_part(&list)) =>
-            {
-                cons
-            }
-            Value::Symbol(known::NIL, ..) => {
-                self.close_list(rest.inner);
-                return;
-            }
-            tail => {
-                // A dotted tail, or one that is shared with another place.
-                self.before(&mut rest, tail);
-                self.document.text(". ");
-                self.push_close(rest.inner);
-                self.tasks
-                    .push(Task::Value(tail.clone(), Style::Auto, depth + 1));
-                return;
-            }
-        };
-        let element = cons.car();
-        let style = self.before(&mut rest, &element);
-        if self.is_cut(rest.index) {
-            self.document.text("...");
-            self.close_list(rest.inner);
-            return;
-        }
-        rest.list = cons.cdr();
-        rest.index += 1;
-        self.tasks.push(Task::Rest(rest));
-        self.tasks.push(Task::Value(element, style, depth + 1));
-    }
-
-    fn push_close(&mut self, inner: usize) {
-        self.tasks.push(Task::Close(")"));
-        for _ in 0..inner {
-            self.tasks.push(Task::Close(""));
-        }
-    }
-
-    fn close_list(&mut self, inner: usize) {
-        for _ in 0..inner {
-            self.document.end();
-        }
-        self.document.end();
-        self.document.text(")");
-    }
-
-    fn vector(&mut self, value: &Value, vector: &Rc<Vector>, depth: usize) {
-        let items = vector.to_vec();
-        if !self.settings.array {
-            let kind = if vector.element_type == ElementType::Bit {
-                "SIMPLE-BIT-VECTOR"
-            } else {
-                "SIMPLE-VECTOR"
-            };
-            let text = format!(
-                "#<({kind} {}) {}>",
-                items.len(),
-                identity(self.image, value)
-            );
-            self.document.text(&text);
-            return;
-        }
-        if vector.element_type == ElementType::Bit {
-            let bits = items.iter().map(|bit| {
-                if matches!(bit, Value::Int(0)) {
-                    '0'
-                } else {
-                    '1'
-                }
-            });
-            let text: String = "#*".chars().chain(bits).collect();
-            self.document.text(&text);
-            return;
-        }
-        if self.is_too_deep(depth) {
-            return;
-        }
-        self.document.open("#(", ")");
-        self.tasks.push(Task::Close(")"));
-        self.tasks.push(Task::Elements {
-            end: items.len(),
-            items: Rc::new(items),
-            next: 0,
-            depth,
-        });
-    }
-
-    fn elements(&mut self, items: Rc<Vec<Value>>, next: usize, end: usize, depth: usize) {
-        if next >= end {
-            return;
-        }
-        if next > 0 {
-            self.document.text(" ");
-            self.document.newline(Newline::Fill);
-        }
-        if self.is_cut(next) {
-            self.document.text("...");
-            return;
-        }
-        if let Some(item) = items.get(next).cloned() {
-            self.tasks.push(Task::Elements {
-                items,
-                next: next + 1,
-                end,
-                depth,
-            });
-            self.tasks.push(Task::Value(item, Style::Auto, depth + 1));
-        }
-    }
-
-    fn array(&mut self, value: &Value, array: &Rc<Array>, depth: usize) {
-        if !self.settings.array {
-            let text = format!("#<ARRAY {}>", identity(self.image, value));
-            self.document.text(&text);
-            return;
-        }
-        let rank = array.dimensions.borrow().len();
-        self.document.text(&format!("#{rank}A"));
-        self.tasks.push(Task::Rows {
-            array: array.clone(),
-            dimension: 0,
-            next: 0,
-            offset: 0,
-            depth,
-        });
-    }
-
-    fn rows(
-        &mut self,
-        array: Rc<Array>,
-        dimension: usize,
-        next: usize,
-        offset: usize,
-        depth: usize,
-    ) {
-        let Some(length) = array.dimensions.borrow().get(dimension).copied() else {
-            let item = array.items.get(offset);
-            let item = item.unwrap_or(Value::NIL);
-            self.tasks.push(Task::Value(item, Style::Auto, depth));
-            return;
-        };
-        if next == 0 {
-            if self.is_too_deep(depth) {
-                return;
-            }
-            self.document.open("(", ")");
-        }
-        let is_cut = next < length && self.is_cut(next);
-        if next > 0 && next < length {
-            self.document.text(" ");
-            let is_last_dimension = dimension + 1 == array.dimensions.borrow().len();
-            self.document.newline(if is_last_dimension {
-                Newline::Fill
-            } else {
-                Newline::Linear
-            });
-        }
-        if is_cut {
-            self.document.text("...");
-        }
-        if is_cut || next >= length {
-            self.document.end();
-            self.document.text(")");
-            return;
-        }
-        let step: usize = array
-            .dimensions
-            .borrow()
-            .iter()
-            .skip(dimension + 1)
-            .product();
-        self.tasks.push(Task::Rows {
-            array: array.clone(),
-            dimension,
-            next: next + 1,
-            offset: offset + step,
-            depth,
-        });
-        self.tasks.push(Task::Rows {
-            array,
-            dimension: dimension + 1,
-            next: 0,
-            offset,
-            depth: depth + 1,
-        });
-    }
-
-    fn instance(&mut self, value: &Value, instance: &Rc<Instance>, depth: usize) {
-        if let Some(text) = self.text_by_program(value, instance, depth) {
-            self.document.append(&text);
-            return;
-        }
-        match instance.class().kind {
-            ClassKind::Structure => {
-                if self.is_too_deep(depth) {
-                    return;
-                }
-                self.document.open("#S(", ")");
-                let settings = self.settings.clone().with_escape(true);
-                let name = symbol::symbol(self.image, instance.class().name, &settings);
-                self.document.text(&name);
-                self.tasks.push(Task::Close(")"));
-                self.tasks.push(Task::Slots {
-                    instance: instance.clone(),
-                    next: 0,
-                    depth,
-                });
-            }
-            ClassKind::Condition if !self.settings.escape => {
-                let text = report::report(self.image, value);
-                self.document.text(&text);
-            }
-            _ => self.atom(value),
-        }
-    }
-
-    /// The text that the program's own printing function makes of an instance, if it has one.
-    fn text_by_program(
-        &mut self,
-        value: &Value,
-        instance: &Instance,
-        depth: usize,
-    ) -> Option<Document> {
-        let skips_method = std::mem::take(&mut self.skips_method);
-        if !skips_method && dispatch::has_print_method(self.image, instance) {
-            return self.text_of_call(known::PRINT_OBJECT.into(), vec![value.clone()], depth);
-        }
-        if self.settings.escape {
-            return None;
-        }
-        let report = report::function(instance)?;
-        self.text_of_call(Value::Function(report), vec![value.clone()], depth)
-    }
-
     /// What a function writes that gets arguments and then a stream.
     fn text_of_call(
         &mut self,
@@ -587,29 +229,5 @@ impl<'a> Printer<'a> {
             bindings,
             is_pretty: self.settings.pretty,
         })
-    }
-
-    fn slots(&mut self, instance: Rc<Instance>, next: usize, depth: usize) {
-        let class = instance.class();
-        let Some(name) = class.slots.borrow().get(next).map(|slot| slot.name) else {
-            return;
-        };
-        self.document.text(" ");
-        self.document.newline(Newline::Linear);
-        if self.is_cut(next) {
-            self.document.text("...");
-            return;
-        }
-        let name = symbol::name(self.image.name(name), self.settings);
-        self.document.text(&format!(":{name} "));
-        self.document.newline(Newline::Miser);
-        let value = instance.slots.borrow().get(next).cloned();
-        self.tasks.push(Task::Slots {
-            instance,
-            next: next + 1,
-            depth,
-        });
-        let value = value.unwrap_or(Value::Unbound);
-        self.tasks.push(Task::Value(value, Style::Auto, depth + 1));
     }
 }

@@ -1,0 +1,87 @@
+//! Printing structures, conditions and other instances, by the program's own functions where there
+//! are such.
+
+use std::rc::Rc;
+
+use super::{Printer, Task};
+use crate::lisp::print::dispatch;
+use crate::lisp::print::report;
+use crate::lisp::print::shape::Style;
+use crate::lisp::print::symbol;
+use crate::lisp::value::Value;
+use crate::lisp::value::class::{ClassKind, Instance};
+use crate::lisp::value::document::{Document, Newline};
+use crate::lisp::value::known;
+
+impl Printer<'_> {
+    pub(super) fn instance(&mut self, value: &Value, instance: &Rc<Instance>, depth: usize) {
+        if let Some(text) = self.text_by_program(value, instance, depth) {
+            self.document.append(&text);
+            return;
+        }
+        match instance.class().kind {
+            ClassKind::Structure => {
+                if self.is_too_deep(depth) {
+                    return;
+                }
+                self.document.open("#S(", ")");
+                let settings = self.settings.clone().with_escape(true);
+                let name = symbol::symbol(self.image, instance.class().name, &settings);
+                self.document.text(&name);
+                self.tasks.push(Task::Close(")"));
+                self.tasks.push(Task::Slots {
+                    instance: instance.clone(),
+                    next: 0,
+                    depth,
+                });
+            }
+            ClassKind::Condition if !self.settings.escape => {
+                let text = report::report(self.image, value);
+                self.document.text(&text);
+            }
+            _ => self.atom(value),
+        }
+    }
+
+    /// The text that the program's own printing function makes of an instance, if it has one.
+    fn text_by_program(
+        &mut self,
+        value: &Value,
+        instance: &Instance,
+        depth: usize,
+    ) -> Option<Document> {
+        let skips_method = std::mem::take(&mut self.skips_method);
+        if !skips_method && dispatch::has_print_method(self.image, instance) {
+            return self.text_of_call(known::PRINT_OBJECT.into(), vec![value.clone()], depth);
+        }
+        if self.settings.escape {
+            return None;
+        }
+        let report = report::function(instance)?;
+        self.text_of_call(Value::Function(report), vec![value.clone()], depth)
+    }
+
+    pub(super) fn slots(&mut self, instance: Rc<Instance>, next: usize, depth: usize) {
+        let class = instance.class();
+        let Some(name) = class.slots.borrow().get(next).map(|slot| slot.name) else {
+            return;
+        };
+        self.document.text(" ");
+        self.document.newline(Newline::Linear);
+        if self.is_cut(next) {
+            self.document.text("...");
+            return;
+        }
+        let name = symbol::name(self.image.name(name), self.settings);
+        self.document.text(&format!(":{name} "));
+        self.document.newline(Newline::Miser);
+        let value = instance.slots.borrow().get(next).cloned();
+        self.tasks.push(Task::Slots {
+            instance,
+            next: next + 1,
+            depth,
+        });
+        let value = value.unwrap_or(Value::Unbound);
+        self.tasks.push(Task::Value(value, Style::Auto, depth + 1));
+    }
+}
