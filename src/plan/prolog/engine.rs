@@ -1,13 +1,15 @@
-//! The prover: goals to prove, and choice points to backtrack to.
+//! The prover: proves one goal after the other and asks for calls of functions.
 
 use std::collections::HashSet;
 use std::rc::Rc;
 
+use super::choice_point::{Alternative, Choice};
 use super::facts;
 use super::facts::{Clause, Facts};
 use super::functor::Call;
-use super::goal::{Action, Collection, Goal};
-use super::term::{Bindings, Mark, Naming, Variable};
+use super::goal::{Action, Goal};
+use super::goal_chain::{GoalNode, Goals};
+use super::term::{Bindings, Naming, Variable};
 use super::warnings;
 use crate::lisp::image::Image;
 use crate::lisp::print;
@@ -24,92 +26,6 @@ const INTERRUPT_INTERVAL: u32 = 1024;
 const MOST_CHOICES: usize = 200_000;
 /// Maximum number of goals that are still to be proved.
 const MOST_GOALS: usize = 1_000_000;
-
-/// Goals to prove, in order.
-pub(crate) type Goals = Option<Rc<GoalNode>>;
-
-/// A goal and those after it.
-pub(crate) struct GoalNode {
-    goal: Goal,
-    /// Number of choice points when the clause of this goal was entered: `!` cuts back to that
-    /// many.
-    clause: usize,
-    /// Number of goals from this one on.
-    count: usize,
-    next: Goals,
-}
-
-impl GoalNode {
-    /// A goal before others.
-    fn before(next: Goals, goal: Goal, clause: usize) -> GoalNode {
-        let count = 1 + next.as_ref().map_or(0, |next| next.count);
-        GoalNode {
-            goal,
-            clause,
-            count,
-            next,
-        }
-    }
-
-    /// The goal.
-    pub(super) fn goal(&self) -> &Goal {
-        &self.goal
-    }
-
-    /// Those after it.
-    pub(super) fn next(&self) -> &Goals {
-        &self.next
-    }
-
-    /// A node like this one with another goal and others after it.
-    pub(super) fn with(&self, goal: Goal, next: Goals) -> GoalNode {
-        GoalNode {
-            goal,
-            clause: self.clause,
-            count: self.count,
-            next,
-        }
-    }
-}
-
-impl Drop for GoalNode {
-    fn drop(&mut self) {
-        // A loop, since a rule that proves itself makes long chains.
-        let mut next = self.next.take();
-        while let Some(node) = next {
-            next = Rc::try_unwrap(node).map_or(None, |mut node| node.next.take());
-        }
-    }
-}
-
-/// What to do on backtracking to a choice point.
-pub(super) enum Alternative {
-    /// Try the next clauses of a goal.
-    Clauses {
-        goal: Value,
-        clauses: Rc<[Clause]>,
-        next: usize,
-    },
-    /// Unify a term with the next items of a list.
-    Items { term: Value, rest: Vec<Value> },
-    /// Continue with other goals.
-    Goals,
-    /// The collection is complete: unify it with a term.
-    Collected {
-        collection: usize,
-        result: Value,
-        kind: Collection,
-    },
-    /// Nothing any more.
-    Forgotten,
-}
-
-pub(super) struct Choice {
-    pub(super) number: u64,
-    pub(super) mark: Mark,
-    pub(super) goals: Goals,
-    pub(super) alternative: Alternative,
-}
 
 /// What to do with the value of a call.
 pub(super) enum Awaited {
@@ -472,135 +388,12 @@ impl Engine {
         Err(Progress::Call { function, args })
     }
 
-    fn push_goals(&mut self, goals: Vec<Goal>, clause: usize) {
+    pub(super) fn push_goals(&mut self, goals: Vec<Goal>, clause: usize) {
         for goal in goals.into_iter().rev() {
             let next = self.goals.take();
             self.goals = Some(Rc::new(GoalNode::before(next, goal, clause)));
         }
     }
-
-    fn push_choice(&mut self, goals: Goals, alternative: Alternative) {
-        let mark = self.bindings.mark();
-        self.push_choice_at(mark, goals, alternative);
-    }
-
-    fn push_choice_at(&mut self, mark: Mark, goals: Goals, alternative: Alternative) {
-        self.choices.push(Choice {
-            number: self.numbers,
-            mark,
-            goals,
-            alternative,
-        });
-        self.numbers += 1;
-    }
-
-    /// Enters the first clause from `next` on whose head matches; leaves a choice point for others.
-    fn try_clauses(
-        &mut self,
-        image: &Image,
-        goal: Value,
-        clauses: Rc<[Clause]>,
-        next: usize,
-    ) -> Result<bool> {
-        let mark = self.bindings.mark();
-        for (index, clause) in clauses.iter().enumerate().skip(next) {
-            let barrier = self.choices.len();
-            let mut naming = Naming::default();
-            let head = self.bindings.rename(image, &clause.head, &mut naming)?;
-            if !self.bindings.unify(&goal, &head) {
-                self.bindings.undo(mark);
-                continue;
-            }
-            let body = self.bindings.rename(image, &clause.body, &mut naming)?;
-            if index + 1 < clauses.len() {
-                let alternative = Alternative::Clauses {
-                    goal,
-                    clauses: clauses.clone(),
-                    next: index + 1,
-                };
-                let goals = self.goals.clone();
-                self.push_choice_at(mark, goals, alternative);
-            }
-            let goals = body.iter_list().map(Goal::Prove).collect();
-            self.push_goals(goals, barrier);
-            return Ok(true);
-        }
-        Ok(false)
-    }
-
-    /// Unifies a term with the first item that matches; leaves a choice point for the others.
-    fn choose_item(&mut self, term: Value, items: Vec<Value>) -> bool {
-        let mark = self.bindings.mark();
-        let mut items = items.into_iter();
-        while let Some(item) = items.next() {
-            if self.bindings.unify(&term, &item) {
-                let rest: Vec<Value> = items.collect();
-                if !rest.is_empty() {
-                    let goals = self.goals.clone();
-                    self.push_choice_at(mark, goals, Alternative::Items { term, rest });
-                }
-                return true;
-            }
-            self.bindings.undo(mark);
-        }
-        false
-    }
-
-    /// Backtracks to the last choice point with an alternative left; false if there is none.
-    fn backtrack(&mut self, image: &Image) -> Result<bool> {
-        while let Some(choice) = self.choices.pop() {
-            self.bindings.undo(choice.mark);
-            self.goals = choice.goals;
-            match choice.alternative {
-                Alternative::Forgotten => {}
-                Alternative::Goals => return Ok(true),
-                Alternative::Items { term, rest } => {
-                    if self.choose_item(term, rest) {
-                        return Ok(true);
-                    }
-                }
-                Alternative::Collected {
-                    collection,
-                    result,
-                    kind,
-                } => {
-                    let items = self.collections.get_mut(collection);
-                    let mut items = items.map(std::mem::take).unwrap_or_default();
-                    if kind == Collection::Distinct {
-                        items = distinct(items);
-                    }
-                    let is_enough = kind == Collection::All || !items.is_empty();
-                    if is_enough && self.bindings.unify(&result, &Value::list(items)) {
-                        return Ok(true);
-                    }
-                }
-                Alternative::Clauses {
-                    goal,
-                    clauses,
-                    next,
-                } => {
-                    if self.try_clauses(image, goal, clauses, next)? {
-                        return Ok(true);
-                    }
-                }
-            }
-        }
-        Ok(false)
-    }
-}
-
-/// The items without those equal to earlier ones.
-fn distinct(items: Vec<Value>) -> Vec<Value> {
-    let mut kept: Vec<Value> = Vec::new();
-    for item in items {
-        if !kept
-            .iter()
-            .any(|k| crate::lisp::value::equality::equal(k, &item))
-        {
-            kept.push(item);
-        }
-    }
-    kept
 }
 
 /// The value that a list of pairs gives for a variable's name, or the variable itself.

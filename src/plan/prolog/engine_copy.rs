@@ -3,9 +3,11 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use super::engine::{Alternative, Awaited, Choice, Engine, GoalNode, Goals};
+use super::choice_point::{Alternative, Choice};
+use super::engine::{Awaited, Engine};
 use super::facts::Facts;
 use super::goal::Goal;
+use super::goal_chain::{GoalNode, Goals};
 use super::term::Naming;
 use crate::lisp::value::copy::{Copied, Copier};
 
@@ -60,10 +62,10 @@ fn goals(goals: &Goals, nodes: &mut Nodes, copier: &mut Copier) -> Goals {
             break known.clone();
         }
         originals.push(node);
-        rest = node.next();
+        rest = &node.next;
     };
     for node in originals.into_iter().rev() {
-        copy = Some(Rc::new(node.with(goal(node.goal(), copier), copy)));
+        copy = Some(Rc::new(node.with(goal(&node.goal, copier), copy)));
         nodes.insert(Rc::as_ptr(node), copy.clone());
     }
     copy

@@ -7,12 +7,14 @@
 //! wait.
 
 pub(crate) mod builtins;
+mod choice_point;
 pub(crate) mod engine;
 mod engine_copy;
 pub(crate) mod facts;
 pub(crate) mod functor;
 pub(crate) mod functors;
 pub(crate) mod goal;
+mod goal_chain;
 pub(crate) mod search;
 pub(crate) mod term;
 mod warnings;
