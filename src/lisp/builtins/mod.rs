@@ -1,6 +1,7 @@
 //! The builtin functions: one table per topic.
 
 pub(crate) mod arguments;
+pub(crate) mod array_adjust;
 pub(crate) mod array_index;
 pub(crate) mod array_make;
 pub(crate) mod arrays;

@@ -37,6 +37,7 @@ pub(crate) static FUNCTIONS: &[&[Builtin]] = &[
     string_compare::TABLE,
     strings::TABLE,
     types::TABLE,
+    array_adjust::TABLE,
     array_make::TABLE,
     arrays::TABLE,
     bits::TABLE,

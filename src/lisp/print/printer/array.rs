@@ -9,7 +9,6 @@ use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::document::Newline;
 use crate::lisp::value::element_type::ElementType;
-use crate::lisp::value::known;
 
 impl Printer<'_> {
     pub(super) fn vector(&mut self, value: &Value, vector: &Rc<Vector>, depth: usize) {
