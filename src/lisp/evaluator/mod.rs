@@ -6,6 +6,7 @@ mod callees;
 mod calling;
 mod dynamic;
 mod entry;
+mod exits;
 pub(crate) mod matching;
 pub(crate) mod nested;
 mod open_calls;
@@ -13,6 +14,7 @@ mod primitives;
 pub(crate) mod restart;
 mod run;
 pub(crate) mod signal;
+mod small_integers;
 #[cfg(test)]
 mod tests;
 mod unwind;

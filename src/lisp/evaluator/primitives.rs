@@ -1,8 +1,9 @@
-//! Operations that compute a value from the topmost ones: pairs, tests, arithmetic.
+//! Operations that compute a value from the topmost ones: pairs, elements, tests.
 //!
 //! The window is in registers as long as no function has its address. So all of its methods are
 //! inlined, and what is not gets places or values.
 
+use std::mem::forget;
 use std::rc::Rc;
 
 use crate::lisp::value::Value;
@@ -71,7 +72,7 @@ impl Window<'_> {
 
     /// The two topmost values.
     #[inline(always)]
-    fn two_mut(&mut self) -> Option<&mut [Value; 2]> {
+    pub(super) fn two_mut(&mut self) -> Option<&mut [Value; 2]> {
         self.slots[..self.top].last_chunk_mut()
     }
 
@@ -347,38 +348,17 @@ impl Window<'_> {
         done
     }
 
-    /// Replaces the top with the result of an operation on it and a local, if both are integers and
-    /// there is one.
+    /// Puts the value of a call in place of its arguments, which begin at `start`; its first value only
+    /// unless all are wanted.
     #[inline(always)]
-    pub(super) fn combine_with(
-        &mut self,
-        i: usize,
-        operation: fn(i64, i64) -> Option<i64>,
-    ) -> bool {
-        let Value::Int(y) = self.slots[i] else {
-            return false;
-        };
-        if let Value::Int(x) = self.last_mut()
-            && let Some(result) = operation(*x, y)
-        {
-            *x = result;
-            return true;
+    pub(super) fn return_value(&mut self, start: usize, mut value: Value, multi: bool) {
+        self.cut(start);
+        if !multi && matches!(value, Value::Multiple(_)) {
+            value = value.primary();
         }
-        false
-    }
-
-    /// Replaces the two topmost integers with the result of an operation, if they are that and have
-    /// one.
-    #[inline(always)]
-    pub(super) fn combine(&mut self, operation: fn(i64, i64) -> Option<i64>) -> bool {
-        if let Some([Value::Int(x), Value::Int(y)]) = self.two_mut()
-            && let Some(result) = operation(*x, *y)
-        {
-            *x = result;
-            self.top -= 1;
-            return true;
-        }
-        false
+        value.move_into(self.next());
+        // Nothing of it is left to be freed.
+        forget(value);
     }
 
     /// Has the top a property? Drops it.
@@ -398,6 +378,12 @@ impl Window<'_> {
         self.drop_top();
         result
     }
+}
+
+/// Is this a pair?
+#[inline(always)]
+pub(super) fn is_cons(value: &Value) -> bool {
+    matches!(value, Value::Cons(_))
 }
 
 /// Stores what a path leads to from a value where there is nothing to free.

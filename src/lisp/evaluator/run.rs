@@ -8,12 +8,14 @@
 //! are noted where something else may ask for them: before whatever concerns the machine as a whole,
 //! and before a builtin, which may be left by unwinding.
 
-use std::mem::forget;
 use std::rc::Rc;
 
 use super::calling::MOST_FRAMES;
-use super::dynamic::{bind, establish, undo};
+use super::dynamic::{bind, undo};
 use super::entry::{INTERRUPT_INTERVAL, Next};
+use super::exits::{enter_block, enter_catch, enter_tagbody, enter_unwind};
+use super::primitives::is_cons;
+use super::small_integers::{both_ints, int};
 use super::variables::{closure, function as function_of, setf_function, unboxed_into};
 use crate::lisp::value::Value;
 use crate::lisp::value::function::Body;
@@ -21,7 +23,6 @@ use crate::lisp::value::known;
 use crate::lisp::value::number;
 use crate::lisp::value::operation::Op;
 use crate::lisp::value::symbol::FunctionCell;
-use crate::lisp::vm::fiber::Dynamic;
 use crate::lisp::vm::frames::{Frame, FrameKind};
 use crate::lisp::vm::machine::{Event, Machine};
 
@@ -254,15 +255,10 @@ impl Machine<'_> {
                             branch!(window.slots[slot as usize].is_true(), when, target);
                         }
                         Op::JumpIfConsp { when, target } => {
-                            branch!(
-                                window.test_top(|value| matches!(value, Value::Cons(_))),
-                                when,
-                                target
-                            );
+                            branch!(window.test_top(is_cons), when, target);
                         }
                         Op::JumpIfLocalConsp { slot, when, target } => {
-                            let local = &window.slots[slot as usize];
-                            branch!(matches!(local, Value::Cons(_)), when, target);
+                            branch!(is_cons(&window.slots[slot as usize]), when, target);
                         }
                         Op::JumpIfEq { when, target } => {
                             branch!(window.are_eq(), when, target);
@@ -292,25 +288,13 @@ impl Machine<'_> {
                         }
                         Op::JumpIfCompareLocals { test, a, b, target } => {
                             let (a, b) = (usize::from(a), usize::from(b));
-                            let ints = both_ints((&window.slots[a], &window.slots[b]));
-                            branch_compared!(
-                                test,
-                                ints,
-                                (&window.slots[a], &window.slots[b]),
-                                0,
-                                target
-                            );
+                            let ints = both_ints(window.locals(a, b));
+                            branch_compared!(test, ints, window.locals(a, b), 0, target);
                         }
                         Op::JumpIfCompareLocal { test, slot, target } => {
                             let slot = usize::from(slot);
-                            let ints = both_ints((&window.slots[slot], window.last()));
-                            branch_compared!(
-                                test,
-                                ints,
-                                (&window.slots[slot], window.last()),
-                                1,
-                                target
-                            );
+                            let ints = both_ints(window.local_and_last(slot));
+                            branch_compared!(test, ints, window.local_and_last(slot), 1, target);
                         }
                         Op::JumpIfCompareLocalInt {
                             test,
@@ -414,7 +398,7 @@ impl Machine<'_> {
                             window.push_bool(result);
                         }
                         Op::Consp => {
-                            let result = window.test_top(|value| matches!(value, Value::Cons(_)));
+                            let result = window.test_top(is_cons);
                             window.push_bool(result);
                         }
                         Op::Add => arithmetic!(i64::checked_add, number::add),
@@ -428,46 +412,33 @@ impl Machine<'_> {
                         }
                         Op::AddInt(n) => {
                             let n = i64::from(n);
-                            if let Value::Int(x) = window.last_mut()
-                                && let Some(sum) = x.checked_add(n)
-                            {
-                                *x = sum;
-                            } else {
+                            if !window.add_int(n) {
                                 let sum = compute!(1, number::add(window.last(), &Value::Int(n)));
                                 window.push(sum);
                             }
                         }
                         Op::LocalAddInt(i, n) => {
-                            let n = i64::from(n);
-                            if let Value::Int(x) = &window.slots[i as usize]
-                                && let Some(sum) = x.checked_add(n)
-                            {
-                                window.push_int(sum);
-                            } else {
-                                let local = &window.slots[i as usize];
+                            let (i, n) = (i as usize, i64::from(n));
+                            if !window.local_add_int(i, n) {
+                                let local = &window.slots[i];
                                 let sum = compute!(0, number::add(local, &Value::Int(n)));
                                 window.push(sum);
                             }
                         }
                         Op::AddToLocal(i, n) => {
-                            let n = i64::from(n);
-                            if let Value::Int(x) = &mut window.slots[i as usize]
-                                && let Some(sum) = x.checked_add(n)
-                            {
-                                *x = sum;
-                            } else {
-                                let local = &window.slots[i as usize];
+                            let (i, n) = (i as usize, i64::from(n));
+                            if !window.add_to_local(i, n) {
+                                let local = &window.slots[i];
                                 let sum = compute!(0, number::add(local, &Value::Int(n)));
-                                window.slots[i as usize] = sum;
+                                window.slots[i] = sum;
                             }
                             pc += 1;
                         }
                         Op::Compare(comparison) => {
                             let (a, b) = window.two();
-                            let holds = if let (Value::Int(a), Value::Int(b)) = (a, b) {
-                                let holds = comparison.holds(*a, *b);
+                            let holds = if let Some((a, b)) = both_ints((a, b)) {
                                 window.top -= 2;
-                                holds
+                                comparison.holds(a, b)
                             } else {
                                 compute!(2, number::compare_like(comparison, a, b))
                             };
@@ -521,50 +492,20 @@ impl Machine<'_> {
                         }
                         Op::EndProgv => slowly!(self.end_progv()),
                         Op::EnterBlock { target, multi } => {
-                            let id = self.image.fresh_identity();
-                            let height = window.height();
                             let entries = (&mut fiber.dynamic, &fiber.frames);
-                            establish(entries, |frame| Dynamic::Block {
-                                id,
-                                frame,
-                                height,
-                                target,
-                                multi,
-                            });
-                            window.push_int(id);
+                            enter_block(self.image, entries, &mut window, (target, multi));
                         }
                         Op::EnterTagbody(table) => {
-                            let id = self.image.fresh_identity();
-                            window.push_int(id);
-                            let height = window.height();
                             let entries = (&mut fiber.dynamic, &fiber.frames);
-                            establish(entries, |frame| Dynamic::Tagbody {
-                                id,
-                                frame,
-                                height,
-                                table,
-                            });
+                            enter_tagbody(self.image, entries, &mut window, table);
                         }
                         Op::EnterCatch { target, multi } => {
-                            let tag = window.pop();
-                            let height = window.height();
                             let entries = (&mut fiber.dynamic, &fiber.frames);
-                            establish(entries, |frame| Dynamic::Catch {
-                                tag,
-                                frame,
-                                height,
-                                target,
-                                multi,
-                            });
+                            enter_catch(entries, &mut window, (target, multi));
                         }
                         Op::EnterUnwind(target) => {
-                            let height = window.height();
                             let entries = (&mut fiber.dynamic, &fiber.frames);
-                            establish(entries, |frame| Dynamic::Unwind {
-                                frame,
-                                height,
-                                target,
-                            });
+                            enter_unwind(entries, &window, target);
                         }
                         Op::LeaveUnwind => {
                             // No exit is pending.
@@ -644,15 +585,7 @@ impl Machine<'_> {
                 let result = pure(self.image, &window.slots[start..window.top]);
                 self.image.wants_all = true;
                 match result {
-                    Ok(mut value) => {
-                        window.cut(start);
-                        if !multi && matches!(value, Value::Multiple(_)) {
-                            value = value.primary();
-                        }
-                        value.move_into(window.next());
-                        // Nothing of it is left to be freed.
-                        forget(value);
-                    }
+                    Ok(value) => window.return_value(start, value, multi),
                     Err(raise) => {
                         window.close();
                         let start = self.fiber.stack.len() - usize::from(count);
@@ -666,19 +599,4 @@ impl Machine<'_> {
             }
         }
     }
-}
-
-/// The integer, if the value is a small one.
-#[inline(always)]
-fn int(value: &Value) -> Option<i64> {
-    match value {
-        Value::Int(n) => Some(*n),
-        _ => None,
-    }
-}
-
-/// The integers, if both values are small ones.
-#[inline(always)]
-fn both_ints((a, b): (&Value, &Value)) -> Option<(i64, i64)> {
-    Some((int(a)?, int(b)?))
 }
