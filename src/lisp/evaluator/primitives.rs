@@ -369,6 +369,13 @@ impl Window<'_> {
         result
     }
 
+    /// Replaces the top with whether it has a property.
+    #[inline(always)]
+    pub(super) fn answer_top(&mut self, test: impl FnOnce(&Value) -> bool) {
+        let result = self.test_top(test);
+        self.push_bool(result);
+    }
+
     /// Are the two topmost values the same object? Drops them.
     #[inline(always)]
     pub(super) fn are_eq(&mut self) -> bool {

@@ -393,14 +393,8 @@ impl Machine<'_> {
                             let result = window.are_eq();
                             window.push_bool(result);
                         }
-                        Op::Not => {
-                            let result = window.test_top(Value::is_nil);
-                            window.push_bool(result);
-                        }
-                        Op::Consp => {
-                            let result = window.test_top(is_cons);
-                            window.push_bool(result);
-                        }
+                        Op::Not => window.answer_top(Value::is_nil),
+                        Op::Consp => window.answer_top(is_cons),
                         Op::Add => arithmetic!(i64::checked_add, number::add),
                         Op::Sub => arithmetic!(i64::checked_sub, number::sub),
                         Op::Mul => arithmetic!(i64::checked_mul, number::mul),
