@@ -40,10 +40,13 @@ impl Sources {
             let stem = path.file_stem().expect("entries have names");
             let stem = stem.to_string_lossy().into_owned();
             let mut inner = module.to_vec();
+            if is_for_tests(&stem) {
+                continue;
+            }
             if path.is_dir() {
                 inner.push(stem);
                 self.read_folder(&path, &inner);
-            } else if path.extension().is_some_and(|e| e == "rs") && !is_for_tests(&stem) {
+            } else if path.extension().is_some_and(|e| e == "rs") {
                 if !matches!(stem.as_str(), "mod" | "lib" | "main") {
                     inner.push(stem);
                 }
@@ -133,7 +136,7 @@ impl Sources {
     }
 }
 
-/// Files that hold nothing but tests and what only they need.
+/// Files and folders that hold nothing but tests and what only they need.
 fn is_for_tests(stem: &str) -> bool {
     stem == "tests" || stem.starts_with("test_") || stem == "testing"
 }
