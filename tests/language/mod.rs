@@ -1,10 +1,12 @@
 //! The language without robots.
 
 mod array_elements;
+mod arrays;
 mod builtin_robustness;
 mod cram_utilities;
 mod debugger_and_packages;
 mod examples;
+mod files;
 mod formatters;
 mod gray_streams;
 mod library;
@@ -17,4 +19,6 @@ mod pretty_printer;
 mod reader_round_trip;
 mod readtables;
 mod redefined_classes;
+mod restarts;
 mod standard;
+mod type_specifiers;
