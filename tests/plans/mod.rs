@@ -10,6 +10,7 @@ mod demos;
 mod designators;
 mod every_type;
 mod exercises;
+mod failures;
 mod grasping;
 mod language;
 mod location_measurements;
