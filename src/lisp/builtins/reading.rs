@@ -527,10 +527,18 @@ fn with_readtable<R>(
 }
 
 fn copy_readtable(image: &mut Image, args: &[Value]) -> Outcome {
-    if args.first().is_some_and(Value::is_nil) {
-        return Ok(Value::foreign(Readtable::default()));
+    let copy = if args.first().is_some_and(Value::is_nil) {
+        Readtable::default()
+    } else {
+        with_readtable(image, args.first(), Readtable::clone)?
+    };
+    match args.get(1).filter(|to| to.is_true()) {
+        Some(to) => with_readtable(image, Some(to), |table| {
+            table.become_like(copy);
+            to.clone()
+        }),
+        None => Ok(Value::foreign(copy)),
     }
-    with_readtable(image, args.first(), |table| Value::foreign(table.clone()))
 }
 
 fn set_macro_character(image: &mut Image, args: &[Value]) -> Outcome {

@@ -30,5 +30,21 @@
          (*print-right-margin* nil)
          (*read-base* 10)
          (*read-default-float-format* 'single-float)
-         (*read-eval* t))
+         (*read-eval* t)
+         (*read-suppress* nil)
+         (*readtable* (copy-readtable nil))
+         (*package* (find-package "COMMON-LISP-USER")))
      ,@body))
+
+(defun %iterate (stream function arguments most once sublists)
+  "What FORMAT's iteration does whose body is a function: calls it with the arguments, then with those that it leaves, or with each sublist."
+  (loop with count = 0
+        while (and (or arguments once) (or (null most) (< count most)))
+        do (setq once nil
+                 count (1+ count))
+           (let ((rest (if sublists
+                           (progn (apply function stream (car arguments)) (cdr arguments))
+                           (apply function stream arguments))))
+             (if (and rest (null most) (>= (length rest) (length arguments)))
+                 (error "The iteration uses no argument, so it would never end."))
+             (setq arguments rest))))

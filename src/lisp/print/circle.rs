@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use super::settings::Settings;
 use crate::lisp::guard::Pace;
+use crate::lisp::image::Image;
 use crate::lisp::value::Value;
 use crate::lisp::value::class::ClassKind;
 
@@ -35,13 +37,24 @@ fn address(value: &Value) -> Option<usize> {
         Value::Vector(r) => Rc::as_ptr(r).cast::<()>() as usize,
         Value::Array(r) => Rc::as_ptr(r).cast::<()>() as usize,
         Value::Instance(r) => Rc::as_ptr(r).cast::<()>() as usize,
+        // Odd, as no address of an object is.
+        Value::Symbol(sym, ..) => sym.0 as usize * 2 + 1,
         _ => return None,
     })
 }
 
+/// Can parts of another value be this one? Symbols count if only the same symbol of those with its name
+/// has a label.
+fn is_shareable(value: &Value, symbols: Option<&Image>) -> bool {
+    match value {
+        Value::Symbol(sym, ..) => symbols.is_some_and(|image| image.symbol(*sym).package.is_none()),
+        _ => address(value).is_some(),
+    }
+}
+
 /// The parts that are printed, the first one last.
-fn parts(value: &Value, out: &mut Vec<Value>) {
-    let keep = |v: &Value| address(v).is_some();
+fn parts(value: &Value, symbols: Option<&Image>, out: &mut Vec<Value>) {
+    let keep = |v: &Value| is_shareable(v, symbols);
     match value {
         Value::Cons(c) => out.extend([c.cdr(), c.car()].into_iter().filter(keep)),
         Value::Vector(v) => out.extend(v.to_vec().into_iter().filter(keep).rev()),
@@ -58,7 +71,7 @@ fn is_small_tree(value: &Value) -> bool {
     let mut pending = vec![value.clone()];
     let mut budget = QUICK;
     while let Some(value) = pending.pop() {
-        parts(&value, &mut pending);
+        parts(&value, None, &mut pending);
         budget = budget.saturating_sub(1);
         if budget == 0 || pending.len() > QUICK {
             return false;
@@ -73,9 +86,12 @@ enum Visit {
 }
 
 impl Labels {
-    /// The labels of a value: of all shared parts, or only of those that contain themselves.
-    pub(super) fn of(value: &Value, all_shared: bool) -> Labels {
+    /// The labels of a value: of all shared parts where `*print-circle*` asks for them, or only of those
+    /// that contain themselves.
+    pub(super) fn of(image: &Image, value: &Value, settings: &Settings) -> Labels {
         let mut labels = Labels::default();
+        let all_shared = settings.circle;
+        let symbols = (all_shared && settings.escape && settings.gensym).then_some(image);
         if address(value).is_none() || !all_shared && is_small_tree(value) {
             return labels;
         }
@@ -103,7 +119,7 @@ impl Labels {
                             seen.insert(address, true);
                             pending.push(Visit::Leave(address));
                             inner.clear();
-                            parts(&value, &mut inner);
+                            parts(&value, symbols, &mut inner);
                             pending.extend(inner.drain(..).map(Visit::Enter));
                         }
                     }

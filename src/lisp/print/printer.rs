@@ -108,7 +108,7 @@ impl<'a> Printer<'a> {
     }
 
     fn run(&mut self, value: &Value) {
-        self.labels = Labels::of(value, self.settings.circle);
+        self.labels = Labels::of(self.image, value, self.settings);
         self.tasks.push(Task::Value(value.clone(), Style::Auto, 0));
         let mut pace = Pace::default();
         while let Some(task) = self.tasks.pop() {

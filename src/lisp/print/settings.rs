@@ -115,6 +115,8 @@ impl Settings {
             lines: None,
             gensym: true,
             array: true,
+            // It is for the standard readtable.
+            letters: LetterCase::Upcase,
             ..settings
         }
     }

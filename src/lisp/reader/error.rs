@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::char_name::char_name;
 use crate::lisp::source::Place;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
@@ -67,6 +68,9 @@ pub(crate) enum ReadErrorKind {
         /// The token.
         token: String,
     },
+    /// A character that symbols and numbers cannot have unless it is escaped.
+    #[error("invalid constituent character: #\\{}", char_name(*.0).unwrap_or_else(|| .0.to_string()))]
+    InvalidConstituent(char),
     /// `package:` without a name.
     #[error("illegal terminating character after a colon in \"{token}\"")]
     NoNameAfterColon {

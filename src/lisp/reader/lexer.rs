@@ -75,6 +75,7 @@ pub(crate) struct Lexer<'t> {
 }
 
 /// Is the character blank space between tokens? Pasted text may contain exotic ones.
+#[inline]
 pub(crate) fn is_blank(c: char) -> bool {
     c.is_whitespace() || matches!(c, '\u{200B}' | '\u{FEFF}')
 }
@@ -127,6 +128,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// Moves past blank space.
+    #[inline]
     pub(crate) fn skip_blanks(&mut self) {
         while let Some(c) = self.peek() {
             if !is_blank(c) || self.constituents.contains(&c) {
@@ -137,6 +139,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// The next character.
+    #[inline]
     pub(crate) fn peek(&self) -> Option<char> {
         // Almost all text is ASCII; that needs no decoding.
         match self.text.as_bytes().get(self.position) {
@@ -146,6 +149,7 @@ impl<'t> Lexer<'t> {
         }
     }
 
+    #[inline]
     fn bump(&mut self) -> Option<char> {
         let c = self.peek()?;
         self.position += c.len_utf8();

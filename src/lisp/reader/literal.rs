@@ -213,20 +213,26 @@ pub(crate) fn structure(image: &mut Image, contents: &Value) -> Result<Structure
                 image.name(*name)
             ))
         })?;
+    let mut slots = slot_values(image, slots)?;
+    let others = slots
+        .iter()
+        .position(|(name, _)| name == "ALLOW-OTHER-KEYS");
+    let allows_others = others.is_some_and(|index| slots.remove(index).1.is_true());
     let instance = Instance::new(class.clone());
-    for pair in slots.chunks(2) {
-        let [Value::Symbol(slot, ..), value] = pair else {
-            return Err(bad("slots are pairs of a name and a value".to_owned()));
-        };
-        let slot_name = image.name(*slot).to_owned();
+    for (slot, value) in &slots {
         let index = class
             .slots
             .borrow()
             .iter()
-            .position(|s| image.name(s.name) == slot_name)
-            .ok_or_else(|| bad(format!("{slot_name} is no slot of {}", image.name(*name))))?;
-        if let Some(place) = instance.slots.borrow_mut().get_mut(index) {
-            *place = value.clone();
+            .position(|s| image.name(s.name) == slot);
+        match index {
+            Some(index) => {
+                if let Some(place) = instance.slots.borrow_mut().get_mut(index) {
+                    *place = value.clone();
+                }
+            }
+            None if allows_others => {}
+            None => return Err(bad(format!("{slot} is no slot of {}", image.name(*name)))),
         }
     }
     let is_whole = !instance.slots.borrow().iter().any(Value::is_unbound);
@@ -240,15 +246,36 @@ pub(crate) fn structure(image: &mut Image, contents: &Value) -> Result<Structure
         .unwrap_or_else(|| image.current_package());
     let constructor = image.intern(package, &constructor);
     let mut call = vec![Value::symbol(constructor)];
-    for pair in slots.chunks(2) {
-        let [Value::Symbol(slot, ..), value] = pair else {
-            continue;
-        };
-        let slot_name = image.name(*slot).to_owned();
-        call.push(image.keyword(&slot_name).into());
-        call.push(Value::list([known::QUOTE.into(), value.clone()]));
+    if allows_others {
+        call.extend([image.keyword("ALLOW-OTHER-KEYS").into(), Value::T]);
+    }
+    for (slot, value) in slots {
+        call.push(image.keyword(&slot).into());
+        call.push(Value::list([known::QUOTE.into(), value]));
     }
     Ok(Structure::ToEvaluate(Value::list(call)))
+}
+
+/// The names and values of slots after `#S`, as arguments of a constructor are understood: names are
+/// string designators, the first of several values counts, and `allow-other-keys` is no slot. It lets
+/// values of slots that do not exist be left out.
+fn slot_values(image: &Image, slots: &[Value]) -> Result<Vec<(String, Value)>, ReadErrorKind> {
+    let mut found: Vec<(String, Value)> = Vec::new();
+    for pair in slots.chunks(2) {
+        let (name, value) = match pair {
+            [Value::Symbol(name, ..), value] => (image.name(*name).to_owned(), value),
+            [Value::Char(c), value] => (c.to_string(), value),
+            [Value::Str(name), value] => (name.text(), value),
+            _ => {
+                let reason = "slots are pairs of a name and a value".to_owned();
+                return Err(ReadErrorKind::BadStructure(reason));
+            }
+        };
+        if found.iter().all(|(other, _)| *other != name) {
+            found.push((name, value.clone()));
+        }
+    }
+    Ok(found)
 }
 
 /// A complex number from the list of its parts.

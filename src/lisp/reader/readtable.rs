@@ -70,6 +70,14 @@ pub(crate) struct Readtable {
 }
 
 impl Readtable {
+    /// Takes the syntax of another one.
+    pub(crate) fn become_like(&self, other: Readtable) {
+        self.macros.replace(other.macros.into_inner());
+        self.dispatch.replace(other.dispatch.into_inner());
+        self.constituents.replace(other.constituents.into_inner());
+        self.case.set(other.case.get());
+    }
+
     /// Characters that end a token.
     pub(crate) fn terminators(&self) -> Vec<char> {
         self.macros

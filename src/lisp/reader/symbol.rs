@@ -1,6 +1,7 @@
 //! From the text of a token to a symbol of a package.
 
 use super::error::ReadErrorKind;
+use super::lexer::is_blank;
 use super::readtable::LetterCase;
 use super::suggest::nearest;
 use crate::lisp::image::Image;
@@ -112,6 +113,8 @@ pub(crate) fn split(token: &str, case: LetterCase) -> Result<Name, ReadErrorKind
                     result.is_internal = true;
                 }
             }
+            '\u{8}' | '\u{7f}' => return Err(ReadErrorKind::InvalidConstituent(c)),
+            c if is_blank(c) => return Err(ReadErrorKind::InvalidConstituent(c)),
             c => match meant_by_quotation_mark(c) {
                 Some(instead) => return Err(ReadErrorKind::SmartQuote { mark: c, instead }),
                 None => result.name.push(fold(c)),

@@ -5,6 +5,9 @@ use super::error::{FormatError, Problem};
 /// The deepest nesting of directives.
 const MAX_DEPTH: usize = 100;
 
+/// What is wrong with directives for the pretty printer beside justification.
+const JUSTIFIED_LAYOUT: &str = "~W, ~_, ~I, ~:T and ~<...~:> cannot be inside ~<...~>, nor in a control string with ~<...~:;...~>.";
+
 /// A part of a control string.
 pub(super) enum Piece {
     Text(String),
@@ -59,6 +62,27 @@ struct Parser<'t> {
     control: &'t str,
     chars: Vec<char>,
     next: usize,
+    /// The number of directives for the pretty printer so far.
+    layouts: usize,
+    /// The index of the first `~<…~:;…~>`.
+    overflow: Option<usize>,
+}
+
+impl Directive {
+    /// Is it for the pretty printer? Then it does not go together with justification.
+    fn is_for_layout(&self) -> bool {
+        match self.letter {
+            'W' | '_' | 'I' => true,
+            'T' => self.colon,
+            '<' => self.is_logical_block(),
+            _ => false,
+        }
+    }
+
+    /// Is it `~<…~:>`?
+    pub(super) fn is_logical_block(&self) -> bool {
+        self.close.is_some_and(|close| close.colon)
+    }
 }
 
 /// How a sequence of pieces ended.
@@ -73,8 +97,13 @@ pub(super) fn parse(control: &str) -> Result<Vec<Piece>, FormatError> {
         control,
         chars: control.chars().collect(),
         next: 0,
+        layouts: 0,
+        overflow: None,
     };
     let (pieces, end) = parser.pieces(0)?;
+    if let Some(position) = parser.overflow.filter(|_| parser.layouts > 0) {
+        return Err(parser.error(Problem::Clauses(JUSTIFIED_LAYOUT), position));
+    }
     match end {
         End::Text => Ok(pieces),
         End::Clause(directive) => Err(parser.error(Problem::StrayClause, directive.position)),
@@ -158,10 +187,15 @@ impl Parser<'_> {
                 ';' => return Ok((pieces, End::Clause(directive))),
                 '}' | ']' | ')' | '>' => return Ok((pieces, End::Close(directive))),
                 letter => {
+                    let layouts = self.layouts;
                     let directive = match closing(letter) {
                         Some(close) => self.enclosing(directive, close, depth + 1)?,
                         None => directive,
                     };
+                    if letter == '<' && !directive.is_logical_block() {
+                        self.check_justification(&directive, layouts)?;
+                    }
+                    self.layouts += usize::from(directive.is_for_layout());
                     pieces.push(Piece::Directive(directive));
                 }
             }
@@ -230,6 +264,23 @@ impl Parser<'_> {
                 }
             }
         }
+    }
+
+    /// Justification can hold nothing for the pretty printer; before it there were so many directives
+    /// for that.
+    fn check_justification(
+        &mut self,
+        directive: &Directive,
+        layouts: usize,
+    ) -> Result<(), FormatError> {
+        if self.layouts > layouts {
+            return Err(self.error(Problem::Clauses(JUSTIFIED_LAYOUT), directive.position));
+        }
+        let first = directive.clauses.first();
+        if let Some((true, ..)) = first.and_then(|clause| clause.separator.as_ref()) {
+            self.overflow.get_or_insert(directive.position);
+        }
+        Ok(())
     }
 
     /// Parameters, modifiers and letter, after the tilde.

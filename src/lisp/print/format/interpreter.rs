@@ -43,6 +43,8 @@ struct Interpreter<'a> {
     settings: Settings,
     output: Output,
     controls: usize,
+    /// Does a group of blanks in the text end where the line may break, as `~:@>` wants?
+    fills: bool,
 }
 
 /// One control string with the position of a directive in it, for errors.
@@ -97,6 +99,7 @@ pub(super) fn run_for_rest(
         settings: Settings::of(image),
         output,
         controls: 0,
+        fills: false,
     };
     let mut arguments = Arguments::new(args);
     let context = Context {
@@ -110,6 +113,7 @@ impl Interpreter<'_> {
     fn pieces(&mut self, c: Context<'_>, pieces: &[Piece], args: &mut Arguments) -> Result<Flow> {
         for piece in pieces {
             match piece {
+                Piece::Text(text) if self.fills => self.filled(text),
                 Piece::Text(text) => self.output.push(text),
                 Piece::Directive(directive) => match self.directive(c, directive, args)? {
                     Flow::Through => {}
@@ -152,7 +156,7 @@ impl Interpreter<'_> {
             '{' => return self.iterate(c, d, args),
             '[' => return self.choose(c, d, args),
             '(' => return self.convert_case(c, d, args),
-            '<' if d.close.is_some_and(|close| close.colon) => {
+            '<' if d.is_logical_block() => {
                 return self.logical_block(c, d, args);
             }
             '<' => return self.justify(c, d, args),
@@ -241,8 +245,9 @@ impl Interpreter<'_> {
             return Err(Raise::type_error(&value, known::CHARACTER));
         };
         if d.colon {
-            let name = char_name(char).unwrap_or_else(|| char.to_string());
-            self.output.push(&name);
+            let is_named = char == ' ' || char.is_control();
+            let name = char_name(char).filter(|_| is_named);
+            self.output.push(&name.unwrap_or_else(|| char.to_string()));
         } else {
             let settings = self.settings.clone().with_escape(d.at);
             self.write(&value, &settings);
@@ -295,6 +300,7 @@ impl Interpreter<'_> {
         };
         if let Some(document) = self.output.document()
             && document.is_pretty()
+            && self.settings.pretty
         {
             document.tab(tab);
             return Ok(());

@@ -20,8 +20,11 @@ impl Justification {
         let gaps = texts.len().saturating_sub(1)
             + usize::from(self.pads_before(texts.len()))
             + usize::from(self.after);
+        // A single text has others neither before nor after it, so there is nothing to keep apart.
+        let is_single = texts.len() == 1 && !self.before && !self.after;
+        let least = if is_single { 0 } else { self.least };
         let letters: usize = texts.iter().map(|t| t.chars().count()).sum();
-        let needed = letters + gaps * self.least;
+        let needed = letters + gaps * least;
         let width = if needed > self.width {
             let step = self.step.max(1);
             self.width + (needed - self.width).div_ceil(step) * step

@@ -87,7 +87,13 @@ impl Printer<'_> {
             self.document.text(&text);
             return;
         }
-        let rank = array.dimensions.borrow().len();
+        let dimensions = array.dimensions.borrow();
+        let rank = dimensions.len();
+        // Dimensions after an empty one do not show.
+        let hidden = dimensions.iter().skip_while(|size| **size > 0).skip(1);
+        if self.settings.readably && hidden.clone().any(|size| *size > 0) {
+            self.calls.note_unreadable(value);
+        }
         self.document.text(&format!("#{rank}A"));
         self.tasks.push(Task::Rows {
             array: array.clone(),

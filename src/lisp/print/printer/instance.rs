@@ -21,7 +21,8 @@ impl Printer<'_> {
         }
         match instance.class().kind {
             ClassKind::Structure => {
-                if self.is_too_deep(depth) {
+                // One without slots has nothing that could be too deep.
+                if !instance.slots.borrow().is_empty() && self.is_too_deep(depth) {
                     return;
                 }
                 self.document.open("#S(", ")");

@@ -120,7 +120,12 @@ impl Reader {
         letter: char,
         start: usize,
     ) -> Result<Option<Outcome>, ReadErrorKind> {
-        let needed = |reason| argument.ok_or(ReadErrorKind::DispatchArgument { letter, reason });
+        // What is left out needs no number.
+        let skipped = (self.skips > 0).then_some(0);
+        let needed = |reason| {
+            let error = ReadErrorKind::DispatchArgument { letter, reason };
+            argument.or(skipped).ok_or(error)
+        };
         let kind = match letter {
             '\'' => Kind::Wrap(known::FUNCTION),
             '(' => Kind::Vector(argument),

@@ -143,11 +143,10 @@ impl Interpreter<'_> {
         }
         self.settings.depth += 1;
         let fills = d.close.is_some_and(|close| close.at);
-        if fills {
-            self.filled_pieces(c, &body.pieces, &mut inner)?;
-        } else {
-            self.pieces(c, &body.pieces, &mut inner)?;
-        }
+        let outer = std::mem::replace(&mut self.fills, fills);
+        let flow = self.pieces(c, &body.pieces, &mut inner);
+        self.fills = outer;
+        flow?;
         self.settings.depth -= 1;
         if let Some(document) = self.output.document() {
             document.end();
@@ -156,31 +155,17 @@ impl Interpreter<'_> {
         Ok(Flow::Through)
     }
 
-    /// Pieces with a fill newline after each group of blanks, as `~:@>` wants.
-    fn filled_pieces(
-        &mut self,
-        c: Context<'_>,
-        pieces: &[Piece],
-        args: &mut Arguments,
-    ) -> Result<Flow> {
-        for piece in pieces {
-            match piece {
-                Piece::Text(text) => {
-                    for part in text.split_inclusive(' ') {
-                        self.output.push(part);
-                        if part.ends_with(' ')
-                            && let Some(document) = self.output.document()
-                        {
-                            document.newline(Newline::Fill);
-                        }
-                    }
-                }
-                Piece::Directive(directive) => match self.directive(c, directive, args)? {
-                    Flow::Through => {}
-                    exit => return Ok(exit),
-                },
+    /// A text with a place where the line may break after each group of blanks.
+    pub(super) fn filled(&mut self, text: &str) {
+        let mut rest = text;
+        while let Some(blank) = rest.find(' ') {
+            let after = rest[blank..].trim_start_matches(' ');
+            self.output.push(&rest[..rest.len() - after.len()]);
+            if let Some(document) = self.output.document() {
+                document.newline(Newline::Fill);
             }
+            rest = after;
         }
-        Ok(Flow::Through)
+        self.output.push(rest);
     }
 }

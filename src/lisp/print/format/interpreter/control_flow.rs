@@ -65,7 +65,9 @@ impl Interpreter<'_> {
         let inner = Context {
             control: &parsed.text,
         };
+        let fills = std::mem::take(&mut self.fills);
         let flow = self.pieces(inner, &parsed.pieces, args);
+        self.fills = fills;
         self.controls -= 1;
         flow
     }
@@ -107,6 +109,14 @@ impl Interpreter<'_> {
             Arguments::new(list_items(&self.next(c, d, args)?)?)
         };
         let mut at_least_once = d.close.is_some_and(|close| close.colon);
+        if let Some(function @ Value::Function(_)) = control {
+            // What arguments it leaves is known when it has been called.
+            let most = most.map_or(Value::NIL, Value::Int);
+            let flags = [Value::bool(at_least_once), Value::bool(d.colon)];
+            let after = [function, Value::list(items.rest()), most].into_iter();
+            self.call_with_stream(known::SYS_ITERATE.into(), after.chain(flags).collect());
+            return Ok(Flow::Through);
+        }
         let mut count = 0;
         while (items.left() > 0 || at_least_once) && most.is_none_or(|most| count < most) {
             at_least_once = false;
