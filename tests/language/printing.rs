@@ -55,7 +55,7 @@ fn standard_syntax_covers_package_and_reader() {
     check(&[
         (
             "(let ((*package* (find-package \"KEYWORD\")) (*read-suppress* t)) (with-standard-io-syntax (list (package-name *package*) *read-suppress* (read-from-string \"cup\"))))",
-            "(\"COMMON-LISP-USER\" NIL COMMON-LISP-USER::CUP)",
+            "(\"COMMON-LISP-USER\" NIL CUP)",
         ),
         (
             "(let ((*readtable* (copy-readtable nil))) (set-macro-character #\\! (lambda (s c) s c :bang)) (setf (readtable-case *readtable*) :invert) (list (read-from-string \"!\") (with-standard-io-syntax (symbol-name (read-from-string \"!a\")))))",
@@ -87,11 +87,11 @@ fn lines_are_filled_inside_iterations_and_after_groups_of_blanks() {
         // A control that is an argument is not filled, nor a block inside.
         (
             &filled(4, "(format nil \"~@<~@?~:@>\" \"~a b c\" 'a)"),
-            "\"A b c\"",
+            "\"A_b_c\"",
         ),
         (
             &filled(4, "(format nil \"~@<~<~a b c~:>~:@>\" '(a))"),
-            "\"A b c\"",
+            "\"A_b_c\"",
         ),
     ]);
 }
