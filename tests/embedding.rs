@@ -22,7 +22,7 @@ fn a_plan_picks_up_a_bottle_and_the_world_tells_where_it_is() {
     assert_eq!((session.time(), session.objects().len()), (0.0, 0));
     let (outcome, printed) = run(&mut session, PICKING_UP);
     assert_eq!(outcome, Outcome::Finished, "{printed}");
-    assert!(printed.contains("8.629: Lifting"), "{printed}");
+    assert!(printed.contains("8.679: Lifting"), "{printed}");
 
     assert!(session.time() > 5.0);
     assert_eq!(session.objects(), ["BOTTLE-1"]);

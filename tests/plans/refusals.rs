@@ -132,3 +132,32 @@ fn an_object_does_not_change_its_type_but_its_colour_and_mass() {
     let weight = world.support_force("BOTTLE-1").unwrap();
     assert!((weight - 1.5 * 9.81).abs() < 0.3, "{weight} N");
 }
+
+#[test]
+fn a_target_to_which_no_way_leads_is_given_up_earlier_than_one_that_is_no_good() {
+    let mut cook = Cook::unwatched();
+    cook.done(
+        "(in-package :fd-plans)
+         (defparameter *class* 'object-undeliverable)
+         (defparameter *tried* '())
+         (defun deliver-to (object place stand action)
+           (declare (ignore object stand action))
+           (push (cl-tf:x (cl-tf:origin (desig:reference place))) *tried*)
+           (cpl:fail *class* :description \"as the test wants it\"))",
+    );
+    let deliver = |class: &str| {
+        format!(
+            "(let* ((?poses (loop for i below 20
+                      collect (cl-tf:make-pose-stamped \"map\" 0.0
+                                (cl-tf:make-3d-vector (/ i 10) 0 0)
+                                (cl-tf:make-identity-rotation))))
+                    (?target (a location (poses ?poses))))
+               (setf *class* '{class} *tried* '())
+               (handler-case (deliver-to-one-of ?target (an object (type bottle)) nil nil)
+                 (delivering-failed () (princ (length (remove-duplicates *tried*))))))"
+        )
+    };
+    let count = |said: String| said.lines().last().unwrap_or_default().to_owned();
+    assert!(count(cook.done(&deliver("object-undeliverable"))).starts_with("13"));
+    assert!(count(cook.done(&deliver("no-way-to-target"))).starts_with("3"));
+}
