@@ -1,7 +1,7 @@
 //! A narrow interface to the rigid-body engine: bodies, welds, contact forces, steps,
 //! snapshots.
 //!
-//! This is the only file that names rapier. Poses that cross its boundary are nalgebra's,
+//! This file and its folder are the only ones that name rapier. Poses that cross its boundary are nalgebra's,
 //! forces are in newtons. It knows bodies and the keys of their parts, but neither names nor
 //! what a robot is.
 //!
@@ -15,6 +15,8 @@
 //!   continue with the same bits, since warm-start impulses and sleep belong to the state.
 //! - Reading changes nothing. In particular no collision detection runs outside a step.
 
+mod raw_contact;
+
 use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{
     CCDSolver, CoefficientCombineRule, FixedJointBuilder, FrictionModel, ImpulseJointHandle,
@@ -22,10 +24,10 @@ use rapier3d_f64::dynamics::{
     RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
 };
 use rapier3d_f64::geometry::{
-    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, ContactPair, Group,
-    InteractionGroups, InteractionTestMode, NarrowPhase, SharedShape,
+    BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, Group, InteractionGroups,
+    InteractionTestMode, NarrowPhase, SharedShape,
 };
-use rapier3d_f64::math::{Pose as EnginePose, Vector};
+use rapier3d_f64::math::Vector;
 use rapier3d_f64::pipeline::PhysicsPipeline;
 use serde::{Deserialize, Serialize};
 
@@ -117,19 +119,6 @@ pub(crate) enum Surface {
     Hand(usize),
     /// A gripping surface of that hand.
     Pad(usize),
-}
-
-/// A contact of a body that carries load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct RawContact {
-    /// Key of the other body's part.
-    pub(crate) other: u64,
-    /// Normal force (N), averaged over the last step.
-    pub(crate) force: f64,
-    /// The force on the body (N), as a vector.
-    pub(crate) push: Vector3<f64>,
-    /// Where it acts (m, map frame): the mean of the points that carry load.
-    pub(crate) at: Vector3<f64>,
 }
 
 /// The engine with everything in it.
@@ -462,58 +451,6 @@ impl Physics {
         })
     }
 
-    /// Calls `visit` for every contact of the body that carried load in the last step, in the
-    /// order of the body's parts: those for whose two keys, the body's own first, `counts` is true.
-    /// Finding out the force takes long, that is for no other contacts.
-    pub(crate) fn visit_contacts(
-        &self,
-        body: BodyHandle,
-        counts: impl Fn(u64, u64) -> bool,
-        mut visit: impl FnMut(RawContact),
-    ) {
-        let Some(body) = self.sets.bodies.get(body.0) else {
-            return;
-        };
-        for &collider in body.colliders() {
-            for pair in self.sets.narrow_phase.contact_pairs_with(collider) {
-                if let Some(contact) = self.raw_contact(collider, pair, &counts) {
-                    visit(contact);
-                }
-            }
-        }
-    }
-
-    fn raw_contact(
-        &self,
-        own: ColliderHandle,
-        pair: &ContactPair,
-        counts: impl Fn(u64, u64) -> bool,
-    ) -> Option<RawContact> {
-        let (other, sign) = if pair.collider1 == own {
-            (pair.collider2, -1.0)
-        } else {
-            (pair.collider1, 1.0)
-        };
-        let key = |c: ColliderHandle| {
-            let data = self.sets.colliders.get(c)?.user_data;
-            u64::try_from(data).ok()
-        };
-        let (own, other) = (key(own)?, key(other)?);
-        // Pairs exist from a distance of 2 cm; only active ones touch.
-        if !counts(own, other) || !pair.has_any_active_contact() {
-            return None;
-        }
-        let place = self.sets.colliders.get(pair.collider1)?.position();
-        let NormalImpulse { sum, vector, point } = normal_impulse(pair, place);
-        let force = sum / STEP_SECONDS;
-        (force > 0.0).then_some(RawContact {
-            other,
-            force,
-            push: from_parry_vector(vector) * (sign / STEP_SECONDS),
-            at: from_parry_vector(point),
-        })
-    }
-
     /// Advances by [`STEP_SECONDS`].
     pub(crate) fn step(&mut self) {
         let s = &mut self.sets;
@@ -562,40 +499,6 @@ impl Physics {
             }
         }
     }
-}
-
-/// The normal impulses of a pair in the last step.
-struct NormalImpulse {
-    /// Their sum (N s).
-    sum: f64,
-    /// The same as a vector, on the second body.
-    vector: Vector,
-    /// The mean of the points (m, map frame) at which they act, weighted by them.
-    point: Vector,
-}
-
-/// The normal impulses of the last step; `place` is the pose of the first collider.
-///
-/// The engine's own sum includes every point of a manifold, but points that the solver did
-/// not use keep the impulse of an earlier step; a bottle of 2 N would weigh 3 N.
-fn normal_impulse(pair: &ContactPair, place: &EnginePose) -> NormalImpulse {
-    let (mut sum, mut vector, mut point) = (0.0, Vector::ZERO, Vector::ZERO);
-    for manifold in pair.solver_manifolds() {
-        for contact in &manifold.data.solver_contacts {
-            for index in contact.contact_indices() {
-                let index = usize::try_from(index).ok();
-                let Some(contact) = index.and_then(|i| manifold.points.get(i)) else {
-                    continue;
-                };
-                let impulse = contact.data.impulse;
-                sum += impulse;
-                vector += manifold.data.normal * impulse;
-                point += (place * contact.local_p1) * impulse;
-            }
-        }
-    }
-    let point = if sum > 0.0 { point / sum } else { point };
-    NormalImpulse { sum, vector, point }
 }
 
 /// Furniture never collides with furniture, and the robot only with objects: where a
