@@ -1,17 +1,18 @@
 //! The search behind collision queries: which primitives are close to each other.
 //!
-//! Bounds are compared first, from all links together down to primitives, and the primitives of
-//! moving parts are placed only when they are needed.
+//! Bounds are compared first, from all links together down to primitives, then the boxes about what
+//! is left; the primitives of moving parts are placed only when they are needed.
 
 use std::ops::ControlFlow;
 
 use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry3d_f64::math::{Pose as ParryPose, Vector};
 
+use super::frame::Frame;
 use super::models::{Footing, Models};
 use super::moving_parts::{MovingParts, Pairs};
 use super::obstacles::Obstacles;
-use super::oriented_box::{Frame, OrientedBox};
+use super::oriented_box::OrientedBox;
 use super::part_key::{PartKey, index};
 use super::placed_solid::PlacedSolid;
 use super::separation::{Separation, below_floor, overlap, separation};

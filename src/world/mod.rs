@@ -14,6 +14,7 @@ pub(crate) mod contacts;
 pub(crate) mod error;
 mod explored_floor;
 mod extent;
+mod frame;
 pub(crate) mod grasp_library;
 pub(crate) mod handle_hold;
 pub(crate) mod hash;

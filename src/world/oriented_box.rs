@@ -5,45 +5,16 @@
 //! Manocha: OBBTree, 1996, with the normals only).
 
 use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::math::{Matrix, Pose as ParryPose, Vector};
+use parry3d_f64::math::Vector;
 
-/// A body's frame, with its axes as the columns of a matrix.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
-    turn: Matrix,
-    origin: Vector,
-}
-
-impl Frame {
-    /// The frame at a pose.
-    #[inline]
-    pub(crate) fn new(pose: &ParryPose) -> Self {
-        Self {
-            turn: Matrix::from_quat(pose.rotation),
-            origin: pose.translation,
-        }
-    }
-
-    /// The bounds of a box that is given in this frame (m), in the frame of the pose.
-    #[inline]
-    pub(crate) fn bounds_of(&self, body: &OrientedBox) -> Aabb {
-        let center = self.place(body.center);
-        let half = self.turn.abs() * body.half;
-        Aabb::new(center - half, center + half)
-    }
-
-    #[inline]
-    fn place(&self, point: Vector) -> Vector {
-        self.turn * point + self.origin
-    }
-}
+use super::frame::Frame;
 
 /// A box that contains a body, in the body's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OrientedBox {
-    center: Vector,
+    pub(super) center: Vector,
     /// Half of the size along each axis (m).
-    half: Vector,
+    pub(super) half: Vector,
 }
 
 impl OrientedBox {
@@ -76,7 +47,7 @@ impl OrientedBox {
 
 #[cfg(test)]
 mod tests {
-    use parry3d_f64::math::Rotation;
+    use parry3d_f64::math::{Pose as ParryPose, Rotation};
     use parry3d_f64::query;
     use parry3d_f64::shape::Cuboid;
     use proptest::prelude::*;

@@ -3,7 +3,8 @@
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Pose as ParryPose;
 
-use super::oriented_box::{Frame, OrientedBox};
+use super::frame::Frame;
+use super::oriented_box::OrientedBox;
 use super::solid::Solid;
 
 /// The place of a solid in the map frame.
