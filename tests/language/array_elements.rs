@@ -148,3 +148,27 @@ fn bytes_go_to_files_and_come_from_them() {
         "(3 #(1 200 3 0 0))",
     )]);
 }
+
+#[test]
+fn an_element_type_that_does_not_exist_is_an_error() {
+    let refusal = |form: &str| format!("(handler-case {form} (error (e) (princ-to-string e)))");
+    let told = "\"unknown type specifier: (UNSIGNED-BYT 8)\"";
+    check(&[
+        (
+            &refusal("(make-array 2 :element-type '(unsigned-byt 8))"),
+            told,
+        ),
+        (
+            &refusal("(upgraded-array-element-type '(unsigned-byt 8))"),
+            told,
+        ),
+        (
+            "(progn (defclass thing () ()) (array-element-type (make-array 2 :element-type 'thing)))",
+            "T",
+        ),
+        (
+            "(progn (deftype small (n) (list 'mod n)) (make-array 2 :element-type '(small 3)))",
+            "#(0 0)",
+        ),
+    ]);
+}

@@ -10,7 +10,7 @@ use super::lists::size;
 use crate::lisp::builtin::{Builtin, pure};
 use crate::lisp::guard::{MOST_ELEMENTS, reserve};
 use crate::lisp::image::Image;
-use crate::lisp::types::sequence_types::upgraded;
+use crate::lisp::types::parse;
 use crate::lisp::value::Value;
 use crate::lisp::value::array::{Array, Vector};
 use crate::lisp::value::elements::{Displacement, Elements};
@@ -79,10 +79,14 @@ impl Options {
                 "Only one of :INITIAL-ELEMENT and :INITIAL-CONTENTS can be given.",
             ));
         }
+        let element_type = match element_type {
+            Some(specifier) => Some(parse::element_type(image, &specifier)?),
+            None => None,
+        };
         Ok(Options {
             element,
             contents,
-            element_type: element_type.map(|element_type| upgraded(image, &element_type)),
+            element_type,
             adjustable: adjustable.is_some_and(|v| v.is_true()),
             fill_pointer,
             displaced_to,

@@ -5,12 +5,13 @@ use crate::lisp::image::Image;
 use crate::lisp::types::asking;
 use crate::lisp::types::coerce::coerce;
 use crate::lisp::types::emptiness::is_subtype;
-use crate::lisp::types::parse::{parse, upgraded};
+use crate::lisp::types::parse::{element_type, parse};
 use crate::lisp::types::specifier::{Answers, Stop};
 use crate::lisp::types::subtype::Verdict;
 use crate::lisp::types::test::typep_with;
 use crate::lisp::types::type_of;
 use crate::lisp::value::Value;
+use crate::lisp::value::element_type::ElementType;
 use crate::lisp::value::known;
 use crate::lisp::value::raise::Raise;
 
@@ -58,7 +59,7 @@ pub(crate) static TABLE: &[Builtin] = &[
         "type &optional environment",
         "The element type that an array made for elements of the type really has.",
         &["(upgraded-array-element-type 'symbol) => T"],
-        |image, args| Ok(upgraded(image, &args[0]).specifier()),
+        |image, args| element_type(image, &args[0]).map(ElementType::specifier),
     ),
 ];
 

@@ -183,7 +183,7 @@ impl Parser<'_> {
         let has_element = matches!(name, known::ARRAY | known::SIMPLE_ARRAY | known::VECTOR);
         let (element, size) = match (has_element, args) {
             (true, [of, rest @ ..]) if !is_star(of) => {
-                (Some(upgraded(self.image, of)), rest.first())
+                (Some(sequence_types::upgraded(self.image, of)), rest.first())
             }
             (true, [_, rest @ ..]) => (None, rest.first()),
             (true, []) => (None, None),
@@ -233,9 +233,17 @@ fn is_star(value: &Value) -> bool {
     value.as_symbol() == Some(known::TIMES)
 }
 
-/// The actual element type of an array that is made for elements of a type.
-pub(crate) fn upgraded(image: &Image, element: &Value) -> ElementType {
-    sequence_types::upgraded(image, element)
+/// The actual element type of an array that is made for elements of a type; fails if there is no
+/// such type.
+pub(crate) fn element_type(image: &Image, specifier: &Value) -> Result<ElementType, Box<Raise>> {
+    let upgraded = sequence_types::upgraded(image, specifier);
+    // Only what nothing is known of is looked at more closely.
+    if upgraded == ElementType::T
+        && let Err(Stop::UnknownType(raise)) = parse(image, specifier, &mut Answers::default())
+    {
+        return Err(raise);
+    }
+    Ok(upgraded)
 }
 
 fn integers(low: Option<i64>, high: Option<i64>) -> Type {
