@@ -30,8 +30,6 @@ const MOST_CHECKS: u32 = 5000;
 /// How many base poses at which something is in the way of a few postures are examined again when all
 /// others have been tried.
 const MOST_AGAIN: usize = 1000;
-/// How many of them are examined with many postures; the others are at all heights of the torso.
-const MOST_PATIENT: usize = 100;
 /// A base pose is no higher (m) than this.
 const FLOOR: f64 = 0.05;
 
@@ -52,8 +50,8 @@ pub(super) struct BaseSearch {
     turn: u32,
     /// Base poses that are to be examined again.
     again: VecDeque<Pose>,
-    /// How many of them have been; `None` while others are tried.
-    examined_again: Option<usize>,
+    /// Whether all others have been tried.
+    is_second_look: bool,
 }
 
 /// Why a base pose is no solution.
@@ -103,7 +101,7 @@ impl BaseSearch {
             next: 0,
             turn: 0,
             again: VecDeque::new(),
-            examined_again: None,
+            is_second_look: false,
         };
         search.begin_turn(0, draw);
         Ok(Ok(search))
@@ -139,29 +137,24 @@ impl BaseSearch {
             turn,
             checks,
             again,
-            examined_again,
+            is_second_look,
         } = self;
         let mut test = Test::new(query, scene, goal, imagined, looking)?;
         loop {
             interruption::look();
-            if let Some(count) = examined_again {
+            if *is_second_look {
                 let Some(base) = again.pop_front() else {
                     return Ok(None);
                 };
-                let effort = match *count < MOST_PATIENT {
-                    true => Effort::PATIENT,
-                    false => Effort::AT_ALL_HEIGHTS,
-                };
-                *count += 1;
                 let is_new = !offered.has(&base);
-                if is_new && test.run(&base, effort, checks)?.is_ok() {
+                if is_new && test.run(&base, Effort::PATIENT, checks)?.is_ok() {
                     return Ok(Some(base));
                 }
                 continue;
             }
             let Some(cell) = order.get(*next) else {
                 if *turn == HEADINGS {
-                    *examined_again = Some(0);
+                    *is_second_look = true;
                     continue;
                 }
                 *turn += 1;
@@ -189,7 +182,7 @@ impl BaseSearch {
                 }
             }
             if *checks >= MOST_CHECKS {
-                *examined_again = Some(0);
+                *is_second_look = true;
                 tally.give_up();
             }
         }

@@ -37,18 +37,11 @@ impl Effort {
         heights: 2,
         checks: 120,
     };
-    /// For one of a few base poses where the first postures are in the way of something.
+    /// For a base pose where the first postures are in the way of something.
     pub(crate) const PATIENT: Self = Self {
         postures: 24,
         heights: usize::MAX,
         checks: 1000,
-    };
-    /// For one of many base poses where the first postures are in the way of something: another
-    /// height of the torso helps more often than other postures.
-    pub(crate) const AT_ALL_HEIGHTS: Self = Self {
-        postures: 6,
-        heights: usize::MAX,
-        checks: 400,
     };
     /// For where the robot stands.
     pub(crate) const THOROUGH: Self = Self {
