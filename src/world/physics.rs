@@ -20,8 +20,9 @@ mod raw_contact;
 use nalgebra::Vector3;
 use rapier3d_f64::dynamics::{
     CCDSolver, CoefficientCombineRule, FixedJointBuilder, FrictionModel, ImpulseJointHandle,
-    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBodyActivation,
-    RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SoftBodySet, SpringCoefficients,
+    ImpulseJointSet, IntegrationParameters, IslandManager, MultibodyJointSet, RigidBody,
+    RigidBodyActivation, RigidBodyBuilder, RigidBodyHandle, RigidBodySet, SoftBodySet,
+    SpringCoefficients,
 };
 use rapier3d_f64::geometry::{
     BroadPhaseBvh, ColliderBuilder, ColliderHandle, ColliderSet, Group, InteractionGroups,
@@ -41,6 +42,11 @@ pub(crate) const STEP_SECONDS: f64 = 1.0 / 240.0;
 
 /// Acceleration of free fall (m/s²), towards -z.
 pub(crate) const GRAVITY: f64 = 9.81;
+
+/// Gap (m) up to which the solver keeps bodies from running into each other within a step. The
+/// engine's own, 2 cm, is for 60 steps per second; here a step is a quarter as long. With 2 cm, the
+/// sides of a mug, 8 mm above the table, would have as many constraints as its bottom.
+const PREDICTION: f64 = 0.005;
 
 /// Number of parts into which the solver divides a step.
 const SOLVER_ITERATIONS: usize = 4;
@@ -163,6 +169,7 @@ impl Physics {
             friction_model: FrictionModel::Simplified,
             friction_in_bias_pass: false,
             contact_recycling: false,
+            normalized_prediction_distance: PREDICTION,
             contact_softness: SpringCoefficients::new(CONTACT_FREQUENCY, CONTACT_DAMPING),
             ..IntegrationParameters::default()
         };
@@ -458,6 +465,8 @@ impl Physics {
         if !std::mem::take(&mut s.is_edited) && s.islands.num_active_bodies() == 0 {
             return;
         }
+        // What is held goes where the hand goes, which is checked before.
+        self.parameters.max_ccd_substeps = usize::from(s.has_loose_body_awake());
         self.pipeline.step(
             Vector::new(0.0, 0.0, -GRAVITY),
             &self.parameters,
@@ -498,6 +507,17 @@ impl Physics {
                 hasher.number(number);
             }
         }
+    }
+}
+
+impl Sets {
+    /// Whether anything that moves by itself, and is not welded to anything, is awake.
+    fn has_loose_body_awake(&self) -> bool {
+        let mut awake = self.islands.active_bodies();
+        awake.any(|body| {
+            let is_dynamic = self.bodies.get(body).is_some_and(RigidBody::is_dynamic);
+            is_dynamic && self.impulse_joints.attached_joints(body).next().is_none()
+        })
     }
 }
 

@@ -58,7 +58,7 @@ impl Physics {
             u64::try_from(data).ok()
         };
         let (own, other) = (key(own)?, key(other)?);
-        // Pairs exist from a distance of 2 cm; only active ones touch.
+        // Pairs exist before bodies touch; only active ones do.
         if !counts(own, other) || !pair.has_any_active_contact() {
             return None;
         }
